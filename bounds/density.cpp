@@ -1,0 +1,96 @@
+#include "bounds/density.hpp"
+
+#include <cassert>
+#include <utility>
+
+namespace deburr {
+namespace {
+
+using Kind = DensityNode::Kind;
+
+double leaves_below(const DensityNode& node) {
+    double sum = 0;
+    for (const Density& child : node.children) sum += child.node().leaves;
+    return sum;
+}
+
+}  // namespace
+
+// Members of children would be destroyed by recursion; chains of `a = a + b` in a scene are as deep
+// as its loops are long. So handles are moved to a list first, and die there one by one.
+DensityNode::~DensityNode() {
+    thread_local std::vector<Density>* dying = nullptr;
+    if (children.empty()) return;
+    if (dying) {
+        for (Density& child : children) dying->push_back(std::move(child));
+        children.clear();
+        return;
+    }
+    std::vector<Density> list = std::move(children);
+    dying = &list;
+    while (!list.empty()) {
+        const Density last = std::move(list.back());
+        list.pop_back();
+    }
+    dying = nullptr;
+}
+
+static std::shared_ptr<DensityNode> make(Kind kind, std::vector<Density> children, int line = 0) {
+    auto node = std::make_shared<DensityNode>();
+    node->kind = kind;
+    node->children = std::move(children);
+    node->leaves = leaves_below(*node);
+    node->line = line;
+    return node;
+}
+
+Density Density::half_space(Vec3 normal, double offset) {
+    const double length = glm::length(normal);
+    assert(length > 0);
+    auto node = std::make_shared<DensityNode>();
+    node->normal = normal / length;
+    node->value = offset / length;
+    return Density(node);
+}
+
+Density Density::box(Vec3 lo, Vec3 hi) {
+    std::vector<Density> faces;
+    for (int k = 0; k < 3; ++k) {
+        Vec3 n(0.0);
+        n[k] = 1;
+        faces.push_back(half_space(n, hi[k]));
+        faces.push_back(half_space(-n, -lo[k]));
+    }
+    return product(faces);
+}
+
+Density Density::product(const std::vector<Density>& parts) {
+    assert(!parts.empty());
+    return parts.size() == 1 ? parts[0] : Density(make(Kind::product, parts));
+}
+
+Density Density::sum(Density a, Density b, int line) { return Density(make(Kind::sum, {a, b}, line)); }
+Density Density::product(Density a, Density b, int line) {
+    return Density(make(Kind::product, {a, b}, line));
+}
+Density Density::difference(Density a, Density b, int line) {
+    return Density(make(Kind::difference, {a, b}, line));
+}
+Density Density::disjunction(Density a, Density b) { return Density(make(Kind::disjunction, {a, b})); }
+Density Density::conjunction(Density a, Density b) { return Density(make(Kind::conjunction, {a, b})); }
+Density Density::complement(Density a) { return Density(make(Kind::complement, {a})); }
+
+Density Density::radius(double r) const {
+    assert(r >= 0);
+    auto node = make(Kind::radius, {*this});
+    node->value = r;
+    return Density(node);
+}
+
+Density Density::transformed(const Affine& map) const {
+    auto node = make(Kind::transform, {*this});
+    node->map = map;
+    return Density(node);
+}
+
+}  // namespace deburr

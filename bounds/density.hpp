@@ -1,0 +1,83 @@
+// Densities as a scene writes them: unrounded polyhedra under the papers' arithmetic [Lobb §2.2]
+// and under Boolean operators.
+//
+// A Density is a cheap handle on an immutable, shared expression. Nothing is evaluated here: a
+// filter radius and a placement turn the expression into a DensityTree, which is.
+//
+// Not promised: legality. `a + b` of overlapping parts and `a - b` of parts that stick out leave
+// [0, 1]; the box ranges find that (box_range.hpp).
+#pragma once
+#include <memory>
+#include <vector>
+
+#include "bounds/vec.hpp"
+
+namespace deburr {
+
+struct DensityNode;
+
+class Density {
+public:
+    /// 1 where n·x ≤ d, else 0. `normal` points outward, of any length but 0; d is divided by it.
+    static Density half_space(Vec3 normal, double offset);
+    /// Product of six half-spaces; lo < hi on each axis.
+    static Density box(Vec3 lo, Vec3 hi);
+    /// Product of all; at least one.
+    static Density product(const std::vector<Density>& parts);
+
+    /// The papers' arithmetic. `line` is the scene's line that wrote it, for messages; 0 unknown.
+    static Density sum(Density a, Density b, int line = 0);
+    static Density product(Density a, Density b, int line = 0);
+    static Density difference(Density a, Density b, int line = 0);
+    /// Boolean densities: below one, the whole operand is read as a Boolean function.
+    static Density disjunction(Density a, Density b);
+    static Density conjunction(Density a, Density b);
+    static Density complement(Density a);
+
+    friend Density operator+(Density a, Density b) { return sum(a, b); }
+    friend Density operator*(Density a, Density b) { return product(a, b); }
+    friend Density operator-(Density a, Density b) { return difference(a, b); }
+    friend Density operator|(Density a, Density b) { return disjunction(a, b); }
+    friend Density operator&(Density a, Density b) { return conjunction(a, b); }
+    friend Density operator~(Density a) { return complement(a); }
+
+    /// Fixes the filter radius of those half-spaces that have none yet [Lobb §4.2, Triage §4.5.3].
+    Density radius(double r) const;
+    /// The transformed polyhedron, to be rounded afterwards. `map` must be regular.
+    Density transformed(const Affine& map) const;
+
+    const DensityNode& node() const { return *node_; }
+
+private:
+    explicit Density(std::shared_ptr<const DensityNode> node) : node_(std::move(node)) {}
+    std::shared_ptr<const DensityNode> node_;
+};
+
+/// One step of the expression. Children are shared, so expressions are graphs without cycles.
+struct DensityNode {
+    enum class Kind {
+        half_space,
+        sum,
+        product,
+        difference,
+        disjunction,
+        conjunction,
+        complement,
+        radius,
+        transform
+    };
+    Kind kind = Kind::half_space;
+    std::vector<Density> children;
+    Vec3 normal{0.0};     // half_space: unit
+    double value = 0.0;   // half_space: offset; radius: r
+    Affine map;           // transform
+    int line = 0;         // sum, product, difference: place in the scene
+    double leaves = 1.0;  // half-spaces below, counted once per use; may overflow to infinity
+
+    DensityNode() = default;
+    DensityNode(const DensityNode&) = delete;
+    DensityNode& operator=(const DensityNode&) = delete;
+    ~DensityNode();  // iterative, so that a chain of any length dies without recursion
+};
+
+}  // namespace deburr

@@ -1,0 +1,66 @@
+#include "bounds/solid.hpp"
+
+#include <cassert>
+#include <utility>
+
+namespace deburr {
+namespace {
+
+using Kind = SolidNode::Kind;
+
+std::shared_ptr<SolidNode> make(Kind kind, std::vector<Solid> children) {
+    auto node = std::make_shared<SolidNode>();
+    node->kind = kind;
+    node->children = std::move(children);
+    node->leaves = 0;
+    for (const Solid& child : node->children) node->leaves += child.node().leaves;
+    return node;
+}
+
+}  // namespace
+
+// As for DensityNode: no recursion, however long the chain.
+SolidNode::~SolidNode() {
+    thread_local std::vector<Solid>* dying = nullptr;
+    if (children.empty()) return;
+    if (dying) {
+        for (Solid& child : children) dying->push_back(std::move(child));
+        children.clear();
+        return;
+    }
+    std::vector<Solid> list = std::move(children);
+    dying = &list;
+    while (!list.empty()) {
+        const Solid last = std::move(list.back());
+        list.pop_back();
+    }
+    dying = nullptr;
+}
+
+Solid Solid::rounded(double r, Density density, int line) {
+    assert(r >= 0);
+    auto node = std::make_shared<SolidNode>();
+    node->radius = r;
+    node->line = line;
+    node->leaves = density.node().leaves;
+    node->density.push_back(std::move(density));
+    return Solid(node);
+}
+
+Solid operator|(Solid a, Solid b) { return Solid(make(Kind::unite, {a, b})); }
+Solid operator&(Solid a, Solid b) { return Solid(make(Kind::intersect, {a, b})); }
+Solid operator-(Solid a, Solid b) { return Solid(make(Kind::subtract, {a, b})); }
+
+Solid Solid::material(int index) const {
+    auto node = make(Kind::material, {*this});
+    node->material = index;
+    return Solid(node);
+}
+
+Solid Solid::transformed(const Affine& map) const {
+    auto node = make(Kind::transform, {*this});
+    node->map = map;
+    return Solid(node);
+}
+
+}  // namespace deburr

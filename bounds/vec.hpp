@@ -1,0 +1,50 @@
+// Vectors, affine maps and boxes, all in double precision (GLM).
+#pragma once
+#include <cmath>
+#include <glm/glm.hpp>
+#include <limits>
+
+namespace deburr {
+
+using Vec3 = glm::dvec3;
+using Mat3 = glm::dmat3;
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr double epsilon = std::numeric_limits<double>::epsilon();
+
+/// x ↦ linear·x + shift.
+struct Affine {
+    Mat3 linear{1.0};
+    Vec3 shift{0.0};
+
+    Vec3 operator()(Vec3 x) const { return linear * x + shift; }
+};
+
+/// The map that does `first`, then `then`.
+inline Affine compose(const Affine& then, const Affine& first) {
+    return {then.linear * first.linear, then(first.shift)};
+}
+
+/// Axis-parallel box; sides may lie at ±infinity. Empty where lo > hi on some axis.
+struct Box {
+    Vec3 lo{infinity}, hi{-infinity};
+
+    static Box everything() { return {Vec3(-infinity), Vec3(infinity)}; }
+    bool empty() const { return lo.x > hi.x || lo.y > hi.y || lo.z > hi.z; }
+    bool contains(Vec3 x) const {
+        return lo.x <= x.x && x.x <= hi.x && lo.y <= x.y && x.y <= hi.y && lo.z <= x.z && x.z <= hi.z;
+    }
+    bool finite() const {
+        for (int k = 0; k < 3; ++k)
+            if (!std::isfinite(lo[k]) || !std::isfinite(hi[k])) return false;
+        return true;
+    }
+};
+
+inline Box hull(const Box& a, const Box& b) { return {glm::min(a.lo, b.lo), glm::max(a.hi, b.hi)}; }
+inline Box intersection(const Box& a, const Box& b) {
+    return {glm::max(a.lo, b.lo), glm::min(a.hi, b.hi)};
+}
+inline Box inflated(const Box& b, double by) { return {b.lo - Vec3(by), b.hi + Vec3(by)}; }
+
+}  // namespace deburr

@@ -1,0 +1,34 @@
+// The implicit road: exact rays against primary CSG of rounded densities, through a BSP of local
+// CSG [Lobb §3.5, after Jansen 1986].
+#pragma once
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "bounds/root_finder.hpp"
+#include "raytracer/ray_tracer.hpp"
+#include "raytracer/scene.hpp"
+
+namespace deburr {
+
+struct BspStatistics {
+    std::size_t cells = 0, empty_cells = 0, flat_cells = 0;
+    std::size_t half_spaces = 0;  // in the scene
+    double mean_local_half_spaces = 0;  // in the cells that hold a surface
+    int depth = 0;
+};
+
+class ImplicitTracer final : public RayTracer {
+public:
+    explicit ImplicitTracer(const std::vector<Solid>& solids, Criterion criterion = Criterion::exact);
+    ~ImplicitTracer() override;
+    Hit first_hit(const Ray& ray, double t_max, TraceCounters& counters) const override;
+    bool occluded(const Ray& ray, double t_max, TraceCounters& counters) const override;
+    BspStatistics statistics() const;
+
+private:
+    struct Bsp;
+    std::unique_ptr<Bsp> bsp_;
+};
+
+}  // namespace deburr

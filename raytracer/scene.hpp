@@ -1,0 +1,77 @@
+// A scene: solids, materials, lights, a camera and a picture's size, as plain data.
+//
+// Units: lengths are the scene's own; colours are linear Rec. 709; power is in watts, so a point
+// light's radiant intensity is power·color/4π, an area light's radiance power·color/(π·area), and
+// a directional light's `power` is the irradiance on a surface that faces it.
+#pragma once
+#include <map>
+#include <string>
+#include <vector>
+
+#include "bounds/solid.hpp"
+#include "bounds/vec.hpp"
+
+namespace deburr {
+
+/// A colour that may vary through space.
+struct Texture {
+    enum class Kind { constant, checker, wood };
+    Kind kind = Kind::constant;
+    Vec3 a{0.8}, b{0.2};  // constant: a; checker: both; wood: early wood and late wood
+    double scale = 1.0;   // checker: side of a cube; wood: width of a year's ring
+    Vec3 axis{1, 0, 0};   // wood: direction of the trunk
+    Vec3 origin{0, 0, 0};
+};
+
+struct Material {
+    enum class Kind { matte, plastic, metal, mirror, glass };
+    Kind kind = Kind::matte;
+    Texture color;
+    double roughness = 0.2;  // GGX: α = roughness², 0 smooth; not used by matte, mirror
+    double ior = 1.5;        // plastic, glass
+};
+
+struct Light {
+    enum class Kind { point, directional, area };
+    Kind kind = Kind::point;
+    Vec3 position{0.0};         // point; area: its centre
+    Vec3 direction{0, -1, 0};   // directional: the way the light travels, unit
+    Vec3 u{1, 0, 0}, v{0, 0, 1};  // area: its two sides; it shines towards u × v
+    Vec3 color{1.0};
+    double power = 1.0;
+    int samples = 1;  // area: shadow rays per shading point
+};
+
+struct Camera {
+    Vec3 eye{3, 2, 4}, target{0.0}, up{0, 1, 0};
+    double fov = 40.0;  // vertical, degrees
+};
+
+/// What rays that hit nothing see; also the ambient light.
+struct Background {
+    bool sky = false;                       // a gradient from horizon to zenith, by direction.y
+    Vec3 color{0.0};                        // one colour where there is no sky
+    Vec3 horizon{0.8, 0.85, 0.9}, zenith{0.3, 0.5, 0.8};
+
+    Vec3 towards(Vec3 unit_direction) const {
+        if (!sky) return color;
+        return glm::mix(horizon, zenith, std::sqrt(glm::max(0.0, unit_direction.y)));
+    }
+};
+
+struct Scene {
+    std::string file;                               // as the user named it
+    std::map<std::string, std::string> parameters;  // every param() the scene read, with its value
+    int width = 600, height = 380;
+    int spp = 1;           // samples per pixel
+    int bounces = 4;       // depth of mirror and glass paths
+    Camera camera;
+    std::vector<Light> lights;
+    Background background;
+    Vec3 ambient{0.0};     // constant radiance from all around, seen by diffuse surfaces only
+    std::vector<Material> materials;  // never empty: index 0 is for solids that name none
+    std::vector<Solid> solids;        // separate objects; ids are 1, 2, … in this order
+    std::vector<std::string> names;   // of the solids, "" where they have none
+};
+
+}  // namespace deburr
