@@ -60,9 +60,15 @@ class Folding {
 public:
     Folding(const DensityTree& from, const std::vector<Range>& ranges) : from_(from), ranges_(ranges) {}
 
-    DensityTree run() {
+    int size() {
+        mark();
+        int half_spaces = 0;
         for (std::size_t i = 0; i < from_.nodes.size(); ++i)
-            constant_.push_back(is_constant(from_.nodes[i], ranges_[i], constant_));
+            half_spaces += needed_[i] && !constant_[i] && from_.nodes[i].op == Op::half_space;
+        return half_spaces;
+    }
+
+    DensityTree run() {
         mark();
         place_.assign(from_.nodes.size(), -1);
         for (std::size_t i = 0; i < from_.nodes.size(); ++i)
@@ -95,6 +101,8 @@ private:
 
     // From the root down: constants end a branch.
     void mark() {
+        for (std::size_t i = 0; i < from_.nodes.size(); ++i)
+            constant_.push_back(is_constant(from_.nodes[i], ranges_[i], constant_));
         needed_.assign(from_.nodes.size(), false);
         needed_.back() = true;
         for (int i = from_.root(); i >= 0; --i) {
@@ -158,6 +166,11 @@ Range density_range(const HalfSpace& h, const Box& box) {
 }
 
 Range density_range(const DensityTree& tree, const Box& box) { return ranges(tree, box).back(); }
+
+LocalSize local_size(const DensityTree& tree, const Box& box) {
+    const std::vector<Range>& all = ranges(tree, box);
+    return {all.back(), Folding(tree, all).size()};
+}
 
 Pruned prune(const DensityTree& tree, const Box& box) {
     const std::vector<Range>& all = ranges(tree, box);

@@ -41,4 +41,12 @@ struct Pruned {
 /// The local density of the box: half-spaces that are constant there are folded away.
 Pruned prune(const DensityTree& tree, const Box& box);
 
+struct LocalSize {
+    Range range;
+    int half_spaces = 0;  // that `prune` would leave
+};
+
+/// How much `prune` would leave, at less cost.
+LocalSize local_size(const DensityTree& tree, const Box& box);
+
 }  // namespace deburr
