@@ -14,6 +14,13 @@ inline std::vector<std::uint64_t> seeds(int count) {
     return all;
 }
 
+/// Within rounding of a sharp plane, or of one that is nearly so: either side is right there.
+inline bool on_a_jump(const DensityTree& tree, Vec3 x) {
+    for (const HalfSpace& h : tree.half_spaces)
+        if (h.radius < 1e-3 && std::abs(h.distance(x)) < h.radius + 1e-9) return true;
+    return false;
+}
+
 class Gen {
 public:
     explicit Gen(std::uint64_t seed) : state_(seed * 0x9e3779b97f4a7c15u + 0x1234567) { number(); }
@@ -126,8 +133,17 @@ public:
         const int op = below(3);
         return op == 0 ? a | b : op == 1 ? a & b : a - b;
     }
-    /// On a bound plane, or where two or three meet.
-    Vec3 tight_point(const BoundCsg& csg) {
+    /// Where the density varies, if anywhere: within the filter of one to three of its planes.
+    Vec3 near(const DensityTree& tree, double reach = 1.2) {
+        Vec3 x = point(reach);
+        for (int i = below(3); i >= 0; --i) {
+            const HalfSpace& h = tree.half_spaces[std::size_t(below(int(tree.half_spaces.size())))];
+            x -= h.normal * (h.distance(x) + between(-1, 1) * h.radius);
+        }
+        return x;
+    }
+    /// On a bound plane, or where two or three meet; a few roundings to the outside or the inside.
+    Vec3 tight_point(const BoundCsg& csg, bool outside) {
         Vec3 x = point();
         if (csg.planes.empty()) return x;
         const auto plane = [&] { return csg.planes[std::size_t(below(int(csg.planes.size())))]; };
@@ -140,6 +156,8 @@ public:
             }
             for (const BoundPlane& p : chosen_) x -= p.normal * (glm::dot(p.normal, x) - p.offset);
         }
+        for (const BoundPlane& p : chosen_)
+            x += p.normal * ((outside ? 2 : -2) * epsilon * (std::abs(p.offset) + 0.25));
         return x;
     }
 
