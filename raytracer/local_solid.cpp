@@ -168,6 +168,14 @@ Vec3 unit(Vec3 v) {
 template <class Visit>
 void LocalSolid::soft_crossings(const Soft& soft, Vec3 origin, Vec3 direction, double t0, double t1,
                                 CrossingScratch& scratch, bool* start_inside, Visit visit) const {
+    const Span whole[1] = {{t0, t1}};
+    const Span *first = whole, *last = whole + 1;
+    if (soft.bounded) {
+        const auto& found = scratch.spans.between(soft.outer, soft.inner, origin, direction, t0, t1);
+        first = found.data();
+        last = first + found.size();
+        if (first == last && !start_inside) return;
+    }
     RayDensity& density = scratch.density;
     density.set(soft.density, origin, direction);
     const auto inside_at = [&](double t) {
@@ -178,13 +186,6 @@ void LocalSolid::soft_crossings(const Soft& soft, Vec3 origin, Vec3 direction, d
     if (start_inside) {
         if (has_sharp) density.fix_sharp(t0);
         *start_inside = inside_at(t0);
-    }
-    const Span whole[1] = {{t0, t1}};
-    const Span *first = whole, *last = whole + 1;
-    if (soft.bounded) {
-        const auto& found = scratch.spans.between(soft.outer, soft.inner, origin, direction, t0, t1);
-        first = found.data();
-        last = first + found.size();
     }
     for (const Span* span = first; span != last; ++span) {
         double lo = span->lo, hi = span->hi;
