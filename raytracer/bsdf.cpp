@@ -109,24 +109,22 @@ Layer::Layer(const Material& material)
         }
 }
 
-// The mean weight of reflections about visible facets, from midpoints of a grid (the integrand is
-// even in the azimuth: half a turn is enough). Against ten times as many it is within 2·10⁻³.
+// The mean weight of reflections about visible facets, over a lattice of golden steps. Over five
+// roughnesses, two indices and five angles a white furnace was off by at most 10⁻³.
 double Layer::integrate(double cosine) const {
     if (kind_ == Material::Kind::matte) return 0.0;
     const double c = std::max(cosine, least_cosine);
     if (smooth_) return fresnel(Vec3(1.0), c).x;
-    constexpr int rows = 32, columns = 24;
+    constexpr int points = 2048;
     const Vec3 normal(0, 0, 1), to_eye(std::sqrt(std::max(0.0, 1 - c * c)), 0, c);
     double sum = 0;
-    for (int i = 0; i < rows; ++i)
-        for (int j = 0; j < columns; ++j) {
-            const Vec2 u((i + 0.5) / rows, (j + 0.5) / (2 * columns));
-            const Vec3 facet = ggx_.facet(to_eye, normal, u);
-            const double out = reflected(to_eye, facet).z;
-            if (out > 0)
-                sum += fresnel(Vec3(1.0), glm::dot(to_eye, facet)).x * ggx_.shadowing(out, c);
-        }
-    return sum / (rows * columns);
+    for (int i = 0; i < points; ++i) {
+        const Vec2 u((i + 0.5) / points, glm::fract((i + 0.5) / std::numbers::phi));
+        const Vec3 facet = ggx_.facet(to_eye, normal, u);
+        const double out = reflected(to_eye, facet).z;
+        if (out > 0) sum += fresnel(Vec3(1.0), glm::dot(to_eye, facet)).x * ggx_.shadowing(out, c);
+    }
+    return sum / points;
 }
 
 double Layer::albedo(double cosine) const {

@@ -85,29 +85,30 @@ double filter_area(double x) {
     return sum / window[0];
 }
 
-// Steps of the tabulated inverse; the area between two of its nodes is linear to 10⁻³ px near the
-// centre, where nearly all samples fall.
+// The inverse for the left half, at areas (i / steps)²/2: dense at the end, where it is steep.
 constexpr int inverse_steps = 512;
 
 std::array<double, inverse_steps + 1> inverse_areas() {
     std::array<double, inverse_steps + 1> offsets{};
     for (int i = 0; i <= inverse_steps; ++i) {
-        double lo = -filter_radius, hi = filter_radius;
+        const double area = 0.5 * i * i / (double(inverse_steps) * inverse_steps);
+        double lo = -filter_radius, hi = 0.0;
         while (true) {
             const double mid = 0.5 * (lo + hi);
             if (mid <= lo || mid >= hi) break;
-            (filter_area(mid) * inverse_steps < i ? lo : hi) = mid;
+            (filter_area(mid) < area ? lo : hi) = mid;
         }
-        offsets[std::size_t(i)] = lo;
+        offsets[std::size_t(i)] = hi;
     }
     return offsets;
 }
 
 double filter_quantile(double u) {
     static const auto offsets = inverse_areas();
-    const double at = u * inverse_steps;
-    const auto i = std::size_t(at);
-    return offsets[i] + (offsets[i + 1] - offsets[i]) * (at - double(i));
+    const double at = std::sqrt(2 * std::min(u, 1 - u)) * inverse_steps;
+    const auto i = std::min(std::size_t(at), std::size_t(inverse_steps - 1));
+    const double x = offsets[i] + (offsets[i + 1] - offsets[i]) * (at - double(i));
+    return u < 0.5 ? x : -x;
 }
 
 }  // namespace
