@@ -115,7 +115,7 @@ double Layer::integrate(double cosine) const {
     if (kind_ == Material::Kind::matte) return 0.0;
     const double c = std::max(cosine, least_cosine);
     if (smooth_) return fresnel(Vec3(1.0), c).x;
-    constexpr int points = 2048;
+    constexpr int points = 1024;
     const Vec3 normal(0, 0, 1), to_eye(std::sqrt(std::max(0.0, 1 - c * c)), 0, c);
     double sum = 0;
     for (int i = 0; i < points; ++i) {

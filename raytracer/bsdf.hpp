@@ -69,7 +69,7 @@ public:
 
 private:
     double integrate(double cosine) const;
-    static constexpr int steps = 48;
+    static constexpr int steps = 32;
     Material::Kind kind_;
     bool smooth_;
     Ggx ggx_;
