@@ -175,12 +175,17 @@ std::vector<HalfSpace> prism(std::vector<glm::dvec2> polygon, double y0, double 
     for (std::size_t i = 0; i < n; ++i) {
         const glm::dvec2 a = polygon[i], side = polygon[(i + 1) % n] - a;
         // Convex where no point is outside of any side: this also finds stars, which turn one way.
-        for (glm::dvec2 p : polygon)
-            if (cross(side, p - a) < -flatness * size * glm::length(side))
-                throw std::runtime_error(
-                    fmt::format("expected a convex polygon, got one with ({}, {}) outside of the "
-                                "side from ({}, {})",
-                                p.x, p.y, a.x, a.y));
+        const auto outside = [&](glm::dvec2 p) {
+            return cross(side, p - a) < -flatness * size * glm::length(side);
+        };
+        if (outside(polygon[(i + 2) % n])) {
+            const glm::dvec2 corner = polygon[(i + 1) % n];
+            throw std::runtime_error(
+                fmt::format("expected a convex polygon, got a corner to the inside at ({}, {})",
+                            corner.x, corner.y));
+        }
+        if (std::any_of(polygon.begin(), polygon.end(), outside))
+            throw std::runtime_error("expected a convex polygon, got one whose sides cross");
         const Vec3 normal = unit(Vec3(side.y, 0, -side.x));
         // Several sides on one line are one face.
         if (i > 0 && glm::distance(faces.back().normal, normal) < flatness) continue;

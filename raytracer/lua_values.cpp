@@ -97,7 +97,9 @@ std::string described(const LuaValue& value) {
     struct Describe {
         std::string operator()(std::monostate) const { return "nothing"; }
         std::string operator()(bool b) const { return b ? "true" : "false"; }
-        std::string operator()(double x) const { return fmt::format("{}", x); }
+        std::string operator()(double x) const {
+            return std::isnan(x) ? "nan" : fmt::format("{}", x);
+        }
         std::string operator()(const std::string& s) const {
             constexpr std::size_t longest = 40;
             return s.size() <= longest ? "'" + s + "'" : "'" + s.substr(0, longest) + "…'";
@@ -215,7 +217,8 @@ Vec3 color(const LuaValue& value, const std::string& place, double most) {
 Fields::Fields(const LuaValue& value, std::string place, std::initializer_list<const char*> known)
     : place_(std::move(place)) {
     if (const auto* table = std::get_if<std::shared_ptr<const LuaTable>>(&value)) table_ = *table;
-    if (!table_ || !table_->list.empty()) expected(place_, "a table of named fields", value);
+    if (!table_ || !table_->list.empty())
+        expected(place_.empty() ? "scene" : place_, "a table of named fields", value);
     for (const auto& [name, field] : table_->fields) {
         if (std::find(known.begin(), known.end(), name) != known.end()) continue;
         throw BadValue(this->place(name), fmt::format("expected one of the fields {}, got '{}'",

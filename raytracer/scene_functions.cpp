@@ -30,14 +30,14 @@ void SceneBuilder::check_size(double half_spaces) {
 
 void SceneBuilder::spend(std::size_t steps) {
     steps_ += steps;
-    if (double(steps_) > most_half_spaces)
+    if (steps_ > most_steps)
         throw std::runtime_error(fmt::format(
-            "expected at most {} steps in all expressions together, got more", most_half_spaces));
+            "expected a scene that makes at most {} parts, got one that makes more", most_steps));
 }
 
 const SceneObject* SceneBuilder::make(decltype(SceneObject::is) object, int line,
                                       std::string name) {
-    spend(1);
+    spend(2);
     if (const auto* density = std::get_if<Density>(&object)) check_size(density->node().leaves);
     if (const auto* solid = std::get_if<Solid>(&object)) check_size(solid->node().leaves);
     return &objects_.emplace_back(SceneObject{std::move(object), std::move(name), line});
@@ -45,7 +45,7 @@ const SceneObject* SceneBuilder::make(decltype(SceneObject::is) object, int line
 
 Solid SceneBuilder::solid(const SceneObject& object) {
     if (const auto* solid = std::get_if<Solid>(&object.is)) return *solid;
-    spend(1);
+    spend(2);
     return Solid::sharp(std::get<Density>(object.is), object.line);
 }
 

@@ -25,8 +25,12 @@ struct SceneObject {
 /// As in "a density".
 std::string kind_of(const SceneObject& object);
 
-/// More half-spaces than this, or more steps in all expressions together, are refused: about 1 GB.
+/// An expression with more half-spaces than this is refused.
 constexpr double most_half_spaces = 4'000'000;
+
+/// So is a scene that makes more parts than this: two for an object (one is its expression's node)
+/// and one for each half-space of a shape. None is freed before the end, so this bounds the memory.
+constexpr std::size_t most_steps = 4'000'000;
 
 /// What a function gives back to the scene.
 struct Argument {  // the argument with this number, counted from 1
@@ -52,7 +56,7 @@ public:
 
     /// Throws if an expression has more than most_half_spaces.
     static void check_size(double half_spaces);
-    /// Charges steps of an expression, throws if there are too many.
+    /// Charges steps, throws if there are more than most_steps.
     void spend(std::size_t steps);
 
     // What the latest call from Lua left, kept here so that it outlives every C++ frame.

@@ -135,9 +135,11 @@ void check_defines(const std::map<std::string, std::string>& defines,
         std::string known;
         for (const auto& parameter : parameters)
             known += (known.empty() ? "" : ", ") + parameter.first;
-        throw BadValue("-D " + name, known.empty() ? "expected no parameters, the scene has none"
-                                                   : "expected one of the scene's parameters " +
-                                                         known + ", got '" + name + "'");
+        throw std::runtime_error(
+            fmt::format("-D {}: ", name) +
+            (known.empty() ? "expected no parameters, the scene has none"
+                           : fmt::format("expected one of the scene's parameters {}, got '{}'",
+                                         known, name)));
     }
 }
 
