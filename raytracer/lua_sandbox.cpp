@@ -1,0 +1,236 @@
+#include "raytracer/lua_sandbox.hpp"
+
+#include <fmt/format.h>
+
+#include <chrono>
+#include <csetjmp>
+#include <cstdlib>
+#include <cstring>
+#include <lua.hpp>
+
+#include "raytracer/lua_library.hpp"
+
+namespace deburr {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+// Instructions between two looks at the budget. At 1000 the hook costs less than 1 % of a loop that
+// does nothing.
+constexpr int sample_interval = 1000;
+
+// Bytes allocated (and so written at least once) for one unit of work: memset and memcpy do more
+// than 8 bytes in the time of an instruction, about 8 ns.
+constexpr std::size_t bytes_per_work = 64;
+
+// Before every block: a ring of all blocks, so that an abandoned state can be freed. 16 bytes keep
+// malloc's alignment.
+struct alignas(16) Block {
+    Block *previous, *next;
+};
+
+enum class Spent { nothing, memory, work, time };
+
+}  // namespace
+
+struct Sandbox::State {
+    SandboxLimits limits;
+    void* host = nullptr;
+    lua_State* lua = nullptr;
+    Block blocks{&blocks, &blocks};
+    std::size_t used = 0;
+    std::int64_t work = 0;
+    Clock::time_point start = Clock::now();
+    int line = 0;  // of the latest sample
+    Spent spent = Spent::nothing;
+    bool armed = false;  // escape may be jumped to
+    std::jmp_buf escape;
+
+    ~State() {
+        while (blocks.next != &blocks) {
+            Block* block = blocks.next;
+            blocks.next = block->next;
+            std::free(block);
+        }
+    }
+
+    [[noreturn]] void abandon(Spent what) {
+        spent = what;
+        armed = false;
+        std::longjmp(escape, 1);
+    }
+
+    void charge(std::int64_t amount) {
+        if (amount > limits.work - work) {
+            if (armed) abandon(Spent::work);
+            work = limits.work;
+        } else {
+            work += amount;
+        }
+    }
+
+    static State& of(lua_State* lua) { return **static_cast<State**>(lua_getextraspace(lua)); }
+    static void* allocate(void* state, void* old, std::size_t old_size, std::size_t size);
+    static void sample(lua_State* lua, lua_Debug* record);
+    static int body(lua_State* lua);
+    int execute();
+
+    // What body() runs; plain, for they are read across jumps.
+    const char* text = nullptr;
+    std::size_t text_size = 0;
+    Prepare prepare = nullptr;
+};
+
+void* Sandbox::State::allocate(void* user, void* old, std::size_t old_size, std::size_t size) {
+    State& state = *static_cast<State*>(user);
+    if (!old) old_size = 0;  // then it tells the kind of object
+    Block* block = old ? static_cast<Block*>(old) - 1 : nullptr;
+    if (size == 0) {
+        if (block) {
+            block->previous->next = block->next;
+            block->next->previous = block->previous;
+            state.used -= old_size;
+            std::free(block);
+        }
+        return nullptr;
+    }
+    if (size > old_size) {
+        if (size - old_size > state.limits.memory - state.used) {
+            if (state.armed) state.abandon(Spent::memory);
+            return nullptr;
+        }
+        state.charge(std::int64_t(size / bytes_per_work));
+    }
+    Block *previous = &state.blocks, *next = state.blocks.next;
+    if (block) {
+        previous = block->previous;
+        next = block->next;
+    }
+    auto* moved = static_cast<Block*>(std::realloc(block, sizeof(Block) + size));
+    if (!moved) {
+        if (size <= old_size) return old;  // shrinking must not fail
+        if (state.armed) state.abandon(Spent::memory);
+        return nullptr;
+    }
+    *moved = {previous, next};
+    previous->next = next->previous = moved;
+    state.used = state.used - old_size + size;
+    return moved + 1;
+}
+
+void Sandbox::State::sample(lua_State* lua, lua_Debug* record) {
+    State& state = of(lua);
+    if (lua_getinfo(lua, "l", record) && record->currentline > 0) state.line = record->currentline;
+    state.charge(sample_interval);
+    const std::chrono::duration<double> elapsed = Clock::now() - state.start;
+    if (elapsed.count() > state.limits.seconds && state.armed) state.abandon(Spent::time);
+}
+
+int Sandbox::State::body(lua_State* lua) {
+    const State& state = of(lua);
+    open_library(lua);
+    if (state.prepare) state.prepare(lua);
+    const char name[] = {'=', file_mark, 0};
+    if (luaL_loadbufferx(lua, state.text, state.text_size, name, "t") != LUA_OK)
+        return lua_error(lua);
+    lua_call(lua, 0, 1);
+    return 1;
+}
+
+// No object with a destructor may live in this function, nor a local that changes after setjmp.
+int Sandbox::State::execute() {
+    if (setjmp(escape)) return LUA_ERRERR;
+    armed = true;
+    lua = lua_newstate(allocate, this);
+    if (!lua) abandon(Spent::memory);
+    *static_cast<State**>(lua_getextraspace(lua)) = this;
+    lua_sethook(lua, sample, LUA_MASKCOUNT, sample_interval);
+    lua_pushcfunction(lua, body);
+    const int status = lua_pcall(lua, 0, 1, 0);
+    armed = false;
+    return status;
+}
+
+Sandbox::Sandbox(SandboxLimits limits, void* host) : state_(std::make_unique<State>()) {
+    state_->limits = limits;
+    state_->host = host;
+}
+
+Sandbox::~Sandbox() = default;
+
+void* Sandbox::host(lua_State* lua) { return State::of(lua).host; }
+void Sandbox::spend(lua_State* lua, std::int64_t work) { State::of(lua).charge(work); }
+void Sandbox::allow_abandoning(lua_State* lua, bool allowed) { State::of(lua).armed = allowed; }
+
+static std::string reason(const SandboxLimits& limits, Spent spent) {
+    switch (spent) {
+        case Spent::memory:
+            return fmt::format(
+                "expected a scene that needs at most {} MiB, got one that needs more",
+                limits.memory >> 20);
+        case Spent::time:
+            return fmt::format("expected a scene that is ready within {} s, got one that is not",
+                               limits.seconds);
+        default:
+            return fmt::format(
+                "expected a scene that ends within {} instructions, got one that does not",
+                limits.work);
+    }
+}
+
+// The error at the top of the stack, whatever its type. Reads without converting in place, which
+// would allocate.
+static std::string error_text(lua_State* lua) {
+    switch (lua_type(lua, -1)) {
+        case LUA_TSTRING: {
+            std::size_t size = 0;
+            const char* text = lua_tolstring(lua, -1, &size);
+            return std::string(text, size);
+        }
+        case LUA_TNUMBER:
+            return fmt::format("error {}", lua_tonumber(lua, -1));
+        default:
+            return fmt::format("expected an error with a message, got one with a {} value",
+                               lua_typename(lua, lua_type(lua, -1)));
+    }
+}
+
+lua_State* Sandbox::run(const std::string& text, const std::string& file, Prepare prepare) {
+    state_->text = text.data();
+    state_->text_size = text.size();
+    state_->prepare = prepare;
+    const int status = state_->execute();
+    if (state_->spent != Spent::nothing) {
+        const std::string place =
+            state_->line > 0 ? fmt::format("{}:{}: ", file_mark, state_->line) : std::string();
+        throw SceneError(one_line(place + reason(state_->limits, state_->spent), file));
+    }
+    if (status != LUA_OK) throw SceneError(one_line(error_text(state_->lua), file));
+    return state_->lua;
+}
+
+int current_line(lua_State* lua) {
+    lua_Debug record;
+    for (int level = 1; lua_getstack(lua, level, &record); ++level)
+        if (lua_getinfo(lua, "l", &record) && record.currentline > 0) return record.currentline;
+    return 0;
+}
+
+std::string one_line(const std::string& message, const std::string& file) {
+    constexpr std::size_t longest = 600;
+    std::string line;
+    const char mark[] = {file_mark, ':', 0};
+    if (message.compare(0, 2, mark) != 0) line = file + ": ";
+    for (std::size_t i = 0; i < message.size(); ++i) {
+        if (message.compare(i, 2, mark) == 0)
+            line += file;
+        else if (static_cast<unsigned char>(message[i]) < ' ' || message[i] == 127)
+            line += ' ';
+        else
+            line += message[i];
+        if (line.size() > file.size() + longest) return line + " …";
+    }
+    return line;
+}
+
+}  // namespace deburr
