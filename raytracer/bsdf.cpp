@@ -92,7 +92,7 @@ Vec3 Ggx::facet(Vec3 to_eye, Vec3 normal, Vec2 u) const {
     return length > 0 ? frame.to_world(facet / length) : normal;
 }
 
-Layer::Layer(const Material& material)
+SurfaceLayer::SurfaceLayer(const Material& material)
     : kind_(material.kind), ggx_{material.roughness * material.roughness}, ior_(material.ior) {
     smooth_ = kind_ == Material::Kind::mirror || !(ggx_.alpha >= smooth_alpha);
     if (kind_ == Material::Kind::glass) return;
@@ -111,7 +111,7 @@ Layer::Layer(const Material& material)
 
 // The mean weight of reflections about visible facets, over a lattice of golden steps. Over five
 // roughnesses, two indices and five angles a white furnace was off by at most 10⁻³.
-double Layer::integrate(double cosine) const {
+double SurfaceLayer::integrate(double cosine) const {
     if (kind_ == Material::Kind::matte) return 0.0;
     const double c = std::max(cosine, least_cosine);
     if (smooth_) return fresnel(Vec3(1.0), c).x;
@@ -127,13 +127,13 @@ double Layer::integrate(double cosine) const {
     return sum / points;
 }
 
-double Layer::albedo(double cosine) const {
+double SurfaceLayer::albedo(double cosine) const {
     const double at = std::sqrt(glm::clamp(cosine, 0.0, 1.0)) * steps;
     const auto i = std::min(std::size_t(at), std::size_t(steps - 1));
     return glm::mix(albedo_[i], albedo_[i + 1], at - double(i));
 }
 
-Vec3 Layer::fresnel(Vec3 color, double cosine) const {
+Vec3 SurfaceLayer::fresnel(Vec3 color, double cosine) const {
     switch (kind_) {
         case Material::Kind::mirror:
             return color;
@@ -146,7 +146,7 @@ Vec3 Layer::fresnel(Vec3 color, double cosine) const {
     }
 }
 
-Bsdf::Bsdf(const Layer& layer, Vec3 color, Vec3 normal, Vec3 to_eye)
+Bsdf::Bsdf(const SurfaceLayer& layer, Vec3 color, Vec3 normal, Vec3 to_eye)
     : layer_(layer),
       color_(color),
       base_(color),

@@ -54,9 +54,9 @@ struct Ggx {
 };
 
 /// What all points of a material have in common.
-class Layer {
+class SurfaceLayer {
 public:
-    explicit Layer(const Material& material);
+    explicit SurfaceLayer(const Material& material);
 
     Material::Kind kind() const { return kind_; }
     bool smooth() const { return smooth_; }
@@ -82,7 +82,7 @@ private:
 /// from the surface.
 class Bsdf {
 public:
-    Bsdf(const Layer& layer, Vec3 color, Vec3 normal, Vec3 to_eye);
+    Bsdf(const SurfaceLayer& layer, Vec3 color, Vec3 normal, Vec3 to_eye);
 
     struct Value {
         Vec3 base{0.0}, layer{0.0};
@@ -100,12 +100,12 @@ public:
     Vec3 base_albedo() const;
     Vec3 layer_albedo() const;
 
-    const Layer& layer() const { return layer_; }
+    const SurfaceLayer& layer() const { return layer_; }
     Vec3 normal() const { return normal_; }
     Vec3 to_eye() const { return to_eye_; }
 
 private:
-    const Layer& layer_;
+    const SurfaceLayer& layer_;
     Vec3 color_, base_, normal_, to_eye_;
     double cos_eye_, albedo_eye_;
 };

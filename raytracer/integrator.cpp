@@ -195,7 +195,7 @@ Vec3 Integrator::transmittance(const Hit& hit, const Incident& light, const Path
 
 Vec3 Integrator::color_from(const Hit& hit, Vec3 direction, const Path& path) const {
     if (material(hit).kind == Material::Kind::glass) return color_of_glass(hit, direction, path);
-    const Layer& layer = layers_[std::size_t(hit.material)];
+    const SurfaceLayer& layer = layers_[std::size_t(hit.material)];
     const Bsdf bsdf(layer, texture_color(hit), towards_ray(hit.normal, direction), -direction);
     const Vec3 ambient = bsdf.base_albedo() * scene_.ambient;
     if (path.without_noise || path.scattered || path.depth >= scene_.bounces)
@@ -222,7 +222,7 @@ Vec3 Integrator::color_from(const Hit& hit, Vec3 direction, const Path& path) co
 // What the surface returns of the background and, if it is polished, of other surfaces.
 Vec3 Integrator::reflected_without_noise(const Bsdf& bsdf, const Hit& hit, const Path& path) const {
     const Vec3 base = bsdf.base_albedo() * sky_.mean(bsdf.normal());
-    const Layer& layer = bsdf.layer();
+    const SurfaceLayer& layer = bsdf.layer();
     if (layer.kind() == Material::Kind::matte) return base;
     const double alpha = layer.smooth() ? 0.0 : std::min(1.0, layer.ggx().alpha);
     const bool polished =
@@ -240,7 +240,7 @@ Vec3 Integrator::reflected_without_noise(const Bsdf& bsdf, const Hit& hit, const
 // The radiance in a denser medium is not scaled by its squared index: light seen from outside has
 // left it again.
 Vec3 Integrator::color_of_glass(const Hit& hit, Vec3 direction, const Path& path) const {
-    const Layer& layer = layers_[std::size_t(hit.material)];
+    const SurfaceLayer& layer = layers_[std::size_t(hit.material)];
     const Vec3 tint = texture_color(hit), to_eye = -direction;
     const bool inside = glm::dot(hit.normal, direction) > 0;
     const Vec3 normal = inside ? -hit.normal : hit.normal;

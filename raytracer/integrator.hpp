@@ -77,7 +77,7 @@ private:
     const RayTracer& tracer_;
     RenderSettings settings_;
     PinholeCamera camera_;
-    std::vector<Layer> layers_;  // of the materials
+    std::vector<SurfaceLayer> layers_;  // of the materials
     std::vector<LightSource> lights_;
     SkyLight sky_;
     bool glass_ = false;  // is there any

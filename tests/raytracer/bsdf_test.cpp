@@ -47,11 +47,11 @@ auto over_hemisphere(int rows, int columns, F f) {
 TEST_CASE("A white material returns all light of a white furnace") {
     int cases = 0;
     for (const Case& c : opaque_materials()) {
-        const Layer layer({c.kind, plain(1.0), c.roughness, c.ior});
+        const SurfaceLayer layer({c.kind, plain(1.0), c.roughness, c.ior});
         for (double cosine : {0.05, 0.2, 0.5, 0.8, 1.0}) {
             CAPTURE(int(c.kind), c.roughness, c.ior, cosine);
             const Bsdf bsdf(layer, Vec3(1.0), up, at_cosine(cosine));
-            // Layer by its samples, which reach narrow lobes that a grid misses; base by the grid.
+            // SurfaceLayer by its samples, which reach narrow lobes that a grid misses; base by the grid.
             Vec3 sum = over_hemisphere(256, 16, [&](Vec3 in) { return bsdf.value(in).base; });
             const int n = 1 << 14;
             for (int s = 0; s < n; ++s) {
@@ -69,7 +69,7 @@ TEST_CASE("A white material returns all light of a white furnace") {
 TEST_CASE("No material returns more light than it gets, at any angle") {
     int cases = 0;
     for (const Case& c : opaque_materials()) {
-        const Layer layer({c.kind, plain(1.0), c.roughness, c.ior});
+        const SurfaceLayer layer({c.kind, plain(1.0), c.roughness, c.ior});
         for (int i = 1; i <= 200; ++i) {
             const Bsdf bsdf(layer, Vec3(0.9, 0.5, 0.0), up, at_cosine(i / 200.0));
             const Vec3 albedo = bsdf.base_albedo() + bsdf.layer_albedo();
@@ -84,7 +84,7 @@ TEST_CASE("No material returns more light than it gets, at any angle") {
 TEST_CASE("Scattering is reciprocal") {
     int cases = 0;
     for (const Case& c : opaque_materials()) {
-        const Layer layer({c.kind, plain(0.7), c.roughness, c.ior});
+        const SurfaceLayer layer({c.kind, plain(0.7), c.roughness, c.ior});
         for (int s = 0; s < 500; ++s) {
             const Sampler sampler(2, 0, 0, s);
             const Vec2 p = sampler.square(0), q = sampler.square(1);
@@ -101,12 +101,12 @@ TEST_CASE("Scattering is reciprocal") {
     CHECK(cases == 500 * 22);
 }
 
-TEST_CASE("Layer samples have the density and the weight that are claimed") {
+TEST_CASE("SurfaceLayer samples have the density and the weight that are claimed") {
     int cases = 0;
     for (double roughness : {0.4, 0.7, 1.0})
         for (double cosine : {0.2, 0.6, 1.0}) {
             CAPTURE(roughness, cosine);
-            const Layer layer({Material::Kind::metal, plain(1.0), roughness, 1.5});
+            const SurfaceLayer layer({Material::Kind::metal, plain(1.0), roughness, 1.5});
             const Bsdf bsdf(layer, Vec3(0.8), up, at_cosine(cosine));
             auto observable = [](Vec3 w) { return (1 + w.x) * (1.5 + w.y) * w.z; };
             const double hit_exact = over_hemisphere(
