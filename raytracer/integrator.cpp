@@ -26,7 +26,7 @@ constexpr double least_share = 0.1, least_share_alone = 0.25;
 constexpr double caustic_alpha = 0.5;
 
 // What a path draws random numbers for, at each depth; and once, for its way through the filter.
-enum Purpose : std::uint32_t { choice, turn, first_light, purposes = 1024 };
+enum Purpose : std::uint32_t { choice, turn, layer_turn, first_light, purposes = 1024 };
 constexpr std::uint32_t lens = 0xffffffffu;
 
 double brightest(Vec3 c) { return std::max({c.x, c.y, c.z}); }
@@ -207,21 +207,27 @@ Vec3 Integrator::color_from(const Hit& hit, Vec3 direction, const Path& path) co
                reflected_without_noise(bsdf, hit, path);
 
     const double base = sky_.black() ? 0.0 : brightest(bsdf.base_albedo());
-    const double share = layer_share(brightest(bsdf.layer_albedo()), base);
-    const Vec3 color = ambient + lit(bsdf, hit, path, share);
-    const Vec2 u = path.sampler.square(path.dimension(turn));
+    // Plastic that the camera sees takes both ways: the layer's colour is not the base's, and a
+    // choice between them would be noise in all channels where the base is dark.
+    const bool both = path.depth == 0 && layer.kind() == Material::Kind::plastic;
+    const double share = both ? 1.0 : layer_share(brightest(bsdf.layer_albedo()), base);
+    const double base_share = both ? 1.0 : 1 - share;
+    const double chosen = both ? 0.0 : path.sampler.line(path.dimension(choice));
+    Vec3 color = ambient + lit(bsdf, hit, path, share);
     Vec3 way, weight;
-    if (path.sampler.line(path.dimension(choice)) < share) {
-        if (!bsdf.sample_layer(u, way, weight)) return color;
+    if (chosen < share &&
+        bsdf.sample_layer(path.sampler.square(path.dimension(layer_turn)), way, weight)) {
         const Path next = path.reflected(share * bsdf.layer_density(way));
-        return color + weight / share * color_along(leave(hit, way), next);
+        color += weight / share * color_along(leave(hit, way), next);
     }
-    if (base <= 0) return color;
-    weight = bsdf.sample_base(u, way);
-    Path next = path.on();
-    next.scattered = true;
-    next.sees_lights = false;
-    return color + weight / (1 - share) * color_along(leave(hit, way), next);
+    if (base > 0 && (both || chosen >= share)) {
+        weight = bsdf.sample_base(path.sampler.square(path.dimension(turn)), way);
+        Path next = path.on();
+        next.scattered = true;
+        next.sees_lights = false;
+        color += weight / base_share * color_along(leave(hit, way), next);
+    }
+    return color;
 }
 
 // What the surface returns of the background and, if it is polished, of other surfaces.
