@@ -153,7 +153,8 @@ Bsdf::Bsdf(const SurfaceLayer& layer, Vec3 color, Vec3 normal, Vec3 to_eye)
       normal_(normal),
       to_eye_(to_eye),
       cos_eye_(std::max(glm::dot(normal, to_eye), least_cosine)),
-      albedo_eye_(layer.kind() == Material::Kind::matte ? 0.0 : layer.albedo(cos_eye_)) {
+      albedo_eye_(layer.kind() == Material::Kind::matte ? 0.0 : layer.albedo(cos_eye_)),
+      ggx_(layer.ggx()) {
     if (layer.kind() == Material::Kind::mirror) base_ = Vec3(0.0);
     if (layer.kind() == Material::Kind::metal && layer.smooth()) base_ = Vec3(0.0);
     if (layer.kind() == Material::Kind::metal && !layer.smooth()) {
@@ -162,6 +163,12 @@ Bsdf::Bsdf(const SurfaceLayer& layer, Vec3 color, Vec3 normal, Vec3 to_eye)
         const double e = layer.mean_albedo();
         base_ = f * f * e / (1.0 - f * (1 - e));
     }
+}
+
+Bsdf Bsdf::blurred(double alpha) const {
+    Bsdf b = *this;
+    b.ggx_.alpha = std::max(alpha, b.ggx_.alpha);
+    return b;
 }
 
 Vec3 Bsdf::base_albedo() const { return base_ * (1 - albedo_eye_); }
@@ -182,9 +189,8 @@ Bsdf::Value Bsdf::value(Vec3 to_light) const {
                  (cos_light / pi * (1 - albedo_eye_) * (1 - layer_.albedo(cos_light)) / (1 - mean));
     if (layer_.smooth()) return v;
     const Vec3 half = glm::normalize(to_eye_ + to_light);
-    const Ggx& ggx = layer_.ggx();
     v.layer = layer_.fresnel(color_, glm::dot(half, to_light)) *
-              (ggx.distribution(glm::dot(half, normal_)) * ggx.visibility(cos_light, cos_eye_) *
+              (ggx_.distribution(glm::dot(half, normal_)) * ggx_.visibility(cos_light, cos_eye_) *
                cos_light);
     return v;
 }
@@ -192,7 +198,7 @@ Bsdf::Value Bsdf::value(Vec3 to_light) const {
 double Bsdf::layer_density(Vec3 to_light) const {
     if (layer_.smooth()) return infinity;
     const Vec3 half = glm::normalize(to_eye_ + to_light);
-    return layer_.ggx().density(cos_eye_, glm::dot(half, normal_));
+    return ggx_.density(cos_eye_, glm::dot(half, normal_));
 }
 
 bool Bsdf::sample_layer(Vec2 u, Vec3& to_light, Vec3& weight) const {

@@ -84,6 +84,10 @@ class Bsdf {
 public:
     Bsdf(const SurfaceLayer& layer, Vec3 color, Vec3 normal, Vec3 to_eye);
 
+    /// The same with a layer no sharper than `alpha` in value() and layer_density(); smooth ones
+    /// stay smooth.
+    Bsdf blurred(double alpha) const;
+
     struct Value {
         Vec3 base{0.0}, layer{0.0};
     };
@@ -108,6 +112,7 @@ private:
     const SurfaceLayer& layer_;
     Vec3 color_, base_, normal_, to_eye_;
     double cos_eye_, albedo_eye_;
+    Ggx ggx_;
 };
 
 }  // namespace deburr

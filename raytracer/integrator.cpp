@@ -21,8 +21,12 @@ constexpr int glass_in_shadow = 16;
 // starves, and where it would end otherwise.
 constexpr double least_share = 0.1, least_share_alone = 0.25;
 
+// A highlight that a base sees is a caustic: few paths find it, and those are bright. They find it
+// with at least this α, dimmer and wider [Kaplanyan & Dachsbacher 2013].
+constexpr double caustic_alpha = 0.5;
+
 // What a path draws random numbers for, at each depth; and once, for its way through the filter.
-enum Purpose : std::uint32_t { choice, turn, first_light, purposes = 1024 };
+enum Purpose : std::uint32_t { choice, turn, layer_turn, first_light, purposes = 1024 };
 constexpr std::uint32_t lens = 0xffffffffu;
 
 double brightest(Vec3 c) { return std::max({c.x, c.y, c.z}); }
@@ -60,7 +64,7 @@ struct Integrator::Path {
         p.weight *= share;
         return p;
     }
-    // Light from a source by way of a base and a mirror is a caustic: too rare to find, left out.
+    // An area light in a mirror that a base sees is left out, as point lights are of necessity.
     Path reflected(double with_density, double share = 1.0) const {
         Path p = on(share);
         p.sees_lights = !scattered;
@@ -199,24 +203,31 @@ Vec3 Integrator::color_from(const Hit& hit, Vec3 direction, const Path& path) co
     const Bsdf bsdf(layer, texture_color(hit), towards_ray(hit.normal, direction), -direction);
     const Vec3 ambient = bsdf.base_albedo() * scene_.ambient;
     if (path.without_noise || path.scattered || path.depth >= scene_.bounces)
-        return ambient + lit(bsdf, hit, path, 0.0) + reflected_without_noise(bsdf, hit, path);
+        return ambient + lit(path.scattered ? bsdf.blurred(caustic_alpha) : bsdf, hit, path, 0.0) +
+               reflected_without_noise(bsdf, hit, path);
 
     const double base = sky_.black() ? 0.0 : brightest(bsdf.base_albedo());
-    const double share = layer_share(brightest(bsdf.layer_albedo()), base);
-    const Vec3 color = ambient + lit(bsdf, hit, path, share);
-    const Vec2 u = path.sampler.square(path.dimension(turn));
+    // Plastic that the camera sees takes both ways: the layer's colour is not the base's, and a
+    // choice between them would be noise in all channels where the base is dark.
+    const bool both = path.depth == 0 && layer.kind() == Material::Kind::plastic;
+    const double share = both ? 1.0 : layer_share(brightest(bsdf.layer_albedo()), base);
+    const double base_share = both ? 1.0 : 1 - share;
+    const double chosen = both ? 0.0 : path.sampler.line(path.dimension(choice));
+    Vec3 color = ambient + lit(bsdf, hit, path, share);
     Vec3 way, weight;
-    if (path.sampler.line(path.dimension(choice)) < share) {
-        if (!bsdf.sample_layer(u, way, weight)) return color;
+    if (chosen < share &&
+        bsdf.sample_layer(path.sampler.square(path.dimension(layer_turn)), way, weight)) {
         const Path next = path.reflected(share * bsdf.layer_density(way));
-        return color + weight / share * color_along(leave(hit, way), next);
+        color += weight / share * color_along(leave(hit, way), next);
     }
-    if (base <= 0) return color;
-    weight = bsdf.sample_base(u, way);
-    Path next = path.on();
-    next.scattered = true;
-    next.sees_lights = false;
-    return color + weight / (1 - share) * color_along(leave(hit, way), next);
+    if (base > 0 && (both || chosen >= share)) {
+        weight = bsdf.sample_base(path.sampler.square(path.dimension(turn)), way);
+        Path next = path.on();
+        next.scattered = true;
+        next.sees_lights = false;
+        color += weight / base_share * color_along(leave(hit, way), next);
+    }
+    return color;
 }
 
 // What the surface returns of the background and, if it is polished, of other surfaces.
@@ -237,6 +248,8 @@ Vec3 Integrator::reflected_without_noise(const Bsdf& bsdf, const Hit& hit, const
     return base + albedo * color_along(leave(hit, way), next);
 }
 
+// The first surface of glass is followed both ways with any number of samples: a highlight that is
+// found by one sample in 25 is noise. For the same reason deeper ones show no area lights.
 // The radiance in a denser medium is not scaled by its squared index: light seen from outside has
 // left it again.
 Vec3 Integrator::color_of_glass(const Hit& hit, Vec3 direction, const Path& path) const {
@@ -257,22 +270,28 @@ Vec3 Integrator::color_of_glass(const Hit& hit, Vec3 direction, const Path& path
         return share * sky_.towards(back) +
                (passes ? (1 - share) * tint * sky_.towards(through) : Vec3(0.0));
 
-    if (path.without_noise) {
-        auto along = [&](Vec3 way, const Path& next) {
-            return next.weight < least_weight ? sky_.towards(way)
-                                              : color_along(leave(hit, way), next);
-        };
-        Vec3 color = share * along(back, path.reflected(infinity, share));
-        if (passes) color += (1 - share) * tint * along(through, path.on(1 - share));
+    // `side` is 1 for a reflection, -1 for light that passes.
+    auto along = [&](Vec3 way, double side, const Path& next) {
+        if (next.weight < least_weight) return sky_.towards(way);
+        double seen = 1.0;
+        if (rough) {
+            const double cosine = side * glm::dot(way, normal);
+            if (!(cosine > 0)) return Vec3(0.0);  // it meets another facet
+            seen = layer.ggx().shadowing(cosine, glm::dot(to_eye, normal));
+        }
+        return seen * color_along(leave(hit, way), next);
+    };
+    Path passing = path.on(1 - share), returning = path.reflected(infinity, share);
+    passing.sees_lights = false;
+    returning.sees_lights = path.depth == 0;
+    if (path.without_noise || path.depth == 0) {
+        Vec3 color = share * along(back, 1, returning);
+        if (passes) color += (1 - share) * tint * along(through, -1, passing);
         return color;
     }
-    const bool reflects = path.sampler.line(path.dimension(choice)) < share;
-    const Vec3 way = reflects ? back : through;
-    const double cos_eye = glm::dot(to_eye, normal), cos_way = glm::dot(way, normal);
-    if (reflects ? !(cos_way > 0) : !(cos_way < 0)) return Vec3(0.0);
-    const double seen = rough ? layer.ggx().shadowing(std::abs(cos_way), cos_eye) : 1.0;
-    const Path next = reflects ? path.reflected(infinity) : path.on();
-    return seen * (reflects ? Vec3(1.0) : tint) * color_along(leave(hit, way), next);
+    passing.weight = returning.weight = path.weight;
+    if (path.sampler.line(path.dimension(choice)) < share) return along(back, 1, returning);
+    return tint * along(through, -1, passing);
 }
 
 }  // namespace deburr

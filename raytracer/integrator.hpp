@@ -15,15 +15,17 @@
 //               nothing hid it; plastic and rough metal reflect the background, blurred by
 //               roughness, and no objects. Mirrors, polished metal and glass are traced, glass both
 //               ways.
-//   more        Every sample follows one path. A reflection is sampled and traced for every
-//               material, weighed against area lights by multiple importance sampling. Where there
-//               is a background, diffuse surfaces send a ray to find out what they see of it; a
-//               surface it meets instead is shaded as with one sample, so light is scattered
-//               diffusely at most twice. In the open, where no surface sees another, that agrees
-//               with one sample; in corners it darkens and colours.
+//   more        Every sample follows one path, two from plastic or glass at its start. A
+//               reflection is sampled and traced for every material, weighed against area lights by
+//               multiple importance sampling. Where there is a background, diffuse surfaces send a
+//               ray to find out what they see of it; a surface it meets instead is shaded as with
+//               one sample, so light is scattered diffusely at most twice. In the open, where no
+//               surface sees another, that agrees with one sample; in corners it darkens and
+//               colours.
 //
 // A path has at most Scene::bounces rays after the camera's; beyond, the background stands in for
-// what was not traced. Area lights are seen in reflections only (lights.hpp).
+// what was not traced. Area lights are seen in reflections only (lights.hpp), and by glass only
+// where the camera sees the glass.
 #pragma once
 #include <cstdint>
 #include <vector>

@@ -51,7 +51,8 @@ TEST_CASE("A white material returns all light of a white furnace") {
         for (double cosine : {0.05, 0.2, 0.5, 0.8, 1.0}) {
             CAPTURE(int(c.kind), c.roughness, c.ior, cosine);
             const Bsdf bsdf(layer, Vec3(1.0), up, at_cosine(cosine));
-            // SurfaceLayer by its samples, which reach narrow lobes that a grid misses; base by the grid.
+            // SurfaceLayer by its samples, which reach narrow lobes that a grid misses; base by the
+            // grid.
             Vec3 sum = over_hemisphere(256, 16, [&](Vec3 in) { return bsdf.value(in).base; });
             const int n = 1 << 14;
             for (int s = 0; s < n; ++s) {

@@ -66,7 +66,7 @@ TEST_CASE("An area light's irradiance is its form factor times its flux density"
     light.power = 50;
     light.u = {2, 0, 0};
     light.v = {0, 0, 1};
-    light.position = {1, 1, 0.5};                   // a corner is above the point
+    light.position = {1, 1, 0.5};  // a corner is above the point
     std::swap(light.u, light.v);
     CHECK(irradiance(light, {ground()}, 64) == 0);  // u × v points up
     std::swap(light.u, light.v);

@@ -276,3 +276,41 @@ TEST_CASE("Matte surfaces are lit on the side that is seen") {
     scene.camera = {{0, 0.5, 0}, {0, -1, 0}, {0, 0, 1}, 1e-7};
     CHECK(close(pixel_of(scene, AnalyticTracer({unit_sphere}), 1).color, Vec3(1.0), 1e-9));
 }
+
+TEST_CASE("An area light is seen in a mirror and in glass, from its front, and not by the camera") {
+    Scene scene = probe(material_of(Material::Kind::mirror, Vec3(0.5)));
+    scene.materials.push_back(material_of(Material::Kind::glass, Vec3(1.0), 0.0));
+    Light panel;
+    panel.kind = Light::Kind::area;
+    panel.position = {0, 8, 0};
+    panel.u = {2, 0, 0};
+    panel.v = {0, 0, 2};
+    panel.power = 12 * pi;  // radiance 3
+    scene.lights = {panel};
+    Shape floor{Shape::Kind::plane, Vec3(0.0), {0, 1, 0}, 0, 0};
+    const AnalyticTracer nothing({});
+    for (int spp : {1, 16}) {
+        floor.material = 0;
+        CHECK(close(pixel_of(scene, AnalyticTracer({floor}), spp).color, Vec3(1.5), 1e-9));
+        floor.material = 1;
+        CHECK(close(pixel_of(scene, AnalyticTracer({floor}), spp).color, Vec3(0.12), 1e-9));
+        std::swap(scene.lights[0].u, scene.lights[0].v);
+        CHECK(close(pixel_of(scene, AnalyticTracer({floor}), spp).color, Vec3(0.0), 0));
+        std::swap(scene.lights[0].u, scene.lights[0].v);
+        scene.lights[0].position.y = 2;  // between the eye and the floor
+        CHECK(close(pixel_of(scene, nothing, spp).color, Vec3(0.0), 0));
+        scene.lights[0].position.y = 8;
+    }
+}
+
+TEST_CASE("A wall hides half of the sky from its foot, and gives some of it back") {
+    Scene scene = probe(material_of(Material::Kind::matte, Vec3(0.5)));
+    scene.materials.push_back(material_of(Material::Kind::matte, Vec3(0.25)));
+    scene.background.color = Vec3(1.0);
+    const Shape floor{Shape::Kind::plane, Vec3(0.0), {0, 1, 0}, 0, 0};
+    const Shape wall{Shape::Kind::plane, {-1e-6, 0, 0}, {1, 0, 0}, 0, 1};
+    const AnalyticTracer corner({floor, wall});
+    // The wall is taken for one that sees all of the sky: 0.5 · (1 + 0.25)/2.
+    CHECK(close(pixel_of(scene, corner, 1024).color, Vec3(0.5 * 0.625), 1e-3));
+    CHECK(close(pixel_of(scene, corner, 1).color, Vec3(0.5), 1e-9));
+}
