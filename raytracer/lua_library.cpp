@@ -95,7 +95,7 @@ int set_metatable(lua_State* lua) {
 // Every coroutine counts instructions by itself, and what it does before its first sample would go
 // unseen: so it is paid for here.
 int create_coroutine(lua_State* lua) {
-    Sandbox::spend(lua, 1000);
+    Sandbox::spend(lua, Sandbox::sample_interval);
     return call_original(lua);
 }
 
