@@ -185,6 +185,7 @@ struct Key {
 
 // State: the table. Upvalues: the keys in order, how many are done.
 int next_pair(lua_State* lua) {
+    luaL_checktype(lua, 1, LUA_TTABLE);  // a scene may call the iterator by itself
     lua_Integer done = lua_tointeger(lua, lua_upvalueindex(2));
     lua_settop(lua, 1);
     for (;;) {

@@ -68,6 +68,7 @@ struct Sandbox::State {
     static void* allocate(void* state, void* old, std::size_t old_size, std::size_t size);
     static void sample(lua_State* lua, lua_Debug* record);
     static int body(lua_State* lua);
+    static int placed_error(lua_State* lua);
     int execute();
 
     // What body() runs; plain, for they are read across jumps.
@@ -132,6 +133,19 @@ int Sandbox::State::body(lua_State* lua) {
     return 1;
 }
 
+// Handles an uncaught error where it is raised: those from C and from error(x, 0) have no line.
+int Sandbox::State::placed_error(lua_State* lua) {
+    const bool is_text = lua_type(lua, 1) == LUA_TSTRING;
+    const int line = current_line(lua);
+    if (line == 0 || (is_text && *lua_tostring(lua, 1) == file_mark)) return 1;
+    if (is_text || lua_type(lua, 1) == LUA_TNUMBER)
+        lua_pushfstring(lua, "%c:%d: %s", file_mark, line, lua_tostring(lua, 1));
+    else
+        lua_pushfstring(lua, "%c:%d: expected an error with a message, got one with a %s value",
+                        file_mark, line, luaL_typename(lua, 1));
+    return 1;
+}
+
 // No object with a destructor may live in this function, nor a local that changes after setjmp.
 int Sandbox::State::execute() {
     if (setjmp(escape)) return LUA_ERRERR;
@@ -140,8 +154,10 @@ int Sandbox::State::execute() {
     if (!lua) abandon(Spent::memory);
     *static_cast<State**>(lua_getextraspace(lua)) = this;
     lua_sethook(lua, sample, LUA_MASKCOUNT, sample_interval);
+    lua_pushcfunction(lua, placed_error);
     lua_pushcfunction(lua, body);
-    const int status = lua_pcall(lua, 0, 1, 0);
+    const int status = lua_pcall(lua, 0, 1, 1);
+    lua_remove(lua, 1);
     armed = false;
     return status;
 }
@@ -178,21 +194,14 @@ static std::string reason(const SandboxLimits& limits, Spent spent) {
     }
 }
 
-// The error at the top of the stack, whatever its type. Reads without converting in place, which
-// would allocate.
+// The error at the top of the stack, whatever its type.
 static std::string error_text(lua_State* lua) {
-    switch (lua_type(lua, -1)) {
-        case LUA_TSTRING: {
-            std::size_t size = 0;
-            const char* text = lua_tolstring(lua, -1, &size);
-            return std::string(text, size);
-        }
-        case LUA_TNUMBER:
-            return fmt::format("error {}", lua_tonumber(lua, -1));
-        default:
-            return fmt::format("expected an error with a message, got one with a {} value",
-                               lua_typename(lua, lua_type(lua, -1)));
-    }
+    if (lua_type(lua, -1) != LUA_TSTRING)
+        return fmt::format("expected an error with a message, got one with a {} value",
+                           luaL_typename(lua, -1));
+    std::size_t size = 0;
+    const char* text = lua_tolstring(lua, -1, &size);
+    return std::string(text, size);
 }
 
 lua_State* Sandbox::run(const std::string& text, const std::string& file, Prepare prepare) {
