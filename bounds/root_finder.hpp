@@ -1,9 +1,110 @@
 // Roots of f(t) = ρ(o + t·d) − ½ on a ray segment.
+//
+// A segment is halved until it provably holds at most one root [Lobb §3.4.2, after Kalra & Barr
+// 1989]; the signs at its ends then tell whether it holds one, and regula falsi with interleaved
+// bisection finds it [Lobb figure 9]. What cannot be proved is cut again, until the pieces are
+// negligibly short.
+//
+//   t      ray parameter: a world distance where |d| = 1
+//   f      dimensionless
+//   slope  f′ per unit of t, pointing *into* the segment at either end
 #pragma once
+#include <cstdint>
+
+#include "bounds/local_density.hpp"
 
 namespace deburr {
 
 /// When a segment counts as holding at most one root.
-enum class Criterion { exact, lobb };
+enum class Criterion {
+    exact,  // the least time to a turning point beyond a root, over all functions within the bounds
+    lobb    // eq. 6, turn-around distance; unsound, for reproducing the paper
+};
+
+struct SegmentEnd {
+    double f, slope;
+};
+
+/// Least distance from `end` to a turning point of f beyond a root, over every f with |f′| ≤ L and
+/// |f″| ≤ G; infinity where there can be none.
+/// Printed differently: for f = 0⁺ and slope > 0 eq. 6 claims 3|ρ′|/G where (1 + √2)|ρ′|/G is
+/// enough, and so accepts segments that hold two roots.
+double least_turning_distance(SegmentEnd end, RayBounds bounds);
+
+/// The same as eq. 6 has it, turn-around distance included.
+double lobb_turning_distance(SegmentEnd end, RayBounds bounds);
+
+/// Exact: true only if the segment provably holds at most one root; false says nothing.
+bool at_most_one_root(SegmentEnd start, SegmentEnd end, RayBounds bounds, double length,
+                      Criterion criterion = Criterion::exact);
+
+struct RootCounters {
+    std::uint64_t segments = 0, splits = 0, evaluations = 0;
+};
+
+struct RootSettings {
+    Criterion criterion = Criterion::exact;
+    double negligible = 1e-14;  // a segment no longer than this is not cut again, and roots are
+                                // found to within it
+};
+
+struct Crossing {
+    double t;
+    bool entering;  // ρ > ½ beyond it
+};
+
+class RootFinder {
+public:
+    RootFinder(RootSettings settings, RootCounters& counters) : settings_(settings), counters_(counters) {}
+
+    /// All crossings of ρ = ½ in [t0, t1], in order, where sharp half-spaces stay as fix_sharp left
+    /// them. `visit(Crossing)` says whether to go on; false if it said no.
+    template <class Visit>
+    bool crossings(const RayDensity& density, double t0, double t1, Visit&& visit);
+
+private:
+    struct Point {
+        double t, f, slope;
+    };
+    Point evaluate(const RayDensity& density, double t) {
+        ++counters_.evaluations;
+        const ValueSlope v = density.at(t);
+        return {t, v.value - 0.5, v.slope};
+    }
+    double root(const RayDensity& density, Point a, Point b);
+
+    RootSettings settings_;
+    RootCounters& counters_;
+};
+
+template <class Visit>
+bool RootFinder::crossings(const RayDensity& density, double t0, double t1, Visit&& visit) {
+    // Depth first, near half first. Halving a double's range ends long before the stack does.
+    Point stack[1100];
+    int top = 0;
+    Point a = evaluate(density, t0);
+    stack[top++] = evaluate(density, t1);
+    while (top > 0) {
+        const Point b = stack[top - 1];
+        const double length = b.t - a.t;
+        ++counters_.segments;
+        const bool done =
+            length <= settings_.negligible || top >= 1099 ||
+            at_most_one_root({a.f, a.slope}, {b.f, -b.slope}, density.bounds(a.t, b.t), length,
+                             settings_.criterion);
+        if (!done) {
+            const double middle = a.t + 0.5 * length;
+            if (middle > a.t && middle < b.t) {
+                ++counters_.splits;
+                stack[top++] = evaluate(density, middle);
+                continue;
+            }
+        }
+        if ((a.f > 0) != (b.f > 0) && !visit(Crossing{root(density, a, b), b.f > 0})) return false;
+        a = b;
+        --top;
+    }
+    return true;
+}
 
 }  // namespace deburr

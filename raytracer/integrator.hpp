@@ -2,10 +2,35 @@
 //
 // Every random number is a function of (seed, pixel, sample, dimension), so a pixel's value depends
 // on neither threads, tiles nor crop.
+//
+// What is computed, by the number of samples per pixel:
+//
+//   lights      At any number, every surface but smooth mirrors and glass gets the light of every
+//               source, each with its shadow rays (point, directional: one; area: `samples` of
+//               them, stratified). Glass lets light pass straight on, tinted and weakened by
+//               Fresnel: its shadows are soft in tone but have no caustics.
+//   ambient     At any number: seen by diffuse surfaces from all around, never hidden.
+//   one sample  has no noise unless area lights bring it, and costs matte, plastic and rough metal
+//               one camera ray and the shadow rays. The background lights diffuse surfaces as if
+//               nothing hid it; plastic and rough metal reflect the background, blurred by
+//               roughness, and no objects. Mirrors, polished metal and glass are traced, glass both
+//               ways.
+//   more        Every sample follows one path. A reflection is sampled and traced for every
+//               material, weighed against area lights by multiple importance sampling. Where there
+//               is a background, diffuse surfaces send a ray to find out what they see of it; a
+//               surface it meets instead is shaded as with one sample, so light is scattered
+//               diffusely at most twice. In the open, where no surface sees another, that agrees
+//               with one sample; in corners it darkens and colours.
+//
+// A path has at most Scene::bounces rays after the camera's; beyond, the background stands in for
+// what was not traced. Area lights are seen in reflections only (lights.hpp).
 #pragma once
 #include <cstdint>
+#include <vector>
 
+#include "raytracer/bsdf.hpp"
 #include "raytracer/film.hpp"
+#include "raytracer/lights.hpp"
 #include "raytracer/ray_tracer.hpp"
 #include "raytracer/scene.hpp"
 
@@ -33,13 +58,29 @@ class Integrator {
 public:
     /// Keeps references to both.
     Integrator(const Scene& scene, const RayTracer& tracer, RenderSettings settings);
+    /// Never holds a NaN. The layers, of the centre's ray; the cost, of all of this pixel's rays.
     Pixel pixel(int x, int y, TraceCounters& counters) const;
 
 private:
+    struct Path;
+    Vec3 color_along(const Ray& ray, const Path& path) const;
+    Vec3 lights_seen(const Ray& ray, double t_max, const Path& path) const;
+    Vec3 color_from(const Hit& hit, Vec3 direction, const Path& path) const;
+    Vec3 color_of_glass(const Hit& hit, Vec3 direction, const Path& path) const;
+    Vec3 lit(const Bsdf& bsdf, const Hit& hit, const Path& path, double layer_share) const;
+    Vec3 reflected_without_noise(const Bsdf& bsdf, const Hit& hit, const Path& path) const;
+    Vec3 transmittance(const Hit& hit, const Incident& light, const Path& path) const;
+    const Material& material(const Hit& hit) const;
+    Vec3 texture_color(const Hit& hit) const;
+
     const Scene& scene_;
     const RayTracer& tracer_;
     RenderSettings settings_;
     PinholeCamera camera_;
+    std::vector<SurfaceLayer> layers_;  // of the materials
+    std::vector<LightSource> lights_;
+    SkyLight sky_;
+    bool glass_ = false;  // is there any
 };
 
 }  // namespace deburr

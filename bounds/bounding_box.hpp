@@ -1,0 +1,18 @@
+// Boxes around densities and solids, found from their outer bound CSG.
+//
+// Lobb tags convex intersections as boundable and takes their vertices [Lobb §3.5]. Here every
+// intersection of planes is bounded by linear programs along the axes (Seidel 1991), and the rest
+// follows by interval arithmetic on boxes. Sides may be infinite.
+#pragma once
+#include "bounds/csg_bounds.hpp"
+#include "bounds/solid_tree.hpp"
+
+namespace deburr {
+
+/// A box that holds the CSG object; empty if it is certainly empty.
+Box bounding_box(const BoundCsg& csg);
+/// A box that holds the set ρ > ½; operands must be in [0, 1] (bounds_hold), or it is everything.
+Box bounding_box(const DensityTree& tree);
+Box bounding_box(const SolidTree& tree);
+
+}  // namespace deburr

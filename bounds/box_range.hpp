@@ -1,0 +1,52 @@
+// What a density can be over a box, and the little of it that matters there.
+//
+// Interval arithmetic says for each half-space whether its density is 0, 1 or varying over the
+// box, and for the tree whether it is outside, inside or straddling. What is left is the local
+// density [Triage §4.2.1, §4.5.1]. Conjunctions and disjunctions take the Fréchet bounds, which
+// hold whatever their operands share.
+//
+// Not promised: that a range is the tightest.
+#pragma once
+#include "bounds/density_tree.hpp"
+
+namespace deburr {
+
+struct Range {
+    double lo = 0, hi = 0;
+};
+
+/// Least and greatest n·x − offset over the box; infinite sides are allowed.
+Range distance_range(const HalfSpace& h, const Box& box);
+
+/// ρ of one half-space over the box.
+Range density_range(const HalfSpace& h, const Box& box);
+
+/// ρ of the tree over the box.
+Range density_range(const DensityTree& tree, const Box& box);
+
+enum class Side { outside, inside, straddling };
+
+/// Where the box lies with respect to the set ρ > ½, as far as the range can tell.
+inline Side classify(Range rho) {
+    if (rho.hi <= 0.5) return Side::outside;
+    if (rho.lo > 0.5) return Side::inside;
+    return Side::straddling;
+}
+
+struct Pruned {
+    DensityTree tree;  // equals the original throughout the box
+    Range range;       // of ρ over the box
+};
+
+/// The local density of the box: half-spaces that are constant there are folded away.
+Pruned prune(const DensityTree& tree, const Box& box);
+
+struct LocalSize {
+    Range range;
+    int half_spaces = 0;  // that `prune` would leave
+};
+
+/// How much `prune` would leave, at less cost.
+LocalSize local_size(const DensityTree& tree, const Box& box);
+
+}  // namespace deburr

@@ -1,0 +1,161 @@
+#include "bounds/density_tree.hpp"
+
+#include "bounds/box_range.hpp"
+#include "bounds/local_density.hpp"
+
+namespace deburr {
+namespace {
+
+using Kind = DensityNode::Kind;
+
+struct Placement {
+    double radius;
+    Affine map;
+};
+
+// A subexpression that is still to be flattened, or an operator whose operands are done.
+struct Task {
+    const DensityNode* node = nullptr;  // null: combine
+    Placement place{};
+    bool boolean = false;
+    Op op = Op::constant;  // combine
+    int count = 0, line = 0;
+};
+
+Op arithmetic(Kind kind) {
+    switch (kind) {
+        case Kind::sum: return Op::sum;
+        case Kind::product: return Op::product;
+        case Kind::difference: return Op::difference;
+        case Kind::disjunction: return Op::disjunction;
+        case Kind::conjunction: return Op::conjunction;
+        case Kind::complement: return Op::complement;
+        default: return Op::half_space;
+    }
+}
+
+Op boolean_reading(Op op) {
+    if (op == Op::sum) return Op::disjunction;
+    if (op == Op::product) return Op::conjunction;
+    return op;
+}
+
+bool associative(Op op) { return op != Op::difference && op != Op::complement && op != Op::half_space; }
+
+// Every loop here keeps its own stack: scenes write chains as long as their loops.
+class Flattening {
+public:
+    DensityTree run(const DensityNode& root, Placement place) {
+        tasks_.push_back({&root, place, false});
+        while (!tasks_.empty()) {
+            const Task task = tasks_.back();
+            tasks_.pop_back();
+            if (task.node) open(task);
+            else combine(task);
+        }
+        return std::move(tree_);
+    }
+
+private:
+    static const DensityNode& through_placements(const DensityNode* node, Placement& place) {
+        while (node->kind == Kind::radius || node->kind == Kind::transform) {
+            if (node->kind == Kind::radius) place.radius = node->value;
+            else place.map = compose(place.map, node->map);
+            node = &node->children[0].node();
+        }
+        return *node;
+    }
+
+    void open(Task task) {
+        const DensityNode& node = through_placements(task.node, task.place);
+        if (node.kind == Kind::half_space) {
+            const HalfSpace unplaced{node.normal, node.value, task.place.radius};
+            done_.push_back(add({Op::half_space, int(tree_.half_spaces.size())}));
+            tree_.half_spaces.push_back(transformed(unplaced, task.place.map, false));
+            return;
+        }
+        Op op = arithmetic(node.kind);
+        const bool boolean = task.boolean || op == Op::disjunction || op == Op::conjunction ||
+                             op == Op::complement;
+        if (boolean) op = boolean_reading(op);
+        if (boolean && op == Op::difference) {  // a ∧ ¬b
+            tasks_.push_back({nullptr, {}, true, Op::conjunction, 2, node.line});
+            tasks_.push_back({nullptr, {}, true, Op::complement, 1, node.line});
+            tasks_.push_back({&node.children[1].node(), task.place, true});
+            tasks_.push_back({&node.children[0].node(), task.place, true});
+            return;
+        }
+        const std::vector<Task> operands = chain(node, task.place, boolean, op);
+        tasks_.push_back({nullptr, {}, boolean, op, int(operands.size()), node.line});
+        tasks_.insert(tasks_.end(), operands.rbegin(), operands.rend());
+    }
+
+    // The operands of a chain of one associative operator that the scene wrote in one place.
+    std::vector<Task> chain(const DensityNode& node, Placement place, bool boolean, Op op) const {
+        std::vector<Task> operands, open;
+        for (auto child = node.children.rbegin(); child != node.children.rend(); ++child)
+            open.push_back({&child->node(), place, boolean});
+        while (!open.empty()) {
+            Task task = open.back();
+            open.pop_back();
+            const DensityNode& inner = through_placements(task.node, task.place);
+            const Op its = boolean ? boolean_reading(arithmetic(inner.kind)) : arithmetic(inner.kind);
+            if (its == op && associative(op) && (boolean || inner.line == node.line)) {
+                for (auto c = inner.children.rbegin(); c != inner.children.rend(); ++c)
+                    open.push_back({&c->node(), task.place, boolean});
+            } else {
+                task.node = &inner;
+                operands.push_back(task);
+            }
+        }
+        return operands;
+    }
+
+    void combine(const Task& task) {
+        const std::size_t first = done_.size() - std::size_t(task.count);
+        if (task.op == Op::complement) {
+            done_.back() = add({Op::complement, done_.back()});
+            return;
+        }
+        while (done_.size() - first > 1) {  // pair neighbours until one is left
+            std::size_t to = first;
+            for (std::size_t from = first; from < done_.size(); from += 2)
+                done_[to++] = from + 1 < done_.size()
+                                  ? add({task.op, done_[from], done_[from + 1], 0, task.line})
+                                  : done_[from];
+            done_.resize(to);
+        }
+    }
+
+    int add(TreeNode node) {
+        tree_.nodes.push_back(node);
+        return int(tree_.nodes.size()) - 1;
+    }
+
+    DensityTree tree_;
+    std::vector<Task> tasks_;
+    std::vector<int> done_;
+};
+
+}  // namespace
+
+HalfSpace transformed(const HalfSpace& h, const Affine& map, bool carry_radius) {
+    const Vec3 normal = glm::transpose(glm::inverse(map.linear)) * h.normal;
+    const double length = glm::length(normal);
+    return {normal / length, (h.offset + glm::dot(normal, map.shift)) / length,
+            carry_radius ? h.radius / length : h.radius};
+}
+
+DensityTree flatten(const Density& density, double radius, const Affine& to_world) {
+    if (density.node().leaves > most_half_spaces)
+        throw std::length_error("a density has more than 4 million half-spaces");
+    DensityTree tree = Flattening().run(density.node(), {radius, Affine{}});
+    for (HalfSpace& h : tree.half_spaces) h = transformed(h, to_world, true);
+    return tree;
+}
+
+ValueGradient DensityTree::gradient_at(Vec3 x) const {
+    return LocalDensity(prune(*this, Box{x, x}).tree).gradient_at(x);
+}
+
+}  // namespace deburr

@@ -1,0 +1,79 @@
+// A rounded density tree [Lobb §2.2–2.3], flat and ready to be evaluated: half-spaces in world
+// space with a radius each, and an expression over them.
+//
+// A density field that is carried along by an affine map, x ↦ ρ(A⁻¹x), needs no map of its own: α
+// is affine in x, so it is the density of other half-spaces with other radii.
+//
+// `at` and `gradient_at` evaluate the definition itself; they are what everything faster is held
+// against. Not promised: ρ in [0, 1] (density.hpp), nor speed.
+#pragma once
+#include <stdexcept>
+#include <vector>
+
+#include "bounds/density.hpp"
+#include "bounds/profile.hpp"
+
+namespace deburr {
+
+struct HalfSpace {
+    Vec3 normal;    // unit, outward
+    double offset;  // n·x = offset on the plane
+    double radius;  // of the filter; 0: sharp
+
+    double distance(Vec3 x) const { return glm::dot(normal, x) - offset; }
+    /// Signed distance in radii; a sharp plane counts as inside, so α is −infinity or +infinity.
+    double alpha(Vec3 x) const { return alpha_at(distance(x)); }
+    double alpha_at(double distance) const {
+        if (radius > 0) return distance / radius;
+        return distance <= 0 ? -infinity : infinity;
+    }
+    double density(Vec3 x) const { return profile(alpha(x)); }
+};
+
+enum class Op : unsigned char {
+    constant,
+    half_space,
+    sum,         // Lobb's
+    product,     // Lobb's
+    difference,  // Lobb's
+    complement,  // 1 − a, whether arithmetic or Boolean
+    conjunction,
+    disjunction
+};
+
+struct TreeNode {
+    Op op = Op::constant;
+    int a = -1, b = -1;  // children; half_space: a is its index
+    double value = 0;    // constant
+    int line = 0;        // place in the scene, 0 unknown
+};
+
+struct ValueGradient {
+    double value = 0;
+    Vec3 gradient{0.0};
+};
+
+struct DensityTree {
+    std::vector<HalfSpace> half_spaces;
+    std::vector<TreeNode> nodes;  // children before parents, the root last; never empty
+
+    static DensityTree constant(double value) { return {{}, {{Op::constant, -1, -1, value, 0}}}; }
+
+    int root() const { return int(nodes.size()) - 1; }
+    double at(Vec3 x) const { return gradient_at(x).value; }
+    /// ρ and ∇ρ; sharp half-spaces have no slope.
+    ValueGradient gradient_at(Vec3 x) const;
+};
+
+/// A scene that asks for more half-spaces than this is refused.
+constexpr double most_half_spaces = 4e6;
+
+/// Rounds and places a density: radius r wherever the scene fixed none, then `to_world`. Below a
+/// Boolean operator + * - become ∨ ∧ ∧¬ (DESIGN §2). Chains of one associative operator come out
+/// balanced. Throws std::length_error past most_half_spaces.
+DensityTree flatten(const Density& density, double radius, const Affine& to_world = {});
+
+/// The half-space's image; the radius scales as distance along the normal does.
+HalfSpace transformed(const HalfSpace& h, const Affine& map, bool carry_radius);
+
+}  // namespace deburr

@@ -1,0 +1,309 @@
+// A decision node with thresholds τ₀ … τₘ₋₁ and children c₀ … cₘ has the value Σ pⱼ cⱼ, where
+// pⱼ = F(τⱼ) − F(τⱼ₋₁). Collected by the F that is
+//
+//     V = cₘ + Σⱼ Fⱼ (cⱼ − cⱼ₊₁),
+//
+// affine in every Fⱼ = profile((n·x − τⱼ)/r), from which slopes and bounds follow term by term:
+//
+//     V′ = cₘ′ + Σ Fⱼ′ (cⱼ − cⱼ₊₁) + Fⱼ (cⱼ′ − cⱼ₊₁′),   and the second parts of it are Σ pⱼ cⱼ′,
+//     L(V) = Σ L(Fⱼ) max(Mⱼ, Mⱼ₊₁) + maxⱼ Lⱼ
+//     G(V) = Σ G(Fⱼ) max(Mⱼ, Mⱼ₊₁) + 2 Σ L(Fⱼ)(Lⱼ + Lⱼ₊₁) + maxⱼ Gⱼ
+//
+// as children lie in [0, M]: slopes of children are averaged with weights pⱼ ≥ 0 of sum 1.
+#include "bounds/local_density.hpp"
+
+#include "bounds/decision_diagram.hpp"
+
+namespace deburr {
+namespace {
+
+// Which nodes are Boolean functions of half-spaces, and so may be part of a diagram.
+std::vector<char> boolean_nodes(const DensityTree& tree) {
+    std::vector<char> boolean;
+    for (const TreeNode& n : tree.nodes) {
+        switch (n.op) {
+            case Op::half_space:
+            case Op::conjunction:
+            case Op::disjunction: boolean.push_back(true); break;
+            case Op::constant: boolean.push_back(n.value == 0 || n.value == 1); break;
+            case Op::complement: boolean.push_back(boolean[std::size_t(n.a)]); break;
+            default: boolean.push_back(false);
+        }
+    }
+    return boolean;
+}
+
+// Roots of the Boolean parts: used by the papers' arithmetic, or by nobody.
+std::vector<char> roots_of_boolean_parts(const DensityTree& tree, const std::vector<char>& boolean) {
+    std::vector<char> root(tree.nodes.size(), false);
+    root.back() = boolean.back();
+    for (std::size_t i = 0; i < tree.nodes.size(); ++i) {
+        const TreeNode& n = tree.nodes[i];
+        if (boolean[i] || n.op == Op::constant || n.op == Op::half_space) continue;
+        for (const int child : {n.a, n.b})
+            if (child >= 0 && boolean[std::size_t(child)]) root[std::size_t(child)] = true;
+    }
+    return root;
+}
+
+}  // namespace
+
+LocalDensity::LocalDensity(const DensityTree& tree) {
+    const std::vector<char> boolean = boolean_nodes(tree);
+    const std::vector<char> is_root = roots_of_boolean_parts(tree, boolean);
+    std::vector<int> place(tree.nodes.size(), -1);
+    std::vector<char> positive(tree.nodes.size(), true);  // never below 0, as far as the ops can tell
+    for (std::size_t i = 0; i < tree.nodes.size(); ++i) {
+        const TreeNode& n = tree.nodes[i];
+        const auto at = [&](int child) { return child < 0 ? -1 : place[std::size_t(child)]; };
+        bool operands = true;
+        if (n.op != Op::half_space)
+            for (const int child : {n.a, n.b}) operands &= child < 0 || positive[std::size_t(child)];
+        if (n.op == Op::constant) positive[i] = n.value >= 0;
+        else if (n.op == Op::sum || n.op == Op::product) positive[i] = operands;
+        else positive[i] = boolean[i];
+        if (boolean[i]) {
+            if (is_root[i]) place[i] = add_boolean(tree, int(i));
+            continue;
+        }
+        switch (n.op) {
+            case Op::constant: place[i] = add({Step::constant, -1, -1, n.value}); break;
+            case Op::sum: place[i] = add({Step::sum, at(n.a), at(n.b)}); break;
+            case Op::product: place[i] = add({Step::product, at(n.a), at(n.b)}); break;
+            case Op::difference: place[i] = add({Step::difference, at(n.a), at(n.b), double(operands)}); break;
+            case Op::complement: place[i] = add({Step::complement, at(n.a), -1, double(operands)}); break;
+            default: break;
+        }
+    }
+    for (const HalfSpace& h : half_spaces_) has_sharp_ |= h.radius == 0;
+}
+
+int LocalDensity::add(Node node) {
+    nodes_.push_back(node);
+    return int(nodes_.size()) - 1;
+}
+
+int LocalDensity::add_boolean(const DensityTree& tree, int root) {
+    const TreeNode& top = tree.nodes[std::size_t(root)];
+    if (top.op == Op::half_space) {  // needs no diagram
+        half_spaces_.push_back(tree.half_spaces[std::size_t(top.a)]);
+        return add({Step::half_space, int(half_spaces_.size()) - 1});
+    }
+    const DecisionDiagram diagram = decide(tree, root);
+    // Of the diagram, what its root reaches.
+    std::vector<char> reached(diagram.nodes.size(), false);
+    reached[std::size_t(diagram.root)] = true;
+    for (int i = int(diagram.nodes.size()) - 1; i >= 2; --i)
+        if (reached[std::size_t(i)])
+            for (const int child : diagram.nodes[std::size_t(i)].children) reached[std::size_t(child)] = true;
+
+    std::vector<std::vector<int>> plane(diagram.families.size());  // of (family, threshold)
+    for (std::size_t f = 0; f < plane.size(); ++f) plane[f].assign(diagram.families[f].thresholds.size(), -1);
+    const auto plane_of = [&](int family, int threshold) {
+        int& index = plane[std::size_t(family)][std::size_t(threshold)];
+        if (index < 0) {
+            const PlaneFamily& f = diagram.families[std::size_t(family)];
+            half_spaces_.push_back({f.normal, f.thresholds[std::size_t(threshold)], f.radius});
+            index = int(half_spaces_.size()) - 1;
+        }
+        return index;
+    };
+
+    std::vector<int> place(diagram.nodes.size(), -1);
+    for (std::size_t i = 0; i < diagram.nodes.size(); ++i) {
+        if (!reached[i]) continue;
+        if (i < 2) {
+            place[i] = add({Step::constant, -1, -1, double(i)});
+            continue;
+        }
+        const Decision& d = diagram.nodes[i];
+        if (d.thresholds.size() == 1 && d.children[0] < 2 && d.children[1] < 2) {
+            const int h = add({Step::half_space, plane_of(d.family, d.thresholds[0])});
+            place[i] = d.children[0] == 1 ? h : add({Step::complement, h, -1, 1.0});
+            continue;
+        }
+        const Node node{Step::decide, int(kids_.size()), int(d.thresholds.size())};
+        for (const int t : d.thresholds) kids_.push_back(plane_of(d.family, t));
+        for (const int c : d.children) kids_.push_back(place[std::size_t(c)]);
+        place[i] = add(node);
+    }
+    return place[std::size_t(diagram.root)];
+}
+
+namespace {
+
+ValueGradient operator+(const ValueGradient& a, const ValueGradient& b) {
+    return {a.value + b.value, a.gradient + b.gradient};
+}
+ValueGradient operator-(const ValueGradient& a, const ValueGradient& b) {
+    return {a.value - b.value, a.gradient - b.gradient};
+}
+ValueGradient operator*(const ValueGradient& a, const ValueGradient& b) {
+    return {a.value * b.value, a.value * b.gradient + b.value * a.gradient};
+}
+
+ValueSlope operator+(ValueSlope a, ValueSlope b) { return {a.value + b.value, a.slope + b.slope}; }
+ValueSlope operator-(ValueSlope a, ValueSlope b) { return {a.value - b.value, a.slope - b.slope}; }
+ValueSlope operator*(ValueSlope a, ValueSlope b) {
+    return {a.value * b.value, a.value * b.slope + b.value * a.slope};
+}
+
+}  // namespace
+
+// One pass over the steps in any arithmetic: values with gradients, or with slopes.
+template <class T, class Node, class Leaf>
+static T run(const std::vector<Node>& nodes, const std::vector<int>& kids, std::vector<T>& done, Leaf leaf) {
+    using Step = decltype(Node::step);
+    done.resize(nodes.size());
+    for (std::size_t i = 0; i < nodes.size(); ++i) {
+        const Node& n = nodes[i];
+        const auto at = [&](int child) -> const T& { return done[std::size_t(child)]; };
+        switch (n.step) {
+            case Step::constant: done[i] = T{n.value}; break;
+            case Step::half_space: done[i] = leaf(std::size_t(n.a)); break;
+            case Step::sum: done[i] = at(n.a) + at(n.b); break;
+            case Step::product: done[i] = at(n.a) * at(n.b); break;
+            case Step::difference: done[i] = at(n.a) - at(n.b); break;
+            case Step::complement: done[i] = T{1.0} - at(n.a); break;
+            case Step::decide: {
+                const int* thresholds = &kids[std::size_t(n.a)];
+                const int* children = thresholds + n.b;
+                T sum = at(children[n.b]);
+                for (int j = 0; j < n.b; ++j)
+                    sum = sum + leaf(std::size_t(thresholds[j])) * (at(children[j]) - at(children[j + 1]));
+                done[i] = sum;
+                break;
+            }
+        }
+    }
+    return done.back();
+}
+
+ValueGradient LocalDensity::gradient_at(Vec3 x) const {
+    thread_local std::vector<ValueGradient> done;
+    return run(nodes_, kids_, done, [&](std::size_t i) -> ValueGradient {
+        const HalfSpace& h = half_spaces_[i];
+        const double alpha = h.alpha(x);
+        if (h.radius == 0) return {profile(alpha), Vec3(0.0)};
+        return {profile(alpha), h.normal * (profile_slope(alpha) / h.radius)};
+    });
+}
+
+Range LocalDensity::range(const Box& box) const {
+    thread_local std::vector<Range> done;
+    done.resize(nodes_.size());
+    const auto leaf = [&](int i) { return density_range(half_spaces_[std::size_t(i)], box); };
+    for (std::size_t i = 0; i < nodes_.size(); ++i) {
+        const Node& n = nodes_[i];
+        const auto at = [&](int child) { return done[std::size_t(child)]; };
+        switch (n.step) {
+            case Step::constant: done[i] = {n.value, n.value}; break;
+            case Step::half_space: done[i] = leaf(n.a); break;
+            case Step::sum: done[i] = {at(n.a).lo + at(n.b).lo, at(n.a).hi + at(n.b).hi}; break;
+            case Step::difference: done[i] = {at(n.a).lo - at(n.b).hi, at(n.a).hi - at(n.b).lo}; break;
+            case Step::complement: done[i] = {1 - at(n.a).hi, 1 - at(n.a).lo}; break;
+            case Step::product: {
+                const Range a = at(n.a), b = at(n.b);
+                const auto [lo, hi] = std::minmax({a.lo * b.lo, a.lo * b.hi, a.hi * b.lo, a.hi * b.hi});
+                done[i] = {lo, hi};
+                break;
+            }
+            case Step::decide: {
+                const int* thresholds = &kids_[std::size_t(n.a)];
+                const int* children = thresholds + n.b;
+                Range all = at(children[n.b]), least = all;  // the sum; the hull of the children
+                for (int j = 0; j < n.b; ++j) {
+                    const Range f = leaf(thresholds[j]), c = at(children[j]), next = at(children[j + 1]);
+                    const double lo = c.lo - next.lo, hi = c.hi - next.hi;
+                    all.lo += lo * (lo > 0 ? f.lo : f.hi);
+                    all.hi += hi * (hi > 0 ? f.hi : f.lo);
+                    least = {std::min(least.lo, c.lo), std::max(least.hi, c.hi)};
+                }
+                done[i] = {std::max(all.lo, least.lo), std::min(all.hi, least.hi)};
+                break;
+            }
+        }
+    }
+    return done.back();
+}
+
+// ---- along a ray ---------------------------------------------------------------------------------
+
+void RayDensity::set(const LocalDensity& density, Vec3 origin, Vec3 direction) {
+    density_ = &density;
+    origin_ = origin;
+    direction_ = direction;
+    lines_.clear();
+    for (const HalfSpace& h : density.half_spaces_) {
+        const double distance = h.distance(origin), rate = glm::dot(h.normal, direction);
+        if (h.radius > 0) lines_.push_back({distance, rate, distance / h.radius, rate / h.radius});
+        else lines_.push_back({distance, rate, distance <= 0 ? -2.0 : 2.0, 0});
+    }
+    leaf_.resize(lines_.size());
+    leaf_bounds_.resize(lines_.size());
+}
+
+void RayDensity::fix_sharp(double t) {
+    for (std::size_t i = 0; i < lines_.size(); ++i)
+        if (density_->half_spaces_[i].radius == 0)
+            lines_[i].a = lines_[i].distance + lines_[i].rate * t <= 0 ? -2.0 : 2.0;
+}
+
+ValueSlope RayDensity::at(double t) const {
+    for (std::size_t i = 0; i < lines_.size(); ++i) {
+        const double alpha = lines_[i].a + lines_[i].b * t;
+        leaf_[i] = {profile(alpha), profile_slope(alpha) * lines_[i].b};
+    }
+    return run(density_->nodes_, density_->kids_, done_, [&](std::size_t i) { return leaf_[i]; });
+}
+
+Vec3 RayDensity::gradient(double t) const {
+    thread_local std::vector<ValueGradient> done;
+    return run(density_->nodes_, density_->kids_, done, [&](std::size_t i) -> ValueGradient {
+               const double alpha = lines_[i].a + lines_[i].b * t;
+               const HalfSpace& h = density_->half_spaces_[i];
+               const double rate = h.radius > 0 ? profile_slope(alpha) / h.radius : 0.0;
+               return {profile(alpha), h.normal * rate};
+           }).gradient;
+}
+
+RayBounds RayDensity::bounds(double t0, double t1) const {
+    using Step = LocalDensity::Step;
+    for (std::size_t i = 0; i < lines_.size(); ++i)
+        leaf_bounds_[i] = half_space_bounds(alpha(i, t0), alpha(i, t1), std::abs(lines_[i].b));
+    const auto& nodes = density_->nodes_;
+    bounds_.resize(nodes.size());
+    for (std::size_t i = 0; i < nodes.size(); ++i) {
+        const auto& n = nodes[i];
+        const auto at = [&](int child) -> const RayBounds& { return bounds_[std::size_t(child)]; };
+        switch (n.step) {
+            case Step::constant: bounds_[i] = {std::abs(n.value), 0, 0}; break;
+            case Step::half_space: bounds_[i] = leaf_bounds_[std::size_t(n.a)]; break;
+            case Step::sum: bounds_[i] = sum_bounds(at(n.a), at(n.b)); break;
+            case Step::product: bounds_[i] = product_bounds(at(n.a), at(n.b)); break;
+            case Step::difference: bounds_[i] = difference_bounds(at(n.a), at(n.b), n.value != 0); break;
+            case Step::complement: bounds_[i] = complement_bounds(at(n.a), n.value != 0); break;
+            case Step::decide: {
+                const int* thresholds = &density_->kids_[std::size_t(n.a)];
+                const int* children = thresholds + n.b;
+                RayBounds sum = at(children[n.b]);
+                for (int j = 0; j < n.b; ++j) {
+                    const RayBounds& c = at(children[j]);
+                    sum = {std::max(sum.M, c.M), std::max(sum.L, c.L), std::max(sum.G, c.G)};
+                }
+                for (int j = 0; j < n.b; ++j) {
+                    const RayBounds& f = leaf_bounds_[std::size_t(thresholds[j])];
+                    const RayBounds &c = at(children[j]), &next = at(children[j + 1]);
+                    const double step = std::max(c.M, next.M);
+                    sum.L += f.L * step;
+                    sum.G += f.G * step + 2 * f.L * (c.L + next.L);
+                }
+                bounds_[i] = sum;
+                break;
+            }
+        }
+    }
+    return bounds_.back();
+}
+
+}  // namespace deburr

@@ -1,0 +1,87 @@
+// A density made ready for fast evaluation: the papers' arithmetic as it stands, Boolean parts as
+// decision diagrams. Meant for the little that is left of a tree in a cell (box_range.hpp), right
+// for any.
+//
+// Along a ray every α is linear in t, so a ray is a small table of them: RayDensity.
+#pragma once
+#include <vector>
+
+#include "bounds/density_tree.hpp"
+#include "bounds/box_range.hpp"
+#include "bounds/ray_bounds.hpp"
+
+namespace deburr {
+
+class LocalDensity {
+public:
+    explicit LocalDensity(const DensityTree& tree);
+
+    /// The half-spaces that matter, each with its normal as the expression needs it.
+    const std::vector<HalfSpace>& half_spaces() const { return half_spaces_; }
+    bool has_sharp() const { return has_sharp_; }
+
+
+    double at(Vec3 x) const { return gradient_at(x).value; }
+    ValueGradient gradient_at(Vec3 x) const;
+    /// ρ over a box; tighter than the tree's, as it sees what operands share.
+    Range range(const Box& box) const;
+
+private:
+    friend class RayDensity;
+
+    enum class Step : unsigned char { constant, half_space, sum, product, difference, complement, decide };
+    struct Node {
+        Step step = Step::constant;
+        int a = -1, b = -1;  // operands; half_space: a is its index;
+                             // decide: kids_[a …] are b thresholds (half-spaces), then b + 1 children
+        double value = 0;    // constant; difference, complement: 1 if no operand is ever negative
+    };
+
+    int add(Node node);
+    int add_boolean(const DensityTree& tree, int root);
+
+    std::vector<HalfSpace> half_spaces_;
+    std::vector<Node> nodes_;  // operands first, the root last
+    std::vector<int> kids_;
+    bool has_sharp_ = false;
+};
+
+struct ValueSlope {
+    double value = 0, slope = 0;
+};
+
+/// A local density along the ray o + t·d. Cheap to set up again and again: keeps its memory.
+class RayDensity {
+public:
+    /// Keeps a reference to `density`.
+    void set(const LocalDensity& density, Vec3 origin, Vec3 direction);
+
+    /// ρ and dρ/dt.
+    ValueSlope at(double t) const;
+    /// M, L and G of ρ over [t0, t1].
+    RayBounds bounds(double t0, double t1) const;
+    Vec3 gradient(double t) const;
+
+    /// Puts every sharp half-space on the side where it is at t; it stays there until the next call.
+    void fix_sharp(double t);
+
+    std::size_t size() const { return lines_.size(); }
+    double alpha(std::size_t i, double t) const { return lines_[i].a + lines_[i].b * t; }
+    const LocalDensity& density() const { return *density_; }
+    /// Distance of the origin from half-space i's plane, and its change with t.
+    double distance0(std::size_t i) const { return lines_[i].distance; }
+    double distance_rate(std::size_t i) const { return lines_[i].rate; }
+
+private:
+    struct Line {
+        double distance, rate;  // from the plane
+        double a, b;            // α = a + b·t; sharp: a = ±2, b = 0, by the side
+    };
+    const LocalDensity* density_ = nullptr;
+    Vec3 origin_{0.0}, direction_{0.0};
+    std::vector<Line> lines_;
+    mutable std::vector<ValueSlope> leaf_, done_;
+    mutable std::vector<RayBounds> leaf_bounds_, bounds_;
+};
+
+}  // namespace deburr

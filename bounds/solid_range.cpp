@@ -1,0 +1,106 @@
+#include "bounds/solid_range.hpp"
+
+namespace deburr {
+namespace {
+
+Side combine(SolidOp op, Side a, Side b) {
+    if (op == SolidOp::subtract) {
+        if (a == Side::outside || b == Side::inside) return Side::outside;
+        return a == Side::inside && b == Side::outside ? Side::inside : Side::straddling;
+    }
+    const Side absorbing = op == SolidOp::unite ? Side::inside : Side::outside;
+    if (a == absorbing || b == absorbing) return absorbing;
+    return a == Side::straddling || b == Side::straddling ? Side::straddling : a;
+}
+
+// Sides of all nodes; `of_leaf` says where a leaf's box lies.
+template <class OfLeaf>
+void classify_nodes(const SolidTree& tree, std::vector<Side>& sides, OfLeaf of_leaf) {
+    sides.clear();
+    for (const SolidTreeNode& n : tree.nodes) {
+        switch (n.op) {
+            case SolidOp::nothing: sides.push_back(Side::outside); break;
+            case SolidOp::everything: sides.push_back(Side::inside); break;
+            case SolidOp::leaf: sides.push_back(of_leaf(n.a)); break;
+            default:
+                sides.push_back(combine(n.op, sides[std::size_t(n.a)], sides[std::size_t(n.b)]));
+        }
+    }
+}
+
+// Nodes that the root needs once decided subtrees are folded away.
+void mark_needed(const SolidTree& tree, const std::vector<Side>& sides, std::vector<char>& needed) {
+    needed.assign(tree.nodes.size(), false);
+    needed.back() = true;
+    for (std::size_t i = tree.nodes.size(); i-- > 0;) {
+        if (!needed[i] || sides[i] != Side::straddling) continue;
+        const SolidTreeNode& n = tree.nodes[i];
+        if (n.op == SolidOp::leaf) continue;
+        needed[std::size_t(n.a)] = needed[std::size_t(n.b)] = true;
+    }
+}
+
+}  // namespace
+
+SolidTree prune(const SolidTree& tree, const Box& box) {
+    std::vector<Pruned> local(tree.leaves.size());
+    std::vector<Side> sides;
+    classify_nodes(tree, sides, [&](int leaf) {
+        Pruned& here = local[std::size_t(leaf)];
+        here = prune(tree.leaves[std::size_t(leaf)].density, box);
+        return classify(here.range);
+    });
+    std::vector<char> needed;
+    mark_needed(tree, sides, needed);
+
+    SolidTree to;
+    std::vector<int> place(tree.nodes.size(), -1);
+    const auto add = [&](SolidTreeNode node) {
+        to.nodes.push_back(node);
+        return int(to.nodes.size()) - 1;
+    };
+    for (std::size_t i = 0; i < tree.nodes.size(); ++i) {
+        if (!needed[i]) continue;
+        SolidTreeNode n = tree.nodes[i];
+        const auto side = [&](int child) { return sides[std::size_t(child)]; };
+        if (sides[i] == Side::outside) {
+            place[i] = add({SolidOp::nothing});
+        } else if (sides[i] == Side::inside) {
+            place[i] = add({SolidOp::everything});
+        } else if (n.op == SolidOp::leaf) {
+            const SolidLeaf& leaf = tree.leaves[std::size_t(n.a)];
+            to.leaves.push_back({std::move(local[std::size_t(n.a)].tree), leaf.material, leaf.line});
+            place[i] = add({SolidOp::leaf, int(to.leaves.size()) - 1});
+        } else if (side(n.b) != Side::straddling) {  // and does not decide it: a is left
+            place[i] = place[std::size_t(n.a)];
+        } else if (side(n.a) != Side::straddling && n.op != SolidOp::subtract) {
+            place[i] = place[std::size_t(n.b)];
+        } else {
+            place[i] = add({n.op, place[std::size_t(n.a)], place[std::size_t(n.b)]});
+        }
+    }
+    to.nodes.resize(std::size_t(place.back()) + 1);
+    return to;
+}
+
+LocalSolidSize local_size(const SolidTree& tree, const Box& box) {
+    thread_local std::vector<Side> sides;
+    thread_local std::vector<char> needed;
+    thread_local std::vector<int> sizes;
+    sizes.assign(tree.leaves.size(), 0);
+    classify_nodes(tree, sides, [&](int leaf) {
+        const LocalSize size = local_size(tree.leaves[std::size_t(leaf)].density, box);
+        sizes[std::size_t(leaf)] = size.half_spaces;
+        return classify(size.range);
+    });
+    mark_needed(tree, sides, needed);
+    LocalSolidSize result{sides.back(), 0, 0};
+    for (std::size_t i = 0; i < tree.nodes.size(); ++i)
+        if (needed[i] && tree.nodes[i].op == SolidOp::leaf && sides[i] == Side::straddling) {
+            ++result.leaves;
+            result.half_spaces += sizes[std::size_t(tree.nodes[i].a)];
+        }
+    return result;
+}
+
+}  // namespace deburr

@@ -1,0 +1,21 @@
+// Primary CSG over a box: which subtrees are inside, outside or straddling there, and the little
+// that matters [Lobb §3.5].
+#pragma once
+#include "bounds/box_range.hpp"
+#include "bounds/solid_tree.hpp"
+
+namespace deburr {
+
+/// The solid within the box: subtrees that the box lies inside or outside of are folded away, and
+/// the densities of the others are local ones. The root is `nothing` or `everything` where that is
+/// all there is.
+SolidTree prune(const SolidTree& tree, const Box& box);
+
+/// Where the box lies, and how many half-spaces `prune` would leave.
+struct LocalSolidSize {
+    Side side = Side::straddling;
+    int leaves = 0, half_spaces = 0;
+};
+LocalSolidSize local_size(const SolidTree& tree, const Box& box);
+
+}  // namespace deburr

@@ -1,0 +1,119 @@
+#include "bounds/solid_tree.hpp"
+
+namespace deburr {
+namespace {
+
+using Kind = SolidNode::Kind;
+
+struct Task {
+    const SolidNode* node = nullptr;  // null: combine
+    Affine map{};
+    int material = 0;
+    SolidOp op = SolidOp::nothing;
+    int count = 0;
+};
+
+bool is_operator(Kind kind) {
+    return kind == Kind::unite || kind == Kind::intersect || kind == Kind::subtract;
+}
+
+// As in density_tree.cpp, with stacks of its own.
+class Flattening {
+public:
+    SolidTree run(const SolidNode& root) {
+        tasks_.push_back({&root});
+        while (!tasks_.empty()) {
+            const Task task = tasks_.back();
+            tasks_.pop_back();
+            if (task.node) open(task);
+            else combine(task);
+        }
+        return std::move(tree_);
+    }
+
+private:
+    static const SolidNode& through_placements(Task& task) {
+        const SolidNode* node = task.node;
+        while (node->kind == Kind::material || node->kind == Kind::transform) {
+            if (node->kind == Kind::material) task.material = node->material;  // the innermost wins
+            else task.map = compose(task.map, node->map);
+            node = &node->children[0].node();
+        }
+        return *node;
+    }
+
+    void open(Task task) {
+        const SolidNode& node = through_placements(task);
+        if (node.kind == Kind::rounded) {
+            tree_.leaves.push_back(
+                {flatten(node.density[0], node.radius, task.map), task.material, node.line});
+            done_.push_back(add({SolidOp::leaf, int(tree_.leaves.size()) - 1}));
+            return;
+        }
+        const SolidOp op = node.kind == Kind::unite       ? SolidOp::unite
+                           : node.kind == Kind::intersect ? SolidOp::intersect
+                                                          : SolidOp::subtract;
+        std::vector<Task> operands, open;
+        const auto expand = [&](const SolidNode& parent, const Task& at) {
+            for (auto child = parent.children.rbegin(); child != parent.children.rend(); ++child)
+                open.push_back({&child->node(), at.map, at.material});
+        };
+        expand(node, task);
+        while (!open.empty()) {
+            Task inner = open.back();
+            open.pop_back();
+            const SolidNode& it = through_placements(inner);
+            inner.node = &it;
+            if (is_operator(it.kind) && it.kind == node.kind && op != SolidOp::subtract) expand(it, inner);
+            else operands.push_back(inner);
+        }
+        tasks_.push_back({nullptr, {}, 0, op, int(operands.size())});
+        tasks_.insert(tasks_.end(), operands.rbegin(), operands.rend());
+    }
+
+    void combine(const Task& task) {
+        const std::size_t first = done_.size() - std::size_t(task.count);
+        while (done_.size() - first > 1) {
+            std::size_t to = first;
+            for (std::size_t from = first; from < done_.size(); from += 2)
+                done_[to++] = from + 1 < done_.size() ? add({task.op, done_[from], done_[from + 1]})
+                                                      : done_[from];
+            done_.resize(to);
+        }
+    }
+
+    int add(SolidTreeNode node) {
+        tree_.nodes.push_back(node);
+        return int(tree_.nodes.size()) - 1;
+    }
+
+    SolidTree tree_;
+    std::vector<Task> tasks_;
+    std::vector<int> done_;
+};
+
+}  // namespace
+
+bool SolidTree::contains(Vec3 x) const {
+    std::vector<char> in;
+    for (const SolidTreeNode& n : nodes) {
+        const auto at = [&](int child) -> bool { return in[std::size_t(child)]; };
+        switch (n.op) {
+            case SolidOp::nothing: in.push_back(false); break;
+            case SolidOp::everything: in.push_back(true); break;
+            case SolidOp::leaf: in.push_back(leaves[std::size_t(n.a)].density.at(x) > 0.5); break;
+            case SolidOp::unite: in.push_back(at(n.a) || at(n.b)); break;
+            case SolidOp::intersect: in.push_back(at(n.a) && at(n.b)); break;
+            case SolidOp::subtract: in.push_back(at(n.a) && !at(n.b)); break;
+        }
+    }
+    return in.back();
+}
+
+SolidTree flatten(const Solid& solid) {
+    if (solid.node().leaves > most_half_spaces)
+        throw std::length_error("a solid has more than 4 million half-spaces");
+    return Flattening().run(solid.node());
+}
+
+}  // namespace deburr

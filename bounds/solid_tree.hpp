@@ -1,0 +1,35 @@
+// The primary CSG tree [Lobb §2.2, figure 3], flat: rounded densities in world space as leaves.
+#pragma once
+#include <vector>
+
+#include "bounds/density_tree.hpp"
+#include "bounds/solid.hpp"
+
+namespace deburr {
+
+struct SolidLeaf {
+    DensityTree density;  // the leaf is the set ρ > ½
+    int material = 0;
+    int line = 0;
+};
+
+enum class SolidOp : unsigned char { nothing, everything, leaf, unite, intersect, subtract };
+
+struct SolidTreeNode {
+    SolidOp op = SolidOp::nothing;
+    int a = -1, b = -1;  // children; leaf: a is its index
+};
+
+struct SolidTree {
+    std::vector<SolidLeaf> leaves;
+    std::vector<SolidTreeNode> nodes;  // children before parents, the root last; never empty
+
+    int root() const { return int(nodes.size()) - 1; }
+    /// The definition: [Lobb figure 4, PointInObject].
+    bool contains(Vec3 x) const;
+};
+
+/// Throws std::length_error past most_half_spaces.
+SolidTree flatten(const Solid& solid);
+
+}  // namespace deburr

@@ -1,0 +1,223 @@
+#include "raytracer/bsdf.hpp"
+
+#include <numbers>
+
+namespace deburr {
+namespace {
+
+using std::numbers::pi;
+
+// Cosines at a shading point are kept from 0, where G and E are 0/0.
+constexpr double least_cosine = 1e-5;
+
+struct Frame {
+    Vec3 x, y, z;
+    explicit Frame(Vec3 normal) : z(normal) {
+        const Vec3 other = std::abs(z.x) < 0.5 ? Vec3(1, 0, 0) : Vec3(0, 1, 0);
+        x = glm::normalize(glm::cross(z, other));
+        y = glm::cross(z, x);
+    }
+    Vec3 to_world(Vec3 v) const { return v.x * x + v.y * y + v.z * z; }
+    Vec3 to_local(Vec3 v) const { return {glm::dot(v, x), glm::dot(v, y), glm::dot(v, z)}; }
+};
+
+double power5(double x) { return x * x * x * x * x; }
+
+}  // namespace
+
+double fresnel_dielectric(double cosine, double ior) {
+    const double c = glm::clamp(std::abs(cosine), 0.0, 1.0);
+    const double g2 = ior * ior - 1 + c * c;  // (ior · cosine beyond)²
+    if (g2 <= 0) return 1.0;
+    const double g = std::sqrt(g2);
+    const double s = (c - g) / (c + g);
+    const double p = (ior * ior * c - g) / (ior * ior * c + g);
+    return 0.5 * (s * s + p * p);
+}
+
+Vec3 fresnel_schlick(Vec3 f0, double cosine) {
+    return f0 + (1.0 - f0) * power5(1 - glm::clamp(cosine, 0.0, 1.0));
+}
+
+Vec3 reflected(Vec3 to_eye, Vec3 normal) { return 2 * glm::dot(to_eye, normal) * normal - to_eye; }
+
+bool refracted(Vec3 to_eye, Vec3 normal, double ior, Vec3& direction) {
+    const double c = glm::dot(to_eye, normal);
+    const double g2 = ior * ior - 1 + c * c;
+    if (g2 <= 0) return false;
+    direction = glm::normalize(((c - std::sqrt(g2)) * normal - to_eye) / ior);
+    return true;
+}
+
+Vec3 cosine_direction(Vec3 normal, Vec2 u) {
+    const double r = std::sqrt(u.x), phi = 2 * pi * u.y;
+    const double z = std::sqrt(std::max(0.0, 1 - u.x));
+    return Frame(normal).to_world({r * std::cos(phi), r * std::sin(phi), z});
+}
+
+double Ggx::distribution(double cos_half) const {
+    const double d = cos_half * cos_half * (alpha * alpha - 1) + 1;
+    return alpha * alpha / (pi * d * d);
+}
+
+double Ggx::visibility(double cos_in, double cos_out) const {
+    const double a2 = alpha * alpha;
+    return 0.5 / (cos_out * std::sqrt(a2 + (1 - a2) * cos_in * cos_in) +
+                  cos_in * std::sqrt(a2 + (1 - a2) * cos_out * cos_out));
+}
+
+double Ggx::shadowing(double cos_in, double cos_out) const {
+    const double a2 = alpha * alpha;
+    const double root_in = std::sqrt(a2 + (1 - a2) * cos_in * cos_in);
+    const double root_out = std::sqrt(a2 + (1 - a2) * cos_out * cos_out);
+    return cos_in * (cos_out + root_out) / (cos_out * root_in + cos_in * root_out);
+}
+
+double Ggx::density(double cos_out, double cos_half) const {
+    const double a2 = alpha * alpha;
+    return distribution(cos_half) / (2 * (cos_out + std::sqrt(a2 + (1 - a2) * cos_out * cos_out)));
+}
+
+// The visible normals of a hemisphere are halfway between `to_eye` and a spherical cap that is
+// uniform; those of GGX are a stretched hemisphere's.
+Vec3 Ggx::facet(Vec3 to_eye, Vec3 normal, Vec2 u) const {
+    const Frame frame(normal);
+    const Vec3 local = frame.to_local(to_eye);
+    const Vec3 eye = glm::normalize(Vec3(alpha * local.x, alpha * local.y, local.z));
+    const double phi = 2 * pi * u.y, z = (1 - u.x) * (1 + eye.z) - eye.z;
+    const double r = std::sqrt(glm::clamp(1 - z * z, 0.0, 1.0));
+    const Vec3 half = Vec3(r * std::cos(phi), r * std::sin(phi), z) + eye;
+    const Vec3 facet(alpha * half.x, alpha * half.y, std::max(0.0, half.z));
+    const double length = glm::length(facet);
+    return length > 0 ? frame.to_world(facet / length) : normal;
+}
+
+SurfaceLayer::SurfaceLayer(const Material& material)
+    : kind_(material.kind), ggx_{material.roughness * material.roughness}, ior_(material.ior) {
+    smooth_ = kind_ == Material::Kind::mirror || !(ggx_.alpha >= smooth_alpha);
+    if (kind_ == Material::Kind::glass) return;
+    for (int i = 0; i <= steps; ++i)
+        albedo_[std::size_t(i)] = integrate(double(i) * i / (double(steps) * steps));
+    // With cosine = t² and E linear in t between nodes, 2 E cosine d cosine = 4 E t³ dt, which
+    // Gauss' rule of three points integrates exactly.
+    constexpr double weights[3] = {5.0 / 18, 8.0 / 18, 5.0 / 18};
+    const double nodes[3] = {0.5 - std::sqrt(0.15), 0.5, 0.5 + std::sqrt(0.15)};
+    for (int i = 0; i < steps; ++i)
+        for (int k = 0; k < 3; ++k) {
+            const double t = (i + nodes[k]) / steps;
+            mean_ += weights[k] / steps * 4 * t * t * t * albedo(t * t);
+        }
+}
+
+// The mean weight of reflections about visible facets, over a lattice of golden steps. Over five
+// roughnesses, two indices and five angles a white furnace was off by at most 10⁻³.
+double SurfaceLayer::integrate(double cosine) const {
+    if (kind_ == Material::Kind::matte) return 0.0;
+    const double c = std::max(cosine, least_cosine);
+    if (smooth_) return fresnel(Vec3(1.0), c).x;
+    constexpr int points = 1024;
+    const Vec3 normal(0, 0, 1), to_eye(std::sqrt(std::max(0.0, 1 - c * c)), 0, c);
+    double sum = 0;
+    for (int i = 0; i < points; ++i) {
+        const Vec2 u((i + 0.5) / points, glm::fract((i + 0.5) / std::numbers::phi));
+        const Vec3 facet = ggx_.facet(to_eye, normal, u);
+        const double out = reflected(to_eye, facet).z;
+        if (out > 0) sum += fresnel(Vec3(1.0), glm::dot(to_eye, facet)).x * ggx_.shadowing(out, c);
+    }
+    return sum / points;
+}
+
+double SurfaceLayer::albedo(double cosine) const {
+    const double at = std::sqrt(glm::clamp(cosine, 0.0, 1.0)) * steps;
+    const auto i = std::min(std::size_t(at), std::size_t(steps - 1));
+    return glm::mix(albedo_[i], albedo_[i + 1], at - double(i));
+}
+
+Vec3 SurfaceLayer::fresnel(Vec3 color, double cosine) const {
+    switch (kind_) {
+        case Material::Kind::mirror:
+            return color;
+        case Material::Kind::metal:
+            return fresnel_schlick(color, cosine);
+        case Material::Kind::matte:
+            return Vec3(0.0);
+        default:
+            return Vec3(fresnel_dielectric(cosine, ior_));
+    }
+}
+
+Bsdf::Bsdf(const SurfaceLayer& layer, Vec3 color, Vec3 normal, Vec3 to_eye)
+    : layer_(layer),
+      color_(color),
+      base_(color),
+      normal_(normal),
+      to_eye_(to_eye),
+      cos_eye_(std::max(glm::dot(normal, to_eye), least_cosine)),
+      albedo_eye_(layer.kind() == Material::Kind::matte ? 0.0 : layer.albedo(cos_eye_)) {
+    if (layer.kind() == Material::Kind::mirror) base_ = Vec3(0.0);
+    if (layer.kind() == Material::Kind::metal && layer.smooth()) base_ = Vec3(0.0);
+    if (layer.kind() == Material::Kind::metal && !layer.smooth()) {
+        // Light that leaves after one, two … more reflections, each of mean Fresnel reflectance.
+        const Vec3 f = color + (1.0 - color) / 21.0;
+        const double e = layer.mean_albedo();
+        base_ = f * f * e / (1.0 - f * (1 - e));
+    }
+}
+
+Vec3 Bsdf::base_albedo() const { return base_ * (1 - albedo_eye_); }
+
+Vec3 Bsdf::layer_albedo() const {
+    if (layer_.kind() == Material::Kind::plastic) return Vec3(albedo_eye_);
+    return layer_.fresnel(color_, cos_eye_) * albedo_eye_;
+}
+
+Bsdf::Value Bsdf::value(Vec3 to_light) const {
+    const double cos_light = glm::dot(normal_, to_light);
+    if (!(cos_light > 0)) return {};
+    if (layer_.kind() == Material::Kind::matte) return {base_ * (cos_light / pi), Vec3(0.0)};
+    Value v;
+    const double mean = layer_.mean_albedo();
+    if (mean < 1)
+        v.base = base_ *
+                 (cos_light / pi * (1 - albedo_eye_) * (1 - layer_.albedo(cos_light)) / (1 - mean));
+    if (layer_.smooth()) return v;
+    const Vec3 half = glm::normalize(to_eye_ + to_light);
+    const Ggx& ggx = layer_.ggx();
+    v.layer = layer_.fresnel(color_, glm::dot(half, to_light)) *
+              (ggx.distribution(glm::dot(half, normal_)) * ggx.visibility(cos_light, cos_eye_) *
+               cos_light);
+    return v;
+}
+
+double Bsdf::layer_density(Vec3 to_light) const {
+    if (layer_.smooth()) return infinity;
+    const Vec3 half = glm::normalize(to_eye_ + to_light);
+    return layer_.ggx().density(cos_eye_, glm::dot(half, normal_));
+}
+
+bool Bsdf::sample_layer(Vec2 u, Vec3& to_light, Vec3& weight) const {
+    if (layer_.kind() == Material::Kind::matte) return false;
+    if (layer_.smooth()) {
+        to_light = reflected(to_eye_, normal_);
+        weight = layer_.fresnel(color_, cos_eye_);
+        return true;
+    }
+    const Vec3 facet = layer_.ggx().facet(to_eye_, normal_, u);
+    to_light = glm::normalize(reflected(to_eye_, facet));
+    const double cos_light = glm::dot(to_light, normal_);
+    if (!(cos_light > 0)) return false;
+    weight = layer_.fresnel(color_, glm::dot(facet, to_light)) *
+             layer_.ggx().shadowing(cos_light, cos_eye_);
+    return true;
+}
+
+Vec3 Bsdf::sample_base(Vec2 u, Vec3& to_light) const {
+    to_light = cosine_direction(normal_, u);
+    const double mean = layer_.mean_albedo();
+    if (layer_.kind() == Material::Kind::matte) return base_;
+    if (!(mean < 1)) return Vec3(0.0);
+    const double cos_light = glm::dot(normal_, to_light);
+    return base_ * ((1 - albedo_eye_) * (1 - layer_.albedo(cos_light)) / (1 - mean));
+}
+
+}  // namespace deburr

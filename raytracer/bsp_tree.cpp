@@ -1,0 +1,252 @@
+#include "raytracer/bsp_tree.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+
+#include "bounds/bounding_box.hpp"
+
+namespace deburr {
+namespace {
+
+// Measured on rays through single cells, in units of one visit of an inner node: a plane, a local
+// density, each of its half-spaces, and each leaf that CSG has to combine.
+constexpr double cost_flat = 2.0, cost_soft = 8.0, cost_half_space = 2.0, cost_csg_leaf = 4.0;
+constexpr double cost_node = 1.0;
+// Cells with no more half-spaces than this are split by what would be left of the solids on either
+// side; larger ones by the solids' boxes and by a few such looks.
+constexpr int few_half_spaces = 48;
+
+// One solid as far as it reaches into a cell.
+struct Item {
+    int solid = 0;
+    std::shared_ptr<const SolidTree> tree;  // pruned to the cell or to one around it
+    Box box;                                // of the solid
+    LocalSolidSize size;                    // in the cell
+};
+
+double cost(const LocalSolidSize& size) {
+    if (size.side != Side::straddling) return 0;
+    if (size.half_spaces <= 1) return cost_flat;
+    const double csg = size.leaves > 1 ? cost_csg_leaf * size.leaves : 0;
+    if (size.half_spaces == size.leaves) return cost_flat * size.leaves + csg;
+    return cost_soft * size.leaves + cost_half_space * size.half_spaces + csg;
+}
+
+struct Split {
+    double cost = infinity, position = 0;
+    int axis = -1;
+};
+
+class Builder {
+public:
+    BspTree run(const std::vector<Solid>& solids) {
+        std::vector<Item> items;
+        Box bounds;
+        double reach = 0;
+        for (std::size_t i = 0; i < solids.size(); ++i) {
+            auto tree = std::make_shared<const SolidTree>(flatten(solids[i]));
+            for (const SolidLeaf& leaf : tree->leaves) {
+                bsp_.half_spaces += leaf.density.half_spaces.size();
+                for (const HalfSpace& h : leaf.density.half_spaces) reach = std::max(reach, std::abs(h.offset));
+            }
+            const Box box = bounding_box(*tree);
+            if (box.empty()) continue;
+            if (box.finite()) bounds = hull(bounds, box);
+            items.push_back({int(i), tree, box, {}});
+        }
+        if (bounds.empty()) bounds = {Vec3(-reach - 1), Vec3(reach + 1)};
+        double scale = 0;
+        for (int k = 0; k < 3; ++k)
+            scale = std::max({scale, std::abs(bounds.lo[k]), std::abs(bounds.hi[k])});
+        bsp_.tolerances.scale = scale > 0 ? scale : 1;
+        margin_ = bsp_.tolerances.margin();
+        size_ = bounds.hi - bounds.lo;
+        world_ = inflated(bounds, 0.05 * std::max({size_.x, size_.y, size_.z}) + margin_);
+        smallest_ = 1e-5 * std::max({size_.x, size_.y, size_.z});
+        deepest_ = 16 + int(2.5 * std::log2(1.0 + double(bsp_.half_spaces)));
+        for (Item& item : items) item.size = local_size(*item.tree, Box::everything());
+        bsp_.nodes.emplace_back();
+        split(0, Box::everything(), std::move(items), 0);
+        return std::move(bsp_);
+    }
+
+private:
+    // Area of the part of a cell that the scene can be seen through.
+    double area(const Box& cell) const {
+        const Box b = intersection(cell, world_);
+        const Vec3 d = glm::max(b.hi - b.lo, Vec3(0.0));
+        return d.x * d.y + d.y * d.z + d.z * d.x;
+    }
+
+    Box side(const Box& cell, int axis, double position, bool upper) const {
+        Box b = cell;
+        (upper ? b.lo : b.hi)[axis] = position;
+        return b;
+    }
+
+    bool misses(const Item& item, const Box& cell) const {
+        return intersection(item.box, inflated(cell, margin_)).empty();
+    }
+
+    LocalSolidSize size_in(const Item& item, const Box& cell) const {
+        if (misses(item, cell)) return {Side::outside, 0, 0};
+        return local_size(*item.tree, inflated(cell, margin_));
+    }
+
+    void split(int node, const Box& cell, std::vector<Item> items, int depth) {
+        bsp_.depth = std::max(bsp_.depth, depth);
+        double here = 0;
+        int half_spaces = 0;
+        for (const Item& item : items) {
+            here += cost(item.size);
+            half_spaces += item.size.half_spaces;
+        }
+        Split best;
+        if (depth < deepest_ && here > cost_node + cost_flat) {
+            best = half_spaces <= few_half_spaces || items.size() == 1 ? best_local(cell, items)
+                                                                      : best_of_boxes(cell, items);
+        }
+        if (best.axis < 0 || best.cost >= here) {
+            make_cell(node, cell, items);
+            return;
+        }
+        const int child = int(bsp_.nodes.size());
+        bsp_.nodes[std::size_t(node)] = {best.position, best.axis, child};
+        bsp_.nodes.resize(bsp_.nodes.size() + 2);
+        for (const bool upper : {false, true}) {
+            const Box part = side(cell, best.axis, best.position, upper);
+            std::vector<Item> inside;
+            for (const Item& item : items) {
+                if (misses(item, part)) continue;
+                Item to = item;
+                // A solid that the part holds whole looks the same in it.
+                const bool whole = part.contains(item.box.lo) && part.contains(item.box.hi);
+                if (!whole || item.size.half_spaces > few_half_spaces) {
+                    const Box known = inflated(part, margin_);
+                    to.size = local_size(*item.tree, known);
+                    if (to.size.side != Side::straddling) continue;
+                    if (to.size.half_spaces < item.size.half_spaces)
+                        to.tree = std::make_shared<const SolidTree>(prune(*item.tree, known));
+                }
+                inside.push_back(std::move(to));
+            }
+            if (upper) items.clear();
+            split(child + upper, part, std::move(inside), depth + 1);
+        }
+    }
+
+    void consider(Split& best, const Box& cell, int axis, double position, double low, double high) const {
+        const double whole = area(cell);
+        if (!(whole > 0)) return;
+        const double pl = area(side(cell, axis, position, false)) / whole;
+        const double pu = area(side(cell, axis, position, true)) / whole;
+        const double total = cost_node + pl * low + pu * high;
+        if (total < best.cost) best = {total, position, axis};
+    }
+
+    // Candidates on one axis: where boxes end, where half-spaces begin and cease to vary, and even
+    // steps between.
+    std::vector<double> candidates(const Box& cell, const std::vector<Item>& items, int axis) const {
+        std::vector<double> at;
+        Box part;
+        int half_spaces = 0;
+        for (const Item& item : items) {
+            part = hull(part, intersection(item.box, cell));
+            half_spaces += item.size.half_spaces;
+            at.push_back(item.box.lo[axis] - 2 * margin_);
+            at.push_back(item.box.hi[axis] + 2 * margin_);
+            if (item.size.half_spaces > few_half_spaces) continue;
+            for (const SolidLeaf& leaf : item.tree->leaves)
+                for (const HalfSpace& h : leaf.density.half_spaces) {
+                    if (std::abs(h.normal[axis]) < 1 - 1e-9) continue;
+                    const double position = h.offset / h.normal[axis];
+                    at.push_back(position - h.radius - 2 * margin_);
+                    at.push_back(position + h.radius + 2 * margin_);
+                }
+        }
+        part = intersection(part, world_);
+        const int steps = half_spaces > few_half_spaces ? 8 : 3;
+        for (int k = 1; k <= steps; ++k)
+            at.push_back(part.lo[axis] + (part.hi[axis] - part.lo[axis]) * k / (steps + 1));
+        const double lo = std::max(cell.lo[axis], world_.lo[axis]) + smallest_;
+        const double hi = std::min(cell.hi[axis], world_.hi[axis]) - smallest_;
+        std::erase_if(at, [&](double x) { return !(x > lo && x < hi); });
+        std::sort(at.begin(), at.end());
+        at.erase(std::unique(at.begin(), at.end(), [&](double a, double b) { return b - a < smallest_; }),
+                 at.end());
+        return at;
+    }
+
+    Split best_local(const Box& cell, const std::vector<Item>& items) const {
+        Split best;
+        for (int axis = 0; axis < 3; ++axis) {
+            for (const double position : candidates(cell, items, axis)) {
+                double sum[2] = {0, 0};
+                for (const bool upper : {false, true}) {
+                    const Box part = side(cell, axis, position, upper);
+                    for (const Item& item : items) sum[upper] += cost(size_in(item, part));
+                }
+                consider(best, cell, axis, position, sum[0], sum[1]);
+            }
+        }
+        return best;
+    }
+
+    // By the ends of the solids' boxes alone: one sweep an axis.
+    Split best_of_boxes(const Box& cell, const std::vector<Item>& items) const {
+        Split best;
+        const double lowest = smallest_;
+        for (int axis = 0; axis < 3; ++axis) {
+            std::vector<std::pair<double, double>> begin, end;  // position, cost
+            double above = 0;
+            for (const Item& item : items) {
+                const double c = cost(item.size);
+                begin.push_back({item.box.lo[axis] - 2 * margin_, c});
+                end.push_back({item.box.hi[axis] + 2 * margin_, c});
+                above += c;
+            }
+            std::sort(begin.begin(), begin.end());
+            std::sort(end.begin(), end.end());
+            const double lo = std::max(cell.lo[axis], world_.lo[axis]) + lowest;
+            const double hi = std::min(cell.hi[axis], world_.hi[axis]) - lowest;
+            double below = 0;
+            std::size_t b = 0, e = 0;
+            while (b < begin.size() || e < end.size()) {
+                const bool ends = e < end.size() && (b >= begin.size() || end[e].first <= begin[b].first);
+                const double position = ends ? end[e].first : begin[b].first;
+                // What ends here is no longer above; what begins here is not yet below.
+                while (e < end.size() && end[e].first <= position) above -= end[e++].second;
+                if (position > lo && position < hi) consider(best, cell, axis, position, below, above);
+                while (b < begin.size() && begin[b].first <= position) below += begin[b++].second;
+            }
+        }
+        return best;
+    }
+
+    void make_cell(int node, const Box& cell, const std::vector<Item>& items) {
+        const Box known = inflated(cell, margin_);
+        BspCell to{std::uint32_t(bsp_.locals.size()), 0};
+        for (const Item& item : items) {
+            const SolidTree local = prune(*item.tree, known);
+            LocalSolid solid(item.solid, local, known, bsp_.tolerances);
+            if (!solid.has_surface()) continue;
+            bsp_.locals.push_back(std::move(solid));
+            ++to.count;
+        }
+        bsp_.nodes[std::size_t(node)] = {0, 3, int(bsp_.cells.size())};
+        bsp_.cells.push_back(to);
+    }
+
+    BspTree bsp_;
+    Box world_;
+    Vec3 size_{0.0};
+    double margin_ = 0, smallest_ = 0;
+    int deepest_ = 0;
+};
+
+}  // namespace
+
+BspTree build_bsp(const std::vector<Solid>& solids) { return Builder().run(solids); }
+
+}  // namespace deburr

@@ -1,0 +1,209 @@
+// deburr render SCENE -o FILE …: a picture, exact from the implicit surfaces.
+#include <OpenImageIO/imageio.h>
+#include <fmt/format.h>
+#include <tbb/global_control.h>
+#include <tbb/info.h>
+#include <unistd.h>
+
+#include <charconv>
+#include <cstdlib>
+#include <ctime>
+#include <memory>
+
+#include "raytracer/bsp.hpp"
+#include "raytracer/commands.hpp"
+#include "raytracer/errors.hpp"
+#include "raytracer/image_file.hpp"
+#include "raytracer/integrator.hpp"
+#include "raytracer/interrupt.hpp"
+#include "raytracer/options.hpp"
+#include "raytracer/progress.hpp"
+#include "raytracer/render.hpp"
+#include "raytracer/statistics.hpp"
+#include "raytracer/whole_file.hpp"
+
+namespace deburr {
+namespace {
+
+struct RenderOptions : Options {
+    std::string via = "implicit";
+};
+
+// Work to write a pixel into a file, where tracing one sample of it is 1: a guess, for the bar.
+constexpr double writing_work = 0.1;
+
+// https://reproducible-builds.org/specs/source-date-epoch/
+std::optional<std::time_t> source_date_epoch() {
+    const char* text = std::getenv("SOURCE_DATE_EPOCH");
+    if (!text || !*text) return std::nullopt;
+    constexpr std::int64_t last = 253402300799;  // the end of the year 9999
+    return std::time_t(parse_whole("SOURCE_DATE_EPOCH", text, 0, last));
+}
+
+std::string date_text(std::time_t time) {
+    std::tm utc{};
+    gmtime_r(&time, &utc);
+    char text[sizeof "YYYY:MM:DD hh:mm:ss"];
+    std::strftime(text, sizeof text, "%Y:%m:%d %H:%M:%S", &utc);
+    return text;
+}
+
+void check_options(const RenderOptions& o) {
+    if (o.via != "implicit")
+        throw UsageError(fmt::format("--via: expected implicit, got '{}'", o.via));
+    if (o.scene.empty()) throw UsageError("render: expected a scene file");
+    if (o.outputs.empty()) throw UsageError("render: expected an output file, -o FILE");
+    check_image_names("-o", o.outputs);
+    bool exr = false;
+    for (const std::string& path : o.outputs) exr |= image_kind(path) == ImageKind::exr;
+    if (!exr && !o.layers.empty())
+        throw UsageError("--aov: expected an output that ends in .exr, got none");
+    if (!exr && o.float_color)
+        throw UsageError("--float: expected an output that ends in .exr, got none");
+    std::vector<std::string> files = o.outputs;
+    if (!o.stats_json.empty()) files.push_back(o.stats_json);
+    check_distinct(files);
+}
+
+// Better now than killed by the system in the middle of the work.
+void check_memory(const Window& window) {
+    const double needed = double(window.width) * window.height * sizeof(Pixel);
+    const double there = double(sysconf(_SC_PHYS_PAGES)) * double(sysconf(_SC_PAGESIZE));
+    if (needed > there)
+        throw WorkError(
+            fmt::format("a picture of {}x{} needs {:.1f} GiB of memory, this machine has {:.1f}",
+                        window.width, window.height, needed / 0x1p30, there / 0x1p30));
+}
+
+// Every file that can be written is, for the picture was dear; the first error is reported then.
+void write_images(const RenderOptions& o, const Film& film, const ImageNotes& notes,
+                  Progress& progress) {
+    std::string error;
+    for (const std::string& path : o.outputs) {
+        const double work = writing_work * double(film.pixels.size());
+        double told = 0;
+        try {
+            write_image(path, film, {o.float_color, o.layers}, notes, [&](double share) {
+                progress.advance(work * (share - told));
+                told = share;
+            });
+        } catch (const std::exception& e) {
+            if (error.empty()) error = e.what();
+        }
+    }
+    if (error.empty()) return;
+    progress.stop();
+    throw WorkError(error);
+}
+
+int run_render(const RenderOptions& o) {
+    check_options(o);
+    const auto epoch = source_date_epoch();
+    const std::atomic<bool>& stop = catch_interrupts(!o.quiet);
+    const int threads = o.threads.value_or(tbb::info::default_concurrency());
+    const tbb::global_control limit(tbb::global_control::max_allowed_parallelism,
+                                    std::size_t(threads));
+    OIIO::attribute("threads", threads);
+    OIIO::attribute("exr_threads", threads);
+    const auto say = [&](const std::string& line) {
+        if (o.verbose && !o.quiet) fmt::print(stderr, "deburr: {}\n", line);
+    };
+
+    PhaseClock clock;
+    clock.begin("read");
+    const Scene scene = load_scene(o);
+    const Size size = picture_size(o, scene);
+    const Window window = o.crop.value_or(Window{0, 0, size.width, size.height});
+    check_crop("--crop", window, size);
+    check_memory(window);
+    for (const std::string& path : o.outputs) check_writable(path);
+    if (!o.stats_json.empty()) check_writable(o.stats_json);
+    const int spp = o.spp.value_or(scene.spp);
+    say(fmt::format("{}: {} solids, {} lights; picture {}x{}, {} samples per pixel, {} threads",
+                    o.scene, scene.solids.size(), scene.lights.size(), size.width, size.height, spp,
+                    threads));
+
+    clock.begin("build");
+    const ImplicitTracer tracer(scene.solids, o.criterion);
+    const BspStatistics bsp = tracer.statistics();
+    clock.end();
+    say(fmt::format("{} cells of {} half-spaces in {:.2f} s", bsp.cells, bsp.half_spaces,
+                    clock.wall("build")));
+
+    clock.begin("trace");
+    const Integrator integrator(scene, tracer, {size.width, size.height, spp, o.seed});
+    const double pixels = double(window.width) * window.height;
+    Progress progress(pixels * (spp + writing_work * double(o.outputs.size())),
+                      Progress::standard_error(o.quiet));
+    Rendering rendering = render(
+        size.width, size.height, window,
+        [&](int x, int y, TraceCounters& counters) { return integrator.pixel(x, y, counters); },
+        stop, [&](std::int64_t done) { progress.advance(double(done) * spp); });
+    const Film& film = rendering.film;
+    if (rendering.pixels_done == 0) {
+        progress.stop();
+        fmt::print(stderr, "deburr: interrupted before the first tile: nothing is written\n");
+        return interrupted_exit_code;
+    }
+
+    clock.begin("write");
+    ImageNotes notes;
+    notes.camera = scene.camera;
+    notes.spp = spp;
+    notes.date = date_text(epoch.value_or(std::time(nullptr)));
+    if (!epoch) notes.render_seconds = clock.wall("trace");
+    notes.attributes = {{"scene", scene.file},
+                        {"seed", fmt::format("{}", o.seed)},
+                        {"via", o.via},
+                        {"criterion", o.criterion == Criterion::lobb ? "lobb" : "exact"}};
+    for (const auto& [name, value] : scene.parameters)
+        notes.attributes.push_back({"parameter." + name, value});
+    write_images(o, film, notes, progress);
+    clock.end();
+    if (film.complete)
+        progress.finish();
+    else
+        progress.stop();
+
+    if (o.stats || !o.stats_json.empty()) {
+        const RunStatistics run{scene.file,
+                                o.via,
+                                size.width,
+                                size.height,
+                                window,
+                                spp,
+                                threads,
+                                o.seed,
+                                film.complete,
+                                rendering.pixels_done,
+                                clock.times(),
+                                rendering.counters,
+                                bsp};
+        if (o.stats) fmt::print("{}", statistics_table(run));
+        if (!o.stats_json.empty()) write_whole_file(o.stats_json, statistics_json(run));
+    }
+    for (const std::string& path : o.outputs) say("wrote " + path);
+    if (film.complete) return 0;
+    fmt::print(
+        stderr,
+        "deburr: interrupted after {:.0f} % of the pixels: the picture is marked incomplete\n",
+        std::floor(100 * double(rendering.pixels_done) / pixels));
+    return interrupted_exit_code;
+}
+
+}  // namespace
+
+Command add_render_command(CLI::App& program) {
+    CLI::App* command = program.add_subcommand("render", "render a scene to image files");
+    const auto options = std::make_shared<RenderOptions>();
+    add_scene_options(*command, *options);
+    add_output_option(*command, *options, known_extensions());
+    add_picture_options(*command, *options);
+    command->add_option("--via", options->via, "the road from the scene to the picture: implicit")
+        ->type_name("NAME");
+    add_run_options(*command, *options);
+    add_statistics_options(*command, *options);
+    return {command, [options] { return run_render(*options); }};
+}
+
+}  // namespace deburr

@@ -1,0 +1,17 @@
+// The program's commands. Each is a file of its own, command_NAME.cpp, and registers itself here.
+#pragma once
+#include <CLI/CLI.hpp>
+#include <functional>
+
+namespace deburr {
+
+/// `run` returns the exit code and may throw; it is called once the whole command line was read.
+struct Command {
+    CLI::App* app;
+    std::function<int()> run;
+};
+
+Command add_render_command(CLI::App& program);
+Command add_info_command(CLI::App& program);
+
+}  // namespace deburr

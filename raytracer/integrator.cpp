@@ -1,0 +1,278 @@
+#include "raytracer/integrator.hpp"
+
+#include <algorithm>
+
+#include "raytracer/textures.hpp"
+
+namespace deburr {
+namespace {
+
+// Up to this α a metal counts as polished: with one sample its reflection is traced as a mirror's.
+// Roughness 0.3; blurrier, the missing blur would be more wrong than a missing object.
+constexpr double polished_alpha = 0.09;
+
+// With one sample both ways of glass are traced while they can change the pixel by this much.
+constexpr double least_weight = 1.0 / 512;
+
+// Surfaces of glass that a shadow ray passes; beyond more of them it is dark.
+constexpr int glass_in_shadow = 16;
+
+// Bounds of the probability that a path goes on by the layer: beside the base, so that neither
+// starves, and where it would end otherwise.
+constexpr double least_share = 0.1, least_share_alone = 0.25;
+
+// What a path draws random numbers for, at each depth; and once, for its way through the filter.
+enum Purpose : std::uint32_t { choice, turn, first_light, purposes = 1024 };
+constexpr std::uint32_t lens = 0xffffffffu;
+
+double brightest(Vec3 c) { return std::max({c.x, c.y, c.z}); }
+bool finite(Vec3 v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
+Vec3 finite_or_zero(Vec3 v) { return finite(v) ? v : Vec3(0.0); }
+
+Vec3 towards_ray(Vec3 normal, Vec3 direction) {
+    return glm::dot(normal, direction) > 0 ? -normal : normal;
+}
+
+double layer_share(double layer, double base) {
+    if (layer <= 0) return 0.0;
+    if (base <= 0) return glm::clamp(2 * layer, least_share_alone, 1.0);
+    return glm::clamp(layer / (layer + base), least_share, 1 - least_share);
+}
+
+}  // namespace
+
+struct Integrator::Path {
+    const Sampler& sampler;
+    TraceCounters& counters;
+    int depth = 0;               // rays since the camera's
+    double weight = 1.0;         // bound of its share in the pixel, kept where glass forks
+    bool without_noise = false;  // see "one sample" in the header
+    bool scattered = false;      // by a base
+    bool sees_lights = false;    // it was reflected last
+    double density = infinity;   // of that reflection, per solid angle
+
+    std::uint32_t dimension(std::uint32_t purpose) const {
+        return std::uint32_t(depth) * purposes + purpose;
+    }
+    Path on(double share = 1.0) const {
+        Path p = *this;
+        ++p.depth;
+        p.weight *= share;
+        return p;
+    }
+    // Light from a source by way of a base and a mirror is a caustic: too rare to find, left out.
+    Path reflected(double with_density, double share = 1.0) const {
+        Path p = on(share);
+        p.sees_lights = !scattered;
+        p.density = with_density;
+        return p;
+    }
+};
+
+Integrator::Integrator(const Scene& scene, const RayTracer& tracer, RenderSettings settings)
+    : scene_(scene),
+      tracer_(tracer),
+      settings_(settings),
+      camera_(scene.camera, settings.width, settings.height),
+      sky_(scene.background) {
+    for (const Material& m : scene.materials) {
+        layers_.emplace_back(m);
+        glass_ = glass_ || m.kind == Material::Kind::glass;
+    }
+    for (const Light& light : scene.lights) lights_.emplace_back(light);
+}
+
+Pixel Integrator::pixel(int x, int y, TraceCounters& counters) const {
+    const std::uint64_t evaluations = counters.evaluations;
+    const Ray center = camera_.ray(x + 0.5, y + 0.5);
+    const Hit first = tracer_.first_hit(center, infinity, counters);
+    Pixel pixel;
+    if (first) {
+        pixel.position = finite_or_zero(first.position);
+        pixel.normal = finite_or_zero(first.normal);
+        pixel.z = first.t * glm::dot(center.direction, camera_.forward());
+        pixel.id = std::uint32_t(first.solid + 1);
+    }
+
+    const int spp = std::max(1, settings_.spp);
+    for (int s = 0; s < spp; ++s) {
+        const Sampler sampler(settings_.seed, x, y, s);
+        Path path{.sampler = sampler, .counters = counters};
+        path.without_noise = spp == 1;
+        Ray ray = center;
+        Hit hit = first;
+        if (spp > 1) {
+            const Vec2 offset = filter_offset(sampler.square(lens));
+            ray = camera_.ray(x + 0.5 + offset.x, y + 0.5 + offset.y);
+            hit = tracer_.first_hit(ray, infinity, counters);
+        }
+        if (hit) {
+            pixel.color += finite_or_zero(color_from(hit, ray.direction, path));
+            pixel.albedo += finite_or_zero(texture_color(hit));
+            pixel.alpha += 1.0;
+        } else {
+            pixel.color += finite_or_zero(sky_.towards(ray.direction));
+        }
+    }
+    pixel.color /= spp;
+    pixel.albedo /= spp;
+    pixel.alpha /= spp;
+    pixel.cost = double(counters.evaluations - evaluations);
+    return pixel;
+}
+
+const Material& Integrator::material(const Hit& hit) const {
+    return scene_.materials[std::size_t(hit.material)];
+}
+
+Vec3 Integrator::texture_color(const Hit& hit) const {
+    return color_at(material(hit).color, hit.position, hit.normal);
+}
+
+Vec3 Integrator::color_along(const Ray& ray, const Path& path) const {
+    const Hit hit = tracer_.first_hit(ray, infinity, path.counters);
+    const Vec3 color = hit ? color_from(hit, ray.direction, path) : sky_.towards(ray.direction);
+    return path.sees_lights ? color + lights_seen(ray, hit.t, path) : color;
+}
+
+// The other half of what lit() takes by its samples of the light [balance heuristic, Veach 1997].
+Vec3 Integrator::lights_seen(const Ray& ray, double t_max, const Path& path) const {
+    Vec3 sum(0.0);
+    for (const LightSource& source : lights_) {
+        const auto light = source.seen(ray, t_max);
+        if (!(light.density > 0)) continue;
+        sum += light.radiance / (1 + source.samples() * light.density / path.density);
+    }
+    return sum;
+}
+
+// `share` is the probability with which the layer's reflection is sampled too; 0: light is found
+// here only.
+Vec3 Integrator::lit(const Bsdf& bsdf, const Hit& hit, const Path& path, double share) const {
+    Vec3 sum(0.0);
+    std::uint32_t dimension = path.dimension(first_light);
+    for (const LightSource& source : lights_) {
+        const int samples = path.scattered ? 1 : source.samples();
+        Vec3 here(0.0);
+        for (int k = 0; k < samples; ++k) {
+            const Vec2 u =
+                source.extended() ? path.sampler.square(dimension, k, samples) : Vec2(0.5);
+            const Incident light = source.at(hit.position, u);
+            if (!(brightest(light.irradiance) > 0)) continue;
+            const Bsdf::Value value = bsdf.value(light.direction);
+            Vec3 scattered = value.base;
+            if (share > 0 && light.density < infinity)
+                scattered += value.layer / (1 + share * bsdf.layer_density(light.direction) /
+                                                    (samples * light.density));
+            else
+                scattered += value.layer;
+            if (!(brightest(scattered) > 0)) continue;
+            here += scattered * light.irradiance * transmittance(hit, light, path);
+        }
+        sum += here / double(samples);
+        ++dimension;
+    }
+    return sum;
+}
+
+Vec3 Integrator::transmittance(const Hit& hit, const Incident& light, const Path& path) const {
+    Ray ray = leave(hit, light.direction);
+    if (!glass_)
+        return tracer_.occluded(ray, light.distance, path.counters) ? Vec3(0.0) : Vec3(1.0);
+    Vec3 share(1.0);
+    double left = light.distance;
+    for (int i = 0; i < glass_in_shadow; ++i) {
+        const Hit next = tracer_.first_hit(ray, left, path.counters);
+        if (!next) return share;
+        if (material(next).kind != Material::Kind::glass) break;
+        const double cosine = glm::dot(next.normal, light.direction);
+        share *= texture_color(next) * (1 - fresnel_dielectric(cosine, material(next).ior));
+        left -= next.t;
+        ray = leave(next, light.direction);
+    }
+    return Vec3(0.0);
+}
+
+Vec3 Integrator::color_from(const Hit& hit, Vec3 direction, const Path& path) const {
+    if (material(hit).kind == Material::Kind::glass) return color_of_glass(hit, direction, path);
+    const SurfaceLayer& layer = layers_[std::size_t(hit.material)];
+    const Bsdf bsdf(layer, texture_color(hit), towards_ray(hit.normal, direction), -direction);
+    const Vec3 ambient = bsdf.base_albedo() * scene_.ambient;
+    if (path.without_noise || path.scattered || path.depth >= scene_.bounces)
+        return ambient + lit(bsdf, hit, path, 0.0) + reflected_without_noise(bsdf, hit, path);
+
+    const double base = sky_.black() ? 0.0 : brightest(bsdf.base_albedo());
+    const double share = layer_share(brightest(bsdf.layer_albedo()), base);
+    const Vec3 color = ambient + lit(bsdf, hit, path, share);
+    const Vec2 u = path.sampler.square(path.dimension(turn));
+    Vec3 way, weight;
+    if (path.sampler.line(path.dimension(choice)) < share) {
+        if (!bsdf.sample_layer(u, way, weight)) return color;
+        const Path next = path.reflected(share * bsdf.layer_density(way));
+        return color + weight / share * color_along(leave(hit, way), next);
+    }
+    if (base <= 0) return color;
+    weight = bsdf.sample_base(u, way);
+    Path next = path.on();
+    next.scattered = true;
+    next.sees_lights = false;
+    return color + weight / (1 - share) * color_along(leave(hit, way), next);
+}
+
+// What the surface returns of the background and, if it is polished, of other surfaces.
+Vec3 Integrator::reflected_without_noise(const Bsdf& bsdf, const Hit& hit, const Path& path) const {
+    const Vec3 base = bsdf.base_albedo() * sky_.mean(bsdf.normal());
+    const SurfaceLayer& layer = bsdf.layer();
+    if (layer.kind() == Material::Kind::matte) return base;
+    const double alpha = layer.smooth() ? 0.0 : std::min(1.0, layer.ggx().alpha);
+    const bool polished =
+        layer.smooth() || (layer.kind() == Material::Kind::metal && alpha <= polished_alpha);
+    const Vec3 way = reflected(bsdf.to_eye(), bsdf.normal());
+    const Vec3 albedo = bsdf.layer_albedo();
+    if (!polished || path.depth >= scene_.bounces)
+        return base + albedo * glm::mix(sky_.towards(way), sky_.mean(way), alpha);
+    // Where the layer is not smooth lit() has found the lights already.
+    Path next = path.reflected(infinity, brightest(albedo));
+    next.sees_lights = next.sees_lights && layer.smooth();
+    return base + albedo * color_along(leave(hit, way), next);
+}
+
+// The radiance in a denser medium is not scaled by its squared index: light seen from outside has
+// left it again.
+Vec3 Integrator::color_of_glass(const Hit& hit, Vec3 direction, const Path& path) const {
+    const SurfaceLayer& layer = layers_[std::size_t(hit.material)];
+    const Vec3 tint = texture_color(hit), to_eye = -direction;
+    const bool inside = glm::dot(hit.normal, direction) > 0;
+    const Vec3 normal = inside ? -hit.normal : hit.normal;
+    const double ior = inside ? 1 / layer.ior() : layer.ior();
+    const bool rough = !layer.smooth() && !path.without_noise;
+    const Vec2 u = path.sampler.square(path.dimension(turn));
+    const Vec3 facet = rough ? layer.ggx().facet(to_eye, normal, u) : normal;
+
+    const Vec3 back = reflected(to_eye, facet);
+    Vec3 through(0.0);
+    const bool passes = refracted(to_eye, facet, ior, through);
+    const double share = passes ? fresnel_dielectric(glm::dot(to_eye, facet), ior) : 1.0;
+    if (path.depth >= scene_.bounces)
+        return share * sky_.towards(back) +
+               (passes ? (1 - share) * tint * sky_.towards(through) : Vec3(0.0));
+
+    if (path.without_noise) {
+        auto along = [&](Vec3 way, const Path& next) {
+            return next.weight < least_weight ? sky_.towards(way)
+                                              : color_along(leave(hit, way), next);
+        };
+        Vec3 color = share * along(back, path.reflected(infinity, share));
+        if (passes) color += (1 - share) * tint * along(through, path.on(1 - share));
+        return color;
+    }
+    const bool reflects = path.sampler.line(path.dimension(choice)) < share;
+    const Vec3 way = reflects ? back : through;
+    const double cos_eye = glm::dot(to_eye, normal), cos_way = glm::dot(way, normal);
+    if (reflects ? !(cos_way > 0) : !(cos_way < 0)) return Vec3(0.0);
+    const double seen = rough ? layer.ggx().shadowing(std::abs(cos_way), cos_eye) : 1.0;
+    const Path next = reflects ? path.reflected(infinity) : path.on();
+    return seen * (reflects ? Vec3(1.0) : tint) * color_along(leave(hit, way), next);
+}
+
+}  // namespace deburr

@@ -1,0 +1,315 @@
+#include "raytracer/local_solid.hpp"
+
+#include <algorithm>
+
+namespace deburr {
+namespace {
+
+// A density of one half-space, ρ = v₀ + (v₁ − v₀)·F, crosses ½ on one plane at most.
+struct FlatDensity {
+    enum { outside, inside, plane } kind;
+    Vec3 normal{0.0};
+    double offset = 0;
+};
+
+FlatDensity flat_density(const LocalDensity& density) {
+    const HalfSpace& h = density.half_spaces()[0];
+    RayDensity ray;  // straight through the plane, from well inside to well outside
+    ray.set(density, h.normal * h.offset, h.normal);
+    const double reach = h.radius > 0 ? 2 * h.radius : 1.0;
+    ray.fix_sharp(-reach);
+    const double v1 = ray.at(-reach).value;
+    ray.fix_sharp(reach);
+    const double v0 = ray.at(reach).value;
+    if ((v0 > 0.5) == (v1 > 0.5)) return {v0 > 0.5 ? FlatDensity::inside : FlatDensity::outside};
+    double offset = h.offset;
+    if (h.radius > 0) offset += h.radius * displacement((0.5 - v0) / (v1 - v0));
+    if (v1 > 0.5) return {FlatDensity::plane, h.normal, offset};
+    return {FlatDensity::plane, -h.normal, -offset};
+}
+
+}  // namespace
+
+LocalSolid::LocalSolid(int solid, const SolidTree& tree, const Box& box, const Tolerances& tolerances)
+    : solid_(solid), scale_(tolerances.scale) {
+    std::vector<int> place(tree.nodes.size(), -1);
+    for (std::size_t i = 0; i < tree.nodes.size(); ++i) {
+        SolidTreeNode n = tree.nodes[i];
+        if (n.op == SolidOp::leaf) {
+            std::optional<bool> constant;
+            add_leaf(tree.leaves[std::size_t(n.a)], box, tolerances, constant);
+            if (constant) n = {*constant ? SolidOp::everything : SolidOp::nothing};
+            else n.a = int(leaves_.size()) - 1;
+        }
+        nodes_.push_back(n);  // children keep their numbers
+    }
+    has_surface_ = !leaves_.empty();
+    if (!has_surface_) return;
+    if (leaves_.size() > 1 || nodes_.size() > 1) {
+        // One leaf under operators with constants is that leaf, or its complement, or nothing.
+        std::vector<char> state;
+        if (leaves_.size() == 1) {
+            const bool without = evaluate(state, {false}), with = evaluate(state, {true});
+            if (without == with) has_surface_ = false;
+            else if (with) nodes_ = {{SolidOp::leaf, 0}};
+            else if (leaves_[0].soft < 0) {  // the plane's other side
+                leaves_[0].normal = -leaves_[0].normal;
+                leaves_[0].offset = -leaves_[0].offset;
+                nodes_ = {{SolidOp::leaf, 0}};
+            }
+        }
+    }
+}
+
+void LocalSolid::add_leaf(const SolidLeaf& leaf, const Box& box, const Tolerances& tolerances,
+                          std::optional<bool>& constant) {
+    LocalDensity density(leaf.density);
+    if (const Side side = classify(density.range(box)); side != Side::straddling) {
+        constant = side == Side::inside;
+        return;
+    }
+    Leaf to;
+    to.material = leaf.material;
+    if (density.half_spaces().size() == 1) {
+        const FlatDensity flat = flat_density(density);
+        if (flat.kind != FlatDensity::plane) {
+            constant = flat.kind == FlatDensity::inside;
+            return;
+        }
+        to.normal = flat.normal;
+        to.offset = flat.offset;
+    } else {
+        to.soft = int(softs_.size());
+        const double clear = tolerances.clear();
+        const auto is_sharp = [](const HalfSpace& h) { return h.radius == 0; };
+        const bool all_sharp = std::all_of(density.half_spaces().begin(), density.half_spaces().end(), is_sharp);
+        softs_.push_back({std::move(density), outer_bound(leaf.density, 0.5, clear),
+                          inner_bound(leaf.density, 0.5, clear), bounds_hold(leaf.density, box), all_sharp});
+    }
+    leaves_.push_back(to);
+}
+
+std::size_t LocalSolid::half_spaces() const {
+    std::size_t sum = 0;
+    for (const Leaf& leaf : leaves_)
+        sum += leaf.soft < 0 ? 1 : softs_[std::size_t(leaf.soft)].density.half_spaces().size();
+    return sum;
+}
+
+bool LocalSolid::evaluate(std::vector<char>& state, const std::vector<char>& inside) const {
+    state.clear();
+    for (const SolidTreeNode& n : nodes_) {
+        const auto at = [&](int child) -> bool { return state[std::size_t(child)]; };
+        switch (n.op) {
+            case SolidOp::nothing: state.push_back(false); break;
+            case SolidOp::everything: state.push_back(true); break;
+            case SolidOp::leaf: state.push_back(inside[std::size_t(n.a)]); break;
+            case SolidOp::unite: state.push_back(at(n.a) || at(n.b)); break;
+            case SolidOp::intersect: state.push_back(at(n.a) && at(n.b)); break;
+            case SolidOp::subtract: state.push_back(at(n.a) && !at(n.b)); break;
+        }
+    }
+    return state.back();
+}
+
+namespace {
+
+// Crossings of one stretch of a ray over which sharp half-spaces stay as they are.
+class Stretch {
+public:
+    Stretch(const RayDensity& density, CrossingScratch& scratch, double negligible)
+        : density_(density), scratch_(scratch),
+          finder_({scratch.criterion, negligible}, scratch.counters.roots) {}
+
+    // visit(t, entering) → go on?
+    template <class Visit>
+    bool crossings(double t0, double t1, Visit&& visit) {
+        int varying = 0;
+        std::size_t which = 0;
+        for (std::size_t i = 0; i < density_.size() && varying < 2; ++i) {
+            const double a = density_.alpha(i, t0), b = density_.alpha(i, t1);
+            if ((a >= 1 && b >= 1) || (a <= -1 && b <= -1)) continue;
+            ++varying;
+            which = i;
+        }
+        if (varying == 0) return true;
+        if (varying == 1) return one_varying(which, t0, t1, visit);
+        return finder_.crossings(density_, t0, t1, [&](Crossing c) { return visit(c.t, c.entering); });
+    }
+
+private:
+    // ρ is affine in the density F of the one half-space, whose ρ = ½ is a plane.
+    template <class Visit>
+    bool one_varying(std::size_t i, double t0, double t1, Visit&& visit) {
+        const double r0 = density_.at(t0).value, r1 = density_.at(t1).value;
+        scratch_.counters.roots.evaluations += 2;
+        if ((r0 > 0.5) == (r1 > 0.5)) return true;
+        const double a0 = density_.alpha(i, t0), a1 = density_.alpha(i, t1);
+        const double f0 = profile(a0), f1 = profile(a1);
+        const double alpha = displacement(f0 + (f1 - f0) * ((0.5 - r0) / (r1 - r0)));
+        const double t = a1 == a0 ? t0 : t0 + (t1 - t0) * ((alpha - a0) / (a1 - a0));
+        ++scratch_.counters.flat;
+        return visit(std::clamp(t, t0, t1), r1 > 0.5);
+    }
+
+    const RayDensity& density_;
+    CrossingScratch& scratch_;
+    RootFinder finder_;
+};
+
+Vec3 unit(Vec3 v) {
+    const double length = glm::length(v);
+    return length > 0 ? v / length : v;
+}
+
+}  // namespace
+
+// visit(t, entering, normal of the sharp plane or 0) → go on?
+template <class Visit>
+void LocalSolid::soft_crossings(const Soft& soft, Vec3 origin, Vec3 direction, double t0, double t1,
+                                CrossingScratch& scratch, bool* start_inside, Visit visit) const {
+    const Span whole[1] = {{t0, t1}};
+    const Span *first = whole, *last = whole + 1;
+    if (soft.bounded) {
+        const auto& found = scratch.spans.between(soft.outer, soft.inner, origin, direction, t0, t1);
+        first = found.data();
+        last = first + found.size();
+        if (first == last && !start_inside) return;
+    }
+    RayDensity& density = scratch.density;
+    density.set(soft.density, origin, direction);
+    const auto inside_at = [&](double t) {
+        ++scratch.counters.roots.evaluations;
+        return density.at(t).value > 0.5;
+    };
+    const bool has_sharp = soft.density.has_sharp();
+    if (start_inside) {
+        if (has_sharp) density.fix_sharp(t0);
+        *start_inside = inside_at(t0);
+    }
+    for (const Span* span = first; span != last; ++span) {
+        double lo = span->lo, hi = span->hi;
+        if (hi == infinity) {  // nothing varies beyond the last plane that saturates
+            hi = lo;
+            for (std::size_t i = 0; i < density.size(); ++i) {
+                const double rate = density.distance_rate(i), reach = soft.density.half_spaces()[i].radius;
+                if (rate != 0)
+                    hi = std::max(hi, (std::abs(density.distance0(i)) + reach + scale_) / std::abs(rate));
+            }
+            if (!(hi < 1e300)) hi = 1e300;
+        }
+        const double negligible = 8 * epsilon * (scale_ + lo);
+        Stretch stretch(density, scratch, negligible);
+        const auto pass = [&](double t, bool entering) { return visit(t, entering, Vec3(0.0)); };
+        if (!has_sharp) {
+            if (!stretch.crossings(lo, hi, pass)) return;
+            continue;
+        }
+        auto& cuts = scratch.sharp;
+        cuts.assign(1, lo);
+        for (std::size_t i = 0; i < density.size(); ++i) {
+            if (soft.density.half_spaces()[i].radius > 0 || density.distance_rate(i) == 0) continue;
+            const double t = -density.distance0(i) / density.distance_rate(i);
+            if (t > lo && t < hi) cuts.push_back(t);
+        }
+        cuts.push_back(hi);
+        std::sort(cuts.begin(), cuts.end());
+        bool inside = false;
+        for (std::size_t k = 0; k + 1 < cuts.size(); ++k) {
+            const double a = cuts[k], b = cuts[k + 1];
+            if (k > 0 && k + 2 < cuts.size() && b - a <= negligible) continue;  // a gap of rounding
+            density.fix_sharp(a + 0.5 * (b - a));
+            const bool now = inside_at(a);
+            if (k > 0 && now != inside) {
+                Vec3 normal(0.0);  // of a sharp plane here
+                for (std::size_t i = 0; i < density.size(); ++i) {
+                    const HalfSpace& h = soft.density.half_spaces()[i];
+                    if (h.radius > 0 || density.distance_rate(i) == 0) continue;
+                    const double t = -density.distance0(i) / density.distance_rate(i);
+                    if (std::abs(t - a) <= negligible) normal = h.normal;
+                }
+                if (!visit(a, now, normal)) return;
+            }
+            inside = now;
+            if (soft.all_sharp) continue;
+            if (!stretch.crossings(a, b, pass)) return;
+            inside = inside_at(b);
+        }
+    }
+}
+
+SurfaceCrossing LocalSolid::first_crossing(Vec3 origin, Vec3 direction, double t0, double t1,
+                                           CrossingScratch& scratch) const {
+    SurfaceCrossing result;
+    // A normal that is known up to its sign: it leaves the solid, so it is against a ray that enters.
+    const auto found = [&](double t, bool entering, Vec3 normal, int material) {
+        if ((glm::dot(normal, direction) < 0) != entering) normal = -normal;
+        result = {t, normal, material};
+    };
+    if (nodes_.size() == 1) {
+        const Leaf& leaf = leaves_[0];
+        if (leaf.soft < 0) {
+            const double rate = glm::dot(leaf.normal, direction);
+            const double t = (leaf.offset - glm::dot(leaf.normal, origin)) / rate;
+            if (!(t >= t0 && t <= t1)) return result;
+            ++scratch.counters.flat;
+            return {t, leaf.normal, leaf.material};
+        }
+        soft_crossings(softs_[std::size_t(leaf.soft)], origin, direction, t0, t1, scratch, nullptr,
+                       [&](double t, bool entering, Vec3 normal) {
+                           if (normal == Vec3(0.0)) normal = unit(scratch.density.gradient(t));
+                           found(t, entering, normal, leaf.material);
+                           return false;
+                       });
+        return result;
+    }
+
+    auto& events = scratch.events;
+    events.clear();
+    scratch.inside.assign(leaves_.size(), false);
+    for (std::size_t i = 0; i < leaves_.size(); ++i) {
+        const Leaf& leaf = leaves_[i];
+        if (leaf.soft < 0) {
+            const double rate = glm::dot(leaf.normal, direction);
+            const double room = leaf.offset - glm::dot(leaf.normal, origin);
+            const double t = room / rate;
+            if (rate == 0) scratch.inside[i] = room >= 0;
+            else scratch.inside[i] = rate > 0 ? t0 < t : t0 >= t;
+            if (rate != 0 && t > t0 && t <= t1) events.push_back({t, int(i), rate < 0, leaf.normal});
+            continue;
+        }
+        bool start = false;
+        soft_crossings(softs_[std::size_t(leaf.soft)], origin, direction, t0, t1, scratch, &start,
+                       [&](double t, bool entering, Vec3 normal) {
+                           if (normal == Vec3(0.0)) normal = unit(scratch.density.gradient(t));
+                           events.push_back({t, int(i), entering, normal});
+                           return true;
+                       });
+        scratch.inside[i] = start;
+    }
+    std::sort(events.begin(), events.end(), [](const auto& a, const auto& b) {
+        return a.t != b.t ? a.t < b.t : a.leaf < b.leaf;
+    });
+    const bool before = evaluate(scratch.state, scratch.inside);
+    // Faces that coincide are crossed at the same t but for rounding: only what has changed after
+    // all of them counts.
+    for (std::size_t i = 0; i < events.size();) {
+        const std::size_t first = i;
+        const double same = events[first].t + 16 * epsilon * (scale_ + events[first].t);
+        std::size_t decisive = first;
+        bool now = before;
+        for (; i < events.size() && events[i].t <= same; ++i) {
+            scratch.inside[std::size_t(events[i].leaf)] = events[i].entering;
+            const bool after = evaluate(scratch.state, scratch.inside);
+            if (after != now) decisive = i;
+            now = after;
+        }
+        if (now == before) continue;
+        const auto& event = events[decisive];
+        found(event.t, now, event.normal, leaves_[std::size_t(event.leaf)].material);
+        break;
+    }
+    return result;
+}
+
+}  // namespace deburr

@@ -1,0 +1,52 @@
+// How far the work is: a bar with the time left on a terminal, a line now and then elsewhere.
+//
+// Measured in work, with the writing of files in it, so that 100 % means that everything is done;
+// it never goes back. The time left supposes that the rest goes as fast as what is done.
+#pragma once
+#include <chrono>
+#include <functional>
+#include <mutex>
+#include <string>
+#include <string_view>
+
+namespace deburr {
+
+class Progress {
+public:
+    enum class Style { none, bar, lines };
+
+    struct Output {
+        Style style = Style::none;
+        int columns = 80;                             // width of the bar's line
+        std::function<void(std::string_view)> print;  // takes whole lines, or a bar to overwrite
+        std::function<double()> now;                  // seconds
+    };
+
+    /// To stderr, as it is: a bar if it is a terminal. `quiet`: nothing at all.
+    static Output standard_error(bool quiet);
+
+    /// The clock starts here. total > 0, in units of the caller's choice.
+    Progress(double total, Output output);
+
+    /// `work` ≥ 0 more is done; safe from many threads.
+    void advance(double work);
+    /// Everything is done.
+    void finish();
+    /// Ends the bar's line where it is, so that a message can follow.
+    void stop();
+
+private:
+    void show(double now);
+
+    const Output output_;
+    const double total_;
+    std::mutex mutex_;
+    double start_, done_ = 0, shown_at_;
+    int shown_percent_ = 0;
+    bool open_ = false, finished_ = false;
+};
+
+/// 75 → "1:15", 3675 → "1:01:15"; rounded up to whole seconds.
+std::string clock_time(double seconds);
+
+}  // namespace deburr

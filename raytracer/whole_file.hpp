@@ -1,0 +1,23 @@
+// Files that appear whole or not at all.
+//
+// The bytes go to a hidden file in the same folder, are flushed to the disk and take the name in
+// one step; whoever looks sees the old file or the new one. A symbolic link keeps pointing to the
+// file it names. Devices and pipes (/dev/stdout) have nothing to replace and are written directly.
+#pragma once
+#include <string>
+#include <string_view>
+
+namespace deburr {
+
+/// Throws WorkError unless `path` can be created or replaced as far as can be known now. Leaves
+/// nothing behind.
+void check_writable(const std::string& path);
+
+/// Throws WorkError and leaves what was there before if anything fails.
+void write_whole_file(const std::string& path, std::string_view bytes);
+
+/// Removes the hidden file that is being written, if any; for use in a signal handler that ends the
+/// process.
+void remove_unfinished_file() noexcept;
+
+}  // namespace deburr

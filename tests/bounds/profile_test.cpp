@@ -1,0 +1,59 @@
+#include "bounds/profile.hpp"
+
+#include <cmath>
+
+#include "catch.hpp"
+#include "random_case.hpp"
+
+using namespace deburr;
+
+TEST_CASE("Lobb eq. 2: the profile falls from 1 to 0 and its slope is its derivative") {
+    CHECK(profile(-1) == 1);
+    CHECK(profile(1) == 0);
+    CHECK(profile(0) == 0.5);
+    CHECK(profile(-infinity) == 1);
+    CHECK(profile(infinity) == 0);
+    double last = 1;
+    for (int i = -2000; i <= 2000; ++i) {
+        const double a = i / 1000.0, h = 1e-6;
+        CHECK(profile(a) <= last);
+        last = profile(a);
+        if (std::abs(std::abs(a) - 1) > 0.001)
+            CHECK(std::abs((profile(a + h) - profile(a - h)) / (2 * h) - profile_slope(a)) < 1e-9);
+    }
+}
+
+TEST_CASE("Lobb §3.3: displacement inverts the profile to within its slack, monotonically") {
+    constexpr int steps = 2'000'000;
+    double last = 1, worst = 0;
+    int out_of_order = 0;
+    for (int i = 0; i <= steps; ++i) {
+        const double rho = double(i) / steps, a = displacement(rho);
+        worst = std::max(worst, std::abs(profile(a) - rho));
+        out_of_order += a > last;
+        last = a;
+    }
+    CHECK(worst < inverse_slack);
+    CHECK(out_of_order == 0);
+    CHECK(displacement(0) == 1);
+    CHECK(displacement(0.5) == 0);
+    CHECK(displacement(1) == -1);
+    CHECK(displacement(-1) == 1);
+    CHECK(displacement(2) == -1);
+}
+
+TEST_CASE("displacement stays in [-1, 1], monotone and accurate where the cubic is flat") {
+    double last = 1;
+    int checked = 0;
+    for (double rho = 1e-300; rho < 0.1; rho *= 1.07, ++checked) {
+        CAPTURE(rho);
+        const double a = displacement(rho), b = displacement(1 - rho);
+        REQUIRE(a <= last);
+        last = a;
+        REQUIRE(std::abs(profile(a) - rho) <= inverse_slack);
+        REQUIRE(std::abs(profile(b) - (1 - rho)) <= inverse_slack);
+        // 1 − α is √(4ρ/3) to first order, lost altogether by the printed cosine.
+        if (rho < 1e-6 && rho > 1e-24) REQUIRE(std::abs((1 - a) / std::sqrt(4 * rho / 3) - 1) < 1e-3);
+    }
+    CHECK(checked > 9'000);
+}

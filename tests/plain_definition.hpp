@@ -1,0 +1,163 @@
+// The definition in its plainest form, for everything faster to be held against: densities node by
+// node, Boolean ones by adding up every outcome, rays by looking everywhere. Shares no code with
+// what it checks but the flat trees.
+#pragma once
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "bounds/solid_tree.hpp"
+
+namespace deburr::plain {
+
+/// Lobb eq. 2.
+inline double profile(double alpha) {
+    if (alpha >= 1) return 0;
+    if (alpha <= -1) return 1;
+    return (1 - alpha) * (1 - alpha) * (2 + alpha) / 4;
+}
+
+inline double half_space(const HalfSpace& h, Vec3 x) {
+    const double d = glm::dot(h.normal, x) - h.offset;
+    if (h.radius == 0) return d <= 0 ? 1 : 0;
+    return profile(d / h.radius);
+}
+
+inline bool is_boolean(const DensityTree& tree, int i) {
+    const TreeNode& n = tree.nodes[std::size_t(i)];
+    if (n.op == Op::half_space || n.op == Op::conjunction || n.op == Op::disjunction) return true;
+    if (n.op == Op::constant) return n.value == 0 || n.value == 1;
+    return n.op == Op::complement && is_boolean(tree, n.a);
+}
+
+/// The Boolean function at node i, with the truth of every half-space given.
+inline bool truth(const DensityTree& tree, int i, const std::vector<char>& is_true) {
+    const TreeNode& n = tree.nodes[std::size_t(i)];
+    switch (n.op) {
+        case Op::half_space: return is_true[std::size_t(n.a)];
+        case Op::complement: return !truth(tree, n.a, is_true);
+        case Op::conjunction: return truth(tree, n.a, is_true) && truth(tree, n.b, is_true);
+        case Op::disjunction: return truth(tree, n.a, is_true) || truth(tree, n.b, is_true);
+        default: return n.value > 0.5;
+    }
+}
+
+inline void half_spaces_below(const DensityTree& tree, int i, std::vector<int>& found) {
+    const TreeNode& n = tree.nodes[std::size_t(i)];
+    if (n.op == Op::half_space) found.push_back(n.a);
+    else if (n.op != Op::constant) {
+        half_spaces_below(tree, n.a, found);
+        if (n.b >= 0) half_spaces_below(tree, n.b, found);
+    }
+}
+
+/// Probability that the function is true: family after family, gap after gap.
+inline double boolean(const DensityTree& tree, int root, Vec3 x) {
+    std::vector<int> open;
+    half_spaces_below(tree, root, open);
+    std::vector<char> is_true(tree.half_spaces.size(), false);
+    std::vector<int> varying;
+    for (const int i : open) {
+        const double rho = half_space(tree.half_spaces[std::size_t(i)], x);
+        is_true[std::size_t(i)] = rho == 1;
+        if (rho > 0 && rho < 1) varying.push_back(i);
+    }
+    const auto sum = [&](auto&& self, std::vector<int> rest) -> double {
+        if (rest.empty()) return truth(tree, root, is_true);
+        const HalfSpace& lead = tree.half_spaces[std::size_t(rest[0])];
+        std::vector<int> others;
+        struct Member {
+            double tau, F;
+            int index;
+            bool above;
+        };
+        std::vector<Member> family;
+        for (const int i : rest) {
+            const HalfSpace& h = tree.half_spaces[std::size_t(i)];
+            const double along = glm::dot(h.normal, lead.normal);
+            const Vec3 n = along < 0 ? -h.normal : h.normal;
+            if (glm::length(n - lead.normal) < 1e-9 && std::abs(h.radius - lead.radius) <= 1e-9 * lead.radius) {
+                const double tau = along < 0 ? -h.offset : h.offset, rho = half_space(h, x);
+                family.push_back({tau, along < 0 ? 1 - rho : rho, i, along < 0});
+            } else {
+                others.push_back(i);
+            }
+        }
+        std::stable_sort(family.begin(), family.end(), [](const Member& a, const Member& b) { return a.tau < b.tau; });
+        double total = 0, below = 0;
+        for (std::size_t gap = 0; gap <= family.size(); ++gap) {  // below family[gap].tau
+            const double F = gap < family.size() ? family[gap].F : 1;
+            const double p = F - below;
+            below = std::max(below, F);
+            if (!(p > 0)) continue;
+            for (std::size_t j = 0; j < family.size(); ++j)
+                is_true[std::size_t(family[j].index)] = family[j].above ? j < gap : j >= gap;
+            total += p * self(self, others);
+        }
+        return total;
+    };
+    return sum(sum, varying);
+}
+
+inline double density(const DensityTree& tree, int i, Vec3 x) {
+    if (is_boolean(tree, i)) return boolean(tree, i, x);
+    const TreeNode& n = tree.nodes[std::size_t(i)];
+    switch (n.op) {
+        case Op::sum: return density(tree, n.a, x) + density(tree, n.b, x);
+        case Op::product: return density(tree, n.a, x) * density(tree, n.b, x);
+        case Op::difference: return density(tree, n.a, x) - density(tree, n.b, x);
+        case Op::complement: return 1 - density(tree, n.a, x);
+        default: return n.value;
+    }
+}
+inline double density(const DensityTree& tree, Vec3 x) { return density(tree, tree.root(), x); }
+
+inline bool contains(const SolidTree& tree, int i, Vec3 x) {
+    const SolidTreeNode& n = tree.nodes[std::size_t(i)];
+    switch (n.op) {
+        case SolidOp::nothing: return false;
+        case SolidOp::everything: return true;
+        case SolidOp::leaf: return density(tree.leaves[std::size_t(n.a)].density, x) > 0.5;
+        case SolidOp::unite: return contains(tree, n.a, x) || contains(tree, n.b, x);
+        case SolidOp::intersect: return contains(tree, n.a, x) && contains(tree, n.b, x);
+        case SolidOp::subtract: return contains(tree, n.a, x) && !contains(tree, n.b, x);
+    }
+    return false;
+}
+inline bool contains(const SolidTree& tree, Vec3 x) { return contains(tree, tree.root(), x); }
+
+/// First t in (0, t_max) where the ray changes sides of the solid. Between the values of t where a
+/// half-space begins or ceases to vary, `steps` points are looked at.
+inline double first_crossing(const SolidTree& tree, Vec3 o, Vec3 d, double t_max, int steps) {
+    std::vector<double> cuts{0, t_max};
+    for (const SolidLeaf& leaf : tree.leaves)
+        for (const HalfSpace& h : leaf.density.half_spaces) {
+            const double rate = glm::dot(h.normal, d), at = glm::dot(h.normal, o) - h.offset;
+            for (const double level : {-h.radius, 0.0, h.radius}) {
+                const double t = (level - at) / rate;
+                if (t > 0 && t < t_max) cuts.push_back(t);
+            }
+        }
+    std::sort(cuts.begin(), cuts.end());
+    const bool start = contains(tree, o);
+    double last = 0;
+    for (std::size_t k = 0; k + 1 < cuts.size(); ++k) {
+        const double a = cuts[k], b = cuts[k + 1];
+        if (b - a < 1e-13 * (1 + b)) continue;
+        for (int s = 0; s < steps; ++s) {
+            const double t = a + (b - a) * (s + 0.5) / steps;
+            if (contains(tree, o + d * t) != start) {
+                double lo = last, hi = t;
+                for (int i = 0; i < 60; ++i) {
+                    const double m = 0.5 * (lo + hi);
+                    (contains(tree, o + d * m) != start ? hi : lo) = m;
+                }
+                return hi;
+            }
+            last = t;
+        }
+    }
+    return infinity;
+}
+
+}  // namespace deburr::plain

@@ -1,0 +1,305 @@
+// The program as a user calls it: messages, exit codes, files.
+#include <OpenImageIO/imageio.h>
+#include <signal.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cstring>
+#include <nlohmann/json.hpp>
+#include <thread>
+
+#include "catch.hpp"
+#include "raytracer/program.hpp"
+
+using namespace deburr::test;
+using Words = std::vector<std::string>;
+
+namespace {
+
+// A folder with a scene in it.
+struct Place : Folder {
+    std::string scene = *this / "cube.lua";
+    Place() { write_file(scene, cube_scene()); }
+
+    Words render(const Words& more, const std::string& output = "a.exr") const {
+        Words words = {"render", scene, "-o", *this / output, "-q"};
+        words.insert(words.end(), more.begin(), more.end());
+        return words;
+    }
+};
+
+bool one_line(const std::string& text) {
+    return !text.empty() && text.back() == '\n' && std::count(text.begin(), text.end(), '\n') == 1;
+}
+
+// Values of all channels, and where they are.
+struct Picture {
+    OIIO::ImageSpec spec;
+    std::vector<unsigned char> bytes;  // as in the file
+    std::size_t pixel = 0;
+
+    explicit Picture(const std::string& path) {
+        const auto input = OIIO::ImageInput::open(path);
+        REQUIRE(input);
+        spec = input->spec();
+        pixel = spec.pixel_bytes(true);
+        bytes.resize(spec.image_bytes(true));
+        REQUIRE(input->read_image(0, 0, 0, spec.nchannels, OIIO::TypeDesc::UNKNOWN, bytes.data()));
+    }
+    const unsigned char* at(int x, int y) const {
+        return bytes.data() + (std::size_t(y - spec.y) * std::size_t(spec.width) + std::size_t(x - spec.x)) * pixel;
+    }
+};
+
+}  // namespace
+
+TEST_CASE("help and version go to the standard output and are no error") {
+    for (const Words& words : {Words{"--help"}, Words{"-h"}, Words{"render", "--help"}, Words{"info", "-h"}}) {
+        const Outcome o = run(words);
+        CHECK(o.code == 0);
+        CHECK(o.out.find("--help") != std::string::npos);
+        CHECK(o.err.empty());
+    }
+    CHECK(run({"--version"}).out == "deburr " DEBURR_VERSION "\n");
+}
+
+TEST_CASE("a wrong call is one line and exit code 2, and nothing is written") {
+    const Place place;
+    const std::string& scene = place.scene;
+    const std::string output = place / "a.exr";
+    const std::pair<Words, std::string> table[] = {
+        {{}, "expected a command: render"},
+        {{"rendr", scene}, "unknown command 'rendr' (see deburr --help)"},
+        {{"--foo"}, "unknown option '--foo' (see deburr --help)"},
+        {{"render"}, "render: expected a scene file"},
+        {{"info"}, "expected a scene file"},
+        {{"render", scene}, "render: expected an output file, -o FILE"},
+        {{"render", scene, "-o"}, "expected a value, got none"},
+        {{"render", scene, "-o", output, "--foo"}, "unknown option '--foo' (see deburr render --help)"},
+        {{"render", scene, "-o", output, "--foo=3"}, "unknown option '--foo' (see deburr render --help)"},
+        {{"render", scene, "b.lua", "-o", output}, "unexpected argument 'b.lua' (see deburr render --help)"},
+        {{"render", scene, "-o", place / "a.foo"}, "-o: expected a file name that ends in .exr"},
+        {{"render", scene, "-o", place / "a"}, "-o: expected a file name that ends in .exr"},
+        {{"render", scene, "-o", output, "-o", output}, "expected different files, got"},
+        {{"render", scene, "-o", output, "--stats-json", output}, "expected different files, got"},
+        {{"render", place / "no.lua", "-o", output}, "cannot read scene"},
+        {{"render", place / ".", "-o", output}, "cannot read scene"},
+        {{"render", scene, "-o", output, "--size", "0x0"}, "--size: expected WxH, each from 1 to 65536, got '0x0'"},
+        {{"render", scene, "-o", output, "--size", "-5x5"}, "--size: expected WxH, each from 1 to 65536, got '-5x5'"},
+        {{"render", scene, "-o", output, "--size", "65536x65536"}, "--size: expected WxH of at most 268435456 pixels"},
+        {{"render", scene, "-o", output, "--size"}, "--size: expected a value, got none"},
+        {{"render", scene, "-o", output, "--crop", "61x1+0+0"},
+         "--crop: expected a window within the picture of 60x40, got '61x1+0+0'"},
+        {{"render", scene, "-o", output, "--crop", "9x9"}, "--crop: expected WxH+X+Y, for example 100x50+20+10, got '9x9'"},
+        {{"render", scene, "-o", output, "--size", "5x5", "--crop", "9x9+0+0"}, "within the picture of 5x5"},
+        {{"render", scene, "-o", output, "--spp", "0"}, "--spp: expected a whole number from 1 to 1048576, got '0'"},
+        {{"render", scene, "-o", output, "--spp", "-1"}, "--spp: expected a whole number from 1 to 1048576, got '-1'"},
+        {{"render", scene, "-o", output, "--spp", "1", "--spp", "2"}, "--spp: expected once"},
+        {{"render", scene, "-o", output, "--threads", "0"}, "--threads: expected a whole number from 1 to 1024, got '0'"},
+        {{"render", scene, "-o", output, "--seed", "-1"}, "--seed: expected a whole number from 0 to 2^64-1, got '-1'"},
+        {{"render", scene, "-o", output, "--aov", "P,Q"}, "--aov: expected some of P, N, Z, albedo, id, cost, got 'Q'"},
+        {{"render", scene, "-o", place / "a.png", "--aov", "P"}, "--aov: expected an output that ends in .exr, got none"},
+        {{"render", scene, "-o", place / "a.png", "--float"}, "--float: expected an output that ends in .exr, got none"},
+        {{"render", scene, "-o", output, "--via", "magic"}, "--via: expected implicit"},
+        {{"render", scene, "-o", output, "--criterion", "x"}, "--criterion: expected exact or lobb, got 'x'"},
+        {{"render", scene, "-o", output, "--quiet=3"}, "--quiet: expected no value, got '3'"},
+        {{"render", scene, "-o", output, "-D", "r"}, "-D: expected name=value, got 'r'"},
+        {{"render", scene, "-o", output, "-D", "rr=3"}, "rr"},
+        {{"render", scene, "-o", output, "-D", "r=-1"}, "cube.lua:"},
+    };
+    for (const auto& [words, message] : table) {
+        const Outcome o = run(words);
+        CAPTURE(words, message, o.err);
+        CHECK(o.code == 2);
+        CHECK(one_line(o.err));
+        CHECK(o.err.rfind("deburr: ", 0) == 0);
+        CHECK(o.err.find(message) != std::string::npos);
+        CHECK(o.out.empty());
+    }
+    CHECK(place.names() == Words{"cube.lua"});
+}
+
+TEST_CASE("a wrong SOURCE_DATE_EPOCH is said") {
+    const Place place;
+    const Outcome o = run(place.render({}), {"SOURCE_DATE_EPOCH=yesterday"});
+    CHECK(o.code == 2);
+    CHECK(o.err.find("SOURCE_DATE_EPOCH: expected a whole number") != std::string::npos);
+}
+
+TEST_CASE("outputs that cannot be written are found before the work: exit code 1") {
+    const Place place;
+    for (const std::string name : {"none/a.exr", "cube.lua/a.exr"}) {
+        // So much work that the test would not end if it were begun.
+        const Outcome o = run(place.render({"--size", "8000x8000", "--spp", "100000"}, name));
+        CHECK(o.code == 1);
+        CHECK(one_line(o.err));
+        CHECK(o.err.rfind("deburr: cannot write '", 0) == 0);
+    }
+    CHECK(place.names() == Words{"cube.lua"});
+}
+
+TEST_CASE("without room a picture is not written, and what was there stays") {
+    const Place place;
+    write_file(place / "a.exr", "old");
+    // A limit on the size of files, in blocks of 512 bytes, stands for a full disk.
+    const std::string command = "ulimit -f 1; exec '" DEBURR_PROGRAM "' render '" + place.scene + "' -q --float --aov P,N -o '" +
+                                place / "a.exr" + "' 2>'" + place / "err" + "'";
+    const int status = std::system(("sh -c \"" + command + "\"").c_str());
+    CHECK(WEXITSTATUS(status) == 1);
+    CHECK(one_line(read_file(place / "err")));
+    CHECK(read_file(place / "err").find("File too large") != std::string::npos);
+    CHECK(read_file(place / "a.exr") == "old");
+    CHECK(place.names() == Words{"a.exr", "cube.lua", "err"});
+}
+
+TEST_CASE("statistics on a full device: exit code 1") {
+    const Place place;
+    CHECK(run(place.render({"--stats-json", "/dev/full"})).code == 1);
+}
+
+TEST_CASE("render writes all outputs, and quiet says nothing") {
+    const Place place;
+    const Outcome o = run(place.render({"-o", place / "b.png", "-D", "r=0.2"}));
+    CAPTURE(o.err);
+    CHECK(o.code == 0);
+    CHECK(o.err.empty());
+    CHECK(o.out.empty());
+    CHECK(place.names() == Words{"a.exr", "b.png", "cube.lua"});
+    const Picture picture(place / "a.exr");
+    CHECK(picture.spec.width == 60);
+    CHECK(picture.spec.height == 40);
+    CHECK(picture.spec.get_string_attribute("deburr.scene") == place.scene);
+    CHECK(picture.spec.get_string_attribute("deburr.parameter.r") == "0.2");
+    CHECK(picture.spec.get_float_attribute("renderTimeSeconds", -1) >= 0);
+    CHECK(Picture(place / "b.png").spec.nchannels == 3);
+}
+
+TEST_CASE("elsewhere than on a terminal progress is lines") {
+    const Place place;
+    const Outcome o = run({"render", place.scene, "-o", place / "a.exr"});
+    CHECK(o.code == 0);
+    CHECK(o.err.find('\r') == std::string::npos);
+    CHECK(o.err.find("100 %") != std::string::npos);
+}
+
+TEST_CASE("files are the same to the byte with SOURCE_DATE_EPOCH, whatever the threads") {
+    const Place place;
+    const Words epoch = {"SOURCE_DATE_EPOCH=1700000000"};
+    for (const std::string threads : {"1", "2", "2"}) {
+        const Outcome o = run(place.render({"-o", place / "a.png", "--spp", "4", "--aov", "P,N,Z,albedo,id,cost", "--threads", threads}), epoch);
+        REQUIRE(o.code == 0);
+        static std::string exr, png;
+        if (exr.empty()) {
+            exr = read_file(place / "a.exr");
+            png = read_file(place / "a.png");
+        }
+        CHECK(read_file(place / "a.exr") == exr);
+        CHECK(read_file(place / "a.png") == png);
+    }
+    const Picture picture(place / "a.exr");
+    CHECK(picture.spec.get_string_attribute("DateTime") == "2023:11:14 22:13:20");
+    CHECK_FALSE(picture.spec.find_attribute("renderTimeSeconds"));
+}
+
+TEST_CASE("a crop has the bytes of the whole picture") {
+    const Place place;
+    const Words layers = {"--spp", "3", "--aov", "P,N,Z,albedo,id,cost"};
+    REQUIRE(run(place.render(layers)).code == 0);
+    const Picture whole(place / "a.exr");
+    for (const std::string crop : {"23x17+20+11", "1x1+59+39", "60x1+0+20"}) {
+        Words more = layers;
+        more.insert(more.end(), {"--crop", crop});
+        REQUIRE(run(place.render(more, "part.exr")).code == 0);
+        const Picture part(place / "part.exr");
+        CHECK(part.spec.full_width == 60);
+        CHECK(part.spec.full_height == 40);
+        REQUIRE(part.pixel == whole.pixel);
+        for (int y = part.spec.y; y < part.spec.y + part.spec.height; ++y)
+            for (int x = part.spec.x; x < part.spec.x + part.spec.width; ++x)
+                REQUIRE(std::memcmp(part.at(x, y), whole.at(x, y), whole.pixel) == 0);
+    }
+}
+
+TEST_CASE("another seed gives another picture only where there are random samples") {
+    const Place place;
+    const Words epoch = {"SOURCE_DATE_EPOCH=0"};
+    std::vector<std::vector<unsigned char>> bytes;
+    for (const Words& more : {Words{"--spp", "1", "--seed", "1"}, Words{"--spp", "1", "--seed", "2"},
+                              Words{"--spp", "4", "--seed", "1"}, Words{"--spp", "4", "--seed", "2"}}) {
+        REQUIRE(run(place.render(more), epoch).code == 0);
+        bytes.push_back(Picture(place / "a.exr").bytes);
+    }
+    CHECK(bytes[0] == bytes[1]);
+    CHECK(bytes[2] != bytes[3]);
+}
+
+TEST_CASE("statistics as a table and as JSON") {
+    const Place place;
+    const Outcome o = run(place.render({"--stats", "--stats-json", place / "s.json", "--threads", "1", "--seed", "7"}));
+    REQUIRE(o.code == 0);
+    for (const char* word : {"rays", "shadow rays", "splits", "density evaluations", "BSP cells", "60x40"})
+        CHECK(o.out.find(word) != std::string::npos);
+    const auto j = nlohmann::json::parse(read_file(place / "s.json"));
+    CHECK(j["version"] == DEBURR_VERSION);
+    CHECK(j["complete"] == true);
+    CHECK(j["width"] == 60);
+    CHECK(j["threads"] == 1);
+    CHECK(j["seed"] == 7);
+    CHECK(j["pixels"] == 2400);
+    CHECK(j["rays"] >= 2400);
+    CHECK(j["bsp"]["cells"] > 0);
+    for (const char* phase : {"read", "build", "trace", "write"}) {
+        CHECK(j["seconds"][phase]["wall"] >= 0);
+        CHECK(j["seconds"][phase]["cpu"] >= 0);
+    }
+}
+
+TEST_CASE("the first interrupt saves what there is, marked incomplete") {
+    for (const int signal : {SIGINT, SIGTERM}) {
+        const Place place;
+        // A tile is done soon, the picture is not.
+        Call call({"render", place.scene, "-o", place / "a.exr", "-v", "--size", "4000x4000", "--spp", "16",
+                   "--stats-json", place / "s.json"});
+        REQUIRE(call.says("half-spaces in"));
+        std::this_thread::sleep_for(std::chrono::milliseconds(500));
+        call.send(signal);
+        const Outcome o = call.wait();
+        CAPTURE(o.err);
+        CHECK(o.code == 130);
+        CHECK(o.err.find("the picture is marked incomplete") != std::string::npos);
+        CHECK(place.names() == Words{"a.exr", "cube.lua", "s.json"});
+        CHECK(Picture(place / "a.exr").spec.get_int_attribute("deburr.incomplete") == 1);
+        CHECK(nlohmann::json::parse(read_file(place / "s.json"))["complete"] == false);
+    }
+}
+
+TEST_CASE("the second interrupt ends at once and leaves nothing") {
+    const Place place;
+    // A single tile takes longer than anyone waits.
+    Call call({"render", place.scene, "-o", place / "a.exr", "-v", "--spp", "1048576"});
+    REQUIRE(call.says("half-spaces in"));
+    std::this_thread::sleep_for(std::chrono::milliseconds(300));
+    call.send(SIGINT);
+    REQUIRE(call.says("once more stops at once"));
+    CHECK(call.running());
+    call.send(SIGINT);
+    CHECK(call.wait().code == 130);
+    CHECK(place.names() == Words{"cube.lua"});
+}
+
+TEST_CASE("info says what is in a scene") {
+    const Place place;
+    const Outcome o = run({"info", place.scene, "-D", "r=0.3"});
+    CHECK(o.code == 0);
+    CHECK(o.err.empty());
+    for (const char* text : {"60x40", "r = 0.3", "solids        2", "half-spaces   12", "lights        1", "point",
+                             "bounds        [-1, 2] x [-1, 1] x [-1, 2]"}) {
+        CAPTURE(text, o.out);
+        CHECK(o.out.find(text) != std::string::npos);
+    }
+    const auto j = nlohmann::json::parse(run({"info", "--json", place.scene}).out);
+    CHECK(j["solids"].size() == 2);
+    CHECK(j["half_spaces"] == 12);
+    CHECK(j["parameters"]["r"] == "0.1");
+    CHECK(j["image"]["width"] == 60);
+}

@@ -1,0 +1,276 @@
+#include "raytracer/image_file.hpp"
+
+#include <OpenImageIO/imageio.h>
+
+#include <cmath>
+#include <cstring>
+
+#include "catch.hpp"
+#include "raytracer/errors.hpp"
+#include "raytracer/program.hpp"
+
+using namespace deburr;
+using namespace deburr::test;
+
+namespace {
+
+// A film whose every pixel differs; one of them hit nothing.
+Film film(Window window = {0, 0, 20, 70}) {
+    Film film(20, 70, window);
+    for (int y = window.y; y < window.y + window.height; ++y)
+        for (int x = window.x; x < window.x + window.width; ++x) {
+            Pixel& p = film.at(x, y);
+            const double k = x + 20 * y;
+            p.color = {k / 1400, 0.5, 2.0 * k};
+            p.alpha = 0.25;
+            p.position = {k, -k, 0.1 * k};
+            p.normal = {0.6, 0.0, -0.8};
+            p.z = 3 + k;
+            p.albedo = {0.1, 0.2, 0.3};
+            p.id = std::uint32_t(4'000'000'000 + k);  // no float holds it
+            p.cost = k + 0.5;
+        }
+    if (window.x == 0 && window.y == 0) film.at(0, 0) = Pixel{};
+    return film;
+}
+
+ImageNotes notes() {
+    ImageNotes notes;
+    notes.spp = 4;
+    notes.date = "2026:01:02 03:04:05";
+    notes.render_seconds = 1.5;
+    notes.attributes = {{"scene", "a scene.lua"}, {"parameter.r", "0.1"}};
+    return notes;
+}
+
+struct Read {
+    OIIO::ImageSpec spec;
+    std::vector<float> values;         // of all channels
+    std::vector<std::uint32_t> ids;
+
+    float at(int x, int y, const std::string& channel) const {
+        const int c = spec.channelindex(channel);
+        REQUIRE(c >= 0);
+        return values[std::size_t(((y - spec.y) * spec.width + x - spec.x) * spec.nchannels + c)];
+    }
+};
+
+Read read(const std::string& path) {
+    Read result;
+    const auto input = OIIO::ImageInput::open(path);
+    REQUIRE(input);
+    result.spec = input->spec();
+    const auto pixels = std::size_t(result.spec.width) * std::size_t(result.spec.height);
+    result.values.resize(pixels * std::size_t(result.spec.nchannels));
+    REQUIRE(input->read_image(0, 0, 0, result.spec.nchannels, OIIO::TypeDesc::FLOAT, result.values.data()));
+    const int id = result.spec.channelindex("id");
+    if (id >= 0) {
+        result.ids.resize(pixels);
+        REQUIRE(input->read_image(0, 0, id, id + 1, OIIO::TypeDesc::UINT32, result.ids.data()));
+    }
+    return result;
+}
+
+// Chunk types of a PNG, in order.
+std::vector<std::string> png_chunks(const std::string& bytes) {
+    std::vector<std::string> types;
+    for (std::size_t at = 8; at + 8 <= bytes.size();) {
+        std::size_t length = 0;
+        for (std::size_t k = 0; k < 4; ++k) length = length << 8 | static_cast<unsigned char>(bytes[at + k]);
+        types.push_back(bytes.substr(at + 4, 4));
+        at += length + 12;
+    }
+    return types;
+}
+
+}  // namespace
+
+TEST_CASE("an EXR gives back every layer") {
+    const Folder folder;
+    const Film original = film();
+    write_image(folder / "a.exr", original, {false, all_layers()}, notes());
+    const Read r = read(folder / "a.exr");
+    CHECK(r.spec.nchannels == 16);
+    CHECK(r.spec.channelformat(r.spec.channelindex("R")) == OIIO::TypeDesc::HALF);
+    CHECK(r.spec.channelformat(r.spec.channelindex("A")) == OIIO::TypeDesc::HALF);
+    CHECK(r.spec.channelformat(r.spec.channelindex("id")) == OIIO::TypeDesc::UINT32);
+    for (const char* name : {"P.X", "P.Y", "P.Z", "N.X", "N.Y", "N.Z", "Z", "Albedo.R", "Albedo.G", "Albedo.B", "cost"}) {
+        CAPTURE(name);
+        REQUIRE(r.spec.channelindex(name) >= 0);
+        CHECK(r.spec.channelformat(r.spec.channelindex(name)) == OIIO::TypeDesc::FLOAT);
+    }
+    for (int y = 0; y < 70; ++y)
+        for (int x = 0; x < 20; ++x) {
+            const Pixel& p = original.at(x, y);
+            REQUIRE(r.at(x, y, "P.X") == float(p.position.x));
+            REQUIRE(r.at(x, y, "P.Y") == float(p.position.y));
+            REQUIRE(r.at(x, y, "P.Z") == float(p.position.z));
+            REQUIRE(r.at(x, y, "N.X") == float(p.normal.x));
+            REQUIRE(r.at(x, y, "N.Z") == float(p.normal.z));
+            REQUIRE(r.at(x, y, "Z") == float(p.z));
+            REQUIRE(r.at(x, y, "Albedo.B") == float(p.albedo.z));
+            REQUIRE(r.at(x, y, "cost") == float(p.cost));
+            REQUIRE(r.at(x, y, "A") == float(p.alpha));
+            REQUIRE(std::abs(r.at(x, y, "R") - p.color.x) <= p.color.x * 0x1p-11);  // half of a half's last bit
+            REQUIRE(r.ids[std::size_t(y * 20 + x)] == p.id);
+        }
+    CHECK(r.at(0, 0, "Z") == std::numeric_limits<float>::infinity());
+    CHECK(r.at(0, 0, "N.X") == 0);
+    CHECK(r.ids[0] == 0);
+}
+
+TEST_CASE("an EXR holds only the layers that were asked for") {
+    const Folder folder;
+    write_image(folder / "a.exr", film(), {}, notes());
+    CHECK(read(folder / "a.exr").spec.channelnames == std::vector<std::string>{"R", "G", "B", "A"});
+    write_image(folder / "a.exr", film(), {false, {Layer::id}}, notes());
+    CHECK(read(folder / "a.exr").spec.channelnames == std::vector<std::string>{"R", "G", "B", "A", "id"});
+}
+
+TEST_CASE("--float keeps 32 bits; half is clamped to finite values") {
+    const Folder folder;
+    Film bright = film();
+    bright.at(3, 3).color = {1e6, -1e6, infinity};
+    write_image(folder / "half.exr", bright, {}, notes());
+    write_image(folder / "float.exr", bright, {true, {}}, notes());
+    const Read half = read(folder / "half.exr"), full = read(folder / "float.exr");
+    CHECK(half.at(3, 3, "R") == 65504);
+    CHECK(half.at(3, 3, "G") == -65504);
+    CHECK(half.at(3, 3, "B") == 65504);
+    CHECK(full.at(3, 3, "R") == 1e6f);
+    CHECK(full.at(7, 9, "R") == float(bright.at(7, 9).color.x));
+    CHECK(full.spec.format == OIIO::TypeDesc::FLOAT);
+}
+
+TEST_CASE("an EXR's header says what the picture is") {
+    const Folder folder;
+    write_image(folder / "a.exr", film(), {}, notes());
+    const OIIO::ImageSpec spec = read(folder / "a.exr").spec;
+    CHECK(spec.get_string_attribute("compression") == "zip");
+    CHECK(spec.get_string_attribute("Software") == "Deburr " DEBURR_VERSION);
+    CHECK(spec.get_string_attribute("DateTime") == "2026:01:02 03:04:05");
+    CHECK(spec.get_string_attribute("deburr.scene") == "a scene.lua");
+    CHECK(spec.get_string_attribute("deburr.parameter.r") == "0.1");
+    CHECK(spec.get_int_attribute("samplesPerPixel") == 4);
+    CHECK(spec.get_float_attribute("renderTimeSeconds") == 1.5f);
+    CHECK(spec.find_attribute("worldToCamera", OIIO::TypeMatrix44));
+    CHECK(spec.find_attribute("worldToNDC", OIIO::TypeMatrix44));
+    CHECK_FALSE(spec.find_attribute("deburr.incomplete"));
+    // The names as OpenEXR's standard has them, not as the library translates them.
+    const std::string bytes = read_file(folder / "a.exr");
+    for (const char* name : {"worldToCamera", "worldToNDC", "capDate", "utcOffset"})
+        CHECK(bytes.find(name + std::string(1, '\0')) != std::string::npos);
+}
+
+TEST_CASE("an incomplete picture is marked") {
+    const Folder folder;
+    Film part = film();
+    part.complete = false;
+    write_image(folder / "a.exr", part, {}, notes());
+    write_image(folder / "a.png", part, {}, notes());
+    CHECK(read(folder / "a.exr").spec.get_int_attribute("deburr.incomplete") == 1);
+    CHECK(read(folder / "a.png").spec.get_string_attribute("deburr.incomplete") == "1");
+}
+
+TEST_CASE("a crop is a data window inside the display window, with the whole picture's pixels") {
+    const Folder folder;
+    write_image(folder / "all.exr", film(), {false, all_layers()}, notes());
+    const Read all = read(folder / "all.exr");
+    for (const Window w : {Window{5, 2, 7, 65}, Window{19, 69, 1, 1}, Window{0, 1, 20, 16}}) {
+        write_image(folder / "part.exr", film(w), {false, all_layers()}, notes());
+        const Read part = read(folder / "part.exr");
+        CHECK(Window{part.spec.x, part.spec.y, part.spec.width, part.spec.height} == w);
+        CHECK(part.spec.full_x == 0);
+        CHECK(part.spec.full_y == 0);
+        CHECK(part.spec.full_width == 20);
+        CHECK(part.spec.full_height == 70);
+        REQUIRE(part.spec.channelnames == all.spec.channelnames);
+        for (int y = w.y; y < w.y + w.height; ++y)
+            for (int x = w.x; x < w.x + w.width; ++x)
+                for (const std::string& c : part.spec.channelnames) REQUIRE(part.at(x, y, c) == all.at(x, y, c));
+    }
+}
+
+TEST_CASE("the sRGB curve") {
+    // IEC 61966-2-1 by its two branches; 0.18 is the photographer's grey.
+    const std::pair<double, int> table[] = {{-1, 0}, {0, 0}, {0.001, 3}, {0.0031308, 10}, {0.18, 118},
+                                            {0.5, 188}, {0.99999, 255}, {1, 255}, {7, 255}, {NAN, 0},
+                                            {infinity, 255}, {-infinity, 0}};
+    for (const auto& [linear, byte] : table) {
+        CAPTURE(linear);
+        CHECK(int(srgb_byte(linear)) == byte);
+    }
+}
+
+TEST_CASE("a PNG is opaque 8 bit sRGB and says so") {
+    const Folder folder;
+    const Film original = film();
+    write_image(folder / "a.png", original, {}, notes());
+    const auto input = OIIO::ImageInput::open(folder / "a.png");
+    REQUIRE(input);
+    const OIIO::ImageSpec spec = input->spec();
+    CHECK(spec.nchannels == 3);
+    CHECK(spec.format == OIIO::TypeDesc::UINT8);
+    std::vector<unsigned char> bytes(20 * 70 * 3);
+    REQUIRE(input->read_image(0, 0, 0, 3, OIIO::TypeDesc::UINT8, bytes.data()));
+    for (int y = 0; y < 70; ++y)
+        for (int x = 0; x < 20; ++x)
+            for (int k = 0; k < 3; ++k)
+                REQUIRE(bytes[std::size_t((y * 20 + x) * 3 + k)] == srgb_byte(original.at(x, y).color[k]));
+    const auto chunks = png_chunks(read_file(folder / "a.png"));
+    CHECK(std::count(chunks.begin(), chunks.end(), "sRGB") == 1);
+    CHECK(std::count(chunks.begin(), chunks.end(), "IEND") == 1);
+}
+
+TEST_CASE("a cropped PNG has the crop's size") {
+    const Folder folder;
+    write_image(folder / "a.png", film({5, 2, 7, 9}), {}, notes());
+    const OIIO::ImageSpec spec = read(folder / "a.png").spec;
+    CHECK(spec.width == 7);
+    CHECK(spec.height == 9);
+    CHECK(spec.x == 0);
+}
+
+TEST_CASE("every format that is known can be written and read back") {
+    const Folder folder;
+    std::string all = known_extensions() + ", ";
+    int formats = 0;
+    for (std::size_t at = 0, end; (end = all.find(", ", at)) != std::string::npos; at = end + 2, ++formats) {
+        const std::string name = "a" + all.substr(at, end - at);
+        CAPTURE(name);
+        REQUIRE(image_kind(name));
+        double share = 0;
+        write_image(folder / name, film(), {}, notes(), [&](double s) {
+            CHECK(s >= share);
+            share = s;
+        });
+        CHECK(share == 1);
+        const Read r = read(folder / name);
+        CHECK(r.spec.width == 20);
+        CHECK(r.spec.height == 70);
+        // Green is 0.5 throughout: the lossy ones may be off by a few steps of 255.
+        const float expected = *image_kind(name) == ImageKind::display ? 188 / 255.0f : 0.5f;
+        CHECK(std::abs(r.at(10, 40, "G") - expected) < 6 / 255.0f);
+    }
+    CHECK(formats == 11);
+    CHECK(folder.names().size() == 11);
+}
+
+TEST_CASE("the same film and notes give the same bytes") {
+    const Folder folder;
+    for (const char* name : {"exr", "png", "tif", "jpg"}) {
+        CAPTURE(name);
+        const std::string a = folder / ("a." + std::string(name)), b = folder / ("b." + std::string(name));
+        write_image(a, film(), {}, notes());
+        write_image(b, film(), {}, notes());
+        CHECK(read_file(a) == read_file(b));
+    }
+}
+
+TEST_CASE("a picture that cannot be written is an error and leaves nothing") {
+    const Folder folder;
+    write_file(folder / "file", "");
+    CHECK_THROWS_AS(write_image(folder / "none/a.exr", film(), {}, notes()), WorkError);
+    CHECK_THROWS_AS(write_image(folder / "file/a.exr", film(), {}, notes()), WorkError);
+    CHECK(folder.names() == std::vector<std::string>{"file"});
+}

@@ -1,0 +1,114 @@
+#include "raytracer/program.hpp"
+
+#include <fcntl.h>
+#include <signal.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <chrono>
+#include <fstream>
+#include <sstream>
+#include <stdexcept>
+#include <thread>
+
+namespace deburr::test {
+
+namespace fs = std::filesystem;
+
+Folder::Folder() {
+    std::string name = (fs::temp_directory_path() / "deburr-test-XXXXXX").string();
+    if (!mkdtemp(name.data())) throw std::runtime_error("cannot make " + name);
+    path_ = name;
+}
+
+Folder::~Folder() {
+    std::error_code ignored;
+    fs::remove_all(path_, ignored);
+}
+
+std::vector<std::string> Folder::names() const {
+    std::vector<std::string> names;
+    for (const auto& entry : fs::directory_iterator(path_)) names.push_back(entry.path().filename());
+    std::sort(names.begin(), names.end());
+    return names;
+}
+
+Call::Call(const std::vector<std::string>& words, const std::vector<std::string>& environment) {
+    std::vector<std::string> all = {DEBURR_PROGRAM};
+    all.insert(all.end(), words.begin(), words.end());
+    std::vector<char*> arguments;
+    for (std::string& word : all) arguments.push_back(word.data());
+    arguments.push_back(nullptr);
+    const std::string out = folder_ / "out", err = folder_ / "err";
+    pid_ = fork();
+    if (pid_ < 0) throw std::runtime_error("cannot fork");
+    if (pid_ > 0) return;
+    for (const std::string& setting : environment) putenv(const_cast<char*>(setting.c_str()));
+    dup2(open(out.c_str(), O_WRONLY | O_CREAT, 0600), STDOUT_FILENO);
+    dup2(open(err.c_str(), O_WRONLY | O_CREAT, 0600), STDERR_FILENO);
+    execv(arguments[0], arguments.data());
+    _exit(127);
+}
+
+Call::~Call() {
+    if (!running()) return;
+    kill(pid_, SIGKILL);
+    waitpid(pid_, &status_, 0);
+}
+
+void Call::send(int signal) {
+    if (running()) kill(pid_, signal);
+}
+
+bool Call::running() {
+    if (!ended_) ended_ = waitpid(pid_, &status_, WNOHANG) != 0;
+    return !ended_;
+}
+
+bool Call::says(const std::string& text) {
+    for (int i = 0; i < 6000; ++i) {
+        const bool last = !running();
+        if (read_file(folder_ / "err").find(text) != std::string::npos) return true;
+        if (last) return false;
+        std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    }
+    return false;
+}
+
+Outcome Call::wait() {
+    if (running()) waitpid(pid_, &status_, 0);
+    ended_ = true;
+    const int code = WIFEXITED(status_) ? WEXITSTATUS(status_) : 128 + WTERMSIG(status_);
+    return {code, read_file(folder_ / "out"), read_file(folder_ / "err")};
+}
+
+Outcome run(const std::vector<std::string>& words, const std::vector<std::string>& environment) {
+    return Call(words, environment).wait();
+}
+
+std::string read_file(const std::string& path) {
+    std::ifstream file(path, std::ios::binary);
+    std::ostringstream text;
+    text << file.rdbuf();
+    return text.str();
+}
+
+void write_file(const std::string& path, const std::string& text) {
+    std::ofstream(path, std::ios::binary) << text;
+}
+
+std::string cube_scene() {
+    return R"(
+local r = param("r", 0.1)
+return {
+  image = { width = 60, height = 40 },
+  camera = { eye = {3, 2.5, 4}, target = {0.5, 0.5, 0.5}, up = {0, 1, 0}, fov = 30 },
+  lights = { point_light{ position = {4, 6, 3}, color = {1, 1, 1}, power = 400 } },
+  background = {0.6, 0.7, 0.8},
+  solids = { rounded(r, cube()), sharp(box({-1, -1, -1}, {2, 0, 2})) },
+}
+)";
+}
+
+}  // namespace deburr::test

@@ -1,0 +1,82 @@
+#include "raytracer/render.hpp"
+
+#include <tbb/global_control.h>
+
+#include "catch.hpp"
+
+using namespace deburr;
+
+namespace {
+
+const std::atomic<bool> never{false};
+
+Pixel place(int x, int y, TraceCounters& counters) {
+    ++counters.rays;
+    counters.evaluations += std::uint64_t(x);
+    Pixel pixel;
+    pixel.color = {double(x), double(y), 1};
+    return pixel;
+}
+
+}  // namespace
+
+TEST_CASE("every pixel of the window is rendered once, whatever its size") {
+    for (const Window window : {Window{0, 0, 1, 1}, Window{0, 0, 16, 16}, Window{3, 5, 17, 33},
+                                Window{90, 40, 10, 10}, Window{0, 0, 100, 50}}) {
+        CAPTURE(window.x, window.y, window.width, window.height);
+        std::atomic<std::int64_t> told{0};
+        const Rendering r = render(100, 50, window, place, never, [&](std::int64_t n) { told += n; });
+        const auto pixels = std::uint64_t(window.width) * std::uint64_t(window.height);
+        CHECK(r.film.complete);
+        CHECK(r.film.window == window);
+        CHECK(r.pixels_done == std::int64_t(pixels));
+        CHECK(told == std::int64_t(pixels));
+        CHECK(r.counters.rays == pixels);
+        for (int y = window.y; y < window.y + window.height; ++y)
+            for (int x = window.x; x < window.x + window.width; ++x)
+                REQUIRE(r.film.at(x, y).color == Vec3(x, y, 1));
+    }
+}
+
+TEST_CASE("sums of counters do not depend on the number of threads") {
+    std::uint64_t evaluations = 0;
+    for (const std::size_t threads : {1, 2, 4}) {
+        const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
+        const Rendering r = render(300, 200, {0, 0, 300, 200}, place, never);
+        if (threads == 1) evaluations = r.counters.evaluations;
+        CHECK(r.counters.evaluations == evaluations);
+    }
+    CHECK(evaluations == 200u * 300u * 299u / 2u);
+}
+
+TEST_CASE("a stop lets the tiles in hand finish and starts no other") {
+    const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, 1);
+    std::atomic<bool> stop{false};
+    const Rendering r = render(
+        100, 100, {0, 0, 100, 100},
+        [&](int x, int y, TraceCounters& counters) {
+            if (x == 20 && y == 3) stop = true;  // within the second tile of the first row
+            return place(x, y, counters);
+        },
+        stop);
+    CHECK_FALSE(r.film.complete);
+    CHECK(r.pixels_done == 2 * 16 * 16);
+    CHECK(r.film.at(31, 15).color == Vec3(31, 15, 1));
+    CHECK(r.film.at(32, 0).color == Vec3(0.0));
+    CHECK(r.film.at(32, 0).z == infinity);
+}
+
+TEST_CASE("a stop before the first tile leaves an empty film") {
+    const std::atomic<bool> stop{true};
+    const Rendering r = render(8, 8, {0, 0, 8, 8}, place, stop);
+    CHECK_FALSE(r.film.complete);
+    CHECK(r.pixels_done == 0);
+}
+
+TEST_CASE("what a pixel throws comes through") {
+    const auto thrower = [](int x, int, TraceCounters&) -> Pixel {
+        if (x == 40) throw std::runtime_error("broken");
+        return {};
+    };
+    CHECK_THROWS_AS(render(64, 64, {0, 0, 64, 64}, thrower, never), std::runtime_error);
+}
