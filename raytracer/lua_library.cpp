@@ -95,7 +95,7 @@ int set_metatable(lua_State* lua) {
 // Every coroutine counts instructions by itself, and what it does before its first sample would go
 // unseen: so it is paid for here.
 int create_coroutine(lua_State* lua) {
-    Sandbox::spend(lua, 1000);
+    Sandbox::spend(lua, Sandbox::sample_interval);
     return call_original(lua);
 }
 
@@ -185,6 +185,7 @@ struct Key {
 
 // State: the table. Upvalues: the keys in order, how many are done.
 int next_pair(lua_State* lua) {
+    luaL_checktype(lua, 1, LUA_TTABLE);  // a scene may call the iterator by itself
     lua_Integer done = lua_tointeger(lua, lua_upvalueindex(2));
     lua_settop(lua, 1);
     for (;;) {

@@ -49,6 +49,10 @@ public:
     /// Throws SceneError.
     lua_State* run(const std::string& text, const std::string& file, Prepare prepare = nullptr);
 
+    /// Instructions between two looks at the budget, in each coroutine by itself. A shorter
+    /// interval costs little more: any count hook makes a loop of additions take 2.2 times as long.
+    static constexpr int sample_interval = 1000;
+
     static void* host(lua_State* lua);
     /// Charges work to the budget; does not return if that is spent. Call it with no object with a
     /// destructor on the stack.

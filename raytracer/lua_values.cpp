@@ -21,6 +21,7 @@ constexpr std::size_t most_values = 5'000'000;
 
 struct Reader {
     lua_State* lua;
+    std::int64_t& total;
     std::size_t count = 0;
 
     LuaValue read(int index, const std::string& place, int depth);
@@ -28,6 +29,7 @@ struct Reader {
 };
 
 LuaValue Reader::read(int index, const std::string& place, int depth) {
+    ++total;
     if (++count > most_values)
         throw BadValue(place, fmt::format("expected at most {} values, got more", most_values));
     switch (lua_type(lua, index)) {
@@ -89,8 +91,9 @@ const LuaValue nil_value;
 
 }  // namespace
 
-LuaValue read_value(lua_State* lua, int index, const std::string& place) {
-    return Reader{lua}.read(index, place, 0);
+LuaValue read_value(lua_State* lua, int index, const std::string& place, std::int64_t* count) {
+    std::int64_t ignored = 0;
+    return Reader{lua, count ? *count : ignored}.read(index, place, 0);
 }
 
 std::string described(const LuaValue& value) {

@@ -3,6 +3,7 @@
 // A value is copied whole before anything looks at it, with functions of Lua that neither raise nor
 // allocate; so the code that checks and builds is C++ alone and may throw.
 #pragma once
+#include <cstdint>
 #include <initializer_list>
 #include <map>
 #include <memory>
@@ -45,7 +46,9 @@ constexpr int read_value_slots = 40;
 
 /// The value at `index`. Throws BadValue at tables with holes, other keys than names and 1, 2, …,
 /// and at those nested so deep that they may contain themselves.
-LuaValue read_value(lua_State* lua, int index, const std::string& place);
+/// `count`, if given, grows by the number of values read, also when it throws.
+LuaValue read_value(lua_State* lua, int index, const std::string& place,
+                    std::int64_t* count = nullptr);
 
 /// As in "got a density".
 std::string described(const LuaValue& value);

@@ -113,10 +113,14 @@ void SceneCall::at_most(std::size_t count) const {
 
 namespace {
 
+// Copying a value out of Lua takes as long as some 20 instructions.
+constexpr std::int64_t work_per_value = 20;
+
 // Everything between Lua's two worlds: no exception leaves it, and it calls nothing of Lua that
 // raises. False: the message is set.
 bool call_body(lua_State* lua, SceneBuilder& builder, const SceneFunction& function) noexcept {
     int line = 0;
+    builder.values = builder.work = 0;
     const auto fail = [&](const char* what) {
         if (line > 0)
             std::snprintf(builder.message, sizeof builder.message, "%c:%d: %s", file_mark, line,
@@ -128,9 +132,8 @@ bool call_body(lua_State* lua, SceneBuilder& builder, const SceneFunction& funct
     try {
         line = current_line(lua);
         SceneCall call{builder, function.name, line, {}};
-        // Lua gives ~a its operand twice, and methods their object first: one more than they take.
         for (int i = 1, last = lua_gettop(lua); i <= last; ++i)
-            call.arguments.push_back(read_value(lua, i, function.name));
+            call.arguments.push_back(read_value(lua, i, function.name, &builder.values));
         builder.result = function.body(call);
         return true;
     } catch (const std::bad_alloc&) {
@@ -179,6 +182,7 @@ int call_from_lua(lua_State* lua) {
     Sandbox::allow_abandoning(lua, false);
     const bool done = call_body(lua, *builder, *function);
     Sandbox::allow_abandoning(lua, true);
+    Sandbox::spend(lua, builder->work + work_per_value * builder->values);
     if (done) return push_result(lua, builder->result);
     lua_pushstring(lua, builder->message);
     return lua_error(lua);

@@ -62,6 +62,8 @@ public:
     // What the latest call from Lua left, kept here so that it outlives every C++ frame.
     SceneResult result;
     char message[2048] = "";
+    std::int64_t values = 0;  // read from its arguments
+    std::int64_t work = 0;    // besides, for the sandbox's budget
 
 private:
     const std::map<std::string, std::string>& defines_;

@@ -303,3 +303,13 @@ TEST_CASE("long names of files are not cut in messages") {
         CHECK_THAT(error.what(), Catch::Matchers::StartsWith(name + ":2: attempt"));
     }
 }
+
+TEST_CASE("work inside the scene's functions counts, though it be done under pcall") {
+    const std::string endless =
+        "s.lua:2: expected a scene that ends within 20000000 instructions, got one "
+        "that does not";
+    const std::string list =
+        "local t = {} for i = 1, 10000 do t[i] = {i, i * i % 7, i * i % 11} end\n";
+    CHECK(error_of(list + "while true do pcall(cube, t) end") == endless);
+    CHECK(error_of(list + "while true do pcall(convex, t) end") == endless);
+}
