@@ -172,6 +172,20 @@ TEST_CASE("without room a picture is not written, and what was there stays") {
     CHECK(place.names() == Words{"a.exr", "cube.lua", "err"});
 }
 
+TEST_CASE("where nobody can read the messages the exit code and the files are the same") {
+    const Place place;
+    const std::string program = "'" DEBURR_PROGRAM "' ", output = " -o '" + place / "a.exr" + "' ";
+    for (const std::string away : {"2>&-", "2>/dev/full", "<&- >&- 2>&-"}) {
+        CAPTURE(away);
+        CHECK(WEXITSTATUS(std::system((program + "--foo " + away).c_str())) == 2);
+        const std::string call = program + "render -v '" + place.scene + "'" + output + away;
+        CHECK(WEXITSTATUS(std::system(call.c_str())) == 0);
+        CHECK(Picture(place / "a.exr").spec.width == 60);
+    }
+    CHECK(WEXITSTATUS(std::system(
+              (program + "info '" + place.scene + "' >/dev/full 2>/dev/null").c_str())) == 1);
+}
+
 TEST_CASE("statistics on a full device: exit code 1") {
     const Place place;
     CHECK(run(place.render({"--stats-json", "/dev/full"})).code == 1);
@@ -283,8 +297,8 @@ TEST_CASE("the first interrupt saves what there is, marked incomplete") {
     for (const int signal : {SIGINT, SIGTERM}) {
         const Place place;
         // A tile is done soon, the picture is not.
-        Call call({"render", place.scene, "-o", place / "a.exr", "-v", "--size", "600x600",
-                   "--spp", "1000", "--stats-json", place / "s.json"});
+        Call call({"render", place.scene, "-o", place / "a.exr", "-v", "--size", "600x600", "--spp",
+                   "1000", "--stats-json", place / "s.json"});
         REQUIRE(call.says("half-spaces in"));
         std::this_thread::sleep_for(std::chrono::milliseconds(500));
         call.send(signal);
