@@ -1,7 +1,9 @@
 #include "raytracer/command_line.hpp"
 
+#include <fcntl.h>
 #include <fmt/format.h>
 #include <signal.h>
+#include <unistd.h>
 
 #include <cstdio>
 #include <new>
@@ -10,17 +12,22 @@
 
 #include "raytracer/commands.hpp"
 #include "raytracer/errors.hpp"
+#include "raytracer/message.hpp"
 #include "raytracer/scene_reader.hpp"
 
 namespace deburr {
 namespace {
 
 int fail(int code, const std::string& what) {
-    std::string line = what;
-    for (char& c : line)
-        if (static_cast<unsigned char>(c) < ' ') c = ' ';  // one line, whatever a name holds
-    fmt::print(stderr, "deburr: {}\n", line);
+    message(what);
     return code;
+}
+
+// A file that is opened while one of the three standard ones is closed would take its place, and
+// messages would end up in it.
+void open_standard_files() {
+    for (int descriptor = 0; descriptor < 3; ++descriptor)
+        if (fcntl(descriptor, F_GETFD) < 0 && open("/dev/null", O_RDWR) < 0) _exit(1);
 }
 
 // The first word that the command has no use for.
@@ -71,6 +78,7 @@ int run(CLI::App& program, const std::vector<Command>& commands, int argc, char*
 }  // namespace
 
 int run_program(int argc, char** argv) {
+    open_standard_files();
     signal(SIGXFSZ, SIG_IGN);  // a file that grows too large is an error of write, not an end
     try {
         CLI::App program("Deburr renders CSG models with every edge rounded.", "deburr");

@@ -16,11 +16,15 @@
 #include "raytracer/image_file.hpp"
 #include "raytracer/integrator.hpp"
 #include "raytracer/interrupt.hpp"
+#include "raytracer/message.hpp"
 #include "raytracer/options.hpp"
 #include "raytracer/progress.hpp"
 #include "raytracer/render.hpp"
 #include "raytracer/statistics.hpp"
 #include "raytracer/whole_file.hpp"
+#if __has_include("raytracer/legality.hpp")
+#include "raytracer/legality.hpp"
+#endif
 
 namespace deburr {
 namespace {
@@ -106,7 +110,7 @@ int run_render(const RenderOptions& o) {
     OIIO::attribute("threads", threads);
     OIIO::attribute("exr_threads", threads);
     const auto say = [&](const std::string& line) {
-        if (o.verbose && !o.quiet) fmt::print(stderr, "deburr: {}\n", line);
+        if (o.verbose && !o.quiet) message(line);
     };
 
     PhaseClock clock;
@@ -122,6 +126,11 @@ int run_render(const RenderOptions& o) {
     say(fmt::format("{}: {} solids, {} lights; picture {}x{}, {} samples per pixel, {} threads",
                     o.scene, scene.solids.size(), scene.lights.size(), size.width, size.height, spp,
                     threads));
+
+#if __has_include("raytracer/legality.hpp")
+    if (!o.quiet)
+        for (const std::string& what : illegal_densities(scene)) message("warning: " + what);
+#endif
 
     clock.begin("build");
     const ImplicitTracer tracer(scene.solids, o.criterion);
@@ -142,7 +151,7 @@ int run_render(const RenderOptions& o) {
     const Film& film = rendering.film;
     if (rendering.pixels_done == 0) {
         progress.stop();
-        fmt::print(stderr, "deburr: interrupted before the first tile: nothing is written\n");
+        message("interrupted before the first tile: nothing is written");
         return interrupted_exit_code;
     }
 
@@ -184,10 +193,9 @@ int run_render(const RenderOptions& o) {
     }
     for (const std::string& path : o.outputs) say("wrote " + path);
     if (film.complete) return 0;
-    fmt::print(
-        stderr,
-        "deburr: interrupted after {:.0f} % of the pixels: the picture is marked incomplete\n",
-        std::floor(100 * double(rendering.pixels_done) / pixels));
+    message(
+        fmt::format("interrupted after {:.0f} % of the pixels: the picture is marked incomplete",
+                    std::floor(100 * double(rendering.pixels_done) / pixels)));
     return interrupted_exit_code;
 }
 

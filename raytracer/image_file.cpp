@@ -38,22 +38,22 @@ void add_vector(std::vector<Channel>& channels, const std::string& layer, const 
                             [member, k](const Pixel& p) { return (p.*member)[k]; }});
 }
 
-void add_layer(std::vector<Channel>& channels, Layer layer) {
+void add_layer(std::vector<Channel>& channels, ImageLayer layer) {
     switch (layer) {
-        case Layer::position:
+        case ImageLayer::position:
             return add_vector(channels, "P.", "XYZ", &Pixel::position);
-        case Layer::normal:
+        case ImageLayer::normal:
             return add_vector(channels, "N.", "XYZ", &Pixel::normal);
-        case Layer::albedo:
+        case ImageLayer::albedo:
             return add_vector(channels, "Albedo.", "RGB", &Pixel::albedo);
-        case Layer::z:
+        case ImageLayer::z:
             channels.push_back({"Z", TypeDesc::FLOAT, [](const Pixel& p) { return p.z; }});
             return;
-        case Layer::id:
+        case ImageLayer::id:
             channels.push_back(
                 {"id", TypeDesc::UINT32, [](const Pixel& p) { return double(p.id); }});
             return;
-        case Layer::cost:
+        case ImageLayer::cost:
             channels.push_back({"cost", TypeDesc::FLOAT, [](const Pixel& p) { return p.cost; }});
             return;
     }
@@ -66,7 +66,7 @@ std::vector<Channel> exr_channels(const ImageFormat& format) {
         channels.push_back(
             {std::string(1, "RGB"[k]), color, [k](const Pixel& p) { return p.color[k]; }});
     channels.push_back({"A", color, [](const Pixel& p) { return p.alpha; }});
-    for (const Layer layer : all_layers())
+    for (const ImageLayer layer : all_layers())
         if (std::count(format.layers.begin(), format.layers.end(), layer))
             add_layer(channels, layer);
     return channels;

@@ -34,7 +34,7 @@ struct ImageNotes {
 
 struct ImageFormat {
     bool float_color = false;   // EXR: 32 bits for R G B A
-    std::vector<Layer> layers;  // EXR: further ones
+    std::vector<ImageLayer> layers;  // EXR: further ones
 };
 
 /// Writes the whole file or nothing; throws WorkError. The format follows from the name, which

@@ -15,11 +15,11 @@ struct Extension {
     ImageKind kind;
 };
 
+// Not TIFF: OpenImageIO 2.4.7 encodes in memory a file that it cannot read again.
 constexpr Extension extensions[] = {
-    {".exr", ImageKind::exr},      {".png", ImageKind::display}, {".tif", ImageKind::display},
-    {".tiff", ImageKind::display}, {".jpg", ImageKind::display}, {".jpeg", ImageKind::display},
-    {".bmp", ImageKind::display},  {".tga", ImageKind::display}, {".ppm", ImageKind::display},
-    {".webp", ImageKind::display}, {".hdr", ImageKind::linear},
+    {".exr", ImageKind::exr},      {".png", ImageKind::display},  {".jpg", ImageKind::display},
+    {".jpeg", ImageKind::display}, {".bmp", ImageKind::display},  {".tga", ImageKind::display},
+    {".ppm", ImageKind::display},  {".webp", ImageKind::display}, {".hdr", ImageKind::linear},
 };
 
 }  // namespace
@@ -46,32 +46,33 @@ std::string known_extensions() {
     return all;
 }
 
-std::string_view layer_name(Layer layer) {
+std::string_view layer_name(ImageLayer layer) {
     switch (layer) {
-        case Layer::position:
+        case ImageLayer::position:
             return "P";
-        case Layer::normal:
+        case ImageLayer::normal:
             return "N";
-        case Layer::z:
+        case ImageLayer::z:
             return "Z";
-        case Layer::albedo:
+        case ImageLayer::albedo:
             return "albedo";
-        case Layer::id:
+        case ImageLayer::id:
             return "id";
-        case Layer::cost:
+        case ImageLayer::cost:
             return "cost";
     }
     return {};
 }
 
-const std::vector<Layer>& all_layers() {
-    static const std::vector<Layer> all = {Layer::position, Layer::normal, Layer::z,
-                                           Layer::albedo,   Layer::id,     Layer::cost};
+const std::vector<ImageLayer>& all_layers() {
+    static const std::vector<ImageLayer> all = {ImageLayer::position, ImageLayer::normal,
+                                                ImageLayer::z,        ImageLayer::albedo,
+                                                ImageLayer::id,       ImageLayer::cost};
     return all;
 }
 
-std::optional<Layer> find_layer(std::string_view name) {
-    for (const Layer layer : all_layers())
+std::optional<ImageLayer> find_layer(std::string_view name) {
+    for (const ImageLayer layer : all_layers())
         if (layer_name(layer) == name) return layer;
     return std::nullopt;
 }

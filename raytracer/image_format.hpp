@@ -22,11 +22,11 @@ std::optional<ImageKind> image_kind(const std::string& path);
 std::string known_extensions();
 
 /// In the order in which they are written.
-enum class Layer { position, normal, z, albedo, id, cost };
+enum class ImageLayer { position, normal, z, albedo, id, cost };
 
 /// As --aov takes them: P, N, Z, albedo, id, cost.
-std::string_view layer_name(Layer layer);
-std::optional<Layer> find_layer(std::string_view name);
-const std::vector<Layer>& all_layers();
+std::string_view layer_name(ImageLayer layer);
+std::optional<ImageLayer> find_layer(std::string_view name);
+const std::vector<ImageLayer>& all_layers();
 
 }  // namespace deburr

@@ -83,11 +83,11 @@ void check_crop(std::string_view option, const Window& crop, Size picture) {
                  fmt::format("{}x{}+{}+{}", crop.width, crop.height, crop.x, crop.y));
 }
 
-std::vector<Layer> parse_layers(std::string_view option, std::string_view text) {
+std::vector<ImageLayer> parse_layers(std::string_view option, std::string_view text) {
     std::string known;
-    for (const Layer layer : all_layers())
+    for (const ImageLayer layer : all_layers())
         known += fmt::format("{}{}", known.empty() ? "" : ", ", layer_name(layer));
-    std::vector<Layer> layers;
+    std::vector<ImageLayer> layers;
     for (std::string_view rest = text;;) {
         const std::size_t comma = rest.find(',');
         const std::string_view name = rest.substr(0, comma);

@@ -31,7 +31,7 @@ Size parse_size(std::string_view option, std::string_view text);
 Window parse_crop(std::string_view option, std::string_view text);
 void check_crop(std::string_view option, const Window& crop, Size picture);
 /// Names with commas between them.
-std::vector<Layer> parse_layers(std::string_view option, std::string_view text);
+std::vector<ImageLayer> parse_layers(std::string_view option, std::string_view text);
 Criterion parse_criterion(std::string_view option, std::string_view text);
 /// name=value, added to `defines`.
 void parse_define(std::string_view option, std::string_view text,

@@ -23,7 +23,7 @@ struct Options {
     std::optional<int> spp;
     std::optional<Window> crop;
     std::uint64_t seed = 0;
-    std::vector<Layer> layers;  // --aov
+    std::vector<ImageLayer> layers;  // --aov
     bool float_color = false;
     Criterion criterion = Criterion::exact;
 

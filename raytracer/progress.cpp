@@ -71,7 +71,7 @@ void Progress::show(double now) {
         const int bar = std::clamp(room, narrowest_bar, widest_bar);
         const int full = int(share * bar);
         // To the end of the line, to cover what a longer text has left there.
-        output_.print(fmt::format("\r[{}{}] {:3} %  {:<14}", std::string(std::size_t(full), '#'),
+        output_.print(fmt::format("\r[{}{}] {:3} %  {:<13}", std::string(std::size_t(full), '#'),
                                   std::string(std::size_t(bar - full), '.'), percent, rest));
         open_ = true;
     } else {

@@ -82,8 +82,10 @@ Target find_target(const std::string& path) {
         if (!target.direct) target.file = fs::canonical(path);
     } else if (errno != ENOENT) {
         fail(path, errno);
-    } else if (fs::is_symlink(path)) {
-        target.file = fs::weakly_canonical(path);  // it points to a file that is yet to be
+    } else {
+        // Where a link points to that names no file yet; links in a circle were an error above.
+        while (fs::is_symlink(target.file))
+            target.file = target.file.parent_path() / fs::read_symlink(target.file);
     }
     target.folder = target.file.parent_path();
     if (target.folder.empty()) target.folder = ".";

@@ -45,7 +45,7 @@ ImageNotes notes() {
 
 struct Read {
     OIIO::ImageSpec spec;
-    std::vector<float> values;         // of all channels
+    std::vector<float> values;  // of all channels
     std::vector<std::uint32_t> ids;
 
     float at(int x, int y, const std::string& channel) const {
@@ -62,7 +62,8 @@ Read read(const std::string& path) {
     result.spec = input->spec();
     const auto pixels = std::size_t(result.spec.width) * std::size_t(result.spec.height);
     result.values.resize(pixels * std::size_t(result.spec.nchannels));
-    REQUIRE(input->read_image(0, 0, 0, result.spec.nchannels, OIIO::TypeDesc::FLOAT, result.values.data()));
+    REQUIRE(input->read_image(0, 0, 0, result.spec.nchannels, OIIO::TypeDesc::FLOAT,
+                              result.values.data()));
     const int id = result.spec.channelindex("id");
     if (id >= 0) {
         result.ids.resize(pixels);
@@ -76,7 +77,8 @@ std::vector<std::string> png_chunks(const std::string& bytes) {
     std::vector<std::string> types;
     for (std::size_t at = 8; at + 8 <= bytes.size();) {
         std::size_t length = 0;
-        for (std::size_t k = 0; k < 4; ++k) length = length << 8 | static_cast<unsigned char>(bytes[at + k]);
+        for (std::size_t k = 0; k < 4; ++k)
+            length = length << 8 | static_cast<unsigned char>(bytes[at + k]);
         types.push_back(bytes.substr(at + 4, 4));
         at += length + 12;
     }
@@ -94,7 +96,8 @@ TEST_CASE("an EXR gives back every layer") {
     CHECK(r.spec.channelformat(r.spec.channelindex("R")) == OIIO::TypeDesc::HALF);
     CHECK(r.spec.channelformat(r.spec.channelindex("A")) == OIIO::TypeDesc::HALF);
     CHECK(r.spec.channelformat(r.spec.channelindex("id")) == OIIO::TypeDesc::UINT32);
-    for (const char* name : {"P.X", "P.Y", "P.Z", "N.X", "N.Y", "N.Z", "Z", "Albedo.R", "Albedo.G", "Albedo.B", "cost"}) {
+    for (const char* name : {"P.X", "P.Y", "P.Z", "N.X", "N.Y", "N.Z", "Z", "Albedo.R", "Albedo.G",
+                             "Albedo.B", "cost"}) {
         CAPTURE(name);
         REQUIRE(r.spec.channelindex(name) >= 0);
         CHECK(r.spec.channelformat(r.spec.channelindex(name)) == OIIO::TypeDesc::FLOAT);
@@ -111,7 +114,8 @@ TEST_CASE("an EXR gives back every layer") {
             REQUIRE(r.at(x, y, "Albedo.B") == float(p.albedo.z));
             REQUIRE(r.at(x, y, "cost") == float(p.cost));
             REQUIRE(r.at(x, y, "A") == float(p.alpha));
-            REQUIRE(std::abs(r.at(x, y, "R") - p.color.x) <= p.color.x * 0x1p-11);  // half of a half's last bit
+            REQUIRE(std::abs(r.at(x, y, "R") - p.color.x) <=
+                    p.color.x * 0x1p-11);  // half of a half's last bit
             REQUIRE(r.ids[std::size_t(y * 20 + x)] == p.id);
         }
     CHECK(r.at(0, 0, "Z") == std::numeric_limits<float>::infinity());
@@ -123,8 +127,9 @@ TEST_CASE("an EXR holds only the layers that were asked for") {
     const Folder folder;
     write_image(folder / "a.exr", film(), {}, notes());
     CHECK(read(folder / "a.exr").spec.channelnames == std::vector<std::string>{"R", "G", "B", "A"});
-    write_image(folder / "a.exr", film(), {false, {Layer::id}}, notes());
-    CHECK(read(folder / "a.exr").spec.channelnames == std::vector<std::string>{"R", "G", "B", "A", "id"});
+    write_image(folder / "a.exr", film(), {false, {ImageLayer::id}}, notes());
+    CHECK(read(folder / "a.exr").spec.channelnames ==
+          std::vector<std::string>{"R", "G", "B", "A", "id"});
 }
 
 TEST_CASE("--float keeps 32 bits; half is clamped to finite values") {
@@ -187,15 +192,16 @@ TEST_CASE("a crop is a data window inside the display window, with the whole pic
         REQUIRE(part.spec.channelnames == all.spec.channelnames);
         for (int y = w.y; y < w.y + w.height; ++y)
             for (int x = w.x; x < w.x + w.width; ++x)
-                for (const std::string& c : part.spec.channelnames) REQUIRE(part.at(x, y, c) == all.at(x, y, c));
+                for (const std::string& c : part.spec.channelnames)
+                    REQUIRE(part.at(x, y, c) == all.at(x, y, c));
     }
 }
 
 TEST_CASE("the sRGB curve") {
     // IEC 61966-2-1 by its two branches; 0.18 is the photographer's grey.
-    const std::pair<double, int> table[] = {{-1, 0}, {0, 0}, {0.001, 3}, {0.0031308, 10}, {0.18, 118},
-                                            {0.5, 188}, {0.99999, 255}, {1, 255}, {7, 255}, {NAN, 0},
-                                            {infinity, 255}, {-infinity, 0}};
+    const std::pair<double, int> table[] = {
+        {-1, 0},        {0, 0},   {0.001, 3}, {0.0031308, 10}, {0.18, 118},     {0.5, 188},
+        {0.99999, 255}, {1, 255}, {7, 255},   {NAN, 0},        {infinity, 255}, {-infinity, 0}};
     for (const auto& [linear, byte] : table) {
         CAPTURE(linear);
         CHECK(int(srgb_byte(linear)) == byte);
@@ -216,7 +222,8 @@ TEST_CASE("a PNG is opaque 8 bit sRGB and says so") {
     for (int y = 0; y < 70; ++y)
         for (int x = 0; x < 20; ++x)
             for (int k = 0; k < 3; ++k)
-                REQUIRE(bytes[std::size_t((y * 20 + x) * 3 + k)] == srgb_byte(original.at(x, y).color[k]));
+                REQUIRE(bytes[std::size_t((y * 20 + x) * 3 + k)] ==
+                        srgb_byte(original.at(x, y).color[k]));
     const auto chunks = png_chunks(read_file(folder / "a.png"));
     CHECK(std::count(chunks.begin(), chunks.end(), "sRGB") == 1);
     CHECK(std::count(chunks.begin(), chunks.end(), "IEND") == 1);
@@ -233,14 +240,17 @@ TEST_CASE("a cropped PNG has the crop's size") {
 
 TEST_CASE("every format that is known can be written and read back") {
     const Folder folder;
+    Film grey = film();  // for .hdr has one exponent for a pixel's three colours
+    for (Pixel& pixel : grey.pixels) pixel.color = Vec3(0.5);
     std::string all = known_extensions() + ", ";
     int formats = 0;
-    for (std::size_t at = 0, end; (end = all.find(", ", at)) != std::string::npos; at = end + 2, ++formats) {
-        const std::string name = "a" + all.substr(at, end - at);
+    for (std::size_t at = 0, end; (end = all.find(", ", at)) != std::string::npos;
+         at = end + 2, ++formats) {
+        const std::string name = std::string("a").append(all, at, end - at);
         CAPTURE(name);
         REQUIRE(image_kind(name));
         double share = 0;
-        write_image(folder / name, film(), {}, notes(), [&](double s) {
+        write_image(folder / name, grey, {}, notes(), [&](double s) {
             CHECK(s >= share);
             share = s;
         });
@@ -248,19 +258,20 @@ TEST_CASE("every format that is known can be written and read back") {
         const Read r = read(folder / name);
         CHECK(r.spec.width == 20);
         CHECK(r.spec.height == 70);
-        // Green is 0.5 throughout: the lossy ones may be off by a few steps of 255.
+        // The lossy ones may be off by a few steps of 255.
         const float expected = *image_kind(name) == ImageKind::display ? 188 / 255.0f : 0.5f;
         CHECK(std::abs(r.at(10, 40, "G") - expected) < 6 / 255.0f);
     }
-    CHECK(formats == 11);
-    CHECK(folder.names().size() == 11);
+    CHECK(formats == 9);
+    CHECK(folder.names().size() == 9);
 }
 
 TEST_CASE("the same film and notes give the same bytes") {
     const Folder folder;
-    for (const char* name : {"exr", "png", "tif", "jpg"}) {
+    for (const char* name : {".exr", ".png", ".jpg"}) {
         CAPTURE(name);
-        const std::string a = folder / ("a." + std::string(name)), b = folder / ("b." + std::string(name));
+        const std::string a = folder / std::string("a").append(name);
+        const std::string b = folder / std::string("b").append(name);
         write_image(a, film(), {}, notes());
         write_image(b, film(), {}, notes());
         CHECK(read_file(a) == read_file(b));

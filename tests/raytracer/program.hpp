@@ -51,7 +51,8 @@ private:
     bool ended_ = false;
 };
 
-Outcome run(const std::vector<std::string>& words, const std::vector<std::string>& environment = {});
+Outcome run(const std::vector<std::string>& words,
+            const std::vector<std::string>& environment = {});
 
 std::string read_file(const std::string& path);
 void write_file(const std::string& path, const std::string& text);

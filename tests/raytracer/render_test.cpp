@@ -25,7 +25,8 @@ TEST_CASE("every pixel of the window is rendered once, whatever its size") {
                                 Window{90, 40, 10, 10}, Window{0, 0, 100, 50}}) {
         CAPTURE(window.x, window.y, window.width, window.height);
         std::atomic<std::int64_t> told{0};
-        const Rendering r = render(100, 50, window, place, never, [&](std::int64_t n) { told += n; });
+        const Rendering r =
+            render(100, 50, window, place, never, [&](std::int64_t n) { told += n; });
         const auto pixels = std::uint64_t(window.width) * std::uint64_t(window.height);
         CHECK(r.film.complete);
         CHECK(r.film.window == window);

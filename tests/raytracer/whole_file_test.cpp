@@ -24,7 +24,7 @@ TEST_CASE("a file is written, and replaced with its mode kept") {
     CHECK(read_file(file) == "one");
     write_whole_file(file, "two");
     CHECK(read_file(file) == "two");
-    struct stat status{};
+    struct stat status {};
     REQUIRE(stat(file.c_str(), &status) == 0);
     CHECK((status.st_mode & 0777) == 0640);
     CHECK(folder.names() == Names{"a"});
