@@ -63,6 +63,31 @@ Vec3 CellComplex::area_vector(int face) const {
     return sum;
 }
 
+bool CellComplex::is_sound() const {
+    for (std::size_t f = 0; f < faces.size(); ++f) {
+        const auto& loop = faces[f].loop;
+        for (std::size_t k = 0; k < loop.size(); ++k) {
+            if (end(loop[k]) != start(loop[(k + 1) % loop.size()])) return false;
+            const auto& around = edges[loop[k] >> 1].faces;
+            if (std::count(around.begin(), around.end(), int(f)) != 1) return false;
+        }
+        for (const int c : {faces[f].back, faces[f].front})
+            if (c != outside && std::count(cells[c].begin(), cells[c].end(), int(f)) != 1) return false;
+    }
+    for (std::size_t c = 0; c < cells.size(); ++c) {
+        std::map<int, int> uses;  // of an edge; the sum of its directions, ×100
+        for (const int f : cells[c])
+            for (const Step s : faces[f].loop)
+                uses[s >> 1] += 1 + ((s & 1) == (faces[f].front == int(c)) ? 100 : -100);
+        for (const auto& [edge, sum] : uses)
+            if (sum != 2) return false;
+        std::vector<int> of_cell;
+        vertices_of(int(c), of_cell);
+        if (of_cell.size() + cells[c].size() != uses.size() + 2) return false;
+    }
+    return true;
+}
+
 int CellComplex::add_vertex(Vec3 x) {
     vertices.push_back(x);
     return int(vertices.size()) - 1;

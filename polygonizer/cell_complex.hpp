@@ -65,6 +65,10 @@ public:
     /// Area vector of the face: twice its area, towards the front cell.
     Vec3 area_vector(int face) const;
 
+    /// Whether every loop is closed, every edge of a cell lies in two of its faces, and every cell is
+    /// a ball. For tests: the steps keep it so.
+    bool is_sound() const;
+
     int add_vertex(Vec3 x);
     /// The new vertex. The edge keeps its tail; its other half is the last edge.
     int split_edge(int edge, Vec3 x);

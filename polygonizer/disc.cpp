@@ -39,47 +39,48 @@ bool strips(const std::vector<Vec3>& rim, Vec3 sweep, double tolerance, Disc& di
     chord = glm::normalize(chord);
     std::vector<double> u;
     for (const Vec3& x : rim) u.push_back(glm::dot(x, chord));
-    const double slack = 4 * tolerance + 1e-9 * (*std::max_element(u.begin(), u.end()) - *std::min_element(u.begin(), u.end()));
     const int low = int(std::min_element(u.begin(), u.end()) - u.begin());
+    const int high = int(std::max_element(u.begin(), u.end()) - u.begin());
+    const double slack = 4 * tolerance + 1e-9 * (u[std::size_t(high)] - u[std::size_t(low)]);
     // Both ways from a lowest vertex to a highest one.
-    const auto walk = [&](int step) {
-        std::vector<int> side{low};
-        for (int k = 1; k < n; ++k) {
-            const int i = ((low + step * k) % n + n) % n;
-            if (u[std::size_t(i)] < u[std::size_t(side.back())] - slack) break;
+    const auto walk = [&](int step, std::vector<int>& side) {
+        for (int i = low;; i = (i + step + n) % n) {
+            if (!side.empty() && u[std::size_t(i)] < u[std::size_t(side.back())] - slack) return false;
             side.push_back(i);
+            if (i == high) return true;
         }
-        return side;
     };
-    std::vector<int> right = walk(1), left = walk(-1);
-    // The rim must be the two sides, sharing their ends only.
-    const double high = *std::max_element(u.begin(), u.end());
-    while (right.size() > 1 && u[std::size_t(right[right.size() - 2])] >= high - slack) right.pop_back();
-    if (u[std::size_t(right.back())] < high - slack || u[std::size_t(left.back())] < high - slack) return false;
-    const int top = right.back();
-    while (!left.empty() && left.back() != top) left.pop_back();
-    if (left.empty() || right.size() + left.size() != std::size_t(n) + 2) return false;
-    std::size_t i = 0, j = 0;
-    const auto add = [&](std::vector<int> corners) {
-        corners.erase(std::unique(corners.begin(), corners.end()), corners.end());
-        if (corners.size() > 1 && corners.front() == corners.back()) corners.pop_back();
-        if (corners.size() >= 3) disc.faces.push_back(std::move(corners));
-    };
-    while (i + 1 < right.size() || j + 1 < left.size()) {
-        const double ur = i + 1 < right.size() ? u[std::size_t(right[i + 1])] : infinity;
-        const double ul = j + 1 < left.size() ? u[std::size_t(left[j + 1])] : infinity;
-        if (i + 1 < right.size() && j + 1 < left.size() && std::abs(ur - ul) <= slack) {
-            add({left[j], right[i], right[i + 1], left[j + 1]});
-            ++i, ++j;
-        } else if (ur < ul) {
-            add({left[j], right[i], right[i + 1]});
-            ++i;
+    std::vector<int> right, left;
+    if (!walk(1, right) || !walk(-1, left)) return false;
+
+    std::vector<int> line{low};  // what the faces so far end at, from left to right
+    std::size_t i = 1, j = 1;    // the next ones
+    const auto level = [&](int v) { return u[std::size_t(v)]; };
+    const double top = level(high) - slack;
+    while (true) {
+        const double r = level(right[i]), l = level(left[j]), here = level(line.front()) + slack;
+        const bool ruling = level(line.back()) <= here && level(line.back()) >= here - 2 * slack;
+        if (ruling && i + 1 < right.size() && r <= here) {
+            line.push_back(right[i++]);
+        } else if (ruling && j + 1 < left.size() && l <= here) {
+            line.insert(line.begin(), left[j++]);
+        } else if (r >= top && l >= top) {
+            line.insert(line.end(), right.begin() + long(i), right.end());
+            line.insert(line.end(), left.rbegin() + 1, left.rend() - long(j));
+            if (line.size() < 3) return false;
+            disc.faces.push_back(line);
+            return true;
         } else {
-            add({left[j], right[i], left[j + 1]});
-            ++j;
+            const bool on_right = r <= l + slack, on_left = l <= r + slack;
+            const std::vector<int> next = on_right && on_left ? std::vector{left[j], right[i]}
+                                          : on_right          ? std::vector{line.front(), right[i]}
+                                                              : std::vector{left[j], line.back()};
+            if (on_right) line.push_back(right[i++]);
+            if (on_left) line.push_back(left[j++]);
+            if (line.size() > 2) disc.faces.push_back(line);
+            line = next;
         }
     }
-    return true;
 }
 
 // The centroid, moved along the gradient to the surface, within the walls.

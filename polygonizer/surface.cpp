@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <map>
 #include <numeric>
+#include <set>
 
 #include "polygonizer/polygon_triangles.hpp"
 
@@ -29,7 +30,7 @@ public:
         });
     }
 
-    Mesh run(std::vector<int>* origins) {
+    Mesh run(std::vector<Origin>* origins) {
         collect();
         pair();
         number_vertices();
@@ -247,6 +248,40 @@ private:
         return fresh;
     }
 
+    // A diagonal between two vertices that have an edge already gets a vertex in the middle.
+    void separate_double_diagonals(std::vector<std::array<int, 3>>& triangles, std::map<int, int>& polygon_at) {
+        std::map<std::pair<int, int>, int> uses;
+        for (const auto& t : triangles)
+            for (std::size_t k = 0; k < 3; ++k) ++uses[ends(t[k], t[(k + 1) % 3])];
+        for (std::size_t i = 0; i < triangles.size(); ++i)
+            for (std::size_t k = 0; k < 3; ++k) {
+                const int a = triangles[i][k], b = triangles[i][(k + 1) % 3], c = triangles[i][(k + 2) % 3];
+                const auto key = ends(a, b);
+                const bool on_border = borders_.count(key) > 0;
+                const int count = uses[key];
+                if (count < 2) continue;  // the border itself
+                if (!on_border && count == 2 && (diagonals_.count(key) == 0)) continue;
+                // The other triangle of this diagonal: it runs the other way.
+                for (std::size_t j = i + 1; j < triangles.size(); ++j) {
+                    auto& t = triangles[j];
+                    std::size_t m = 0;
+                    while (m < 3 && !(t[m] == b && t[(m + 1) % 3] == a)) ++m;
+                    if (m == 3) continue;
+                    const int d = t[(m + 2) % 3], middle = int(positions_.size());
+                    positions_.push_back(0.5 * (positions_[std::size_t(a)] + positions_[std::size_t(b)]));
+                    polygon_at[middle] = polygon_at.at(a);
+                    t = {b, middle, d};
+                    triangles[i] = {a, middle, c};
+                    triangles.push_back({middle, b, c});
+                    triangles.push_back({middle, a, d});
+                    uses[key] -= 2;
+                    break;
+                }
+            }
+        for (const auto& [key, count] : uses)
+            if (count >= 2) diagonals_.insert(key);
+    }
+
     Vec3 outward(const Polygon& p, Vec3 x) const {
         if (p.leaf < 0) return p.normal;
         const OpenLeaf* open = subdivision_.open(p.inner, p.leaf);
@@ -259,7 +294,9 @@ private:
         return g * ((subtracted ? 1.0 : -1.0) / length);
     }
 
-    Mesh build(std::vector<int>* origins) {
+    Mesh build(std::vector<Origin>* origins) {
+        for (std::size_t h = 0; h < steps_.size(); ++h)
+            if (next_[h] >= 0) borders_.insert(ends(vertex_[h], head(int(h))));
         std::map<int, std::vector<std::vector<int>>> loops;  // by group: half-edges
         std::vector<char> done(steps_.size(), false);
         for (std::size_t h = 0; h < steps_.size(); ++h) {
@@ -271,8 +308,8 @@ private:
             }
         }
         Mesh mesh;
-        std::vector<int> number(positions_.size(), -1);
-        std::vector<std::vector<int>> normals_at(positions_.size());
+        std::vector<int> number;
+        std::vector<std::vector<int>> normals_at;
         for (const auto& [g, rings] : loops) {
             const Polygon& plane = polygons_[std::size_t(g)];
             std::map<int, int> polygon_at;  // of a corner
@@ -293,7 +330,11 @@ private:
                 mesh.normals.push_back(n);
                 return int(mesh.normals.size()) - 1;
             };
-            for (const auto& t : triangles_of(corners, positions_, plane.normal)) {
+            std::vector<std::array<int, 3>> triangles = triangles_of(corners, positions_, plane.normal);
+            separate_double_diagonals(triangles, polygon_at);
+            number.resize(positions_.size(), -1);
+            normals_at.resize(positions_.size());
+            for (const auto& t : triangles) {
                 Triangle triangle{};
                 triangle.material = plane.material;
                 for (std::size_t k = 0; k < 3; ++k) {
@@ -306,7 +347,8 @@ private:
                     triangle.normal[k] = corner_normal(t[k]);
                 }
                 mesh.triangles.push_back(triangle);
-                if (origins) origins->push_back(plane.leaf < 0 ? -1 : subspace_.origin(plane.inner));
+                if (origins)
+                    origins->push_back(plane.leaf < 0 ? Origin{} : Origin{subspace_.origin(plane.inner), plane.leaf});
             }
         }
         return mesh;
@@ -324,12 +366,13 @@ private:
     std::vector<Vec3> positions_;
     std::vector<int> group_;                 // union-find over polygons
     std::vector<int> next_, before_;         // around a group; −1: within it
+    std::set<std::pair<int, int>> borders_, diagonals_;  // edges of polygons; of triangles within
 };
 
 }  // namespace
 
 Mesh surface(const Subspace& subspace, const Subdivision& subdivision, const SolidTree& solid,
-             std::vector<int>* origins) {
+             std::vector<Origin>* origins) {
     return Extraction(subspace, subdivision, solid).run(origins);
 }
 

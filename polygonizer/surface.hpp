@@ -11,9 +11,14 @@
 
 namespace deburr {
 
-/// `origins`, if given, gets for each triangle the cell of the subdivision whose isosurface it
-/// belongs to, or −1 for triangles on planes.
+/// Where a triangle comes from: the cell of the subdivision and the leaf whose isosurface it is part
+/// of; −1 both for triangles on planes.
+struct Origin {
+    int cell = -1, leaf = -1;
+};
+
+/// `origins`, if given, gets one for each triangle.
 Mesh surface(const Subspace& subspace, const Subdivision& subdivision, const SolidTree& solid,
-             std::vector<int>* origins = nullptr);
+             std::vector<Origin>* origins = nullptr);
 
 }  // namespace deburr
