@@ -21,11 +21,10 @@ Range combine(Op op, Range a, Range b) {
     }
 }
 
-Range range_of(const TreeNode& node, const DensityTree& tree, const Box& box,
-               const std::vector<Range>& done) {
+template <class OfHalfSpace>
+Range range_of(const TreeNode& node, const std::vector<Range>& done, OfHalfSpace of_half_space) {
     if (node.op == Op::constant) return {node.value, node.value};
-    if (node.op == Op::half_space)
-        return density_range(tree.half_spaces[std::size_t(node.a)], box);
+    if (node.op == Op::half_space) return of_half_space(std::size_t(node.a));
     return combine(node.op, done[std::size_t(node.a)],
                    node.b < 0 ? Range{} : done[std::size_t(node.b)]);
 }
@@ -48,11 +47,20 @@ bool is_constant(const TreeNode& node, const Range& range, const std::vector<cha
     return false;
 }
 
-const std::vector<Range>& ranges(const DensityTree& tree, const Box& box) {
+template <class OfHalfSpace>
+const std::vector<Range>& ranges_from(const DensityTree& tree, OfHalfSpace of_half_space) {
     thread_local std::vector<Range> done;
     done.clear();
-    for (const TreeNode& node : tree.nodes) done.push_back(range_of(node, tree, box, done));
+    for (const TreeNode& node : tree.nodes) done.push_back(range_of(node, done, of_half_space));
     return done;
+}
+
+const std::vector<Range>& ranges(const DensityTree& tree, const Box& box) {
+    return ranges_from(tree, [&](std::size_t i) { return density_range(tree.half_spaces[i], box); });
+}
+
+const std::vector<Range>& ranges(const DensityTree& tree, const std::vector<Range>& half_spaces) {
+    return ranges_from(tree, [&](std::size_t i) { return half_spaces[i]; });
 }
 
 // Folds constants while it copies what the root reaches; children first, as in the original.
@@ -167,6 +175,10 @@ Range density_range(const HalfSpace& h, const Box& box) {
 
 Range density_range(const DensityTree& tree, const Box& box) { return ranges(tree, box).back(); }
 
+Range density_range(const DensityTree& tree, const std::vector<Range>& half_spaces) {
+    return ranges(tree, half_spaces).back();
+}
+
 LocalSize local_size(const DensityTree& tree, const Box& box) {
     const std::vector<Range>& all = ranges(tree, box);
     return {all.back(), Folding(tree, all).size()};
@@ -174,6 +186,11 @@ LocalSize local_size(const DensityTree& tree, const Box& box) {
 
 Pruned prune(const DensityTree& tree, const Box& box) {
     const std::vector<Range>& all = ranges(tree, box);
+    return {Folding(tree, all).run(), all.back()};
+}
+
+Pruned prune(const DensityTree& tree, const std::vector<Range>& half_spaces) {
+    const std::vector<Range>& all = ranges(tree, half_spaces);
     return {Folding(tree, all).run(), all.back()};
 }
 

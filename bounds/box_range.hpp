@@ -26,6 +26,9 @@ Range density_range(const DensityTree& tree, const Box& box);
 
 enum class Side { outside, inside, straddling };
 
+/// The same over any region, given ρ of every half-space over it.
+Range density_range(const DensityTree& tree, const std::vector<Range>& half_spaces);
+
 /// Where the box lies with respect to the set ρ > ½, as far as the range can tell.
 inline Side classify(Range rho) {
     if (rho.hi <= 0.5) return Side::outside;
@@ -40,6 +43,9 @@ struct Pruned {
 
 /// The local density of the box: half-spaces that are constant there are folded away.
 Pruned prune(const DensityTree& tree, const Box& box);
+
+/// The same over any region, given ρ of every half-space over it.
+Pruned prune(const DensityTree& tree, const std::vector<Range>& half_spaces);
 
 struct LocalSize {
     Range range;

@@ -190,9 +190,17 @@ ValueGradient LocalDensity::gradient_at(Vec3 x) const {
 }
 
 Range LocalDensity::range(const Box& box) const {
+    return range_from([&](int i) { return density_range(half_spaces_[std::size_t(i)], box); });
+}
+
+Range LocalDensity::range(const std::vector<Range>& half_spaces) const {
+    return range_from([&](int i) { return half_spaces[std::size_t(i)]; });
+}
+
+template <class OfHalfSpace>
+Range LocalDensity::range_from(OfHalfSpace leaf) const {
     thread_local std::vector<Range> done;
     done.resize(nodes_.size());
-    const auto leaf = [&](int i) { return density_range(half_spaces_[std::size_t(i)], box); };
     for (std::size_t i = 0; i < nodes_.size(); ++i) {
         const Node& n = nodes_[i];
         const auto at = [&](int child) { return done[std::size_t(child)]; };

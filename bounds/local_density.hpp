@@ -25,6 +25,8 @@ public:
     ValueGradient gradient_at(Vec3 x) const;
     /// ρ over a box; tighter than the tree's, as it sees what operands share.
     Range range(const Box& box) const;
+    /// The same over any region, given ρ of every half-space (half_spaces()) over it.
+    Range range(const std::vector<Range>& half_spaces) const;
 
 private:
     friend class RayDensity;
@@ -37,6 +39,8 @@ private:
         double value = 0;    // constant; difference, complement: 1 if no operand is ever negative
     };
 
+    template <class OfHalfSpace>
+    Range range_from(OfHalfSpace of_half_space) const;
     int add(Node node);
     int add_boolean(const DensityTree& tree, int root);
 

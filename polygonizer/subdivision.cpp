@@ -1,0 +1,340 @@
+#include "polygonizer/subdivision.hpp"
+
+#include <algorithm>
+#include <cassert>
+
+#include "polygonizer/parallel_family.hpp"
+
+namespace deburr {
+namespace {
+
+// With more half-spaces than this in a cell it is halved along an axis first: chosen, near the
+// minimum of the triangle count over Lobb's figures.
+constexpr std::size_t many = 14;
+
+// ρ ranges this near to ½ count as ending there: they come from α = 0 to within a few ε.
+constexpr double level_slack = 1e-12;
+
+Side decide(Range rho) {
+    if (rho.hi <= 0.5 + level_slack) return Side::outside;
+    if (rho.lo >= 0.5 - level_slack) return Side::inside;
+    return Side::straddling;
+}
+
+// Distances that a vertex snapped to h or h ± r should have had.
+double snapped(double distance, double radius, double tolerance) {
+    for (const double plane : {-radius, 0.0, radius})
+        if (std::abs(distance - plane) <= tolerance) return plane;
+    return distance;
+}
+
+Range rho_between(const HalfSpace& h, double lo, double hi, double tolerance) {
+    lo = snapped(lo, h.radius, tolerance);
+    hi = snapped(hi, h.radius, tolerance);
+    if (h.radius > 0) return {profile(hi / h.radius), profile(lo / h.radius)};
+    return {hi > 0 ? 0.0 : 1.0, lo >= 0 ? 0.0 : 1.0};  // sharp: constant on either closed side
+}
+
+Range distances(const HalfSpace& h, const std::vector<Vec3>& corners) {
+    Range d{infinity, -infinity};
+    for (const Vec3& x : corners) {
+        const double s = h.distance(x);
+        d = {std::min(d.lo, s), std::max(d.hi, s)};
+    }
+    return d;
+}
+
+void ranges_over(const std::vector<HalfSpace>& half_spaces, const std::vector<Vec3>& corners,
+                 double tolerance, std::vector<Range>& out) {
+    out.clear();
+    for (const HalfSpace& h : half_spaces) {
+        const Range d = distances(h, corners);
+        out.push_back(rho_between(h, d.lo, d.hi, tolerance));
+    }
+}
+
+Side combine(SolidOp op, Side a, Side b) {
+    if (op == SolidOp::subtract) {
+        if (a == Side::outside || b == Side::inside) return Side::outside;
+        return a == Side::inside && b == Side::outside ? Side::inside : Side::straddling;
+    }
+    const Side absorbing = op == SolidOp::unite ? Side::inside : Side::outside;
+    if (a == absorbing || b == absorbing) return absorbing;
+    return a == Side::straddling || b == Side::straddling ? Side::straddling : a;
+}
+
+// Folds decided leaves away; `solid` keeps children before parents, the root last.
+template <class SideOfLeaf>
+Side fold(std::vector<SolidTreeNode>& solid, SideOfLeaf side_of_leaf) {
+    std::vector<Side> sides;
+    for (const SolidTreeNode& n : solid) {
+        switch (n.op) {
+            case SolidOp::nothing: sides.push_back(Side::outside); break;
+            case SolidOp::everything: sides.push_back(Side::inside); break;
+            case SolidOp::leaf: sides.push_back(side_of_leaf(n.a)); break;
+            default: sides.push_back(combine(n.op, sides[std::size_t(n.a)], sides[std::size_t(n.b)]));
+        }
+    }
+    const Side root = sides.back();
+    if (root != Side::straddling) {
+        solid.clear();
+        return root;
+    }
+    std::vector<char> needed(solid.size(), false);
+    needed.back() = true;
+    for (std::size_t i = solid.size(); i-- > 0;) {
+        if (!needed[i] || sides[i] != Side::straddling || solid[i].op == SolidOp::leaf) continue;
+        needed[std::size_t(solid[i].a)] = needed[std::size_t(solid[i].b)] = true;
+    }
+    std::vector<int> place(solid.size(), -1);
+    std::vector<SolidTreeNode> to;
+    for (std::size_t i = 0; i < solid.size(); ++i) {
+        if (!needed[i]) continue;
+        SolidTreeNode n = solid[i];
+        if (sides[i] != Side::straddling) {
+            n = {sides[i] == Side::inside ? SolidOp::everything : SolidOp::nothing};
+        } else if (n.op != SolidOp::leaf) {
+            const bool a_open = sides[std::size_t(n.a)] == Side::straddling;
+            const bool b_open = sides[std::size_t(n.b)] == Side::straddling;
+            if (!b_open || (!a_open && n.op != SolidOp::subtract)) {
+                place[i] = place[std::size_t(b_open ? n.b : n.a)];
+                continue;
+            }
+            n.a = place[std::size_t(n.a)];
+            n.b = place[std::size_t(n.b)];
+        }
+        place[i] = int(to.size());
+        to.push_back(n);
+    }
+    to.resize(std::size_t(place.back()) + 1);
+    solid = std::move(to);
+    return root;
+}
+
+}  // namespace
+
+Subdivision::Subdivision(const SolidTree& solid, const Box& box)
+    : complex(box, 1e-9 * glm::length(box.hi - box.lo)) {
+    Place whole;
+    whole.solid = solid.nodes;
+    for (std::size_t k = 0; k < solid.leaves.size(); ++k)
+        whole.open.push_back({int(k), std::make_shared<DensityTree>(solid.leaves[k].density), nullptr});
+    places.push_back(std::move(whole));
+    refused_.emplace_back();
+    place_of.push_back(0);
+    place_of[0] = new_place(0, 0);
+    subdivide(0);
+}
+
+// The leaf within corners_.
+OpenLeaf Subdivision::localize(const OpenLeaf& leaf, Side& side) {
+    ranges_over(leaf.tree->half_spaces, corners_, complex.tolerance, ranges_);
+    Pruned pruned = prune(*leaf.tree, ranges_);
+    side = decide(pruned.range);
+    if (side != Side::straddling) return leaf;
+    OpenLeaf local = leaf;
+    if (pruned.tree.half_spaces.size() < leaf.tree->half_spaces.size()) {
+        local.tree = std::make_shared<DensityTree>(std::move(pruned.tree));
+        local.density = nullptr;
+    }
+    if (!local.density && local.tree->half_spaces.size() <= 2 * many)
+        local.density = std::make_shared<LocalDensity>(*local.tree);
+    if (local.density) {
+        ranges_over(local.density->half_spaces(), corners_, complex.tolerance, ranges_);
+        side = decide(local.density->range(ranges_));
+        if (side == Side::straddling && is_parallel_family(*local.density)) {
+            const Range s = extent_along(local.density->half_spaces()[0].normal, corners_);
+            const auto roots = level_planes(*local.density, s, complex.tolerance);
+            if (roots.planes.empty()) side = roots.inside ? Side::inside : Side::outside;
+        }
+    }
+    return local;
+}
+
+int Subdivision::new_place(int parent, int cell) {
+    std::vector<int> vertices;
+    complex.vertices_of(cell, vertices);
+    corners_.clear();
+    for (int v : vertices) corners_.push_back(complex.vertices[std::size_t(v)]);
+    Place place;
+    place.parent = parent;
+    place.solid = places[std::size_t(parent)].solid;
+    std::vector<OpenLeaf> open;
+    for (const OpenLeaf& leaf : places[std::size_t(parent)].open) {
+        Side side;
+        OpenLeaf local = localize(leaf, side);
+        if (side == Side::straddling) open.push_back(std::move(local));
+        else place.decided.push_back({leaf.leaf, side});
+    }
+    place.side = fold(place.solid, [&](int leaf) {
+        for (const auto& [decided, side] : place.decided)
+            if (decided == leaf) return side;
+        return Side::straddling;
+    });
+    if (place.side == Side::straddling) {
+        std::vector<int> matter;
+        for (const SolidTreeNode& n : place.solid)
+            if (n.op == SolidOp::leaf) matter.push_back(n.a);
+        for (OpenLeaf& leaf : open)
+            if (std::find(matter.begin(), matter.end(), leaf.leaf) != matter.end())
+                place.open.push_back(std::move(leaf));
+    }
+    places.push_back(std::move(place));
+    return int(places.size()) - 1;
+}
+
+Side Subdivision::side(int cell, int leaf) const {
+    for (int p = place_of[std::size_t(cell)]; p >= 0; p = places[std::size_t(p)].parent) {
+        const auto& decided = places[std::size_t(p)].decided;
+        const auto at = std::lower_bound(decided.begin(), decided.end(), std::pair{leaf, Side::outside});
+        if (at != decided.end() && at->first == leaf) return at->second;
+    }
+    return Side::straddling;
+}
+
+const OpenLeaf* Subdivision::open(int cell, int leaf) const {
+    for (const OpenLeaf& o : places[std::size_t(place_of[std::size_t(cell)])].open)
+        if (o.leaf == leaf) return &o;
+    return nullptr;
+}
+
+bool Subdivision::halve(int cell, const Plane& plane) {
+    const int upper = complex.cut(cell, plane);
+    if (upper < 0) return false;
+    const int parent = place_of[std::size_t(cell)];
+    refused_.push_back(refused_[std::size_t(cell)]);
+    place_of[std::size_t(cell)] = new_place(parent, cell);
+    place_of.push_back(new_place(parent, upper));
+    return true;
+}
+
+void Subdivision::subdivide(int cell) {
+    std::vector<int> todo{cell};
+    while (!todo.empty()) {
+        current_ = todo.back();
+        todo.pop_back();
+        std::vector<int> vertices;
+        complex.vertices_of(current_, vertices);
+        corners_.clear();
+        for (int v : vertices) corners_.push_back(complex.vertices[std::size_t(v)]);
+        const int at = place_of[std::size_t(current_)];
+        if (places[std::size_t(at)].side != Side::straddling) continue;
+        Plane plane{};
+        if (!choose(places[std::size_t(at)], plane)) continue;
+        if (halve(current_, plane)) todo.push_back(int(complex.cells.size()) - 1);
+        else refused_[std::size_t(current_)].push_back(plane);
+        todo.push_back(current_);
+    }
+}
+
+// Half-spaces left to deal with on one side of the plane; 0 where the solid is decided.
+double Subdivision::cost(const Place& place, const Plane& plane, bool above) {
+    std::vector<std::pair<int, Side>> sides;
+    double left = 0;
+    for (const OpenLeaf& leaf : place.open) {
+        ranges_.clear();
+        std::size_t varying = 0;
+        for (const HalfSpace& h : leaf.density->half_spaces()) {
+            Range d = distances(h, corners_);
+            const double cosine = glm::dot(h.normal, plane.normal);
+            if (std::abs(cosine) > 1 - 1e-12) {
+                const double at = plane.offset * (cosine > 0 ? 1 : -1) - h.offset;
+                if ((cosine > 0) == above) d.lo = std::max(d.lo, at);
+                else d.hi = std::min(d.hi, at);
+            }
+            ranges_.push_back(rho_between(h, d.lo, d.hi, complex.tolerance));
+            varying += ranges_.back().hi != 0 && ranges_.back().lo != 1;
+        }
+        const Side side = decide(leaf.density->range(ranges_));
+        sides.push_back({leaf.leaf, side});
+        if (side == Side::straddling) left += 1.0 + double(varying);
+    }
+    if (left == 0) return 0;
+    if (place.open.size() > 1) {
+        std::vector<SolidTreeNode> solid = place.solid;
+        const Side side = fold(solid, [&](int leaf) {
+            for (const auto& [l, s] : sides)
+                if (l == leaf) return s;
+            return Side::straddling;
+        });
+        if (side != Side::straddling) return 0;
+    }
+    return left;
+}
+
+bool Subdivision::choose(const Place& place, Plane& plane) {
+    std::size_t half_spaces = 0;
+    bool all_small = true;
+    for (const OpenLeaf& leaf : place.open) {
+        half_spaces += leaf.tree->half_spaces.size();
+        all_small &= leaf.density != nullptr;
+    }
+    if ((half_spaces > many || !all_small) && choose_neutral(place, plane)) return true;
+    if (!all_small) return false;
+
+    double best = infinity;
+    const auto consider = [&](const Plane& p, double bias) {
+        const Range s = extent_along(p.normal, corners_);
+        if (s.hi - p.offset <= complex.tolerance || p.offset - s.lo <= complex.tolerance) return;
+        for (const Plane& r : refused_[std::size_t(current_)])
+            if (r.normal == p.normal && r.offset == p.offset) return;
+        const double c = cost(place, p, true) + cost(place, p, false) + bias;
+        if (c >= best) return;
+        best = c;
+        plane = p;
+    };
+    for (const OpenLeaf& leaf : place.open) {
+        const auto& planes = leaf.density->half_spaces();
+        if (is_parallel_family(*leaf.density)) {
+            const Range s = extent_along(planes[0].normal, corners_);
+            for (const Plane& p : level_planes(*leaf.density, s, complex.tolerance).planes)
+                consider(p, 0);
+            continue;
+        }
+        for (const HalfSpace& h : planes) {
+            consider({h.normal, h.offset}, 0);
+            if (h.radius == 0) continue;
+            consider({h.normal, h.offset + h.radius}, 0.5);
+            consider({h.normal, h.offset - h.radius}, 0.5);
+        }
+    }
+    return best < infinity;
+}
+
+// Across the longest side of the cell, at a half-space's own plane if one is near the middle.
+bool Subdivision::choose_neutral(const Place& place, Plane& plane) const {
+    Box box;
+    for (const Vec3& x : corners_) box = hull(box, Box{x, x});
+    const Vec3 size = box.hi - box.lo;
+    const int axis = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
+    double least = infinity;
+    for (const OpenLeaf& leaf : place.open)
+        for (const HalfSpace& h : leaf.tree->half_spaces)
+            if (h.radius > 0) least = std::min(least, h.radius);
+    // Where many half-spaces vary together in a cell smaller than their filter, halving no longer
+    // tells them apart.
+    constexpr double smallest = 0.5;      // in radii
+    constexpr double sharp_smallest = 1e5;  // in tolerances
+    if (size[axis] <= (least < infinity ? smallest * least : sharp_smallest * complex.tolerance))
+        return false;
+    const double middle = 0.5 * (box.lo[axis] + box.hi[axis]);
+    plane.normal = Vec3(0.0);
+    plane.normal[axis] = 1;
+    plane.offset = middle;
+    double nearest = 0.2 * size[axis];
+    for (const OpenLeaf& leaf : place.open)
+        for (const HalfSpace& h : leaf.tree->half_spaces) {
+            if (std::abs(h.normal[axis]) < 1 - 1e-12) continue;
+            for (const double shift : {-h.radius, 0.0, h.radius}) {
+                const double at = (h.offset + shift) * (h.normal[axis] > 0 ? 1 : -1);
+                if (std::abs(at - middle) >= nearest) continue;
+                nearest = std::abs(at - middle);
+                plane.offset = at;
+            }
+        }
+    for (const Plane& r : refused_[std::size_t(current_)])
+        if (r.normal == plane.normal && r.offset == plane.offset) return false;
+    return true;
+}
+
+}  // namespace deburr
