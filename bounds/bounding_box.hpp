@@ -1,8 +1,8 @@
 // Boxes around densities and solids, found from their outer bound CSG.
 //
 // Lobb tags convex intersections as boundable and takes their vertices [Lobb §3.5]. Here every
-// intersection of planes is bounded by linear programs along the axes (Seidel 1991), and the rest
-// follows by interval arithmetic on boxes. Sides may be infinite.
+// intersection of planes is bounded by linear programs (polyhedron_box.hpp), and the rest follows by
+// interval arithmetic on boxes. Sides may be infinite.
 #pragma once
 #include "bounds/csg_bounds.hpp"
 #include "bounds/solid_tree.hpp"

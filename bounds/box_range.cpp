@@ -21,58 +21,65 @@ Range combine(Op op, Range a, Range b) {
     }
 }
 
-template <class OfHalfSpace>
-Range range_of(const TreeNode& node, const std::vector<Range>& done, OfHalfSpace of_half_space) {
-    if (node.op == Op::constant) return {node.value, node.value};
-    if (node.op == Op::half_space) return of_half_space(std::size_t(node.a));
-    return combine(node.op, done[std::size_t(node.a)],
-                   node.b < 0 ? Range{} : done[std::size_t(node.b)]);
-}
+// ρ of a node over the region, and whether it is constant there for a reason that holds wherever the
+// half-spaces that are not saturated may lie. (That a range is a single value is no such reason: it
+// is one over a box that is a point.)
+struct NodeRange : Range {
+    bool constant = false;
+};
 
-// Constant for a reason that holds wherever the half-spaces that are not saturated may lie. (That a
-// range is a single value is no such reason: it is one over a box that is a point.)
-bool is_constant(const TreeNode& node, const Range& range, const std::vector<char>& done) {
-    const auto zero = [&] { return range.hi == 0; };
-    const auto one = [&] { return range.lo == 1; };
-    switch (node.op) {
-        case Op::constant: return true;
-        case Op::half_space: return zero() || one();
-        case Op::complement: return done[std::size_t(node.a)];
-        default: break;
-    }
-    const bool a = done[std::size_t(node.a)], b = done[std::size_t(node.b)];
-    if (a && b) return true;
-    if (node.op == Op::product || node.op == Op::conjunction) return (a || b) && range.lo == 0 && zero();
-    if (node.op == Op::disjunction) return (a || b) && range.hi == 1 && one();
+bool is_constant(Op op, const Range& range, const NodeRange& a, const NodeRange& b) {
+    const auto zero = [&] { return range.lo == 0 && range.hi == 0; };
+    const auto one = [&] { return range.lo == 1 && range.hi == 1; };
+    if (op == Op::complement) return a.constant;
+    if (a.constant && b.constant) return true;
+    if (op == Op::product || op == Op::conjunction) return (a.constant || b.constant) && zero();
+    if (op == Op::disjunction) return (a.constant || b.constant) && one();
     return false;
 }
 
-template <class OfHalfSpace>
-const std::vector<Range>& ranges_from(const DensityTree& tree, OfHalfSpace of_half_space) {
-    thread_local std::vector<Range> done;
+template <class OfHalfSpace, class Misses>
+const std::vector<NodeRange>& ranges_from(const DensityTree& tree, OfHalfSpace of_half_space, Misses misses) {
+    thread_local std::vector<NodeRange> done;
     done.clear();
-    for (const TreeNode& node : tree.nodes) done.push_back(range_of(node, done, of_half_space));
+    for (const TreeNode& n : tree.nodes) {
+        if (n.op == Op::constant) {
+            done.push_back({{n.value, n.value}, true});
+        } else if (n.op == Op::half_space) {
+            const Range r = of_half_space(std::size_t(n.a));
+            done.push_back({r, r.hi == 0 || r.lo == 1});
+        } else if (n.support >= 0 && misses(tree.supports[std::size_t(n.support)])) {
+            done.push_back({{0, 0}, true});
+        } else {
+            const NodeRange a = done[std::size_t(n.a)], b = n.b < 0 ? NodeRange{} : done[std::size_t(n.b)];
+            const Range r = combine(n.op, a, b);
+            done.push_back({r, is_constant(n.op, r, a, b)});
+        }
+    }
     return done;
 }
 
-const std::vector<Range>& ranges(const DensityTree& tree, const Box& box) {
-    return ranges_from(tree, [&](std::size_t i) { return density_range(tree.half_spaces[i], box); });
+const std::vector<NodeRange>& ranges(const DensityTree& tree, const Box& box) {
+    return ranges_from(
+        tree, [&](std::size_t i) { return density_range(tree.half_spaces[i], box); },
+        [&](const Box& support) { return intersection(support, box).empty(); });
 }
 
-const std::vector<Range>& ranges(const DensityTree& tree, const std::vector<Range>& half_spaces) {
-    return ranges_from(tree, [&](std::size_t i) { return half_spaces[i]; });
+const std::vector<NodeRange>& ranges(const DensityTree& tree, const std::vector<Range>& half_spaces) {
+    return ranges_from(
+        tree, [&](std::size_t i) { return half_spaces[i]; }, [](const Box&) { return false; });
 }
 
 // Folds constants while it copies what the root reaches; children first, as in the original.
 class Folding {
 public:
-    Folding(const DensityTree& from, const std::vector<Range>& ranges) : from_(from), ranges_(ranges) {}
+    Folding(const DensityTree& from, const std::vector<NodeRange>& ranges) : from_(from), ranges_(ranges) {}
 
     int size() {
         mark();
         int half_spaces = 0;
         for (std::size_t i = 0; i < from_.nodes.size(); ++i)
-            half_spaces += needed_[i] && !constant_[i] && from_.nodes[i].op == Op::half_space;
+            half_spaces += needed_[i] && !constant(int(i)) && from_.nodes[i].op == Op::half_space;
         return half_spaces;
     }
 
@@ -87,7 +94,7 @@ public:
     }
 
 private:
-    bool constant(int i) const { return constant_[std::size_t(i)]; }
+    bool constant(int i) const { return ranges_[std::size_t(i)].constant; }
     bool is(int i, double value) const { return constant(i) && ranges_[std::size_t(i)].lo == value; }
 
     // The child that node i equals throughout, or −1.
@@ -109,11 +116,10 @@ private:
 
     // From the root down: constants end a branch.
     void mark() {
-        for (std::size_t i = 0; i < from_.nodes.size(); ++i)
-            constant_.push_back(is_constant(from_.nodes[i], ranges_[i], constant_));
-        needed_.assign(from_.nodes.size(), false);
-        needed_.back() = true;
+        const std::size_t count = from_.nodes.size();
+        needed_.assign(count, false);
         for (int i = from_.root(); i >= 0; --i) {
+            if (std::size_t(i) + 1 == count) needed_[std::size_t(i)] = true;
             if (!needed_[std::size_t(i)] || constant(i)) continue;
             const TreeNode& n = from_.nodes[std::size_t(i)];
             if (n.op == Op::half_space || n.op == Op::constant) continue;
@@ -140,6 +146,10 @@ private:
             return add({Op::complement, place_[std::size_t(n.b)], -1, 0, n.line});
         n.a = place_[std::size_t(n.a)];
         if (n.b >= 0) n.b = place_[std::size_t(n.b)];
+        if (n.support >= 0) {
+            to_.supports.push_back(from_.supports[std::size_t(n.support)]);
+            n.support = int(to_.supports.size()) - 1;
+        }
         return add(n);
     }
 
@@ -149,8 +159,8 @@ private:
     }
 
     const DensityTree& from_;
-    const std::vector<Range>& ranges_;
-    std::vector<char> constant_, needed_;
+    const std::vector<NodeRange>& ranges_;
+    std::vector<char> needed_;
     std::vector<int> place_;
     DensityTree to_;
 };
@@ -180,17 +190,17 @@ Range density_range(const DensityTree& tree, const std::vector<Range>& half_spac
 }
 
 LocalSize local_size(const DensityTree& tree, const Box& box) {
-    const std::vector<Range>& all = ranges(tree, box);
+    const std::vector<NodeRange>& all = ranges(tree, box);
     return {all.back(), Folding(tree, all).size()};
 }
 
 Pruned prune(const DensityTree& tree, const Box& box) {
-    const std::vector<Range>& all = ranges(tree, box);
+    const std::vector<NodeRange>& all = ranges(tree, box);
     return {Folding(tree, all).run(), all.back()};
 }
 
 Pruned prune(const DensityTree& tree, const std::vector<Range>& half_spaces) {
-    const std::vector<Range>& all = ranges(tree, half_spaces);
+    const std::vector<NodeRange>& all = ranges(tree, half_spaces);
     return {Folding(tree, all).run(), all.back()};
 }
 

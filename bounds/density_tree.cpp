@@ -2,6 +2,7 @@
 
 #include "bounds/box_range.hpp"
 #include "bounds/local_density.hpp"
+#include "bounds/support.hpp"
 
 namespace deburr {
 namespace {
@@ -121,7 +122,7 @@ private:
             std::size_t to = first;
             for (std::size_t from = first; from < done_.size(); from += 2)
                 done_[to++] = from + 1 < done_.size()
-                                  ? add({task.op, done_[from], done_[from + 1], 0, task.line})
+                                  ? add({task.op, done_[from], done_[from + 1], 0, task.line, -1})
                                   : done_[from];
             done_.resize(to);
         }
@@ -151,6 +152,7 @@ DensityTree flatten(const Density& density, double radius, const Affine& to_worl
         throw std::length_error("a density has more than 4 million half-spaces");
     DensityTree tree = Flattening().run(density.node(), {radius, Affine{}});
     for (HalfSpace& h : tree.half_spaces) h = transformed(h, to_world, true);
+    find_supports(tree);
     return tree;
 }
 

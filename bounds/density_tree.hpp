@@ -46,6 +46,7 @@ struct TreeNode {
     int a = -1, b = -1;  // children; half_space: a is its index
     double value = 0;    // constant
     int line = 0;        // place in the scene, 0 unknown
+    int support = -1;    // index of a box outside of which the node is 0, if one is known
 };
 
 struct ValueGradient {
@@ -56,8 +57,9 @@ struct ValueGradient {
 struct DensityTree {
     std::vector<HalfSpace> half_spaces;
     std::vector<TreeNode> nodes;  // children before parents, the root last; never empty
+    std::vector<Box> supports = {};
 
-    static DensityTree constant(double value) { return {{}, {{Op::constant, -1, -1, value, 0}}}; }
+    static DensityTree constant(double value) { return {{}, {{Op::constant, -1, -1, value}}, {}}; }
 
     int root() const { return int(nodes.size()) - 1; }
     double at(Vec3 x) const { return gradient_at(x).value; }
@@ -70,7 +72,7 @@ constexpr double most_half_spaces = 4e6;
 
 /// Rounds and places a density: radius r wherever the scene fixed none, then `to_world`. Below a
 /// Boolean operator + * - become ∨ ∧ ∧¬ (DESIGN §2). Chains of one associative operator come out
-/// balanced. Throws std::length_error past most_half_spaces.
+/// balanced, and bounded parts have their supports. Throws std::length_error past most_half_spaces.
 DensityTree flatten(const Density& density, double radius, const Affine& to_world = {});
 
 /// The half-space's image; the radius scales as distance along the normal does.

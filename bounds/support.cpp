@@ -1,0 +1,67 @@
+#include "bounds/support.hpp"
+
+#include "bounds/polyhedron_box.hpp"
+
+namespace deburr {
+namespace {
+
+// Of parts with fewer half-spaces the planes themselves are as quick to look at.
+constexpr int fewest_half_spaces = 4;
+
+bool is_intersection(Op op) { return op == Op::product || op == Op::conjunction; }
+
+// A half-space varies up to a radius outside its plane, and an ulp or two.
+BoundPlane edge_of(const HalfSpace& h, bool complement) {
+    const double reach = h.radius + 4 * epsilon * (std::abs(h.offset) + h.radius);
+    return complement ? BoundPlane{-h.normal, reach - h.offset} : BoundPlane{h.normal, h.offset + reach};
+}
+
+bool bounded_somewhere(const Box& box) {
+    for (int k = 0; k < 3; ++k)
+        if (box.lo[k] > -infinity || box.hi[k] < infinity) return true;
+    return false;
+}
+
+}  // namespace
+
+void find_supports(DensityTree& tree) {
+    std::vector<char> whole(tree.nodes.size(), true);  // not merely a part of a larger intersection
+    for (const TreeNode& n : tree.nodes)
+        if (is_intersection(n.op)) whole[std::size_t(n.a)] = whole[std::size_t(n.b)] = false;
+
+    std::vector<GatheredBox> all(tree.nodes.size());
+    std::vector<int> half_spaces(tree.nodes.size(), 0);
+    for (std::size_t i = 0; i < tree.nodes.size(); ++i) {
+        TreeNode& n = tree.nodes[i];
+        const auto take = [&](int child) { return std::move(all[std::size_t(child)]); };
+        switch (n.op) {
+            case Op::constant:
+                if (n.value == 0) all[i].rest = {};
+                break;
+            case Op::half_space:
+                all[i].planes.push_back(edge_of(tree.half_spaces[std::size_t(n.a)], false));
+                half_spaces[i] = 1;
+                continue;
+            case Op::complement: {
+                const TreeNode& of = tree.nodes[std::size_t(n.a)];
+                if (of.op == Op::half_space)
+                    all[i].planes.push_back(edge_of(tree.half_spaces[std::size_t(of.a)], true));
+                half_spaces[i] = half_spaces[std::size_t(n.a)];
+                continue;
+            }
+            case Op::product:
+            case Op::conjunction: all[i] = both(take(n.a), take(n.b)); break;
+            default: all[i] = either(take(n.a), take(n.b)); break;  // a − b may be negative where b is
+        }
+        if (n.op == Op::constant) continue;
+        half_spaces[i] = half_spaces[std::size_t(n.a)] + half_spaces[std::size_t(n.b)];
+        if (!whole[i] || half_spaces[i] < fewest_half_spaces) continue;
+        const Box box = all[i].box();
+        all[i] = {box, {}};
+        if (!bounded_somewhere(box)) continue;
+        tree.supports.push_back(box);
+        n.support = int(tree.supports.size()) - 1;
+    }
+}
+
+}  // namespace deburr
