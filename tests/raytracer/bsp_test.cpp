@@ -33,8 +33,14 @@ Agreement compare(const std::vector<Solid>& solids, const Camera& camera, int co
             TraceCounters counters;
             const double t = tracer.first_hit(ray, t_max, counters).t;
             double want = infinity;
-            for (const SolidTree& tree : trees)
-                want = std::min(want, plain::first_crossing(tree, ray.origin, ray.direction, t_max, steps));
+            for (const SolidTree& tree : trees) {
+                const double found = plain::first_crossing(tree, ray.origin, ray.direction, t_max, steps);
+                // It looks at points and may step over a sliver. A nearer crossing is right if the
+                // definition has it.
+                const auto side = [&](double s) { return plain::contains(tree, ray.origin + ray.direction * s); };
+                const bool crosses = t < found && side(t - 1e-7) != side(t + 1e-7);
+                want = std::min(want, crosses ? t : found);
+            }
             ++a.rays;
             a.hits += want < infinity;
             if (t != want && !(std::abs(t - want) < accuracy)) {
@@ -299,8 +305,8 @@ TEST_CASE("Lobb's figure 11: the six objects, by the definition") {
                                      Solid::rounded(r, cube + box3)};
     for (const Solid& object : objects) {
         const Agreement a = compare({object}, look({2.2, 2.4, 3}, {0.5, 0.6, 0.5}, 36), 60, 38);
-        CHECK(a.hits > 300);
         CHECK(a.differ == 0);
+        CHECK(a.hits > 300);
     }
 }
 
