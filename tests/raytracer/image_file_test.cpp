@@ -132,7 +132,7 @@ TEST_CASE("an EXR holds only the layers that were asked for") {
           std::vector<std::string>{"R", "G", "B", "A", "id"});
 }
 
-TEST_CASE("--float keeps 32 bits; half is clamped to finite values") {
+TEST_CASE("with --float colours keep 32 bits; half is clamped to finite values") {
     const Folder folder;
     Film bright = film();
     bright.at(3, 3).color = {1e6, -1e6, infinity};
