@@ -6,10 +6,8 @@
 
 #include "bounds/bounding_box.hpp"
 #include "raytracer/commands.hpp"
-#include "raytracer/options.hpp"
-#if __has_include("raytracer/legality.hpp")
 #include "raytracer/legality.hpp"
-#endif
+#include "raytracer/options.hpp"
 
 namespace deburr {
 namespace {
@@ -90,9 +88,7 @@ Json describe(const Scene& scene, Size size) {
     j["lights"] = Json::array();
     for (const Light& light : scene.lights)
         j["lights"].push_back({{"kind", name_of(light.kind)}, {"power", light.power}});
-#if __has_include("raytracer/legality.hpp")
     j["illegal_densities"] = illegal_densities(scene);
-#endif
     return j;
 }
 

@@ -17,14 +17,12 @@
 #include "raytracer/integrator.hpp"
 #include "raytracer/interrupt.hpp"
 #include "raytracer/message.hpp"
+#include "raytracer/legality.hpp"
 #include "raytracer/options.hpp"
 #include "raytracer/progress.hpp"
 #include "raytracer/render.hpp"
 #include "raytracer/statistics.hpp"
 #include "raytracer/whole_file.hpp"
-#if __has_include("raytracer/legality.hpp")
-#include "raytracer/legality.hpp"
-#endif
 
 namespace deburr {
 namespace {
@@ -33,6 +31,8 @@ struct RenderOptions : Options {
     std::string via = "implicit";
 };
 
+// Boxes to look at for each sum and difference before rendering; `info` looks longer.
+constexpr int boxes_to_warn = 1000;
 // Work to write a pixel into a file, where tracing one sample of it is 1: a guess, for the bar.
 constexpr double writing_work = 0.1;
 
@@ -127,10 +127,8 @@ int run_render(const RenderOptions& o) {
                     o.scene, scene.solids.size(), scene.lights.size(), size.width, size.height, spp,
                     threads));
 
-#if __has_include("raytracer/legality.hpp")
     if (!o.quiet)
-        for (const std::string& what : illegal_densities(scene)) message("warning: " + what);
-#endif
+        for (const std::string& what : illegal_densities(scene, boxes_to_warn)) message("warning: " + what);
 
     clock.begin("build");
     const ImplicitTracer tracer(scene.solids, o.criterion);
