@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "bounds/bounding_box.hpp"
+#include "polygonizer/repair.hpp"
 #include "polygonizer/sharp_parts.hpp"
 #include "polygonizer/surface.hpp"
 
@@ -51,8 +52,7 @@ std::vector<int> cells_to_halve(const Mesh& mesh, const std::vector<Origin>& ori
             subdivision.open(origins[k].cell, origins[k].leaf)->density->gradient_at(centre);
         const double slope = glm::length(here.gradient), size = glm::length(area);
         const double side = glm::dot(here.gradient, normal) > 0 ? 1 : -1;
-        const bool leans = size > 0 && (glm::dot(area, normal) < least_cosine * size * glm::length(normal) ||
-                                        side * glm::dot(area, here.gradient) < least_cosine * size * slope);
+        const bool leans = size > 0 && side * glm::dot(area, here.gradient) < least_cosine * size * slope;
         const bool far = std::abs(here.value - 0.5) > tolerance * slope;
         if (leans || far) cells.push_back(origins[k].cell);
     }
@@ -102,6 +102,9 @@ Mesh triage(const SolidTree& mixed, const Box& box, const TriageOptions& options
             changed |= halve(subdivision, cell, round);
         if (!changed) break;
     }
+    const SurfaceOffset offset(solid);
+    repair(mesh, offset);
+    thin_borders(mesh, offset);
     if (statistics) {
         statistics->cells = subdivision.complex.cells.size();
         statistics->open_cells = 0;
