@@ -90,7 +90,7 @@ private:
 class March {
 public:
     March(const SolidTree& solid, const Box& box, double side)
-        : solid_(solid), box_(box), grid_(solid_, box, side), side_(side) {}
+        : field_(solid, inflated(box, 2 * side)), box_(box), grid_(SurfaceOffset(solid), box, side), side_(side) {}
 
     Mesh run() {
         constexpr int n = Grid::block;
@@ -125,13 +125,12 @@ private:
         // Inside the box the root; on its wall where the solid leaves it.
         const bool low_in = grid_.value(ax, ay, az) > 0;
         double t0 = 0, t1 = 1;
-        const SurfaceOffset local = solid_.within(Box{lo, hi});
         while (t1 - t0 > 1e-15) {
             const double t = 0.5 * (t0 + t1);
             if (t <= t0 || t >= t1) break;
             Vec3 p = lo;
             p[axis] += side_ * t;
-            const bool in = box_.contains(p) && local.inside(p);
+            const bool in = box_.contains(p) && field_.inside(p);
             (in == low_in ? t0 : t1) = t;
         }
         // Off the corners by so little that it does not matter, so that no triangle vanishes.
@@ -140,11 +139,12 @@ private:
         Vec3 p = lo;
         p[axis] += side_ * t;
         mesh_.positions.push_back(p);
-        const Offset o = local.at(p);
+        const SurfaceOffset& there = field_.near(p);
+        const Offset o = there.at(p);
         Vec3 normal = o.normal;
         if (normal == Vec3(0.0)) normal[axis] = low_in ? 1 : -1;
         mesh_.normals.push_back(normal);
-        materials_.push_back(o.leaf < 0 ? 0 : local.material(o.leaf));
+        materials_.push_back(o.leaf < 0 ? 0 : there.material(o.leaf));
         return it->second;
     }
 
@@ -216,8 +216,8 @@ private:
         Vec3 centre(0.0);
         for (const int v : loop) centre += mesh_.positions[std::size_t(v)] / double(n);
         const double reach = side_;
-        const double distance = solid_.distance_along_normal(centre, reach);
-        const Offset o = solid_.at(centre);
+        const double distance = field_.distance_along_normal(centre, reach);
+        const Offset o = field_.at(centre);
         if (distance < reach) centre += o.normal * (o.distance > 0 ? distance : -distance);
         const int middle = int(mesh_.positions.size());
         mesh_.positions.push_back(centre);
@@ -230,7 +230,7 @@ private:
         mesh_.triangles.push_back({{a, b, c}, {a, b, c}, materials_[std::size_t(a)], 0});
     }
 
-    SurfaceOffset solid_;
+    OffsetField field_;
     Box box_;
     Grid grid_;
     double side_;

@@ -47,33 +47,30 @@ MeshMetrics measure(const Mesh& mesh, const SolidTree& solid) {
     m.volume = volume(mesh);
     for (const Vec3& x : mesh.positions) m.box = hull(m.box, Box{x, x});
     measure_edges(mesh, m);
-    const SurfaceOffset whole(solid);
+    const OffsetField field(solid, inflated(m.box, 1e-6 * (1 + glm::length(m.box.hi - m.box.lo))));
     const double reach = m.box.empty() ? 0 : glm::length(m.box.hi - m.box.lo);
     Sum first, far, angle;
     for (const Triangle& t : mesh.triangles) {
-        Box box;
         Vec3 middle(0.0);
         double longest = 0;
         for (std::size_t k = 0; k < 3; ++k) {
             const Vec3 x = mesh.positions[std::size_t(t.vertex[k])];
-            box = hull(box, Box{x, x});
             middle += x / 3.0;
             longest = std::max(longest, glm::length(x - mesh.positions[std::size_t(t.vertex[(k + 1) % 3])]));
         }
         const Vec3 area = mesh.area_vector(t);
         const double twice = glm::length(area);
         m.area += 0.5 * twice;
-        const SurfaceOffset local = whole.within(inflated(box, 0.5 * longest));
         for (const int v : t.vertex)
-            m.vertex_distance = std::max(m.vertex_distance, std::abs(local.at(mesh.positions[std::size_t(v)]).distance));
+            m.vertex_distance = std::max(m.vertex_distance, std::abs(field.at(mesh.positions[std::size_t(v)]).distance));
         if (twice <= flat * longest * longest) {
             ++m.degenerate;
             continue;
         }
-        const Offset here = local.at(middle);
+        const Offset here = field.at(middle);
         if (here.normal == Vec3(0.0)) continue;
         first.add(std::abs(here.distance));
-        const double distance = local.distance_along_normal(middle, std::min(reach, 0.5 * longest));
+        const double distance = field.distance_along_normal(middle, std::min(reach, 0.5 * longest));
         far.add(std::isfinite(distance) ? distance : std::abs(here.distance));
         const double cosine = glm::dot(area, here.normal) / twice;
         angle.add(std::acos(std::clamp(cosine, -1.0, 1.0)) * degrees);

@@ -19,7 +19,7 @@ struct Shape {
 
 class Editing {
 public:
-    Editing(Mesh& mesh, const SurfaceOffset& solid) : mesh_(mesh), solid_(solid) {
+    Editing(Mesh& mesh, const OffsetField& solid) : mesh_(mesh), solid_(solid) {
         around_.resize(mesh.positions.size());
         for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
             for (const int v : mesh.triangles[t].vertex) around_[std::size_t(v)].push_back(int(t));
@@ -42,14 +42,12 @@ public:
     Shape shape(const Triangle& t) const {
         if (without_area(t)) return {-1, 0};
         const Vec3 area = mesh_.area_vector(t);
-        Box box;
         Vec3 middle(0.0), normals(0.0);
         for (std::size_t k = 0; k < 3; ++k) {
-            box = hull(box, Box{position(t.vertex[k]), position(t.vertex[k])});
             middle += position(t.vertex[k]) / 3.0;
             normals += mesh_.normals[std::size_t(t.normal[k])];
         }
-        const Offset o = solid_.within(inflated(box, 1e-9)).at(middle);
+        const Offset o = solid_.at(middle);
         const Vec3 normal = o.normal != Vec3(0.0) ? o.normal : glm::length(normals) > 0 ? glm::normalize(normals) : normals;
         return {glm::dot(area, normal) / glm::length(area),
                 std::isfinite(o.distance) ? std::abs(o.distance) : 0};
@@ -214,7 +212,7 @@ private:
     }
 
     Mesh& mesh_;
-    const SurfaceOffset& solid_;
+    const OffsetField& solid_;
     std::vector<std::vector<int>> around_;
     std::vector<char> alive_;
 };
@@ -258,7 +256,7 @@ bool mend(Editing& edit, int t, RepairStatistics& statistics) {
 
 }  // namespace
 
-RepairStatistics repair(Mesh& mesh, const SurfaceOffset& solid) {
+RepairStatistics repair(Mesh& mesh, const OffsetField& solid) {
     RepairStatistics statistics;
     std::vector<int> bad;
     Editing edit(mesh, solid);
@@ -282,7 +280,7 @@ RepairStatistics repair(Mesh& mesh, const SurfaceOffset& solid) {
     return statistics;
 }
 
-std::size_t thin_borders(Mesh& mesh, const SurfaceOffset& solid) {
+std::size_t thin_borders(Mesh& mesh, const OffsetField& solid) {
     Editing edit(mesh, solid);
     double worst = 0;
     for (const Triangle& t : mesh.triangles) worst = std::max(worst, edit.shape(t).distance);

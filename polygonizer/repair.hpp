@@ -14,11 +14,11 @@ struct RepairStatistics {
 };
 
 /// `solid` is what the mesh approximates.
-RepairStatistics repair(Mesh& mesh, const SurfaceOffset& solid);
+RepairStatistics repair(Mesh& mesh, const OffsetField& solid);
 
 /// Collapses vertices on a straight border of a flat face that the face does not need: where two
 /// cells' parts of a rounded edge meet it. Triangles stay as near to the surface as the worst of
 /// them was. Returns how many went.
-std::size_t thin_borders(Mesh& mesh, const SurfaceOffset& solid);
+std::size_t thin_borders(Mesh& mesh, const OffsetField& solid);
 
 }  // namespace deburr

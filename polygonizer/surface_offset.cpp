@@ -79,14 +79,18 @@ Offset SurfaceOffset::at(Vec3 x) const {
     return done.back();
 }
 
-double SurfaceOffset::distance_along_normal(Vec3 x, double reach) const {
-    const Offset here = at(x);
+namespace {
+
+// Root search on the line along the normal; `field` has at() and inside().
+template <class Field>
+double search_along_normal(const Field& field, Vec3 x, double reach) {
+    const Offset here = field.at(x);
     if (here.distance == 0) return 0;
     if (here.normal == Vec3(0.0)) return infinity;
     const bool in = here.distance > 0;
     const Vec3 line = here.normal * (in ? 1.0 : -1.0);
     double lo = 0, hi = std::min(reach, 1.5 * std::abs(here.distance));
-    while (inside(x + line * hi) == in) {
+    while (field.inside(x + line * hi) == in) {
         if (hi >= reach) return infinity;
         lo = hi;
         hi = std::min(reach, 1.5 * hi);
@@ -94,8 +98,48 @@ double SurfaceOffset::distance_along_normal(Vec3 x, double reach) const {
     while (true) {
         const double middle = 0.5 * (lo + hi);
         if (middle <= lo || middle >= hi || hi - lo < 1e-12 * reach) return middle;
-        (inside(x + line * middle) == in ? lo : hi) = middle;
+        (field.inside(x + line * middle) == in ? lo : hi) = middle;
     }
+}
+
+}  // namespace
+
+double SurfaceOffset::distance_along_normal(Vec3 x, double reach) const {
+    return search_along_normal(*this, x, reach);
+}
+
+std::size_t SurfaceOffset::half_spaces() const {
+    std::size_t count = 0;
+    for (const SolidLeaf& leaf : solid_.leaves) count += leaf.density.half_spaces.size();
+    return count;
+}
+
+OffsetField::OffsetField(const SolidTree& solid, const Box& box)
+    : root_(std::make_unique<Node>(Node{box, SurfaceOffset(solid), 0, {}})) {}
+
+double OffsetField::distance_along_normal(Vec3 x, double reach) const {
+    return search_along_normal(*this, x, reach);
+}
+
+const SurfaceOffset& OffsetField::near(Vec3 x) const {
+    // Boxes stop where splitting pays no more, or does not help.
+    constexpr std::size_t few = 8;
+    constexpr int deepest = 40;
+    Node* node = root_.get();
+    if (!node->box.contains(x)) return node->solid;
+    while (node->depth < deepest && node->solid.half_spaces() > few) {
+        const Vec3 size = node->box.hi - node->box.lo;
+        const int axis = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
+        const double middle = 0.5 * (node->box.lo[axis] + node->box.hi[axis]);
+        std::unique_ptr<Node>& child = node->children[x[axis] > middle];
+        if (!child) {
+            Box half = node->box;
+            (x[axis] > middle ? half.lo : half.hi)[axis] = middle;
+            child = std::make_unique<Node>(Node{half, node->solid.within(half), node->depth + 1, {}});
+        }
+        node = child.get();
+    }
+    return node->solid;
 }
 
 SurfaceOffset SurfaceOffset::within(const Box& box) const { return SurfaceOffset(prune(solid_, box)); }

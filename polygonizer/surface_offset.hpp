@@ -4,6 +4,8 @@
 // max; for the primary CSG tree min and max again. Exact on the surface, right to first order near
 // it; ±infinity where a density is saturated.
 #pragma once
+#include <memory>
+
 #include "bounds/local_density.hpp"
 #include "bounds/solid_tree.hpp"
 
@@ -30,6 +32,7 @@ public:
     double decided(const Box& box) const;
 
     int material(int leaf) const { return solid_.leaves[std::size_t(leaf)].material; }
+    std::size_t half_spaces() const;
 
 private:
     Offset leaf_at(std::size_t leaf, Vec3 x) const;
@@ -37,6 +40,29 @@ private:
     SolidTree solid_;
     std::vector<LocalDensity> densities_;  // of rounded leaves; of sharp ones a constant
     std::vector<char> sharp_;
+};
+
+/// The same for many points: a tree of boxes, split as points ask for it, so that each evaluates
+/// only what matters near it. Not for several threads at once.
+class OffsetField {
+public:
+    OffsetField(const SolidTree& solid, const Box& box);
+
+    Offset at(Vec3 x) const { return near(x).at(x); }
+    bool inside(Vec3 x) const { return at(x).distance > 0; }
+    /// As SurfaceOffset's.
+    double distance_along_normal(Vec3 x, double reach) const;
+    /// What to evaluate at x, and around it as far as its box reaches.
+    const SurfaceOffset& near(Vec3 x) const;
+
+private:
+    struct Node {
+        Box box;
+        SurfaceOffset solid;
+        int depth = 0;
+        std::unique_ptr<Node> children[2];
+    };
+    std::unique_ptr<Node> root_;
 };
 
 }  // namespace deburr

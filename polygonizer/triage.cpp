@@ -102,7 +102,7 @@ Mesh triage(const SolidTree& mixed, const Box& box, const TriageOptions& options
             changed |= halve(subdivision, cell, round);
         if (!changed) break;
     }
-    const SurfaceOffset offset(solid);
+    const OffsetField offset(solid, box);
     repair(mesh, offset);
     thin_borders(mesh, offset);
     if (statistics) {
