@@ -9,6 +9,9 @@
 namespace deburr {
 namespace {
 
+// Cosine between a flat rim and the surface below which the rim is not taken for the surface.
+constexpr double along = 0.5;
+
 Vec3 area_vector(const std::vector<Vec3>& rim) {
     Vec3 sum(0.0);
     for (std::size_t k = 1; k + 1 < rim.size(); ++k)
@@ -83,8 +86,9 @@ bool strips(const std::vector<Vec3>& rim, Vec3 sweep, double tolerance, Disc& di
     }
 }
 
-// The centroid, moved along the gradient to the surface, within the walls.
-bool displaced_centroid(const std::vector<Vec3>& rim, const LocalDensity& density,
+// The centroid, moved along the gradient to the surface, within the walls; where the rim lies in a
+// plane that the surface does not follow, across that plane.
+bool displaced_centroid(const std::vector<Vec3>& rim, bool flat, const LocalDensity& density,
                         const std::vector<Wall>& walls, double tolerance, Vec3& centre) {
     const Vec3 c = std::accumulate(rim.begin(), rim.end(), Vec3(0.0)) / double(rim.size());
     const ValueGradient here = density.gradient_at(c);
@@ -94,7 +98,11 @@ bool displaced_centroid(const std::vector<Vec3>& rim, const LocalDensity& densit
         centre = c;
         return true;
     }
-    Vec3 line = slope > 0 ? here.gradient / slope : glm::normalize(area_vector(rim)) ;
+    const Vec3 area = area_vector(rim);
+    const double size = glm::length(area);
+    Vec3 line = slope > 0 ? here.gradient / slope : Vec3(0.0);
+    if (size > 0 && (flat || slope == 0) && glm::dot(area, line) < along * size) line = area / size;
+    if (line == Vec3(0.0)) return false;
     if (f > 0) line = -line;
     double ahead = infinity, behind = -infinity;
     for (const Wall& w : walls) {
@@ -119,6 +127,13 @@ bool displaced_centroid(const std::vector<Vec3>& rim, const LocalDensity& densit
         }
     }
     return false;
+}
+
+// Whether the rim's plane faces the way the surface does at its middle.
+bool follows(const std::vector<Vec3>& rim, const LocalDensity& density) {
+    const Vec3 c = std::accumulate(rim.begin(), rim.end(), Vec3(0.0)) / double(rim.size());
+    const Vec3 area = area_vector(rim), g = density.gradient_at(c).gradient;
+    return glm::dot(area, g) >= along * glm::length(area) * glm::length(g);
 }
 
 // The fan about a corner of the rim whose worst triangle leans least.
@@ -153,16 +168,16 @@ Disc span_loop(const std::vector<Vec3>& rim, const LocalDensity& density, const 
     const int n = int(rim.size());
     std::vector<int> all(rim.size());
     std::iota(all.begin(), all.end(), 0);
-    if (n == 3) {
+    if (n == 3 && follows(rim, density)) {
         disc.faces.push_back(all);
         return disc;
     }
     const Vec3 area = area_vector(rim);
     const bool flat = glm::length(area) > 0 && is_flat(rim, glm::normalize(area), tolerance);
     Vec3 sweep;
-    if (is_swept(density, sweep) && strips(rim, sweep, tolerance, disc)) return disc;
+    if (n > 3 && !(flat && !follows(rim, density)) && is_swept(density, sweep) && strips(rim, sweep, tolerance, disc)) return disc;
     disc.faces.clear();
-    if (displaced_centroid(rim, density, walls, tolerance, disc.centre)) {
+    if (displaced_centroid(rim, flat, density, walls, tolerance, disc.centre)) {
         const Vec3 c = std::accumulate(rim.begin(), rim.end(), Vec3(0.0)) / double(n);
         if (flat && glm::length(disc.centre - c) <= 2 * tolerance) {
             disc.faces.push_back(all);

@@ -52,8 +52,9 @@ LevelPlanes level_planes(const LocalDensity& density, Range s, double tolerance)
             if (knot > s.lo && knot < s.hi) knots.push_back(knot);
     }
     std::sort(knots.begin(), knots.end());
-    // Between knots ρ is a polynomial; samples keep off them, as ρ = ½ is likely there.
-    constexpr double shares[] = {0.1, 0.3, 0.5, 0.7, 0.9};
+    // Between knots ρ is a polynomial of low degree. Near them is where a plane is displaced a
+    // little from its half-space's own.
+    constexpr double shares[] = {0, 0.02, 0.1, 0.3, 0.5, 0.7, 0.9, 0.98, 1};
     LevelPlanes result;
     double last_s = 0;
     int last_sign = 0;

@@ -278,7 +278,8 @@ bool Subdivision::choose(const Place& place, Plane& plane) {
         if (s.hi - p.offset <= complex.tolerance || p.offset - s.lo <= complex.tolerance) return;
         for (const Plane& r : refused_[std::size_t(current_)])
             if (r.normal == p.normal && r.offset == p.offset) return;
-        const double c = cost(place, p, true) + cost(place, p, false) + bias;
+        const double share = (s.hi - p.offset) / (s.hi - s.lo);
+        const double c = cost(place, p, true) * std::sqrt(share) + cost(place, p, false) * std::sqrt(1 - share) + bias;
         if (c >= best) return;
         best = c;
         plane = p;

@@ -253,9 +253,23 @@ bool Subspace::refine(int face, int a, int b, const LocalDensity& density, std::
     Vec3 line = here.gradient - normal * glm::dot(normal, here.gradient), sweep;
     if (is_swept(density, sweep) && std::abs(glm::dot(sweep, normal)) > 0.1)
         line = here.gradient - sweep * (glm::dot(normal, here.gradient) / glm::dot(normal, sweep));
-    if (glm::length(line) <= 1e-9 * glm::length(here.gradient)) return false;
-    line = glm::normalize(line) * (f > 0 ? -1.0 : 1.0);  // towards the surface
+    // Where the segment runs along the rim the gradient may lead out of the face: then across it.
+    const Vec3 across = glm::cross(normal, xb - xa);
+    for (const Vec3 direction : {line, across}) {
+        if (glm::length(direction) <= 1e-9 * (direction == line ? glm::length(here.gradient) : length)) continue;
+        Vec3 root;
+        if (!search(face, middle, glm::normalize(direction) * (f > 0 ? -1.0 : 1.0), normal, length, density, root))
+            continue;
+        between.push_back(root);
+        return true;
+    }
+    return false;
+}
 
+// The surface nearest to `middle` on a line in the face: ahead if it is there, else behind.
+bool Subspace::search(int face, Vec3 middle, Vec3 line, Vec3 normal, double length,
+                      const LocalDensity& density, Vec3& root) const {
+    const double f = density.at(middle) - 0.5;
     double ahead = infinity, behind = -infinity;
     const Vec3 across = glm::cross(normal, line);
     for (const Step s : complex_.faces[std::size_t(face)].loop) {
@@ -280,10 +294,8 @@ bool Subspace::refine(int face, int a, int b, const LocalDensity& density, std::
                 flast = fx;
                 continue;
             }
-            const Vec3 root = root_between(density, last, flast, x, fx);
-            const double t = glm::dot(root - middle, line);
-            if (std::abs(reach - t) <= 1e-6 * length) break;  // on the rim
-            between.push_back(root);
+            root = root_between(density, last, flast, x, fx);
+            if (std::abs(reach - glm::dot(root - middle, line)) <= 1e-6 * length) break;  // on the rim
             return true;
         }
     }

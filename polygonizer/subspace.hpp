@@ -47,6 +47,8 @@ private:
     void split_edges(int face, const LocalDensity& density);
     void split_face(int face, int cell, const LocalDensity& density);
     bool refine(int face, int a, int b, const LocalDensity& density, std::vector<Vec3>& between);
+    bool search(int face, Vec3 middle, Vec3 line, Vec3 normal, double length, const LocalDensity& density,
+                Vec3& root) const;
     std::vector<Loop> loops(int cell);
     void span(int cell, const LocalDensity& density);
     int owner(int face, const std::vector<int>& family) const;

@@ -225,14 +225,39 @@ private:
             const int a = vertex_[h], b = head(int(h));
             if (++seen[ends(a, b)] == 1) continue;
             const int middle = int(positions_.size());
-            positions_.push_back(0.5 * (positions_[std::size_t(a)] + positions_[std::size_t(b)]));
             const int t = twin_[h];
+            positions_.push_back(middle_of(a, b, owner_[h], owner_[std::size_t(t)]));
             const int second = insert_after(int(h), middle), back = insert_after(t, middle);
             twin_[h] = back;
             twin_[std::size_t(back)] = int(h);
             twin_[std::size_t(t)] = second;
             twin_[std::size_t(second)] = t;
         }
+    }
+
+    // The middle of two vertices, moved to the surface of either polygon if it is bent.
+    Vec3 middle_of(int a, int b, int p, int q) const {
+        Vec3 x = 0.5 * (positions_[std::size_t(a)] + positions_[std::size_t(b)]);
+        const Polygon& polygon = polygons_[std::size_t(polygons_[std::size_t(p)].leaf >= 0 ? p : q)];
+        const LocalDensity* density = density_of(polygon);
+        if (!density) return x;
+        constexpr int steps = 20;  // of Newton's method, which takes 4 where the surface is near
+        const Vec3 start = x;
+        const double reach = glm::length(positions_[std::size_t(a)] - positions_[std::size_t(b)]);
+        for (int k = 0; k < steps; ++k) {
+            const ValueGradient v = density->gradient_at(x);
+            const double slope2 = glm::dot(v.gradient, v.gradient);
+            if (!(slope2 > 0)) return start;
+            x -= v.gradient * ((v.value - 0.5) / slope2);
+        }
+        return glm::length(x - start) <= reach ? x : start;
+    }
+
+    const LocalDensity* density_of(const Polygon& p) const {
+        if (p.leaf < 0) return nullptr;
+        const OpenLeaf* open = subdivision_.open(p.inner, p.leaf);
+        if (!open) open = subdivision_.open(p.outer, p.leaf);
+        return open ? open->density.get() : nullptr;
     }
 
     int insert_after(int h, int vertex) {
@@ -268,7 +293,7 @@ private:
                     while (m < 3 && !(t[m] == b && t[(m + 1) % 3] == a)) ++m;
                     if (m == 3) continue;
                     const int d = t[(m + 2) % 3], middle = int(positions_.size());
-                    positions_.push_back(0.5 * (positions_[std::size_t(a)] + positions_[std::size_t(b)]));
+                    positions_.push_back(middle_of(a, b, polygon_at.at(a), polygon_at.at(b)));
                     polygon_at[middle] = polygon_at.at(a);
                     t = {b, middle, d};
                     triangles[i] = {a, middle, c};
@@ -284,9 +309,8 @@ private:
 
     Vec3 outward(const Polygon& p, Vec3 x) const {
         if (p.leaf < 0) return p.normal;
-        const OpenLeaf* open = subdivision_.open(p.inner, p.leaf);
-        if (!open) open = subdivision_.open(p.outer, p.leaf);
-        const Vec3 g = open ? open->density->gradient_at(x).gradient : Vec3(0.0);
+        const LocalDensity* density = density_of(p);
+        const Vec3 g = density ? density->gradient_at(x).gradient : Vec3(0.0);
         const double length = glm::length(g);
         if (!(length > 1e-12)) return p.normal;
         // The gradient points into the solid, or out of it where the leaf is subtracted.

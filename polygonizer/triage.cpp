@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "bounds/bounding_box.hpp"
+#include "polygonizer/repair.hpp"
 #include "polygonizer/sharp_parts.hpp"
 #include "polygonizer/surface.hpp"
 
@@ -51,8 +52,14 @@ std::vector<int> cells_to_halve(const Mesh& mesh, const std::vector<Origin>& ori
             subdivision.open(origins[k].cell, origins[k].leaf)->density->gradient_at(centre);
         const double slope = glm::length(here.gradient), size = glm::length(area);
         const double side = glm::dot(here.gradient, normal) > 0 ? 1 : -1;
-        const bool leans = size > 0 && (glm::dot(area, normal) < least_cosine * size * glm::length(normal) ||
-                                        side * glm::dot(area, here.gradient) < least_cosine * size * slope);
+        // A sliver leans for other reasons, which halving does not help: repair.hpp.
+        constexpr double sliver = 0.005;  // height over longest side
+        double longest2 = 0;
+        for (std::size_t j = 0; j < 3; ++j) {
+            const Vec3 d = mesh.positions[std::size_t(t.vertex[j])] - mesh.positions[std::size_t(t.vertex[(j + 1) % 3])];
+            longest2 = std::max(longest2, glm::dot(d, d));
+        }
+        const bool leans = size > sliver * longest2 && side * glm::dot(area, here.gradient) < least_cosine * size * slope;
         const bool far = std::abs(here.value - 0.5) > tolerance * slope;
         if (leans || far) cells.push_back(origins[k].cell);
     }
@@ -102,6 +109,9 @@ Mesh triage(const SolidTree& mixed, const Box& box, const TriageOptions& options
             changed |= halve(subdivision, cell, round);
         if (!changed) break;
     }
+    const OffsetField offset(solid, box);
+    repair(mesh, offset);
+    thin_borders(mesh, offset);
     if (statistics) {
         statistics->cells = subdivision.complex.cells.size();
         statistics->open_cells = 0;

@@ -13,5 +13,6 @@ struct Command {
 
 Command add_render_command(CLI::App& program);
 Command add_info_command(CLI::App& program);
+Command add_mesh_command(CLI::App& program);
 
 }  // namespace deburr

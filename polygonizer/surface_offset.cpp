@@ -1,0 +1,152 @@
+#include "polygonizer/surface_offset.hpp"
+
+#include "bounds/solid_range.hpp"
+#include "polygonizer/sharp_parts.hpp"
+
+namespace deburr {
+namespace {
+
+Offset negated(Offset o) { return {-o.distance, -o.normal, o.leaf}; }
+Offset least(const Offset& a, const Offset& b) { return b.distance < a.distance ? b : a; }
+Offset greatest(const Offset& a, const Offset& b) { return b.distance > a.distance ? b : a; }
+
+// A sharp density is a polyhedron: + and ∨ are unions, * and ∧ intersections.
+Offset sharp_at(const DensityTree& tree, Vec3 x) {
+    thread_local std::vector<Offset> done;
+    done.clear();
+    for (const TreeNode& n : tree.nodes) {
+        const auto at = [&](int child) -> const Offset& { return done[std::size_t(child)]; };
+        Offset o;
+        switch (n.op) {
+            case Op::constant: o.distance = n.value > 0.5 ? infinity : -infinity; break;
+            case Op::half_space: {
+                const HalfSpace& h = tree.half_spaces[std::size_t(n.a)];
+                o = {-h.distance(x), h.normal, -1};
+                break;
+            }
+            case Op::sum:
+            case Op::disjunction: o = greatest(at(n.a), at(n.b)); break;
+            case Op::product:
+            case Op::conjunction: o = least(at(n.a), at(n.b)); break;
+            case Op::difference: o = least(at(n.a), negated(at(n.b))); break;
+            case Op::complement: o = negated(at(n.a)); break;
+        }
+        done.push_back(o);
+    }
+    return done.back();
+}
+
+}  // namespace
+
+SurfaceOffset::SurfaceOffset(const SolidTree& solid) : solid_(separate_sharp(solid)) {
+    for (const SolidLeaf& leaf : solid_.leaves) {
+        bool sharp = true;
+        for (const HalfSpace& h : leaf.density.half_spaces) sharp &= h.radius == 0;
+        sharp_.push_back(sharp);
+        densities_.emplace_back(sharp ? DensityTree::constant(0) : leaf.density);
+    }
+}
+
+Offset SurfaceOffset::leaf_at(std::size_t leaf, Vec3 x) const {
+    Offset o;
+    if (sharp_[leaf]) {
+        o = sharp_at(solid_.leaves[leaf].density, x);
+    } else {
+        const ValueGradient v = densities_[leaf].gradient_at(x);
+        const double slope = glm::length(v.gradient), f = v.value - 0.5;
+        if (slope > 0) o = {f / slope, -v.gradient / slope, 0};
+        else o.distance = f > 0 ? infinity : f < 0 ? -infinity : 0;
+    }
+    o.leaf = int(leaf);
+    return o;
+}
+
+Offset SurfaceOffset::at(Vec3 x) const {
+    thread_local std::vector<Offset> done;
+    done.clear();
+    for (const SolidTreeNode& n : solid_.nodes) {
+        Offset o;
+        switch (n.op) {
+            case SolidOp::nothing: o.distance = -infinity; break;
+            case SolidOp::everything: o.distance = infinity; break;
+            case SolidOp::leaf: o = leaf_at(std::size_t(n.a), x); break;
+            case SolidOp::unite: o = greatest(done[std::size_t(n.a)], done[std::size_t(n.b)]); break;
+            case SolidOp::intersect: o = least(done[std::size_t(n.a)], done[std::size_t(n.b)]); break;
+            case SolidOp::subtract: o = least(done[std::size_t(n.a)], negated(done[std::size_t(n.b)])); break;
+        }
+        done.push_back(o);
+    }
+    return done.back();
+}
+
+namespace {
+
+// Root search on the line along the normal; `field` has at() and inside().
+template <class Field>
+double search_along_normal(const Field& field, Vec3 x, double reach) {
+    const Offset here = field.at(x);
+    if (here.distance == 0) return 0;
+    if (here.normal == Vec3(0.0)) return infinity;
+    const bool in = here.distance > 0;
+    const Vec3 line = here.normal * (in ? 1.0 : -1.0);
+    double lo = 0, hi = std::min(reach, 1.5 * std::abs(here.distance));
+    while (field.inside(x + line * hi) == in) {
+        if (hi >= reach) return infinity;
+        lo = hi;
+        hi = std::min(reach, 1.5 * hi);
+    }
+    while (true) {
+        const double middle = 0.5 * (lo + hi);
+        if (middle <= lo || middle >= hi || hi - lo < 1e-12 * reach) return middle;
+        (field.inside(x + line * middle) == in ? lo : hi) = middle;
+    }
+}
+
+}  // namespace
+
+double SurfaceOffset::distance_along_normal(Vec3 x, double reach) const {
+    return search_along_normal(*this, x, reach);
+}
+
+std::size_t SurfaceOffset::half_spaces() const {
+    std::size_t count = 0;
+    for (const SolidLeaf& leaf : solid_.leaves) count += leaf.density.half_spaces.size();
+    return count;
+}
+
+OffsetField::OffsetField(const SolidTree& solid, const Box& box)
+    : root_(std::make_unique<Node>(Node{box, SurfaceOffset(solid), 0, {}})) {}
+
+double OffsetField::distance_along_normal(Vec3 x, double reach) const {
+    return search_along_normal(*this, x, reach);
+}
+
+const SurfaceOffset& OffsetField::near(Vec3 x) const {
+    // Boxes stop where splitting pays no more, or does not help.
+    constexpr std::size_t few = 8;
+    constexpr int deepest = 40;
+    Node* node = root_.get();
+    if (!node->box.contains(x)) return node->solid;
+    while (node->depth < deepest && node->solid.half_spaces() > few) {
+        const Vec3 size = node->box.hi - node->box.lo;
+        const int axis = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
+        const double middle = 0.5 * (node->box.lo[axis] + node->box.hi[axis]);
+        std::unique_ptr<Node>& child = node->children[x[axis] > middle];
+        if (!child) {
+            Box half = node->box;
+            (x[axis] > middle ? half.lo : half.hi)[axis] = middle;
+            child = std::make_unique<Node>(Node{half, node->solid.within(half), node->depth + 1, {}});
+        }
+        node = child.get();
+    }
+    return node->solid;
+}
+
+SurfaceOffset SurfaceOffset::within(const Box& box) const { return SurfaceOffset(prune(solid_, box)); }
+
+double SurfaceOffset::decided(const Box& box) const {
+    const Side side = local_size(solid_, box).side;
+    return side == Side::inside ? infinity : side == Side::outside ? -infinity : 0;
+}
+
+}  // namespace deburr

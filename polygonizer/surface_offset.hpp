@@ -1,0 +1,68 @@
+// How far a point is from the surface of a solid, to first order, and which way the surface faces.
+//
+// For a rounded density that is (ρ − ½)/|∇ρ|; for a sharp one the planes' distances under min and
+// max; for the primary CSG tree min and max again. Exact on the surface, right to first order near
+// it; ±infinity where a density is saturated.
+#pragma once
+#include <memory>
+
+#include "bounds/local_density.hpp"
+#include "bounds/solid_tree.hpp"
+
+namespace deburr {
+
+struct Offset {
+    double distance = 0;  // > 0 inside
+    Vec3 normal{0.0};     // unit, outward; 0 where there is none
+    int leaf = -1;        // that the surface nearby belongs to
+};
+
+class SurfaceOffset {
+public:
+    explicit SurfaceOffset(const SolidTree& solid);
+
+    Offset at(Vec3 x) const;
+    bool inside(Vec3 x) const { return at(x).distance > 0; }
+    /// Distance from x to the surface along the normal there, by root search no farther than
+    /// `reach`; infinity if there is none.
+    double distance_along_normal(Vec3 x, double reach) const;
+    /// Only what matters in the box.
+    SurfaceOffset within(const Box& box) const;
+    /// If the box lies on one side: ±infinity; else 0.
+    double decided(const Box& box) const;
+
+    int material(int leaf) const { return solid_.leaves[std::size_t(leaf)].material; }
+    std::size_t half_spaces() const;
+
+private:
+    Offset leaf_at(std::size_t leaf, Vec3 x) const;
+
+    SolidTree solid_;
+    std::vector<LocalDensity> densities_;  // of rounded leaves; of sharp ones a constant
+    std::vector<char> sharp_;
+};
+
+/// The same for many points: a tree of boxes, split as points ask for it, so that each evaluates
+/// only what matters near it. Not for several threads at once.
+class OffsetField {
+public:
+    OffsetField(const SolidTree& solid, const Box& box);
+
+    Offset at(Vec3 x) const { return near(x).at(x); }
+    bool inside(Vec3 x) const { return at(x).distance > 0; }
+    /// As SurfaceOffset's.
+    double distance_along_normal(Vec3 x, double reach) const;
+    /// What to evaluate at x, and around it as far as its box reaches.
+    const SurfaceOffset& near(Vec3 x) const;
+
+private:
+    struct Node {
+        Box box;
+        SurfaceOffset solid;
+        int depth = 0;
+        std::unique_ptr<Node> children[2];
+    };
+    std::unique_ptr<Node> root_;
+};
+
+}  // namespace deburr

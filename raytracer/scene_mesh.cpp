@@ -1,0 +1,113 @@
+#include "raytracer/scene_mesh.hpp"
+
+#include <fmt/format.h>
+
+#include <charconv>
+
+#include "bounds/bounding_box.hpp"
+#include "polygonizer/marching_cubes.hpp"
+#include "raytracer/errors.hpp"
+
+namespace deburr {
+namespace {
+
+// A grid of more cubes than this is refused: it would take tens of gigabytes.
+constexpr double most_cubes = 2e9;
+
+bool finite(const Box& box) { return box.empty() || box.finite(); }
+
+// All that is finite of the scene, and the eye: infinite solids are cut off around it.
+Box finite_part(const Scene& scene, const std::vector<Box>& boxes) {
+    Box all;
+    for (const Box& b : boxes)
+        if (!b.empty() && b.finite()) all = hull(all, b);
+    if (all.empty()) {
+        all = hull(Box{scene.camera.target, scene.camera.target}, Box{scene.camera.eye, scene.camera.eye});
+        for (const Box& b : boxes)
+            for (int k = 0; k < 3; ++k)
+                for (const double side : {b.lo[k], b.hi[k]})
+                    if (std::isfinite(side)) {
+                        all.lo[k] = std::min(all.lo[k], side);
+                        all.hi[k] = std::max(all.hi[k], side);
+                    }
+    }
+    return all;
+}
+
+}  // namespace
+
+MeshMethod parse_mesh_method(const std::string& what, const std::string& name) {
+    if (name == "triage") return MeshMethod::triage;
+    if (name == "marching-cubes") return MeshMethod::marching_cubes;
+    throw UsageError(fmt::format("{}: expected {}, got '{}'", what, mesh_method_names(), name));
+}
+
+std::string mesh_method_names() { return "triage or marching-cubes"; }
+
+double parse_positive(const std::string& what, const std::string& text) {
+    double x = 0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), x);
+    if (error != std::errc() || end != text.data() + text.size() || !(x > 0) || !std::isfinite(x))
+        throw UsageError(fmt::format("{}: expected a number > 0, got '{}'", what, text));
+    return x;
+}
+
+SceneMesh mesh_scene(const Scene& scene, const MeshSettings& settings) {
+    SceneMesh result;
+    std::vector<Box> boxes;
+    for (const Solid& solid : scene.solids) {
+        result.trees.push_back(flatten(solid));
+        boxes.push_back(bounding_box(result.trees.back()));
+    }
+    const Box finite_box = finite_part(scene, boxes);
+    const Vec3 size = finite_box.hi - finite_box.lo;
+    // Infinite solids end this many sizes of the finite part away from it: beyond what a camera
+    // that frames the finite part sees of them, short of the horizon.
+    constexpr double reach = 8;
+    const Box limit = inflated(finite_box, reach * std::max({size.x, size.y, size.z, 1e-6}));
+    for (std::size_t i = 0; i < scene.solids.size(); ++i) {
+        const SolidTree& tree = result.trees[i];
+        Mesh part;
+        Box box = boxes[i];
+        if (!finite(box)) {
+            // Cut off on infinite sides only; the others keep their margin.
+            Box margin = inflated(box, 0.05 * std::max({size.x, size.y, size.z}));
+            for (int k = 0; k < 3; ++k) {
+                margin.lo[k] = std::isfinite(margin.lo[k]) ? margin.lo[k] : limit.lo[k];
+                margin.hi[k] = std::isfinite(margin.hi[k]) ? margin.hi[k] : limit.hi[k];
+            }
+            box = margin;
+            result.warnings.push_back(fmt::format("solid {} is unbounded: its mesh is cut off", i + 1));
+        } else {
+            box = polygonization_box(tree);
+        }
+        if (box.empty()) {
+            result.parts.emplace_back();
+            continue;
+        }
+        if (settings.method == MeshMethod::triage) {
+            TriageStatistics statistics;
+            part = triage(tree, box, {settings.tolerance}, &statistics);
+            result.triage.cells += statistics.cells;
+            result.triage.open_cells += statistics.open_cells;
+            result.triage.rounds = std::max(result.triage.rounds, statistics.rounds);
+        } else {
+            const double grid = settings.grid > 0 ? settings.grid : marching_cubes_grid(tree, box);
+            if (marching_cubes_count(box, grid) > most_cubes)
+                throw UnsupportedError(fmt::format(
+                    "--grid: a grid of {:g} would have more than {:g} cubes for solid {}", grid, most_cubes, i + 1));
+            part = marching_cubes(tree, box, grid);
+        }
+        result.mesh.append(part, int(i));
+        result.parts.push_back(std::move(part));
+    }
+    return result;
+}
+
+std::vector<MeshMetrics> measure_parts(const SceneMesh& mesh) {
+    std::vector<MeshMetrics> all;
+    for (std::size_t i = 0; i < mesh.parts.size(); ++i) all.push_back(measure(mesh.parts[i], mesh.trees[i]));
+    return all;
+}
+
+}  // namespace deburr

@@ -1,0 +1,40 @@
+// A scene's solids as meshes, by whichever method.
+#pragma once
+#include <string>
+#include <vector>
+
+#include "polygonizer/metrics.hpp"
+#include "polygonizer/triage.hpp"
+#include "raytracer/scene.hpp"
+
+namespace deburr {
+
+enum class MeshMethod { triage, marching_cubes };
+
+/// Throws UsageError for a name that is none; `what` is for the message.
+MeshMethod parse_mesh_method(const std::string& what, const std::string& name);
+std::string mesh_method_names();
+/// A number > 0, or UsageError.
+double parse_positive(const std::string& what, const std::string& text);
+
+struct MeshSettings {
+    MeshMethod method = MeshMethod::triage;
+    double tolerance = infinity;  // triage
+    double grid = 0;              // marching cubes; 0: half the least radius
+};
+
+struct SceneMesh {
+    Mesh mesh;                    // of all solids
+    std::vector<Mesh> parts;      // solid by solid
+    std::vector<SolidTree> trees;
+    TriageStatistics triage;      // sums
+    std::vector<std::string> warnings;
+};
+
+/// Solids that reach to infinity are cut off, at a distance that leaves the others in sight, and a
+/// warning says so. Throws UnsupportedError if a grid would be too fine.
+SceneMesh mesh_scene(const Scene& scene, const MeshSettings& settings);
+
+std::vector<MeshMetrics> measure_parts(const SceneMesh& mesh);
+
+}  // namespace deburr
