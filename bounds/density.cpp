@@ -3,6 +3,8 @@
 #include <cassert>
 #include <utility>
 
+#include "bounds/expression.hpp"
+
 namespace deburr {
 namespace {
 
@@ -16,24 +18,7 @@ double leaves_below(const DensityNode& node) {
 
 }  // namespace
 
-// Members of children would be destroyed by recursion; chains of `a = a + b` in a scene are as deep
-// as its loops are long. So handles are moved to a list first, and die there one by one.
-DensityNode::~DensityNode() {
-    thread_local std::vector<Density>* dying = nullptr;
-    if (children.empty()) return;
-    if (dying) {
-        for (Density& child : children) dying->push_back(std::move(child));
-        children.clear();
-        return;
-    }
-    std::vector<Density> list = std::move(children);
-    dying = &list;
-    while (!list.empty()) {
-        const Density last = std::move(list.back());
-        list.pop_back();
-    }
-    dying = nullptr;
-}
+DensityNode::~DensityNode() { release(children); }
 
 static std::shared_ptr<DensityNode> make(Kind kind, std::vector<Density> children, int line = 0) {
     auto node = std::make_shared<DensityNode>();

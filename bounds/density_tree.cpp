@@ -1,6 +1,7 @@
 #include "bounds/density_tree.hpp"
 
 #include "bounds/box_range.hpp"
+#include "bounds/expression.hpp"
 #include "bounds/local_density.hpp"
 #include "bounds/support.hpp"
 
@@ -118,14 +119,7 @@ private:
             done_.back() = add({Op::complement, done_.back()});
             return;
         }
-        while (done_.size() - first > 1) {  // pair neighbours until one is left
-            std::size_t to = first;
-            for (std::size_t from = first; from < done_.size(); from += 2)
-                done_[to++] = from + 1 < done_.size()
-                                  ? add({task.op, done_[from], done_[from + 1], 0, task.line, -1})
-                                  : done_[from];
-            done_.resize(to);
-        }
+        combine_balanced(done_, first, [&](int a, int b) { return add({task.op, a, b, 0, task.line, -1}); });
     }
 
     int add(TreeNode node) {

@@ -3,6 +3,8 @@
 #include <cassert>
 #include <utility>
 
+#include "bounds/expression.hpp"
+
 namespace deburr {
 namespace {
 
@@ -19,23 +21,7 @@ std::shared_ptr<SolidNode> make(Kind kind, std::vector<Solid> children) {
 
 }  // namespace
 
-// As for DensityNode: no recursion, however long the chain.
-SolidNode::~SolidNode() {
-    thread_local std::vector<Solid>* dying = nullptr;
-    if (children.empty()) return;
-    if (dying) {
-        for (Solid& child : children) dying->push_back(std::move(child));
-        children.clear();
-        return;
-    }
-    std::vector<Solid> list = std::move(children);
-    dying = &list;
-    while (!list.empty()) {
-        const Solid last = std::move(list.back());
-        list.pop_back();
-    }
-    dying = nullptr;
-}
+SolidNode::~SolidNode() { release(children); }
 
 Solid Solid::rounded(double r, Density density, int line) {
     assert(r >= 0);

@@ -1,5 +1,7 @@
 #include "bounds/solid_tree.hpp"
 
+#include "bounds/expression.hpp"
+
 namespace deburr {
 namespace {
 
@@ -73,13 +75,7 @@ private:
 
     void combine(const Task& task) {
         const std::size_t first = done_.size() - std::size_t(task.count);
-        while (done_.size() - first > 1) {
-            std::size_t to = first;
-            for (std::size_t from = first; from < done_.size(); from += 2)
-                done_[to++] = from + 1 < done_.size() ? add({task.op, done_[from], done_[from + 1]})
-                                                      : done_[from];
-            done_.resize(to);
-        }
+        combine_balanced(done_, first, [&](int a, int b) { return add({task.op, a, b}); });
     }
 
     int add(SolidTreeNode node) {

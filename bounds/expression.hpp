@@ -1,0 +1,40 @@
+// What shared expressions have in common, whether of densities or of solids: scenes write chains as
+// long as their loops, so nothing here recurses.
+#pragma once
+#include <utility>
+#include <vector>
+
+namespace deburr {
+
+/// Lets go of a node's children, where a Handle's last owner destroys a node that lets go of its own:
+/// what dies is put on a list, and dies there one by one.
+template <class Handle>
+void release(std::vector<Handle>& children) {
+    thread_local std::vector<Handle>* dying = nullptr;
+    if (children.empty()) return;
+    if (dying) {
+        for (Handle& child : children) dying->push_back(std::move(child));
+        children.clear();
+        return;
+    }
+    std::vector<Handle> list = std::move(children);
+    dying = &list;
+    while (!list.empty()) {
+        const Handle last = std::move(list.back());
+        list.pop_back();
+    }
+    dying = nullptr;
+}
+
+/// Replaces done[first …] by one node: neighbours are paired by add(a, b) until one is left.
+template <class Add>
+void combine_balanced(std::vector<int>& done, std::size_t first, Add add) {
+    while (done.size() - first > 1) {
+        std::size_t to = first;
+        for (std::size_t from = first; from < done.size(); from += 2)
+            done[to++] = from + 1 < done.size() ? add(done[from], done[from + 1]) : done[from];
+        done.resize(to);
+    }
+}
+
+}  // namespace deburr
