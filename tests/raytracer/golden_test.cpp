@@ -1,0 +1,36 @@
+// Every scene in scenes/ still looks as it did when somebody looked at it.
+#include <OpenImageIO/imagebuf.h>
+#include <OpenImageIO/imagebufalgo.h>
+
+#include <filesystem>
+
+#include "catch.hpp"
+#include "raytracer/program.hpp"
+
+using namespace deburr::test;
+namespace fs = std::filesystem;
+
+TEST_CASE("every scene in scenes/ renders like its golden picture") {
+    int scenes = 0;
+    for (const auto& entry : fs::directory_iterator(DEBURR_SOURCE_DIR "/scenes")) {
+        if (entry.path().extension() != ".lua") continue;
+        const std::string name = entry.path().stem().string();
+        CAPTURE(name);
+        const Folder folder;
+        const std::string got = folder / (name + ".png");
+        const Outcome outcome = run({"render", entry.path().string(), "--size", "150x95", "-o", got});
+        CHECK(outcome.err.find("warning") == std::string::npos);  // no illegal densities
+        REQUIRE(outcome.code == 0);
+
+        const OIIO::ImageBuf a(DEBURR_SOURCE_DIR "/tests/golden/" + name + ".png"), b(got);
+        REQUIRE(a.spec().width == 150);
+        // Other compilers and processors round differently: single pixels on silhouettes may change.
+        const auto difference = OIIO::ImageBufAlgo::compare(a, b, 3 / 255.f, 3 / 255.f);
+        if (difference.nfail > 14) {  // 0.1 %
+            OIIO::ImageBufAlgo::absdiff(a, b).write(name + "_difference.png");
+            FAIL_CHECK(difference.nfail << " pixels differ; see " << name << "_difference.png");
+        }
+        ++scenes;
+    }
+    CHECK(scenes >= 3);
+}
