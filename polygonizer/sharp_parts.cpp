@@ -28,6 +28,10 @@ DensityTree subtree(const DensityTree& from, int root) {
             n.a = place[std::size_t(n.a)];
             if (n.b >= 0) n.b = place[std::size_t(n.b)];
         }
+        if (n.support >= 0) {
+            to.supports.push_back(from.supports[std::size_t(n.support)]);
+            n.support = int(to.supports.size()) - 1;
+        }
         place[i] = int(to.nodes.size());
         to.nodes.push_back(n);
     }

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "bounds/bounding_box.hpp"
+#include "polygonizer/parallel_family.hpp"
 #include "polygonizer/repair.hpp"
 #include "polygonizer/sharp_parts.hpp"
 #include "polygonizer/surface.hpp"
@@ -33,58 +34,70 @@ Box polygonization_box(const SolidTree& solid) {
 
 namespace {
 
+struct Cut {
+    int cell;
+    double error;  // how much it is needed
+    Plane plane;
+};
+
+// Halves the edge of the triangle along which the surface's normal turns most; along a sweep it
+// does not turn.
+Plane halving(const Mesh& mesh, const Triangle& t, const LocalDensity& density) {
+    double most = -1;
+    Plane plane{};
+    Vec3 sweep(0.0);
+    const bool swept = is_swept(density, sweep);
+    for (std::size_t k = 0; k < 3; ++k) {
+        const std::size_t l = (k + 1) % 3;
+        const Vec3 a = mesh.positions[std::size_t(t.vertex[k])], b = mesh.positions[std::size_t(t.vertex[l])];
+        const double turn = glm::length(mesh.normals[std::size_t(t.normal[k])] - mesh.normals[std::size_t(t.normal[l])]);
+        Vec3 along = b - a;
+        if (swept) along -= sweep * glm::dot(sweep, along);
+        if (turn <= most || glm::length(along) == 0) continue;
+        most = turn;
+        plane.normal = glm::normalize(along);
+        plane.offset = glm::dot(plane.normal, 0.5 * (a + b));
+    }
+    return plane;
+}
+
 // Cells whose part of the mesh leans too far from the surface's normal, or is too far from it.
-std::vector<int> cells_to_halve(const Mesh& mesh, const std::vector<Origin>& origins,
+std::vector<Cut> cells_to_halve(const Mesh& mesh, const std::vector<Origin>& origins,
                                 const Subdivision& subdivision, double tolerance) {
     // Cosine between a triangle and the surface below which its cell is halved: 75°.
     constexpr double least_cosine = 0.25;
-    std::vector<int> cells;
+    // A sliver leans for other reasons, which halving does not help: repair.hpp.
+    constexpr double sliver = 0.005;  // height over longest side
+    std::vector<Cut> cuts;
     for (std::size_t k = 0; k < origins.size(); ++k) {
         if (origins[k].cell < 0) continue;
         const Triangle& t = mesh.triangles[k];
         const Vec3 area = mesh.area_vector(t);
         Vec3 normal(0.0), centre(0.0);
-        for (std::size_t j = 0; j < 3; ++j) {
-            normal += mesh.normals[std::size_t(t.normal[j])];
-            centre += mesh.positions[std::size_t(t.vertex[j])] / 3.0;
-        }
-        const ValueGradient here =
-            subdivision.open(origins[k].cell, origins[k].leaf)->density->gradient_at(centre);
-        const double slope = glm::length(here.gradient), size = glm::length(area);
-        const double side = glm::dot(here.gradient, normal) > 0 ? 1 : -1;
-        // A sliver leans for other reasons, which halving does not help: repair.hpp.
-        constexpr double sliver = 0.005;  // height over longest side
         double longest2 = 0;
         for (std::size_t j = 0; j < 3; ++j) {
-            const Vec3 d = mesh.positions[std::size_t(t.vertex[j])] - mesh.positions[std::size_t(t.vertex[(j + 1) % 3])];
+            const Vec3 x = mesh.positions[std::size_t(t.vertex[j])];
+            const Vec3 d = x - mesh.positions[std::size_t(t.vertex[(j + 1) % 3])];
+            normal += mesh.normals[std::size_t(t.normal[j])];
+            centre += x / 3.0;
             longest2 = std::max(longest2, glm::dot(d, d));
         }
+        const LocalDensity& density = *subdivision.open(origins[k].cell, origins[k].leaf)->density;
+        const ValueGradient here = density.gradient_at(centre);
+        const double slope = glm::length(here.gradient), size = glm::length(area);
+        const double side = glm::dot(here.gradient, normal) > 0 ? 1 : -1;
         const bool leans = size > sliver * longest2 && side * glm::dot(area, here.gradient) < least_cosine * size * slope;
-        const bool far = std::abs(here.value - 0.5) > tolerance * slope;
-        if (leans || far) cells.push_back(origins[k].cell);
+        const double distance = slope > 0 ? std::abs(here.value - 0.5) / slope : 0;
+        if (!leans && distance <= tolerance) continue;
+        cuts.push_back({origins[k].cell, distance, halving(mesh, t, density)});
     }
-    std::sort(cells.begin(), cells.end());
-    cells.erase(std::unique(cells.begin(), cells.end()), cells.end());
-    return cells;
-}
-
-// Across its longest side; false if it is too small to be worth it.
-bool halve(Subdivision& subdivision, int cell, std::size_t round) {
-    std::vector<int> vertices;
-    subdivision.complex.vertices_of(cell, vertices);
-    Box box;
-    for (const int v : vertices) {
-        const Vec3 x = subdivision.complex.vertices[std::size_t(v)];
-        box = hull(box, Box{x, x});
-    }
-    const Vec3 size = box.hi - box.lo;
-    int axis = int(round % 3);
-    for (int k = 0; k < 3; ++k)
-        if (size[k] > 1.2 * size[axis]) axis = k;
-    if (size[axis] < 1e4 * subdivision.complex.tolerance) return false;
-    Plane plane{Vec3(0.0), 0.5 * (box.lo[axis] + box.hi[axis])};
-    plane.normal[axis] = 1;
-    return subdivision.halve(cell, plane);
+    // Of each cell the worst triangle's.
+    std::sort(cuts.begin(), cuts.end(), [](const Cut& a, const Cut& b) {
+        return a.cell != b.cell ? a.cell < b.cell : a.error > b.error;
+    });
+    cuts.erase(std::unique(cuts.begin(), cuts.end(), [](const Cut& a, const Cut& b) { return a.cell == b.cell; }),
+               cuts.end());
+    return cuts;
 }
 
 }  // namespace
@@ -94,9 +107,9 @@ Mesh triage(const SolidTree& mixed, const Box& box, const TriageOptions& options
     const SolidTree solid = separate_sharp(mixed);
     Subdivision subdivision(solid, box);
     Mesh mesh;
-    // Each round halves the cells that need it; a surface that bends by 90° within a cell is within
-    // any tolerance that matters, or has come down to the smallest cells, long before.
-    constexpr std::size_t most_rounds = 5;
+    // Each round halves the cells that need it. Halving quarters the distance, so a tolerance is met,
+    // or cells have become negligible, long before the last; what leans only is left to repair.
+    const std::size_t most_rounds = std::isfinite(options.tolerance) ? 24 : 5;
     for (std::size_t round = 0; round < most_rounds; ++round) {
         Subdivision work = subdivision;
         Subspace subspace(work);
@@ -105,8 +118,8 @@ Mesh triage(const SolidTree& mixed, const Box& box, const TriageOptions& options
         mesh = surface(subspace, work, solid, &origins);
         if (statistics) statistics->rounds = round + 1;
         bool changed = false;
-        for (const int cell : cells_to_halve(mesh, origins, subdivision, options.tolerance))
-            changed |= halve(subdivision, cell, round);
+        for (const Cut& cut : cells_to_halve(mesh, origins, subdivision, options.tolerance))
+            changed |= subdivision.halve(cut.cell, cut.plane);
         if (!changed) break;
     }
     const OffsetField offset(solid, box);

@@ -18,9 +18,11 @@
 #include "raytracer/interrupt.hpp"
 #include "raytracer/message.hpp"
 #include "raytracer/legality.hpp"
+#include "raytracer/mesh_tracer.hpp"
 #include "raytracer/options.hpp"
 #include "raytracer/progress.hpp"
 #include "raytracer/render.hpp"
+#include "raytracer/scene_mesh.hpp"
 #include "raytracer/statistics.hpp"
 #include "raytracer/whole_file.hpp"
 
@@ -52,9 +54,16 @@ std::string date_text(std::time_t time) {
     return text;
 }
 
+void check_road(const std::string& via) {
+    try {
+        if (via != "implicit") parse_mesh_method("--via", via);
+    } catch (const UsageError&) {
+        throw UsageError(fmt::format("--via: expected implicit, {}, got '{}'", mesh_method_names(), via));
+    }
+}
+
 void check_options(const RenderOptions& o) {
-    if (o.via != "implicit")
-        throw UsageError(fmt::format("--via: expected implicit, got '{}'", o.via));
+    check_road(o.via);
     if (o.scene.empty()) throw UsageError("render: expected a scene file");
     if (o.outputs.empty()) throw UsageError("render: expected an output file, -o FILE");
     check_image_names("-o", o.outputs);
@@ -131,14 +140,25 @@ int run_render(const RenderOptions& o) {
         for (const std::string& what : illegal_densities(scene, boxes_to_warn)) message("warning: " + what);
 
     clock.begin("build");
-    const ImplicitTracer tracer(scene.solids, o.criterion);
-    const BspStatistics bsp = tracer.statistics();
+    std::unique_ptr<RayTracer> tracer;
+    std::optional<BspStatistics> bsp;
+    if (o.via == "implicit") {
+        auto implicit = std::make_unique<ImplicitTracer>(scene.solids, o.criterion);
+        bsp = implicit->statistics();
+        tracer = std::move(implicit);
+        say(fmt::format("{} cells of {} half-spaces", bsp->cells, bsp->half_spaces));
+    } else {
+        MeshSettings settings;
+        settings.method = parse_mesh_method("--via", o.via);
+        settings.reach = rendering_reach;
+        SceneMesh mesh = mesh_scene(scene, settings);
+        say(fmt::format("{} triangles, {} vertices", mesh.mesh.triangles.size(), mesh.mesh.positions.size()));
+        tracer = std::make_unique<MeshTracer>(std::move(mesh.mesh));
+    }
     clock.end();
-    say(fmt::format("{} cells of {} half-spaces in {:.2f} s", bsp.cells, bsp.half_spaces,
-                    clock.wall("build")));
 
     clock.begin("trace");
-    const Integrator integrator(scene, tracer, {size.width, size.height, spp, o.seed});
+    const Integrator integrator(scene, *tracer, {size.width, size.height, spp, o.seed});
     const double pixels = double(window.width) * window.height;
     Progress progress(pixels * (spp + writing_work * double(o.outputs.size())),
                       Progress::standard_error(o.quiet));
@@ -205,7 +225,7 @@ Command add_render_command(CLI::App& program) {
     add_scene_options(*command, *options);
     add_output_option(*command, *options, known_extensions());
     add_picture_options(*command, *options);
-    command->add_option("--via", options->via, "the road from the scene to the picture: implicit")
+    command->add_option("--via", options->via, "the road from the scene to the picture: implicit (exact), or a mesh by " + mesh_method_names())
         ->type_name("NAME");
     add_run_options(*command, *options);
     add_statistics_options(*command, *options);

@@ -14,5 +14,6 @@ struct Command {
 Command add_render_command(CLI::App& program);
 Command add_info_command(CLI::App& program);
 Command add_mesh_command(CLI::App& program);
+Command add_compare_command(CLI::App& program);
 
 }  // namespace deburr

@@ -61,12 +61,9 @@ SceneMesh mesh_scene(const Scene& scene, const MeshSettings& settings) {
     }
     const Box finite_box = finite_part(scene, boxes);
     const Vec3 size = finite_box.hi - finite_box.lo;
-    // Infinite solids end this many sizes of the finite part away from it: beyond what a camera
-    // that frames the finite part sees of them, short of the horizon.
-    constexpr double reach = 8;
-    const Box limit = inflated(finite_box, reach * std::max({size.x, size.y, size.z, 1e-6}));
+    const Box limit = inflated(finite_box, settings.reach * std::max({size.x, size.y, size.z, 1e-6}));
     for (std::size_t i = 0; i < scene.solids.size(); ++i) {
-        const SolidTree& tree = result.trees[i];
+        SolidTree& tree = result.trees[i];
         Mesh part;
         Box box = boxes[i];
         if (!finite(box)) {
@@ -76,11 +73,10 @@ SceneMesh mesh_scene(const Scene& scene, const MeshSettings& settings) {
                 margin.lo[k] = std::isfinite(margin.lo[k]) ? margin.lo[k] : limit.lo[k];
                 margin.hi[k] = std::isfinite(margin.hi[k]) ? margin.hi[k] : limit.hi[k];
             }
-            box = margin;
+            tree = flatten(scene.solids[i] & Solid::sharp(Density::box(margin.lo, margin.hi)));
             result.warnings.push_back(fmt::format("solid {} is unbounded: its mesh is cut off", i + 1));
-        } else {
-            box = polygonization_box(tree);
         }
+        box = polygonization_box(tree);
         if (box.empty()) {
             result.parts.emplace_back();
             continue;

@@ -21,7 +21,11 @@ struct MeshSettings {
     MeshMethod method = MeshMethod::triage;
     double tolerance = infinity;  // triage
     double grid = 0;              // marching cubes; 0: half the least radius
+    double reach = 8;             // infinite solids end this many sizes of the finite ones away
 };
+
+/// For pictures: the horizon of a floor that ends so far away is the true one to a pixel.
+constexpr double rendering_reach = 1e4;
 
 struct SceneMesh {
     Mesh mesh;                    // of all solids

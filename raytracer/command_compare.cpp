@@ -1,0 +1,157 @@
+// deburr compare SCENE, deburr compare A B: how far the two roads, or two files, are apart.
+#include <fmt/format.h>
+#include <tbb/global_control.h>
+#include <tbb/info.h>
+
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "raytracer/bsp.hpp"
+#include "raytracer/commands.hpp"
+#include "raytracer/errors.hpp"
+#include "raytracer/image_file.hpp"
+#include "raytracer/integrator.hpp"
+#include "raytracer/interrupt.hpp"
+#include "raytracer/mesh_tracer.hpp"
+#include "raytracer/options.hpp"
+#include "raytracer/picture_difference.hpp"
+#include "raytracer/render.hpp"
+#include "raytracer/scene_mesh.hpp"
+#include "raytracer/whole_file.hpp"
+
+namespace deburr {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+struct CompareOptions : Options {
+    std::string second, via = "triage", tolerance, json;
+    std::string most_missed, most_distance, most_rmse;
+};
+
+Picture trace(const Scene& scene, const RayTracer& tracer, Size size, int spp, std::uint64_t seed,
+              const std::atomic<bool>& stop) {
+    const Integrator integrator(scene, tracer, {size.width, size.height, spp, seed});
+    return {render(size.width, size.height, {0, 0, size.width, size.height},
+                   [&](int x, int y, TraceCounters& counters) { return integrator.pixel(x, y, counters); }, stop)
+                .film};
+}
+
+Json json_of(const DifferenceFigures& f) { return {{"mean", f.mean}, {"p99", f.p99}, {"max", f.max}}; }
+
+Json json_of(const PictureDifference& d) {
+    const double missed = d.on_object ? 100.0 * double(d.only_first + d.only_second) / double(d.on_object) : 0;
+    Json j = {{"pixels", d.pixels},       {"pixels_on_object", d.on_object},
+              {"only_first", d.only_first}, {"only_second", d.only_second},
+              {"other_solid", d.other_solid}, {"missed_percent", missed}};
+    if (d.distance) {
+        j["distance_unit"] = d.in_radii ? "radius" : "scene";
+        j["distance"] = json_of(*d.distance);
+    }
+    if (d.normal_degrees) j["normal_degrees"] = json_of(*d.normal_degrees);
+    j["rmse"] = d.rmse;
+    j["psnr"] = std::isfinite(d.psnr) ? Json(d.psnr) : Json(nullptr);
+    j["perceptual_fails"] = d.perceptual_fails;
+    return j;
+}
+
+// Least radius > 0 of each solid; 0 where it has none.
+std::vector<double> radii(const SceneMesh& mesh) {
+    std::vector<double> all;
+    for (const SolidTree& tree : mesh.trees) {
+        double least = infinity;
+        for (const SolidLeaf& leaf : tree.leaves)
+            for (const HalfSpace& h : leaf.density.half_spaces)
+                if (h.radius > 0) least = std::min(least, h.radius);
+        all.push_back(least < infinity ? least : 0);
+    }
+    return all;
+}
+
+int run_compare(const CompareOptions& o) {
+    if (o.scene.empty()) throw UsageError("compare: expected a scene file, or two pictures");
+    check_image_names("-o", o.outputs);
+    const auto limit_of = [](const char* name, const std::string& text) {
+        return text.empty() ? infinity : parse_positive(name, text);
+    };
+    const double most_missed = limit_of("--max-missed", o.most_missed);
+    const double most_distance = limit_of("--max-distance", o.most_distance);
+    const double most_rmse = limit_of("--max-rmse", o.most_rmse);
+    const int threads = o.threads.value_or(tbb::info::default_concurrency());
+    const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, std::size_t(threads));
+    const std::atomic<bool>& stop = catch_interrupts(!o.quiet);
+
+    Picture a, b;
+    std::vector<double> units;
+    Json j;
+    if (!o.second.empty()) {
+        a = read_picture(o.scene);
+        b = read_picture(o.second);
+        if (a.film.window != b.film.window)
+            throw UsageError(fmt::format("compare: expected pictures of one size, got {}x{} and {}x{}",
+                                         a.film.window.width, a.film.window.height, b.film.window.width,
+                                         b.film.window.height));
+        j["first"] = o.scene;
+        j["second"] = o.second;
+    } else {
+        MeshSettings settings;
+        settings.method = parse_mesh_method("--via", o.via);
+        settings.reach = rendering_reach;
+        if (!o.tolerance.empty()) settings.tolerance = parse_positive("--tolerance", o.tolerance);
+        const Scene scene = load_scene(o);
+        const Size size = picture_size(o, scene);
+        const int spp = o.spp.value_or(1);
+        const SceneMesh mesh = mesh_scene(scene, settings);
+        units = radii(mesh);
+        a = trace(scene, ImplicitTracer(scene.solids), size, spp, o.seed, stop);
+        b = trace(scene, MeshTracer(mesh.mesh), size, spp, o.seed, stop);
+        if (stop) return interrupted_exit_code;
+        j["scene"] = scene.file;
+        j["first"] = "implicit";
+        j["second"] = o.via;
+        j["triangles"] = mesh.mesh.triangles.size();
+    }
+    const PictureDifference d = difference(a, b, units);
+    j.update(json_of(d));
+    const double missed = j["missed_percent"].get<double>();
+    const double distance = d.distance ? d.distance->p99 : 0;
+    const bool within = missed <= most_missed && distance <= most_distance && d.rmse <= most_rmse;
+    j["within_limits"] = within;
+    for (const std::string& path : o.outputs) write_difference(path, a, b);
+    if (!o.json.empty()) write_whole_file(o.json, j.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
+    if (!o.quiet)
+        for (const auto& [name, value] : j.items()) {
+            if (value.is_object())
+                fmt::print("{:<20}mean {:.6g}, 99 % {:.6g}, max {:.6g}\n", name, value["mean"].get<double>(),
+                           value["p99"].get<double>(), value["max"].get<double>());
+            else if (value.is_number_float()) fmt::print("{:<20}{:.6g}\n", name, value.get<double>());
+            else if (value.is_string()) fmt::print("{:<20}{}\n", name, value.get<std::string>());
+            else fmt::print("{:<20}{}\n", name, value.is_null() ? "infinite" : value.dump());
+        }
+    return within ? 0 : 1;
+}
+
+}  // namespace
+
+Command add_compare_command(CLI::App& program) {
+    CLI::App* command = program.add_subcommand(
+        "compare", "say how far a scene's implicit picture and its mesh's, or two pictures, are apart");
+    const auto options = std::make_shared<CompareOptions>();
+    add_scene_options(*command, *options);
+    command->add_option("SECOND", options->second, "a second picture; the first takes the scene's place")
+        ->type_name("");
+    add_output_option(*command, *options, known_extensions());
+    add_picture_options(*command, *options);
+    command->add_option("--via", options->via, mesh_method_names() + "; default: triage")->type_name("NAME");
+    command->add_option("--tolerance", options->tolerance, "of the mesh, as for mesh")->type_name("D");
+    command->add_option("--json", options->json, "write the figures as JSON")->type_name("FILE");
+    command->add_option("--max-missed", options->most_missed, "exit code 1 if more pixels, in percent of the object's, are hit by one only")
+        ->type_name("P");
+    command->add_option("--max-distance", options->most_distance, "exit code 1 if not 99 % of the hits are nearer")
+        ->type_name("D");
+    command->add_option("--max-rmse", options->most_rmse, "exit code 1 if colours differ more")->type_name("E");
+    add_run_options(*command, *options);
+    return {command, [options] { return run_compare(*options); }};
+}
+
+}  // namespace deburr

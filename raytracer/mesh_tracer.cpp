@@ -1,0 +1,127 @@
+#include "raytracer/mesh_tracer.hpp"
+
+#if __has_include(<embree4/rtcore.h>)
+#include <embree4/rtcore.h>
+#else
+#include <embree3/rtcore.h>
+#endif
+
+#include <algorithm>
+
+#include "raytracer/errors.hpp"
+
+namespace deburr {
+namespace {
+
+// Embree's intersections are off by a few units in the last place of the coordinates; a ray that
+// leaves a surface starts this many of them away from it.
+constexpr double lift = 64 * double(std::numeric_limits<float>::epsilon());
+
+double largest(Vec3 v) { return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)}); }
+
+RTCRay ray_of(const Ray& ray, double t_max) {
+    RTCRay r{};
+    r.org_x = float(ray.origin.x);
+    r.org_y = float(ray.origin.y);
+    r.org_z = float(ray.origin.z);
+    r.dir_x = float(ray.direction.x);
+    r.dir_y = float(ray.direction.y);
+    r.dir_z = float(ray.direction.z);
+    r.tnear = 0;
+    r.tfar = float(std::min(t_max, double(std::numeric_limits<float>::max())));
+    r.mask = ~0u;
+    return r;
+}
+
+}  // namespace
+
+struct MeshTracer::Embree {
+    RTCDevice device = nullptr;
+    RTCScene scene = nullptr;
+
+    explicit Embree(const Mesh& mesh) {
+        device = rtcNewDevice(nullptr);
+        if (!device) throw WorkError("Embree does not start on this machine");
+        scene = rtcNewScene(device);
+        rtcSetSceneFlags(scene, RTC_SCENE_FLAG_ROBUST);
+        rtcSetSceneBuildQuality(scene, RTC_BUILD_QUALITY_HIGH);
+        if (!mesh.triangles.empty()) add(mesh);
+        rtcCommitScene(scene);
+        if (rtcGetDeviceError(device) != RTC_ERROR_NONE) {
+            rtcReleaseScene(scene);
+            rtcReleaseDevice(device);
+            throw WorkError("Embree cannot hold the mesh: out of memory");
+        }
+    }
+    Embree(const Embree&) = delete;
+    Embree& operator=(const Embree&) = delete;
+    ~Embree() {
+        rtcReleaseScene(scene);
+        rtcReleaseDevice(device);
+    }
+
+private:
+    void add(const Mesh& mesh) {
+        RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
+        auto* vertices = static_cast<float*>(rtcSetNewGeometryBuffer(
+            geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, 3 * sizeof(float), mesh.positions.size()));
+        auto* indices = static_cast<unsigned*>(
+            rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
+                                    3 * sizeof(unsigned), mesh.triangles.size()));
+        if (vertices && indices) {
+            for (const Vec3& x : mesh.positions)
+                for (int k = 0; k < 3; ++k) *vertices++ = float(x[k]);
+            for (const Triangle& t : mesh.triangles)
+                for (const int v : t.vertex) *indices++ = unsigned(v);
+        }
+        rtcCommitGeometry(geometry);
+        rtcAttachGeometry(scene, geometry);
+        rtcReleaseGeometry(geometry);
+    }
+};
+
+MeshTracer::MeshTracer(Mesh mesh) : mesh_(std::move(mesh)), embree_(std::make_unique<Embree>(mesh_)) {}
+MeshTracer::~MeshTracer() = default;
+
+Hit MeshTracer::first_hit(const Ray& ray, double t_max, TraceCounters& counters) const {
+    ++counters.rays;
+    RTCRayHit query{};
+    query.ray = ray_of(ray, t_max);
+    query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+#if RTC_VERSION_MAJOR >= 4
+    rtcIntersect1(embree_->scene, &query);
+#else
+    RTCIntersectContext context;
+    rtcInitIntersectContext(&context);
+    rtcIntersect1(embree_->scene, &context, &query);
+#endif
+    Hit hit;
+    if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID) return hit;
+    const Triangle& t = mesh_.triangles[query.hit.primID];
+    const double u = query.hit.u, v = query.hit.v, w = 1 - u - v;
+    const auto at = [&](std::size_t k) { return mesh_.positions[std::size_t(t.vertex[k])]; };
+    const auto normal = [&](std::size_t k) { return mesh_.normals[std::size_t(t.normal[k])]; };
+    hit.position = w * at(0) + u * at(1) + v * at(2);
+    const Vec3 n = w * normal(0) + u * normal(1) + v * normal(2);
+    hit.normal = glm::length(n) > 0 ? glm::normalize(n) : glm::normalize(mesh_.area_vector(t));
+    hit.t = std::max(glm::dot(hit.position - ray.origin, ray.direction), double(std::numeric_limits<float>::min()));
+    hit.solid = t.solid;
+    hit.material = t.material;
+    hit.offset = lift * std::max(largest(hit.position), largest(ray.origin));
+    return hit;
+}
+
+bool MeshTracer::occluded(const Ray& ray, double t_max, TraceCounters& counters) const {
+    ++counters.shadow_rays;
+    RTCRay query = ray_of(ray, t_max);
+#if RTC_VERSION_MAJOR >= 4
+    rtcOccluded1(embree_->scene, &query);
+#else
+    RTCIntersectContext context;
+    rtcInitIntersectContext(&context);
+    rtcOccluded1(embree_->scene, &context, &query);
+#endif
+    return query.tfar < 0;
+}
+
+}  // namespace deburr
