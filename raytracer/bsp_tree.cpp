@@ -38,6 +38,20 @@ struct Split {
     int axis = -1;
 };
 
+// With every filter that is too small to be sampled made sharp.
+std::shared_ptr<const SolidTree> without_tiny_radii(std::shared_ptr<const SolidTree> tree, double least) {
+    const auto tiny = [&](const HalfSpace& h) { return h.radius > 0 && h.radius < least; };
+    const auto has_tiny = [&](const SolidLeaf& leaf) {
+        return std::any_of(leaf.density.half_spaces.begin(), leaf.density.half_spaces.end(), tiny);
+    };
+    if (std::none_of(tree->leaves.begin(), tree->leaves.end(), has_tiny)) return tree;
+    auto to = std::make_shared<SolidTree>(*tree);
+    for (SolidLeaf& leaf : to->leaves)
+        for (HalfSpace& h : leaf.density.half_spaces)
+            if (tiny(h)) h.radius = 0;
+    return to;
+}
+
 class Builder {
 public:
     BspTree run(const std::vector<Solid>& solids) {
@@ -65,7 +79,10 @@ public:
         world_ = inflated(bounds, 0.05 * std::max({size_.x, size_.y, size_.z}) + margin_);
         smallest_ = 1e-5 * std::max({size_.x, size_.y, size_.z});
         deepest_ = 16 + int(2.5 * std::log2(1.0 + double(bsp_.half_spaces)));
-        for (Item& item : items) item.size = local_size(*item.tree, Box::everything());
+        for (Item& item : items) {
+            item.tree = without_tiny_radii(std::move(item.tree), bsp_.tolerances.least_radius());
+            item.size = local_size(*item.tree, Box::everything());
+        }
         bsp_.nodes.emplace_back();
         split(0, Box::everything(), std::move(items), 0);
         return std::move(bsp_);

@@ -23,6 +23,8 @@ struct Tolerances {
     double clear() const { return scale * 0x1p-40; }
     /// Cells know their solids this far beyond their walls.
     double margin() const { return scale * 0x1p-38; }
+    /// A smaller filter lies between neighbouring points: α would jump, and overflow.
+    double least_radius() const { return scale * 0x1p-44; }
 };
 
 struct SurfaceCrossing {

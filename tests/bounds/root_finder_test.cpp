@@ -153,3 +153,24 @@ TEST_CASE("the exact criterion accepts segments that eq. 6 sends on to be split,
     CAPTURE(exact.segments, lobb.segments);
     CHECK(exact.segments < lobb.segments);
 }
+
+TEST_CASE("a ray in the plane of a flush face is done soon, though f is 0 along it but for rounding") {
+    // Lobb's sum of touching boxes, and a Boolean one of overlapping boxes: ρ = ½ in the plane of the
+    // top, however the half-spaces beside it vary.
+    const auto box = [](Vec3 lo, Vec3 hi) { return Density::box(lo, hi); };
+    const Density sum = box({0, 0, 0}, {1, 1, 1}) + box({1, 0, 0}, {2, 1, 1});
+    const Density boolean = box({0, 0, 0}, {2, 1, 1}) | box({1, 0, 0}, {3, 1, 1}) | box({0.5, 0.2, -1}, {2.5, 1, 2});
+    for (const Density& d : {sum, boolean})
+        for (const double r : {1e-3, 0.1, 0.4})
+            for (const double height : {1.0, 1 + 1e-16, 1 - 1e-12, 1 + 1e-9}) {
+                CAPTURE(r, height);
+                const LocalDensity local(flatten(d, r));
+                RayDensity ray;
+                ray.set(local, {5, height, 0.5}, {-1, 0, 0});
+                RootCounters counters;
+                int crossings = 0;
+                RootFinder({}, counters).crossings(ray, 0, 8, [&](Crossing) { return ++crossings; });
+                CHECK(counters.evaluations < 1'000'000);
+                if (height >= 1) CHECK(crossings == 0);
+            }
+}

@@ -118,6 +118,30 @@ TEST_CASE("slots and ribs as wide as the filter, for radii from 0 over 1e-7 to h
     }
 }
 
+TEST_CASE("a filter too small to be sampled leaves sharp faces with their normals") {
+    for (const double r : {1e-13, 1e-15, 1e-18, 1e-100, 1e-200, 1e-300, 1e-310}) {
+        CAPTURE(r);
+        const Density boolean = Density::box(Vec3(0), Vec3(1)) & ~Density::box({0.3, 0.3, -1}, {0.6, 2, 0.5});
+        const Density sum = Density::box({2, 0, 0}, {3, 1, 1}) + Density::box({3, 0, 0}, {4, 1, 1});
+        const ImplicitTracer tracer({Solid::rounded(r, boolean), Solid::rounded(r, sum)});
+        const ImplicitTracer sharp({Solid::sharp(boolean), Solid::sharp(sum)});
+        Gen g(4);
+        TraceCounters counters;
+        int hits = 0;
+        for (int i = 0; i < 2'000; ++i) {
+            const Vec3 o = Vec3(2, 0, 0) + g.direction() * 6.0;
+            const Vec3 d = glm::normalize(Vec3(g.between(0, 4), g.between(0, 1), g.between(0, 1)) - o);
+            const Hit hit = tracer.first_hit({o, d}, infinity, counters), want = sharp.first_hit({o, d}, infinity, counters);
+            REQUIRE(bool(hit) == bool(want));
+            if (!hit) continue;
+            REQUIRE(std::abs(hit.t - want.t) < 1e-9);
+            REQUIRE(glm::length(hit.normal - want.normal) < 1e-9);
+            ++hits;
+        }
+        CHECK(hits > 1'000);
+    }
+}
+
 TEST_CASE("a wheel of 40 sides, as a product and as a Boolean density with a hub and spokes") {
     for (const double r : {0.02, 0.1, 0.5}) {
         CAPTURE(r);
