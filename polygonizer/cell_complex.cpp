@@ -151,7 +151,6 @@ int CellComplex::split_cell(int cell, const std::vector<Step>& loop, int seed,
     std::sort(rim.begin(), rim.end());
     std::vector<int> moved{seed};
     auto move = [&](int f) { (faces[f].back == cell ? faces[f].back : faces[f].front) = fresh; };
-    std::vector<std::pair<int, int>> border;  // edge, face of the cell beyond it
     move(seed);
     for (std::size_t k = 0; k < moved.size(); ++k)
         for (Step s : faces[moved[k]].loop) {
@@ -321,7 +320,7 @@ int CellComplex::cut(int cell, const Plane& plane) {
             }
         }
     }
-    // Order the ring; its direction is set by the normal below.
+    // Order the ring.
     for (std::size_t k = 0; k + 1 < ring.size(); ++k)
         for (std::size_t j = k + 1; j < ring.size(); ++j) {
             if (start(ring[j]) != end(ring[k]) && end(ring[j]) != end(ring[k])) continue;
@@ -330,15 +329,9 @@ int CellComplex::cut(int cell, const Plane& plane) {
             break;
         }
     std::vector<int> polygon;
-    Vec3 area(0.0);
-    const Vec3 o = vertices[start(ring[0])];
-    for (Step s : ring) {
-        polygon.push_back(start(s));
-        area += glm::cross(vertices[start(s)] - o, vertices[end(s)] - o);
-    }
+    for (Step s : ring) polygon.push_back(start(s));
     // Which way round is combinatorial, not a matter of a sliver's area: the ring must run against
     // the new cell's face at its first edge.
-    (void)area;
     const int upper_face = [&] {
         for (int f : edges[ring[0] >> 1].faces) {
             if (faces[f].back != cell && faces[f].front != cell) continue;

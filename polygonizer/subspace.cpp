@@ -1,19 +1,10 @@
 #include "polygonizer/subspace.hpp"
 
 #include <algorithm>
-#include <cassert>
 
 #include "polygonizer/disc.hpp"
-#include "polygonizer/parallel_family.hpp"
 
 namespace deburr {
-namespace {
-
-// |ρ − ½| below which a point is on the surface whatever the slope: rounding leaves 10⁻¹⁵, and
-// where the slope is that of one half-space, ¾/r, it is a distance of 1.3·10⁻¹⁰ r.
-constexpr double on_level = 1e-10;
-
-}  // namespace
 
 Vec3 root_between(const LocalDensity& density, Vec3 a, double fa, Vec3 b, double fb) {
     // Regula falsi with interleaved bisection [Triage §4.4.1], as the Illinois method.
@@ -113,7 +104,7 @@ void Subspace::cut_by(int leaf) {
         return *subdivision_.open(cell, leaf)->density;
     };
     for (const auto& [f, c] : to_split) split_edges(f, density(c));
-    for (const auto& [f, c] : to_split) split_face(f, c, density(c));
+    for (const auto& [f, c] : to_split) split_face(f, density(c));
     for (const int c : open) span(c, density(c));
 }
 
@@ -161,145 +152,14 @@ void Subspace::split_edges(int face, const LocalDensity& density) {
         if (sign != Sign::unknown) continue;
         const int tail = complex_.edges[std::size_t(e)].tail, head = complex_.edges[std::size_t(e)].head;
         const Vec3 a = complex_.vertices[std::size_t(tail)], b = complex_.vertices[std::size_t(head)];
-        const Vec3 x = root_between(density, a, density.at(a) - 0.5, b, density.at(b) - 0.5);
+        const Vec3 root = root_between(density, a, density.at(a) - 0.5, b, density.at(b) - 0.5);
+        const Vec3 x = on_seam(complex_.edges[std::size_t(e)].faces, root, glm::length(b - a), density);
         const int middle = complex_.split_edge(e, x);
         vertex_sign_.resize(complex_.vertices.size(), Sign::unknown);
         vertex_sign_[std::size_t(middle)] = Sign::none;
         edge_sign_[std::size_t(e)] = vertex_sign_[std::size_t(tail)];
         edge_sign_.push_back(vertex_sign_[std::size_t(head)]);
     }
-}
-
-// Joins the places where the rim changes sign by segments [Triage §4.4.2].
-void Subspace::split_face(int face, int cell, const LocalDensity& density) {
-    const auto& loop = complex_.faces[std::size_t(face)].loop;
-    const std::size_t n = loop.size();
-    std::vector<Sign> signs;
-    for (const Step s : loop) signs.push_back(edge_sign_[std::size_t(s >> 1)]);
-    // An edge along the surface takes the sign before it.
-    const auto first = std::find_if(signs.begin(), signs.end(), [](Sign s) { return s != Sign::none; });
-    if (first == signs.end()) {
-        Vec3 centroid(0.0);
-        for (const Step s : loop) centroid += complex_.vertices[std::size_t(complex_.start(s))];
-        const Sign sign = point_sign(centroid / double(n), density);
-        return label(face, sign == Sign::above ? sign : Sign::below);
-    }
-    const std::size_t offset = std::size_t(first - signs.begin());
-    std::vector<int> changes;  // vertices
-    std::vector<Sign> after;   // of each change
-    Sign current = *first;
-    for (std::size_t k = 1; k <= n; ++k) {
-        const std::size_t at = (offset + k) % n;
-        if (signs[at] == Sign::none || signs[at] == current) continue;
-        changes.push_back(complex_.start(loop[at]));
-        current = signs[at];
-        after.push_back(current);
-    }
-    if (changes.empty()) return label(face, current);
-
-    Sign middle = Sign::unknown;
-    if (changes.size() > 2) {
-        Vec3 centroid(0.0);
-        for (const int v : changes) centroid += complex_.vertices[std::size_t(v)];
-        middle = point_sign(centroid / double(changes.size()), density);
-        if (middle == Sign::none) middle = Sign::below;
-    } else {
-        middle = after[1];
-    }
-    label(face, middle);
-    (void)cell;
-    int rest = face;
-    for (std::size_t k = 0; k < changes.size(); ++k) {
-        if (after[k] == middle) continue;
-        const int a = changes[k], b = changes[(k + 1) % changes.size()];
-        if (a == b) continue;
-        std::vector<Vec3> between;
-        const bool bent = refine(rest, a, b, density, between);
-        if (!bent) {
-            // An arc of the rim that is as straight as the segment would leave a face of no area.
-            const auto& l = complex_.faces[std::size_t(rest)].loop;
-            const Vec3 xa = complex_.vertices[std::size_t(a)], d = complex_.vertices[std::size_t(b)] - xa;
-            bool straight = true;
-            std::size_t at = 0;
-            while (complex_.start(l[at]) != a) at = (at + 1) % l.size();
-            for (; complex_.start(l[at]) != b && straight; at = (at + 1) % l.size()) {
-                const Vec3 x = complex_.vertices[std::size_t(complex_.start(l[at]))] - xa;
-                straight = glm::length(glm::cross(x, d)) <= complex_.tolerance * glm::length(d);
-            }
-            if (straight) continue;
-        }
-        const int cut_off = complex_.split_face(rest, a, b, between);
-        leaf_of_face_.resize(complex_.faces.size(), leaf_of_face_[std::size_t(rest)]);
-        label(cut_off, after[k]);
-        edge_sign_.resize(complex_.edges.size(), Sign::none);
-        vertex_sign_.resize(complex_.vertices.size(), Sign::none);
-    }
-}
-
-// A point of the surface near the segment's middle, in the face [Triage §4.4.3]; false if the
-// segment is straight, or none is found.
-bool Subspace::refine(int face, int a, int b, const LocalDensity& density, std::vector<Vec3>& between) {
-    const Vec3 xa = complex_.vertices[std::size_t(a)], xb = complex_.vertices[std::size_t(b)];
-    const Vec3 middle = 0.5 * (xa + xb);
-    const double length = glm::length(xb - xa);
-    const ValueGradient here = density.gradient_at(middle);
-    const double f = here.value - 0.5;
-    if (std::abs(f) <= on_level + 1e-7 * length * glm::length(here.gradient)) return false;
-    const Vec3 area = complex_.area_vector(face);
-    if (glm::length(area) <= 0) return false;
-    const Vec3 normal = glm::normalize(area);
-    // Along the gradient; in a swept surface up to a slide along it, so that every face that
-    // crosses the sweep has its point at the same place of the profile.
-    Vec3 line = here.gradient - normal * glm::dot(normal, here.gradient), sweep;
-    if (is_swept(density, sweep) && std::abs(glm::dot(sweep, normal)) > 0.1)
-        line = here.gradient - sweep * (glm::dot(normal, here.gradient) / glm::dot(normal, sweep));
-    // Where the segment runs along the rim the gradient may lead out of the face: then across it.
-    const Vec3 across = glm::cross(normal, xb - xa);
-    for (const Vec3 direction : {line, across}) {
-        if (glm::length(direction) <= 1e-9 * (direction == line ? glm::length(here.gradient) : length)) continue;
-        Vec3 root;
-        if (!search(face, middle, glm::normalize(direction) * (f > 0 ? -1.0 : 1.0), normal, length, density, root))
-            continue;
-        between.push_back(root);
-        return true;
-    }
-    return false;
-}
-
-// The surface nearest to `middle` on a line in the face: ahead if it is there, else behind.
-bool Subspace::search(int face, Vec3 middle, Vec3 line, Vec3 normal, double length,
-                      const LocalDensity& density, Vec3& root) const {
-    const double f = density.at(middle) - 0.5;
-    double ahead = infinity, behind = -infinity;
-    const Vec3 across = glm::cross(normal, line);
-    for (const Step s : complex_.faces[std::size_t(face)].loop) {
-        const Vec3 p = complex_.vertices[std::size_t(complex_.start(s))] - middle;
-        const Vec3 q = complex_.vertices[std::size_t(complex_.end(s))] - middle;
-        const double sp = glm::dot(across, p), sq = glm::dot(across, q);
-        if ((sp < 0) == (sq < 0)) continue;
-        const double t = glm::dot(line, p + (q - p) * (sp / (sp - sq)));
-        if (t > 1e-9 * length) ahead = std::min(ahead, t);
-        else if (t < -1e-9 * length) behind = std::max(behind, t);
-    }
-    constexpr int samples = 8;
-    for (const double reach : {ahead, behind}) {
-        if (!std::isfinite(reach)) continue;
-        Vec3 last = middle;
-        double flast = f;
-        for (int k = 1; k <= samples; ++k) {
-            const Vec3 x = middle + line * (reach * k / samples);
-            const double fx = density.at(x) - 0.5;
-            if ((fx > 0) == (f > 0)) {
-                last = x;
-                flast = fx;
-                continue;
-            }
-            root = root_between(density, last, flast, x, fx);
-            if (std::abs(reach - glm::dot(root - middle, line)) <= 1e-6 * length) break;  // on the rim
-            return true;
-        }
-    }
-    return false;
 }
 
 // Loops where faces of the cell inside and outside meet, simple, counter-clockwise seen from inside.

@@ -17,6 +17,10 @@
 
 namespace deburr {
 
+// |ρ − ½| below which a point is on the surface whatever the slope: rounding leaves 10⁻¹⁵, and
+// where the slope is that of one half-space, ¾/r, it is a distance of 1.3·10⁻¹⁰ r.
+constexpr double on_level = 1e-10;
+
 class Subspace {
 public:
     explicit Subspace(Subdivision& subdivision);
@@ -45,10 +49,11 @@ private:
     Sign edge_sign(int edge, const LocalDensity& density);
     Sign point_sign(Vec3 x, const LocalDensity& density) const;
     void split_edges(int face, const LocalDensity& density);
-    void split_face(int face, int cell, const LocalDensity& density);
+    void split_face(int face, const LocalDensity& density);
     bool refine(int face, int a, int b, const LocalDensity& density, std::vector<Vec3>& between);
     bool search(int face, Vec3 middle, Vec3 line, Vec3 normal, double length, const LocalDensity& density,
                 Vec3& root) const;
+    Vec3 on_seam(const std::vector<int>& faces, Vec3 start, double reach, const LocalDensity& density) const;
     std::vector<Loop> loops(int cell);
     void span(int cell, const LocalDensity& density);
     int owner(int face, const std::vector<int>& family) const;

@@ -135,7 +135,9 @@ const SurfaceOffset& OffsetField::near(Vec3 x) const {
         if (!child) {
             Box half = node->box;
             (x[axis] > middle ? half.lo : half.hi)[axis] = middle;
-            child = std::make_unique<Node>(Node{half, node->solid.within(half), node->depth + 1, {}});
+            // A surface in the wall between two boxes must be seen from both.
+            const double margin = 1e-6 * glm::length(root_->box.hi - root_->box.lo);
+            child = std::make_unique<Node>(Node{half, node->solid.within(inflated(half, margin)), node->depth + 1, {}});
         }
         node = child.get();
     }

@@ -1,0 +1,160 @@
+#include "polygonizer/triage.hpp"
+
+#include <cstdlib>
+#include <string>
+
+#include "catch.hpp"
+#include "polygonizer/cell_complex.hpp"
+#include "polygonizer/metrics.hpp"
+#include "polygonizer/subspace.hpp"
+#include "random_solid.hpp"
+
+using namespace deburr;
+
+namespace {
+
+Density unit_cube() { return Density::box(Vec3(0.0), Vec3(1.0)); }
+
+// obj4 [Lobb figures 11 and 13], with the clip that it needs.
+Solid obj4(double r) {
+    return Solid::rounded(r, unit_cube() - Density::half_space({0, 1, 0}, 1) *
+                                               Density::box({0.25, 0.8, 0.25}, {0.75, 1.8, 0.75}));
+}
+
+Mesh mesh_of(const SolidTree& tree, double tolerance = infinity) {
+    return triage(tree, polygonization_box(tree), {tolerance});
+}
+
+struct Measured {
+    Mesh mesh;
+    MeshMetrics metrics;
+};
+
+Measured measured(const Solid& solid, double tolerance = infinity) {
+    const SolidTree tree = flatten(solid);
+    Mesh mesh = mesh_of(tree, tolerance);
+    const MeshMetrics metrics = measure(mesh, tree);
+    return {std::move(mesh), metrics};
+}
+
+}  // namespace
+
+TEST_CASE("A complex stays sound under cuts, also where planes pass through vertices") {
+    CellComplex complex(Box{Vec3(0.0), Vec3(1.0)}, 1e-9);
+    std::mt19937 random(1);
+    const Vec3 normals[] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {1, 1, 0}, {1, 1, 1}, {1, -1, 0}, {2, 1, 0}};
+    for (int k = 0; k < 200; ++k) {
+        const Vec3 n = glm::normalize(normals[random() % 7]);
+        const Vec3 through = 0.25 * Vec3(random() % 5, random() % 5, random() % 5);
+        complex.cut(int(random() % complex.cells.size()), {n, glm::dot(n, through)});
+    }
+    CHECK(complex.cells.size() > 40);
+    CHECK(complex.is_sound());
+}
+
+TEST_CASE("Triage §6.1: a smoothed cuboid's edge is two rectangles, its corner six triangles") {
+    const Measured m = measured(Solid::rounded(0.1, unit_cube()));
+    CHECK(m.mesh.polygons == 6 + 12 * 2 + 8 * 6);
+    CHECK(m.mesh.triangles.size() == 6 * 2 + 12 * 4 + 8 * 6);
+    CHECK(m.metrics.topology.manifold());
+    CHECK(m.metrics.topology.euler == 2);
+    CHECK(m.metrics.inverted == 0);
+    CHECK(m.metrics.vertex_distance < 1e-12);
+}
+
+TEST_CASE("Radius 0 yields the b-rep of the polyhedron") {
+    CHECK(measured(Solid::sharp(unit_cube())).mesh.triangles.size() == 12);
+    const Measured m = measured(obj4(0));
+    CHECK(m.mesh.polygons == 11);  // eleven faces, one of them with a hole
+    CHECK(m.mesh.triangles.size() == 28);
+    CHECK(m.metrics.topology.euler == 2);
+    CHECK(m.metrics.volume == Approx(0.95).epsilon(1e-12));
+}
+
+TEST_CASE("Lobb's obj4: at most 1.5 % and 0.1 % of the triangles of marching cubes") {
+    for (const auto& [r, most] : {std::pair{0.05, 306}, std::pair{0.01, 511}}) {
+        CAPTURE(r);
+        const Measured m = measured(obj4(r));
+        CHECK(m.mesh.triangles.size() <= std::size_t(most));
+        CHECK(m.metrics.topology.manifold());
+        CHECK(m.metrics.inverted == 0);
+        CHECK(m.metrics.degenerate == 0);
+        CHECK(m.metrics.vertex_distance < 1e-9);
+        CHECK(m.metrics.distance.max < 0.11 * r);  // in the corners' six triangles
+    }
+}
+
+TEST_CASE("Parts that touch in an edge or a corner stay apart, each a manifold") {
+    for (const Vec3 at : {Vec3(1, 1, 0), Vec3(1, 1, 1)})
+        for (const double r : {0.0, 0.1}) {
+            const Measured m = measured(Solid::rounded(r, unit_cube() + Density::box(at, at + Vec3(1.0))));
+            CHECK(m.metrics.topology.manifold());
+            CHECK(m.metrics.topology.shells == 2);
+        }
+}
+
+TEST_CASE("Flush faces of a Boolean density are one flat polygon") {
+    const Measured m = measured(Solid::rounded(0.05, unit_cube() | Density::box({0.5, 0.5, 0.2}, {1.5, 1.0, 0.8})));
+    CHECK(m.metrics.topology.manifold());
+    int on_top = 0;
+    for (const Vec3& x : m.mesh.positions) {
+        CHECK(x.y <= 1 + 1e-12);
+        on_top += x.y == 1;
+    }
+    CHECK(on_top >= 4);
+}
+
+TEST_CASE("A clipped density is sharp at the clip [Triage §6.1, the punch pin]") {
+    const Density pin = Density::box({0, 0, 0}, {1, 1, 2}).radius(0.1) * Density::half_space({0, 0, 1}, 1.5);
+    const Measured m = measured(Solid::sharp(pin));
+    CHECK(m.metrics.topology.manifold());
+    CHECK(m.metrics.vertex_distance < 1e-9);
+    CHECK(m.metrics.box.hi.z == Approx(1.5).epsilon(1e-12));
+}
+
+TEST_CASE("A tolerance is met, still closed") {
+    for (const double tolerance : {0.005, 0.001}) {
+        const Measured m = measured(obj4(0.1), tolerance);
+        CHECK(m.metrics.topology.manifold());
+        CHECK(m.metrics.distance.max <= 1.1 * tolerance);
+    }
+}
+
+TEST_CASE("Primary CSG of rounded solids is closed and sharp where the tree is") {
+    const Density ball_like = Density::box({0.5, 0.5, 0.5}, {1.2, 1.3, 1.1});
+    const Solid a = Solid::rounded(0.1, unit_cube()), b = Solid::rounded(0.15, ball_like);
+    for (const Solid& s : {a | b, a & b, a - b, b - a}) {
+        const Measured m = measured(s);
+        CHECK(m.metrics.topology.manifold());
+        CHECK(m.metrics.topology.euler == 2);
+        CHECK(m.metrics.vertex_distance < 1e-6);
+    }
+}
+
+// 10,000 cases with DEBURR_STRESS=10000, about two minutes.
+TEST_CASE("Random CSG objects: no abort, no hole, no non-manifold edge") {
+    const char* wanted = std::getenv("DEBURR_STRESS");
+    const int cases = wanted ? std::atoi(wanted) : 300;
+    std::size_t triangles = 0, inverted = 0, degenerate = 0;
+    for (int seed = 0; seed < cases; ++seed) {
+        CAPTURE(seed);
+        const SolidTree tree = flatten(RandomSolid(seed).solid());
+        Box box = polygonization_box(tree);
+        if (box.empty()) continue;
+        box = intersection(box, Box{Vec3(-8.0), Vec3(8.0)});
+        const Mesh mesh = triage(tree, box);
+        const Topology t = topology(mesh);
+        CHECK(t.manifold());
+        CHECK(t.euler % 2 == 0);
+        CHECK(t.euler <= 2 * long(t.shells));
+        CHECK(volume(mesh) >= 0);
+        triangles += t.triangles;
+        const MeshMetrics m = measure(mesh, tree);
+        inverted += m.inverted;
+        degenerate += m.degenerate;
+    }
+    CHECK(triangles > 100 * std::size_t(cases));
+    // Where two surfaces run closer together than a triangle's height they may cross.
+    CHECK(inverted < triangles / 200);
+    CHECK(degenerate < triangles / 1000);
+}
