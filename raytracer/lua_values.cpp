@@ -58,32 +58,52 @@ LuaValue Reader::read_table(int index, const std::string& place, int depth) {
     if (depth == deepest)
         throw BadValue(place,
                        fmt::format("expected tables nested at most {} deep, got deeper", deepest));
-    auto table = std::make_shared<LuaTable>();
-    std::vector<std::pair<lua_Integer, LuaValue>> items;
-    for (lua_pushnil(lua); lua_next(lua, index); lua_pop(lua, 1)) {
-        if (lua_type(lua, -2) == LUA_TSTRING) {
+    // Lua's order of keys differs from run to run, and with it the error that is met first. So keys
+    // are sorted; those that are names wait on the stack, as pushing one anew might not return.
+    std::vector<lua_Integer> numbers;
+    std::vector<std::pair<std::string, int>> names;  // and where on the stack
+    std::string other;                               // the least key of another kind
+    const int top = lua_gettop(lua);
+    const auto room = [&] {
+        if (!lua_checkstack(lua, 8)) throw BadValue(place, "expected fewer fields, got too many");
+    };
+    for (lua_pushnil(lua); room(), lua_next(lua, index);) {
+        lua_pop(lua, 1);
+        if (lua_type(lua, -1) == LUA_TSTRING) {
             std::size_t size = 0;
-            const char* text = lua_tolstring(lua, -2, &size);
-            std::string name(text, size);
-            LuaValue value = read(-1, place + "." + name, depth + 1);
-            table->fields.emplace(std::move(name), std::move(value));
-        } else if (lua_isinteger(lua, -2)) {
-            items.emplace_back(lua_tointeger(lua, -2), read(-1, place, depth + 1));
+            const char* text = lua_tolstring(lua, -1, &size);
+            names.emplace_back(std::string(text, size), lua_gettop(lua));
+            lua_pushvalue(lua, -1);  // one stays, one leads on
+        } else if (lua_isinteger(lua, -1)) {
+            numbers.push_back(lua_tointeger(lua, -1));
         } else {
-            throw BadValue(place, "expected names or 1, 2, … as keys, got " +
-                                      described(read(-2, place, depth + 1)));
+            const std::string key = described(read(-1, place, depth + 1));
+            if (other.empty() || key < other) other = key;
         }
     }
-    std::sort(items.begin(), items.end(),
-              [](const auto& a, const auto& b) { return a.first < b.first; });
-    for (auto& [key, value] : items) {
+    if (!other.empty()) throw BadValue(place, "expected names or 1, 2, … as keys, got " + other);
+    std::sort(names.begin(), names.end());
+    std::sort(numbers.begin(), numbers.end());
+
+    auto table = std::make_shared<LuaTable>();
+    for (const auto& [name, at] : names) {
+        lua_pushvalue(lua, at);
+        lua_rawget(lua, index);
+        LuaValue value = read(-1, place + "." + name, depth + 1);
+        lua_pop(lua, 1);
+        table->fields.emplace(name, std::move(value));
+    }
+    for (const lua_Integer key : numbers) {
         const auto next = lua_Integer(table->list.size()) + 1;
         if (key != next)
             throw BadValue(place,
                            fmt::format("expected a list without holes, got item {} but no item {}",
-                                       items.back().first, next));
-        table->list.push_back(std::move(value));
+                                       numbers.back(), next));
+        lua_rawgeti(lua, index, key);
+        table->list.push_back(read(-1, place, depth + 1));
+        lua_pop(lua, 1);
     }
+    lua_settop(lua, top);
     return std::shared_ptr<const LuaTable>(std::move(table));
 }
 
