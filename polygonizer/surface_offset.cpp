@@ -43,8 +43,8 @@ SurfaceOffset::SurfaceOffset(const SolidTree& solid) : solid_(separate_sharp(sol
         bool sharp = true;
         for (const HalfSpace& h : leaf.density.half_spaces) sharp &= h.radius == 0;
         sharp_.push_back(sharp);
-        densities_.emplace_back(sharp ? DensityTree::constant(0) : leaf.density);
     }
+    densities_.resize(solid_.leaves.size());
 }
 
 Offset SurfaceOffset::leaf_at(std::size_t leaf, Vec3 x) const {
@@ -52,7 +52,9 @@ Offset SurfaceOffset::leaf_at(std::size_t leaf, Vec3 x) const {
     if (sharp_[leaf]) {
         o = sharp_at(solid_.leaves[leaf].density, x);
     } else {
-        const ValueGradient v = densities_[leaf].gradient_at(x);
+        auto& density = densities_[leaf];
+        if (!density) density = std::make_unique<LocalDensity>(solid_.leaves[leaf].density);
+        const ValueGradient v = density->gradient_at(x);
         const double slope = glm::length(v.gradient), f = v.value - 0.5;
         if (slope > 0) o = {f / slope, -v.gradient / slope, 0};
         else o.distance = f > 0 ? infinity : f < 0 ? -infinity : 0;

@@ -17,6 +17,7 @@ struct Offset {
     int leaf = -1;        // that the surface nearby belongs to
 };
 
+/// Not for several threads at once.
 class SurfaceOffset {
 public:
     explicit SurfaceOffset(const SolidTree& solid);
@@ -38,7 +39,8 @@ private:
     Offset leaf_at(std::size_t leaf, Vec3 x) const;
 
     SolidTree solid_;
-    std::vector<LocalDensity> densities_;  // of rounded leaves; of sharp ones a constant
+    // Of rounded leaves, made when first asked: of a whole solid they may be huge.
+    mutable std::vector<std::unique_ptr<LocalDensity>> densities_;
     std::vector<char> sharp_;
 };
 

@@ -40,7 +40,7 @@ Picture trace(const Scene& scene, const RayTracer& tracer, Size size, int spp, s
 Json json_of(const DifferenceFigures& f) { return {{"mean", f.mean}, {"p99", f.p99}, {"max", f.max}}; }
 
 Json json_of(const PictureDifference& d) {
-    const double missed = d.on_object ? 100.0 * double(d.only_first + d.only_second) / double(d.on_object) : 0;
+    const double missed = d.on_object ? 100.0 * double(d.only_first + d.only_second + d.other_solid) / double(d.on_object) : 0;
     Json j = {{"pixels", d.pixels},       {"pixels_on_object", d.on_object},
               {"only_first", d.only_first}, {"only_second", d.only_second},
               {"other_solid", d.other_solid}, {"missed_percent", missed}};
@@ -55,16 +55,9 @@ Json json_of(const PictureDifference& d) {
     return j;
 }
 
-// Least radius > 0 of each solid; 0 where it has none.
 std::vector<double> radii(const SceneMesh& mesh) {
     std::vector<double> all;
-    for (const SolidTree& tree : mesh.trees) {
-        double least = infinity;
-        for (const SolidLeaf& leaf : tree.leaves)
-            for (const HalfSpace& h : leaf.density.half_spaces)
-                if (h.radius > 0) least = std::min(least, h.radius);
-        all.push_back(least < infinity ? least : 0);
-    }
+    for (const SolidTree& tree : mesh.trees) all.push_back(least_radius(tree));
     return all;
 }
 
@@ -97,7 +90,8 @@ int run_compare(const CompareOptions& o) {
         MeshSettings settings;
         settings.method = parse_mesh_method("--via", o.via);
         settings.reach = rendering_reach;
-        if (!o.tolerance.empty()) settings.tolerance = parse_positive("--tolerance", o.tolerance);
+        if (o.tolerance.empty()) settings.tolerance_in_radii = rendering_tolerance;
+        else settings.tolerance = parse_tolerance(o.tolerance);
         const Scene scene = load_scene(o);
         const Size size = picture_size(o, scene);
         const int spp = o.spp.value_or(1);
@@ -143,9 +137,9 @@ Command add_compare_command(CLI::App& program) {
     add_output_option(*command, *options, known_extensions());
     add_picture_options(*command, *options);
     command->add_option("--via", options->via, mesh_method_names() + "; default: triage")->type_name("NAME");
-    command->add_option("--tolerance", options->tolerance, "of the mesh, as for mesh")->type_name("D");
+    command->add_option("--tolerance", options->tolerance, "of the mesh, as for mesh; default: 0.03 of each solid's least radius")->type_name("D");
     command->add_option("--json", options->json, "write the figures as JSON")->type_name("FILE");
-    command->add_option("--max-missed", options->most_missed, "exit code 1 if more pixels, in percent of the object's, are hit by one only")
+    command->add_option("--max-missed", options->most_missed, "exit code 1 if more pixels, in percent of the object's, see another solid or none")
         ->type_name("P");
     command->add_option("--max-distance", options->most_distance, "exit code 1 if not 99 % of the hits are nearer")
         ->type_name("D");

@@ -27,7 +27,7 @@ struct MeshCommandOptions : Options {
 MeshSettings settings(const MeshCommandOptions& o) {
     MeshSettings s;
     s.method = parse_mesh_method("--method", o.method);
-    if (!o.tolerance.empty()) s.tolerance = parse_positive("--tolerance", o.tolerance);
+    if (!o.tolerance.empty()) s.tolerance = parse_tolerance(o.tolerance);
     if (!o.grid.empty()) s.grid = parse_positive("--grid", o.grid);
     if (!o.tolerance.empty() && s.method != MeshMethod::triage)
         throw UsageError("--tolerance: expected --method triage, got '" + o.method + "'");

@@ -30,7 +30,7 @@ namespace deburr {
 namespace {
 
 struct RenderOptions : Options {
-    std::string via = "implicit";
+    std::string via = "implicit", tolerance;
 };
 
 // Boxes to look at for each sum and difference before rendering; `info` looks longer.
@@ -64,6 +64,10 @@ void check_road(const std::string& via) {
 
 void check_options(const RenderOptions& o) {
     check_road(o.via);
+    if (!o.tolerance.empty()) {
+        if (o.via != "triage") throw UsageError("--tolerance: expected --via triage, got '" + o.via + "'");
+        parse_tolerance(o.tolerance);
+    }
     if (o.scene.empty()) throw UsageError("render: expected a scene file");
     if (o.outputs.empty()) throw UsageError("render: expected an output file, -o FILE");
     check_image_names("-o", o.outputs);
@@ -151,6 +155,8 @@ int run_render(const RenderOptions& o) {
         MeshSettings settings;
         settings.method = parse_mesh_method("--via", o.via);
         settings.reach = rendering_reach;
+        if (o.tolerance.empty()) settings.tolerance_in_radii = rendering_tolerance;
+        else settings.tolerance = parse_tolerance(o.tolerance);
         SceneMesh mesh = mesh_scene(scene, settings);
         say(fmt::format("{} triangles, {} vertices", mesh.mesh.triangles.size(), mesh.mesh.positions.size()));
         tracer = std::make_unique<MeshTracer>(std::move(mesh.mesh));
@@ -227,6 +233,8 @@ Command add_render_command(CLI::App& program) {
     add_picture_options(*command, *options);
     command->add_option("--via", options->via, "the road from the scene to the picture: implicit (exact), or a mesh by " + mesh_method_names())
         ->type_name("NAME");
+    command->add_option("--tolerance", options->tolerance, "of the mesh, as for mesh; default: 0.03 of each solid's least radius")
+        ->type_name("D");
     add_run_options(*command, *options);
     add_statistics_options(*command, *options);
     return {command, [options] { return run_render(*options); }};

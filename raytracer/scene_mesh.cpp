@@ -4,7 +4,6 @@
 
 #include <charconv>
 
-#include "bounds/bounding_box.hpp"
 #include "polygonizer/marching_cubes.hpp"
 #include "raytracer/errors.hpp"
 
@@ -52,12 +51,24 @@ double parse_positive(const std::string& what, const std::string& text) {
     return x;
 }
 
+double parse_tolerance(const std::string& text) {
+    return text == "inf" ? infinity : parse_positive("--tolerance", text);
+}
+
+double least_radius(const SolidTree& solid) {
+    double least = infinity;
+    for (const SolidLeaf& leaf : solid.leaves)
+        for (const HalfSpace& h : leaf.density.half_spaces)
+            if (h.radius > 0) least = std::min(least, h.radius);
+    return least < infinity ? least : 0;
+}
+
 SceneMesh mesh_scene(const Scene& scene, const MeshSettings& settings) {
     SceneMesh result;
     std::vector<Box> boxes;
     for (const Solid& solid : scene.solids) {
         result.trees.push_back(flatten(solid));
-        boxes.push_back(bounding_box(result.trees.back()));
+        boxes.push_back(surrounding_box(result.trees.back()));
     }
     const Box finite_box = finite_part(scene, boxes);
     const Vec3 size = finite_box.hi - finite_box.lo;
@@ -83,7 +94,9 @@ SceneMesh mesh_scene(const Scene& scene, const MeshSettings& settings) {
         }
         if (settings.method == MeshMethod::triage) {
             TriageStatistics statistics;
-            part = triage(tree, box, {settings.tolerance}, &statistics);
+            const double radius = least_radius(tree);
+            const double relative = radius > 0 ? settings.tolerance_in_radii * radius : infinity;
+            part = triage(tree, box, {std::min(settings.tolerance, relative)}, &statistics);
             result.triage.cells += statistics.cells;
             result.triage.open_cells += statistics.open_cells;
             result.triage.rounds = std::max(result.triage.rounds, statistics.rounds);
