@@ -60,19 +60,27 @@ LuaValue Reader::read_table(int index, const std::string& place, int depth) {
                        fmt::format("expected tables nested at most {} deep, got deeper", deepest));
     auto table = std::make_shared<LuaTable>();
     std::vector<std::pair<lua_Integer, LuaValue>> items;
+    std::vector<std::string> names;
     for (lua_pushnil(lua); lua_next(lua, index); lua_pop(lua, 1)) {
         if (lua_type(lua, -2) == LUA_TSTRING) {
             std::size_t size = 0;
             const char* text = lua_tolstring(lua, -2, &size);
-            std::string name(text, size);
-            LuaValue value = read(-1, place + "." + name, depth + 1);
-            table->fields.emplace(std::move(name), std::move(value));
+            names.emplace_back(text, size);
         } else if (lua_isinteger(lua, -2)) {
             items.emplace_back(lua_tointeger(lua, -2), read(-1, place, depth + 1));
         } else {
             throw BadValue(place, "expected names or 1, 2, … as keys, got " +
                                       described(read(-2, place, depth + 1)));
         }
+    }
+    // Lua hands names out in an order that changes from run to run; the first error must not.
+    std::sort(names.begin(), names.end());
+    for (std::string& name : names) {
+        lua_pushlstring(lua, name.data(), name.size());
+        lua_rawget(lua, index);
+        LuaValue value = read(-1, place + "." + name, depth + 1);
+        lua_pop(lua, 1);
+        table->fields.emplace(std::move(name), std::move(value));
     }
     std::sort(items.begin(), items.end(),
               [](const auto& a, const auto& b) { return a.first < b.first; });
