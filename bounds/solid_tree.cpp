@@ -1,5 +1,7 @@
 #include "bounds/solid_tree.hpp"
 
+#include <cmath>
+
 #include "bounds/expression.hpp"
 
 namespace deburr {
@@ -14,6 +16,13 @@ struct Task {
     SolidOp op = SolidOp::nothing;
     int count = 0;
 };
+
+bool has_planes(const DensityTree& density) {
+    for (const HalfSpace& h : density.half_spaces)
+        if (!std::isfinite(h.offset) || !std::isfinite(h.radius) || !(std::abs(glm::length(h.normal) - 1) < 0.5))
+            return false;
+    return true;
+}
 
 bool is_operator(Kind kind) {
     return kind == Kind::unite || kind == Kind::intersect || kind == Kind::subtract;
@@ -49,6 +58,7 @@ private:
         if (node.kind == Kind::rounded) {
             tree_.leaves.push_back(
                 {flatten(node.density[0], node.radius, task.map), task.material, node.line});
+            if (!has_planes(tree_.leaves.back().density)) throw SingularPlacement(node.line);
             done_.push_back(add({SolidOp::leaf, int(tree_.leaves.size()) - 1}));
             return;
         }
@@ -89,6 +99,10 @@ private:
 };
 
 }  // namespace
+
+SingularPlacement::SingularPlacement(int of_line)
+    : std::domain_error("expected placements that leave a volume, got scales that multiply to 0 or infinity"),
+      line(of_line) {}
 
 bool SolidTree::contains(Vec3 x) const {
     std::vector<char> in;

@@ -29,7 +29,13 @@ struct SolidTree {
     bool contains(Vec3 x) const;
 };
 
-/// Throws std::length_error past most_half_spaces.
+/// A chain of placements, each regular, that is singular to a double: it leaves no planes.
+struct SingularPlacement : std::domain_error {
+    explicit SingularPlacement(int of_line);
+    int line;  // of the leaf; 0 unknown
+};
+
+/// Throws std::length_error past most_half_spaces, and SingularPlacement.
 SolidTree flatten(const Solid& solid);
 
 }  // namespace deburr

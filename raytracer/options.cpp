@@ -6,6 +6,7 @@
 #include <cstring>
 #include <fstream>
 
+#include "bounds/solid_tree.hpp"
 #include "raytracer/errors.hpp"
 #include "raytracer/scene_reader.hpp"
 
@@ -79,6 +80,21 @@ void add_statistics_options(CLI::App& command, Options& o) {
     command.add_option("--stats-json", o.stats_json, "write the same as JSON")->type_name("FILE");
 }
 
+namespace {
+
+// What only shows once all placements of a solid are taken together.
+void check_placements(const Scene& scene) {
+    try {
+        for (const Solid& solid : scene.solids) flatten(solid);
+    } catch (const SingularPlacement& error) {
+        const std::string where =
+            error.line > 0 ? fmt::format("{}:{}", scene.file, error.line) : scene.file;
+        throw SceneError(fmt::format("{}: {}", where, error.what()));
+    }
+}
+
+}  // namespace
+
 Scene load_scene(const Options& o) {
     if (o.scene.empty()) throw UsageError("expected a scene file");
     std::ifstream file(o.scene);
@@ -94,6 +110,7 @@ Scene load_scene(const Options& o) {
         throw UsageError(fmt::format("-D: expected a parameter of '{}' ({}), got '{}'", o.scene,
                                      known.empty() ? "it has none" : known, name));
     }
+    check_placements(scene);
     return scene;
 }
 

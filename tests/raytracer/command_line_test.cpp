@@ -138,6 +138,22 @@ TEST_CASE("a wrong call is one line and exit code 2, and nothing is written") {
     CHECK(place.names() == Words{"cube.lua"});
 }
 
+TEST_CASE("placements that are singular only together are one line with the solid's place") {
+    const Place place;
+    for (const std::string chain : {"d:scale(1e-90)", "d:scale(1e90)", "d:scale(1e-90, 1e90, 1)"}) {
+        const std::string scene = place / "chain.lua";
+        write_file(scene, "local d = cube()\nfor i = 1, 5 do d = " + chain +
+                              " end\nreturn { camera = { eye = {3, 3, 4}, target = {0, 0, 0} },\n"
+                              "  solids = { rounded(0.1, d) } }\n");
+        const Outcome o = run({"render", scene, "-o", place / "a.exr"});
+        CAPTURE(chain, o.err);
+        CHECK(o.code == 2);
+        CHECK(o.err == "deburr: " + scene + ":4: expected placements that leave a volume, got scales "
+                                            "that multiply to 0 or infinity\n");
+    }
+    CHECK(place.names() == Words{"chain.lua", "cube.lua"});
+}
+
 TEST_CASE("a wrong SOURCE_DATE_EPOCH is said") {
     const Place place;
     const Outcome o = run(place.render({}), {"SOURCE_DATE_EPOCH=yesterday"});
