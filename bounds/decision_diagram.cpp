@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <map>
-#include <stdexcept>
 #include <tuple>
 
 namespace deburr {
@@ -13,7 +12,7 @@ namespace {
 constexpr double same_direction = 1e-9, same_radius = 1e-9;
 // Thresholds: relative to the largest offset, as that is what their rounding is relative to.
 constexpr double same_threshold = 1e-12;
-constexpr std::size_t most_nodes = 1'000'000;
+constexpr std::size_t most_nodes = 100'000;
 
 // Where a half-space stands in its family.
 struct Literal {
@@ -114,9 +113,7 @@ private:
         const auto key = std::make_tuple(least.family, least.thresholds, least.children);
         const auto [place, is_new] = unique_.try_emplace(key, int(diagram_.nodes.size()));
         if (is_new) {
-            if (diagram_.nodes.size() >= most_nodes)
-                throw std::length_error("a Boolean density is too entangled: its decision diagram "
-                                        "passes a million nodes");
+            if (diagram_.nodes.size() >= most_nodes) throw TooEntangled();
             diagram_.nodes.push_back(std::move(least));
         }
         return place->second;

@@ -7,11 +7,22 @@
 // random coordinate; a decision node has one child for each gap between thresholds that makes a
 // difference.
 #pragma once
+#include <stdexcept>
+#include <string>
 #include <vector>
 
 #include "bounds/density_tree.hpp"
 
 namespace deburr {
+
+/// A Boolean density whose diagram would be too large to be evaluated.
+struct TooEntangled : std::length_error {
+    /// `line`: of the solid in the scene, 0 unknown.
+    explicit TooEntangled(int line = 0)
+        : std::length_error((line > 0 ? "the solid of line " + std::to_string(line) + ": " : "") +
+                            "expected a Boolean density whose decision diagram has at most 100,000 "
+                            "nodes, got more; too many of its planes meet within one radius") {}
+};
 
 /// A node decides where its family's coordinate falls: `children[j]` is reached with the
 /// probability that it lies between thresholds[j−1] and thresholds[j].
@@ -39,7 +50,7 @@ struct DecisionDiagram {
 /// Diagram of the Boolean function at node `root` of `tree`, whose every node below is a
 /// half-space, a constant 0 or 1, a complement, conjunction or disjunction. Planes count as
 /// parallel, as of one radius, and as the same plane within a relative 10⁻⁹, 10⁻⁹ and 10⁻¹².
-/// Throws std::length_error where the diagram would pass a million nodes.
+/// Throws TooEntangled.
 DecisionDiagram decide(const DensityTree& tree, int root);
 
 }  // namespace deburr

@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "bounds/decision_diagram.hpp"
 #include "raytracer/commands.hpp"
 #include "raytracer/errors.hpp"
 #include "raytracer/message.hpp"
@@ -97,6 +98,8 @@ int run_program(int argc, char** argv) {
     } catch (const SceneError& error) {
         return fail(2, error.what());
     } catch (const UnsupportedError& error) {
+        return fail(3, error.what());
+    } catch (const TooEntangled& error) {
         return fail(3, error.what());
     } catch (const std::bad_alloc&) {
         return fail(1, "out of memory");

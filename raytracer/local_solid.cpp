@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "bounds/decision_diagram.hpp"
+
 namespace deburr {
 namespace {
 
@@ -63,7 +65,14 @@ LocalSolid::LocalSolid(int solid, const SolidTree& tree, const Box& box, const T
 
 void LocalSolid::add_leaf(const SolidLeaf& leaf, const Box& box, const Tolerances& tolerances,
                           std::optional<bool>& constant) {
-    LocalDensity density(leaf.density);
+    const auto prepared = [&] {
+        try {
+            return LocalDensity(leaf.density);
+        } catch (const TooEntangled&) {
+            throw TooEntangled(leaf.line);
+        }
+    };
+    LocalDensity density = prepared();
     if (const Side side = classify(density.range(box)); side != Side::straddling) {
         constant = side == Side::inside;
         return;

@@ -29,8 +29,8 @@ public:
 
 struct SandboxLimits {
     std::size_t memory = std::size_t(256) << 20;  // bytes
-    std::int64_t work = 1'000'000'000;            // instructions, and what costs about as much
-    double seconds = 30.0;                        // by the clock, whatever the work
+    std::int64_t work = 250'000'000;              // instructions, and what costs about as much
+    double seconds = 20.0;                        // by the clock, whatever the work
 };
 
 class Sandbox {

@@ -359,3 +359,27 @@ TEST_CASE("info says what is in a scene") {
     CHECK(j["parameters"]["r"] == "0.1");
     CHECK(j["image"]["width"] == 60);
 }
+
+TEST_CASE("a density that is too entangled to be evaluated is not supported, and soon told") {
+    // Pairs of half-spaces in the worst of orders: the diagram doubles with each.
+    const Place place;
+    write_file(place / "e.lua",
+               "local x, every, pairs_of\n"
+               "local first = {}\n"
+               "for i = 1, 22 do\n"
+               "  x = halfspace({math.cos(i), math.sin(i), 0.1 * i - 1}, 0.3)\n"
+               "  first[i], every = x, every and every & x or x\n"
+               "end\n"
+               "for i = 1, 22 do\n"
+               "  local y = halfspace({math.cos(0.7 * i + 0.2), math.sin(1.3 * i), 0.1 * i - 1}, 0.3)\n"
+               "  local both = first[i] & y\n"
+               "  pairs_of = pairs_of and pairs_of | both or both\n"
+               "end\n"
+               "return { solids = {\n"
+               "  rounded(2, (every | pairs_of) & box({-1, -1, -1}, {1, 1, 1})) } }\n");
+    const Outcome o = run({"render", place / "e.lua", "-o", place / "e.exr", "--size", "8x8"});
+    CHECK(o.code == 3);
+    CHECK(o.err.find("the solid of line 13: expected a Boolean density whose decision diagram") !=
+          std::string::npos);
+    CHECK_FALSE(std::filesystem::exists(place / "e.exr"));
+}
