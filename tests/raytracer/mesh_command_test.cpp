@@ -1,0 +1,81 @@
+// deburr mesh and deburr compare, as a user calls them.
+#include <cstdlib>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+
+#include "catch.hpp"
+#include "raytracer/program.hpp"
+
+using namespace deburr::test;
+using Json = nlohmann::json;
+namespace fs = std::filesystem;
+
+TEST_CASE("mesh writes every format, and says that the mesh is closed") {
+    const Folder folder;
+    write_file(folder / "s.lua", "return { solids = { rounded(0.1, cube()) - sharp(box({0.5,0.5,0.5},{2,2,2})) } }");
+    const Outcome outcome = run({"mesh", folder / "s.lua", "-o", folder / "a.obj", "-o", folder / "a.ply", "-o",
+                                 folder / "a.stl", "-o", folder / "a.glb", "--stats-json", folder / "a.json"});
+    CHECK(outcome.err == "");
+    REQUIRE(outcome.code == 0);
+    for (const char* name : {"a.obj", "a.ply", "a.stl", "a.glb"}) CHECK(fs::file_size(folder / name) > 1000);
+    const Json j = Json::parse(read_file(folder / "a.json"));
+    CHECK(j["mesh"]["manifold"] == true);
+    CHECK(j["mesh"]["inverted"] == 0);
+    CHECK(j["mesh"]["vertex_distance_max"] < 1e-6);
+}
+
+TEST_CASE("admesh finds nothing to mend in an STL") {
+    if (std::system("command -v admesh >/dev/null 2>&1") != 0) {
+        WARN("admesh is not installed");
+        return;
+    }
+    const Folder folder;
+    REQUIRE(run({"mesh", DEBURR_SOURCE_DIR "/scenes/first.lua", "-q", "-o", folder / "a.stl"}).code == 0);
+    REQUIRE(std::system(("admesh '" + (folder / "a.stl") + "' >'" + (folder / "log") + "'").c_str()) == 0);
+    const std::string log = read_file(folder / "log");
+    CHECK(log.find("Total disconnected facets        :     0") != std::string::npos);
+    for (const char* what : {"Degenerate facets     :     0", "Edges fixed           :     0",
+                             "Facets reversed       :     0", "Backwards edges       :     0"})
+        CHECK(log.find(what) != std::string::npos);
+}
+
+TEST_CASE("mesh refuses what it does not know, and writes nothing") {
+    const Folder folder;
+    write_file(folder / "s.lua", "return { solids = { rounded(0.1, cube()) } }");
+    for (const std::vector<std::string>& words :
+         {std::vector<std::string>{"-o", "a.xyz"}, {"-o", "a.obj", "--method", "magic"},
+          {"-o", "a.obj", "--tolerance", "-1"}, {"-o", "a.obj", "--grid", "0.1"}, {}}) {
+        std::vector<std::string> all{"mesh", folder / "s.lua"};
+        for (const std::string& word : words) all.push_back(word == "a.obj" ? folder / word : word);
+        CHECK(run(all).code == 2);
+    }
+    CHECK(folder.names() == std::vector<std::string>{"s.lua"});
+}
+
+// Limits: the tolerance is 0.03 r, and a ray that grazes a rounded edge meets it that much farther
+// along; variable_rounding's radius of 0.5 is as large as the object.
+TEST_CASE("Every scene's mesh looks like its implicit surface") {
+    for (const auto& entry : fs::directory_iterator(DEBURR_SOURCE_DIR "/scenes")) {
+        if (entry.path().extension() != ".lua") continue;
+        CAPTURE(entry.path().string());
+        const Folder folder;
+        const Outcome outcome =
+            run({"compare", entry.path().string(), "--size", "300x190", "--max-missed", "0.8", "--max-distance",
+                 "0.1", "--max-rmse", "0.03", "--json", folder / "a.json", "-o", folder / "difference.exr"});
+        INFO(outcome.out);
+        CHECK(outcome.code == 0);
+        CHECK(fs::exists(folder / "difference.exr"));
+    }
+}
+
+TEST_CASE("compare says how two files differ, and its limits are exit codes") {
+    const Folder folder;
+    write_file(folder / "s.lua", cube_scene());
+    for (const char* r : {"r=0.05", "r=0.2"})
+        REQUIRE(run({"render", folder / "s.lua", "-q", "-D", r, "--aov", "P,N,id", "-o",
+                     folder / (std::string(r) + ".exr")}).code == 0);
+    const std::string a = folder / "r=0.05.exr", b = folder / "r=0.2.exr";
+    CHECK(run({"compare", a, a, "--max-rmse", "1e-9"}).code == 0);
+    CHECK(run({"compare", a, b, "--max-rmse", "1e-9"}).code == 1);
+    CHECK(run({"compare", a, folder / "none.exr"}).code == 2);
+}
