@@ -39,8 +39,10 @@ Box bounding_box(const BoundCsg& csg) {
 }
 
 Box bounding_box(const DensityTree& tree) {
-    if (!bounds_hold(tree, Box::everything())) return Box::everything();
-    return bounding_box(outer_bound(tree, 0.5));
+    const int support = tree.nodes.back().support;
+    const Box box = support < 0 ? Box::everything() : tree.supports[std::size_t(support)];
+    if (!bounds_hold(tree, Box::everything())) return box;
+    return intersection(box, bounding_box(outer_bound(tree, 0.5)));
 }
 
 Box bounding_box(const SolidTree& tree) {

@@ -11,7 +11,8 @@ namespace deburr {
 
 /// A box that holds the CSG object; empty if it is certainly empty.
 Box bounding_box(const BoundCsg& csg);
-/// A box that holds the set ρ > ½; operands must be in [0, 1] (bounds_hold), or it is everything.
+/// A box that holds the set ρ > ½: that of its outer bound where the operands are in [0, 1]
+/// (bounds_hold), else its support.
 Box bounding_box(const DensityTree& tree);
 Box bounding_box(const SolidTree& tree);
 

@@ -10,66 +10,8 @@
 
 namespace deburr {
 
-namespace {
-
-// Outside of it the density is 0 or less.
-Box support(const DensityTree& tree) {
-    std::vector<Box> done;
-    for (const TreeNode& n : tree.nodes) {
-        const auto at = [&](int child) { return done[std::size_t(child)]; };
-        Box box = Box::everything();
-        switch (n.op) {
-            case Op::constant:
-                if (n.value <= 0) box = Box{};
-                break;
-            case Op::half_space: {
-                const HalfSpace& h = tree.half_spaces[std::size_t(n.a)];
-                for (int k = 0; k < 3; ++k) {
-                    if (std::abs(h.normal[k]) != 1) continue;
-                    const double end = h.normal[k] * (h.offset + h.radius);
-                    (h.normal[k] > 0 ? box.hi : box.lo)[k] = end;
-                }
-                break;
-            }
-            case Op::sum:
-            case Op::disjunction:
-                box = at(n.a).empty() ? at(n.b) : at(n.b).empty() ? at(n.a) : hull(at(n.a), at(n.b));
-                break;
-            case Op::product:
-            case Op::conjunction: box = intersection(at(n.a), at(n.b)); break;
-            case Op::difference: box = at(n.a); break;
-            case Op::complement: break;
-        }
-        if (n.support >= 0) box = intersection(box, tree.supports[std::size_t(n.support)]);
-        done.push_back(box);
-    }
-    return done.back();
-}
-
-}  // namespace
-
-Box surrounding_box(const SolidTree& solid) {
-    const Box bound = bounding_box(solid);
-    if (bound.empty() || bound.finite()) return bound;
-    std::vector<Box> done;
-    for (const SolidTreeNode& n : solid.nodes) {
-        const auto at = [&](int child) { return done[std::size_t(child)]; };
-        switch (n.op) {
-            case SolidOp::nothing: done.push_back({}); break;
-            case SolidOp::everything: done.push_back(Box::everything()); break;
-            case SolidOp::leaf: done.push_back(support(solid.leaves[std::size_t(n.a)].density)); break;
-            case SolidOp::unite:
-                done.push_back(at(n.a).empty() ? at(n.b) : at(n.b).empty() ? at(n.a) : hull(at(n.a), at(n.b)));
-                break;
-            case SolidOp::intersect: done.push_back(intersection(at(n.a), at(n.b))); break;
-            case SolidOp::subtract: done.push_back(at(n.a)); break;
-        }
-    }
-    return intersection(bound, done.back());
-}
-
 Box polygonization_box(const SolidTree& solid) {
-    Box box = surrounding_box(solid);
+    Box box = bounding_box(solid);
     if (box.empty()) return box;
     double size = 0;
     for (int k = 0; k < 3; ++k)

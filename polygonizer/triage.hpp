@@ -20,10 +20,6 @@ struct TriageStatistics {
 Mesh triage(const SolidTree& solid, const Box& box, const TriageOptions& options = {},
             TriageStatistics* statistics = nullptr);
 
-/// A box that holds the solid; sides may be infinite. Holds also where a sum is legal but not
-/// provably so: it is bounded by where its operands are 0.
-Box surrounding_box(const SolidTree& solid);
-
 /// The box to polygonize a solid in: around it, with a margin; infinite sides are brought to
 /// finite ones.
 Box polygonization_box(const SolidTree& solid);

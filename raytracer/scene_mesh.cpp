@@ -4,6 +4,7 @@
 
 #include <charconv>
 
+#include "bounds/bounding_box.hpp"
 #include "polygonizer/marching_cubes.hpp"
 #include "raytracer/errors.hpp"
 
@@ -68,7 +69,7 @@ SceneMesh mesh_scene(const Scene& scene, const MeshSettings& settings) {
     std::vector<Box> boxes;
     for (const Solid& solid : scene.solids) {
         result.trees.push_back(flatten(solid));
-        boxes.push_back(surrounding_box(result.trees.back()));
+        boxes.push_back(bounding_box(result.trees.back()));
     }
     const Box finite_box = finite_part(scene, boxes);
     const Vec3 size = finite_box.hi - finite_box.lo;

@@ -176,4 +176,8 @@ TEST_CASE("a bounding box holds the solid, and is tight for a tilted block") {
     const Box box = bounding_box(flatten(Density::box(Vec3(0), Vec3(1)), 0.1, turned));
     CHECK(glm::length(box.lo - Vec3(5 - s, 0, 0)) < 1e-7);
     CHECK(glm::length(box.hi - Vec3(5 + s, 2 * s, 1)) < 1e-7);
+    // Nested sums, whose operands are not provably in [0, 1], have the box of what is not 0.
+    Density row = Density::box(Vec3(0), Vec3(1));
+    for (int i = 1; i < 64; ++i) row = row + Density::box({i, 0, 0}, {i + 1.0, 1, 1});
+    CHECK(bounding_box(flatten(row, 0.1)).finite());
 }
