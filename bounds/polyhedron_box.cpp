@@ -35,7 +35,8 @@ template <int D>
 bool maximize(const std::vector<Constraint<D>>& constraints, const std::array<double, D>& c, Point<D>& x) {
     for (int k = 0; k < D; ++k) x[std::size_t(k)] = c[std::size_t(k)] < 0 ? -far : far;
     for (std::size_t i = 0; i < constraints.size(); ++i) {
-        const auto& [a, b] = constraints[i];
+        const std::array<double, D>& a = constraints[i].a;  // not bound together: lambdas capture them
+        const double b = constraints[i].b;
         double size = 1;
         for (int k = 0; k < D; ++k) size = std::max(size, std::abs(x[std::size_t(k)]));
         if (dot<D>(a, x) <= b + feasible * size) continue;

@@ -147,7 +147,7 @@ TEST_CASE("Random CSG objects: no abort, no hole, no non-manifold edge") {
         CHECK(t.manifold());
         CHECK(t.euler % 2 == 0);
         CHECK(t.euler <= 2 * long(t.shells));
-        CHECK(volume(mesh) >= 0);
+        CHECK(volume(mesh) > -1e-12);  // parts without thickness come out as ±0
         triangles += t.triangles;
         const MeshMetrics m = measure(mesh, tree);
         inverted += m.inverted;
