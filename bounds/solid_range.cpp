@@ -1,8 +1,6 @@
 #include "bounds/solid_range.hpp"
 
 namespace deburr {
-namespace {
-
 Side combine(SolidOp op, Side a, Side b) {
     if (op == SolidOp::subtract) {
         if (a == Side::outside || b == Side::inside) return Side::outside;
@@ -12,6 +10,8 @@ Side combine(SolidOp op, Side a, Side b) {
     if (a == absorbing || b == absorbing) return absorbing;
     return a == Side::straddling || b == Side::straddling ? Side::straddling : a;
 }
+
+namespace {
 
 // Sides of all nodes; `of_leaf` says where a leaf's box lies.
 template <class OfLeaf>

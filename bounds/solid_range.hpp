@@ -6,6 +6,9 @@
 
 namespace deburr {
 
+/// Where a region lies with respect to a op b, given where it lies with respect to a and b.
+Side combine(SolidOp op, Side a, Side b);
+
 /// The solid within the box: subtrees that the box lies inside or outside of are folded away, and
 /// the densities of the others are local ones. The root is `nothing` or `everything` where that is
 /// all there is.

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cassert>
 
+#include "bounds/solid_range.hpp"
 #include "polygonizer/parallel_family.hpp"
 
 namespace deburr {
@@ -51,16 +52,6 @@ void ranges_over(const std::vector<HalfSpace>& half_spaces, const std::vector<Ve
         const Range d = distances(h, corners);
         out.push_back(rho_between(h, d.lo, d.hi, tolerance));
     }
-}
-
-Side combine(SolidOp op, Side a, Side b) {
-    if (op == SolidOp::subtract) {
-        if (a == Side::outside || b == Side::inside) return Side::outside;
-        return a == Side::inside && b == Side::outside ? Side::inside : Side::straddling;
-    }
-    const Side absorbing = op == SolidOp::unite ? Side::inside : Side::outside;
-    if (a == absorbing || b == absorbing) return absorbing;
-    return a == Side::straddling || b == Side::straddling ? Side::straddling : a;
 }
 
 // Folds decided leaves away; `solid` keeps children before parents, the root last.
