@@ -9,6 +9,8 @@ Range product(Range a, Range b) {
     return {lo, hi};
 }
 
+}  // namespace
+
 Range combine(Op op, Range a, Range b) {
     switch (op) {
         case Op::sum: return {a.lo + b.lo, a.hi + b.hi};
@@ -20,6 +22,8 @@ Range combine(Op op, Range a, Range b) {
         default: return a;
     }
 }
+
+namespace {
 
 // ρ of a node over the region, and whether it is constant there for a reason that holds wherever the
 // half-spaces that are not saturated may lie. (That a range is a single value is no such reason: it

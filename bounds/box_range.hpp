@@ -15,6 +15,9 @@ struct Range {
     double lo = 0, hi = 0;
 };
 
+/// What op(a, b) can be, given what a and b can be, whatever they share; a complement has no b.
+Range combine(Op op, Range a, Range b);
+
 /// Least and greatest n·x − offset over the box; infinite sides are allowed.
 Range distance_range(const HalfSpace& h, const Box& box);
 

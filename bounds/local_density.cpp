@@ -207,15 +207,10 @@ Range LocalDensity::range_from(OfHalfSpace leaf) const {
         switch (n.step) {
             case Step::constant: done[i] = {n.value, n.value}; break;
             case Step::half_space: done[i] = leaf(n.a); break;
-            case Step::sum: done[i] = {at(n.a).lo + at(n.b).lo, at(n.a).hi + at(n.b).hi}; break;
-            case Step::difference: done[i] = {at(n.a).lo - at(n.b).hi, at(n.a).hi - at(n.b).lo}; break;
-            case Step::complement: done[i] = {1 - at(n.a).hi, 1 - at(n.a).lo}; break;
-            case Step::product: {
-                const Range a = at(n.a), b = at(n.b);
-                const auto [lo, hi] = std::minmax({a.lo * b.lo, a.lo * b.hi, a.hi * b.lo, a.hi * b.hi});
-                done[i] = {lo, hi};
-                break;
-            }
+            case Step::sum: done[i] = combine(Op::sum, at(n.a), at(n.b)); break;
+            case Step::difference: done[i] = combine(Op::difference, at(n.a), at(n.b)); break;
+            case Step::complement: done[i] = combine(Op::complement, at(n.a), {}); break;
+            case Step::product: done[i] = combine(Op::product, at(n.a), at(n.b)); break;
             case Step::decide: {
                 const int* thresholds = &kids_[std::size_t(n.a)];
                 const int* children = thresholds + n.b;
@@ -239,8 +234,6 @@ Range LocalDensity::range_from(OfHalfSpace leaf) const {
 
 void RayDensity::set(const LocalDensity& density, Vec3 origin, Vec3 direction) {
     density_ = &density;
-    origin_ = origin;
-    direction_ = direction;
     lines_.clear();
     for (const HalfSpace& h : density.half_spaces_) {
         const double distance = h.distance(origin), rate = glm::dot(h.normal, direction);

@@ -75,6 +75,8 @@ public:
     /// Distance of the origin from half-space i's plane, and its change with t.
     double distance0(std::size_t i) const { return lines_[i].distance; }
     double distance_rate(std::size_t i) const { return lines_[i].rate; }
+    /// Where the ray meets half-space i's plane; not finite where it is parallel to it.
+    double plane_crossing(std::size_t i) const { return -lines_[i].distance / lines_[i].rate; }
 
 private:
     struct Line {
@@ -82,7 +84,6 @@ private:
         double a, b;            // α = a + b·t; sharp: a = ±2, b = 0, by the side
     };
     const LocalDensity* density_ = nullptr;
-    Vec3 origin_{0.0}, direction_{0.0};
     std::vector<Line> lines_;
     mutable std::vector<ValueSlope> leaf_, done_;
     mutable std::vector<RayBounds> leaf_bounds_, bounds_;

@@ -75,9 +75,10 @@ public:
             scale = std::max({scale, std::abs(bounds.lo[k]), std::abs(bounds.hi[k])});
         bsp_.tolerances.scale = scale > 0 ? scale : 1;
         margin_ = bsp_.tolerances.margin();
-        size_ = bounds.hi - bounds.lo;
-        world_ = inflated(bounds, 0.05 * std::max({size_.x, size_.y, size_.z}) + margin_);
-        smallest_ = 1e-5 * std::max({size_.x, size_.y, size_.z});
+        const Vec3 sides = bounds.hi - bounds.lo;
+        const double size = std::max({sides.x, sides.y, sides.z});
+        world_ = inflated(bounds, 0.05 * size + margin_);
+        smallest_ = 1e-5 * size;
         deepest_ = 16 + int(2.5 * std::log2(1.0 + double(bsp_.half_spaces)));
         for (Item& item : items) {
             item.tree = without_tiny_radii(std::move(item.tree), bsp_.tolerances.least_radius());
@@ -213,7 +214,6 @@ private:
     // By the ends of the solids' boxes alone: one sweep an axis.
     Split best_of_boxes(const Box& cell, const std::vector<Item>& items) const {
         Split best;
-        const double lowest = smallest_;
         for (int axis = 0; axis < 3; ++axis) {
             std::vector<std::pair<double, double>> begin, end;  // position, cost
             double above = 0;
@@ -225,8 +225,8 @@ private:
             }
             std::sort(begin.begin(), begin.end());
             std::sort(end.begin(), end.end());
-            const double lo = std::max(cell.lo[axis], world_.lo[axis]) + lowest;
-            const double hi = std::min(cell.hi[axis], world_.hi[axis]) - lowest;
+            const double lo = std::max(cell.lo[axis], world_.lo[axis]) + smallest_;
+            const double hi = std::min(cell.hi[axis], world_.hi[axis]) - smallest_;
             double below = 0;
             std::size_t b = 0, e = 0;
             while (b < begin.size() || e < end.size()) {
@@ -257,7 +257,6 @@ private:
 
     BspTree bsp_;
     Box world_;
-    Vec3 size_{0.0};
     double margin_ = 0, smallest_ = 0;
     int deepest_ = 0;
 };

@@ -87,11 +87,7 @@ int run_compare(const CompareOptions& o) {
         j["first"] = o.scene;
         j["second"] = o.second;
     } else {
-        MeshSettings settings;
-        settings.method = parse_mesh_method("--via", o.via);
-        settings.reach = rendering_reach;
-        if (o.tolerance.empty()) settings.tolerance_in_radii = rendering_tolerance;
-        else settings.tolerance = parse_tolerance(o.tolerance);
+        const MeshSettings settings = picture_mesh_settings(o.via, o.tolerance);
         const Scene scene = load_scene(o);
         const Size size = picture_size(o, scene);
         const int spp = o.spp.value_or(1);

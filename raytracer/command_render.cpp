@@ -152,12 +152,7 @@ int run_render(const RenderOptions& o) {
         tracer = std::move(implicit);
         say(fmt::format("{} cells of {} half-spaces", bsp->cells, bsp->half_spaces));
     } else {
-        MeshSettings settings;
-        settings.method = parse_mesh_method("--via", o.via);
-        settings.reach = rendering_reach;
-        if (o.tolerance.empty()) settings.tolerance_in_radii = rendering_tolerance;
-        else settings.tolerance = parse_tolerance(o.tolerance);
-        SceneMesh mesh = mesh_scene(scene, settings);
+        SceneMesh mesh = mesh_scene(scene, picture_mesh_settings(o.via, o.tolerance));
         say(fmt::format("{} triangles, {} vertices", mesh.mesh.triangles.size(), mesh.mesh.positions.size()));
         tracer = std::make_unique<MeshTracer>(std::move(mesh.mesh));
     }

@@ -47,18 +47,16 @@ LocalSolid::LocalSolid(int solid, const SolidTree& tree, const Box& box, const T
     }
     has_surface_ = !leaves_.empty();
     if (!has_surface_) return;
-    if (leaves_.size() > 1 || nodes_.size() > 1) {
+    if (leaves_.size() == 1 && nodes_.size() > 1) {
         // One leaf under operators with constants is that leaf, or its complement, or nothing.
         std::vector<char> state;
-        if (leaves_.size() == 1) {
-            const bool without = evaluate(state, {false}), with = evaluate(state, {true});
-            if (without == with) has_surface_ = false;
-            else if (with) nodes_ = {{SolidOp::leaf, 0}};
-            else if (leaves_[0].soft < 0) {  // the plane's other side
-                leaves_[0].normal = -leaves_[0].normal;
-                leaves_[0].offset = -leaves_[0].offset;
-                nodes_ = {{SolidOp::leaf, 0}};
-            }
+        const bool without = evaluate(state, {false}), with = evaluate(state, {true});
+        if (without == with) has_surface_ = false;
+        else if (with) nodes_ = {{SolidOp::leaf, 0}};
+        else if (leaves_[0].soft < 0) {  // the plane's other side
+            leaves_[0].normal = -leaves_[0].normal;
+            leaves_[0].offset = -leaves_[0].offset;
+            nodes_ = {{SolidOp::leaf, 0}};
         }
     }
 }
@@ -218,7 +216,7 @@ void LocalSolid::soft_crossings(const Soft& soft, Vec3 origin, Vec3 direction, d
         cuts.assign(1, lo);
         for (std::size_t i = 0; i < density.size(); ++i) {
             if (soft.density.half_spaces()[i].radius > 0 || density.distance_rate(i) == 0) continue;
-            const double t = -density.distance0(i) / density.distance_rate(i);
+            const double t = density.plane_crossing(i);
             if (t > lo && t < hi) cuts.push_back(t);
         }
         cuts.push_back(hi);
@@ -234,7 +232,7 @@ void LocalSolid::soft_crossings(const Soft& soft, Vec3 origin, Vec3 direction, d
                 for (std::size_t i = 0; i < density.size(); ++i) {
                     const HalfSpace& h = soft.density.half_spaces()[i];
                     if (h.radius > 0 || density.distance_rate(i) == 0) continue;
-                    const double t = -density.distance0(i) / density.distance_rate(i);
+                    const double t = density.plane_crossing(i);
                     if (std::abs(t - a) <= negligible) normal = h.normal;
                 }
                 if (!visit(a, now, normal)) return;

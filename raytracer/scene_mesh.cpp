@@ -14,6 +14,12 @@ namespace {
 // A grid of more cubes than this is refused: it would take tens of gigabytes.
 constexpr double most_cubes = 2e9;
 
+// For pictures: the horizon of a floor that ends so far away is the true one to a pixel.
+constexpr double rendering_reach = 1e4;
+// For pictures: on Figure 12 of Lobb's paper 99 % of the hits are then within 0.03 r of the exact
+// ones, where the paper's one refinement of each edge leaves 0.26 r.
+constexpr double rendering_tolerance = 0.03;
+
 bool finite(const Box& box) { return box.empty() || box.finite(); }
 
 // All that is finite of the scene, and the eye: infinite solids are cut off around it.
@@ -54,6 +60,15 @@ double parse_positive(const std::string& what, const std::string& text) {
 
 double parse_tolerance(const std::string& text) {
     return text == "inf" ? infinity : parse_positive("--tolerance", text);
+}
+
+MeshSettings picture_mesh_settings(const std::string& via, const std::string& tolerance) {
+    MeshSettings settings;
+    settings.method = parse_mesh_method("--via", via);
+    settings.reach = rendering_reach;
+    if (tolerance.empty()) settings.tolerance_in_radii = rendering_tolerance;
+    else settings.tolerance = parse_tolerance(tolerance);
+    return settings;
 }
 
 double least_radius(const SolidTree& solid) {

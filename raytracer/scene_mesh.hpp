@@ -25,14 +25,12 @@ struct MeshSettings {
     double reach = 8;             // infinite solids end this many sizes of the finite ones away
 };
 
-/// For pictures: the horizon of a floor that ends so far away is the true one to a pixel.
-constexpr double rendering_reach = 1e4;
-/// For pictures: on Figure 12 of Lobb's paper 99 % of the hits are then within 0.03 r of the exact
-/// ones, where the paper's one refinement of each edge leaves 0.26 r.
-constexpr double rendering_tolerance = 0.03;
-
 /// --tolerance: a number > 0, or inf for the paper's one refinement of each edge.
 double parse_tolerance(const std::string& text);
+
+/// For pictures of meshes, from --via and --tolerance (which may be empty): finer than a mesh that is
+/// asked for, and with floors that reach the horizon.
+MeshSettings picture_mesh_settings(const std::string& via, const std::string& tolerance);
 
 /// The least radius > 0 in a solid; 0 if all is sharp.
 double least_radius(const SolidTree& solid);
