@@ -52,7 +52,11 @@ Box bounding_box(const SolidTree& tree) {
         switch (n.op) {
             case SolidOp::nothing: all.push_back({}); break;
             case SolidOp::everything: all.push_back(Box::everything()); break;
-            case SolidOp::leaf: all.push_back(bounding_box(tree.leaves[std::size_t(n.a)].density)); break;
+            case SolidOp::leaf: {
+                const SolidLeaf& leaf = tree.leaves[std::size_t(n.a)];
+                all.push_back(leaf.field ? leaf.field->bounding_box() : bounding_box(leaf.density));
+                break;
+            }
             case SolidOp::unite: all.push_back(hull(at(n.a), at(n.b))); break;
             case SolidOp::intersect: all.push_back(intersection(at(n.a), at(n.b))); break;
             case SolidOp::subtract: all.push_back(at(n.a)); break;

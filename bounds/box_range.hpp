@@ -39,6 +39,13 @@ inline Side classify(Range rho) {
     return Side::straddling;
 }
 
+/// The same of a field, whose set is f > 0.
+inline Side classify_field(Range f) {
+    if (f.hi <= 0) return Side::outside;
+    if (f.lo > 0) return Side::inside;
+    return Side::straddling;
+}
+
 struct Pruned {
     DensityTree tree;  // equals the original throughout the box
     Range range;       // of ρ over the box

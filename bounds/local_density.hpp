@@ -50,13 +50,11 @@ private:
     bool has_sharp_ = false;
 };
 
-struct ValueSlope {
-    double value = 0, slope = 0;
-};
-
 /// A local density along the ray o + t·d. Cheap to set up again and again: keeps its memory.
 class RayDensity {
 public:
+    static constexpr double level = 0.5;  // of ρ on the surface
+
     /// Keeps a reference to `density`.
     void set(const LocalDensity& density, Vec3 origin, Vec3 direction);
 

@@ -4,6 +4,11 @@
 
 namespace deburr {
 
+/// A function along a ray, and its derivative.
+struct ValueSlope {
+    double value = 0, slope = 0;
+};
+
 struct RayBounds {
     double M = 0;  // |ρ| ≤ M
     double L = 0;  // |ρ′| ≤ L, per unit of t

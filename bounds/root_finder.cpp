@@ -12,6 +12,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "bounds/field.hpp"
+
 namespace deburr {
 
 double least_turning_distance(SegmentEnd end, RayBounds bounds) {
@@ -42,7 +44,8 @@ bool at_most_one_root(SegmentEnd start, SegmentEnd end, RayBounds bounds, double
 }
 
 // Regula falsi, with a bisection after every step that did not halve the bracket.
-double RootFinder::root(const RayDensity& density, Point a, Point b) {
+template <class OnRay>
+double RootFinder::root(const OnRay& function, Point a, Point b) {
     const double sign = b.f > 0 ? 1 : -1;  // f·sign rises through 0 from a to b
     while (b.t - a.t > settings_.negligible) {
         const double length = b.t - a.t;
@@ -51,7 +54,7 @@ double RootFinder::root(const RayDensity& density, Point a, Point b) {
             // Off the ends by a little, so that a root beside one of them is soon bracketed.
             t = std::clamp(t, a.t + 0.5 * settings_.negligible, b.t - 0.5 * settings_.negligible);
             if (!(t > a.t && t < b.t)) return b.t;
-            const Point p = evaluate(density, t);
+            const Point p = evaluate(function, t);
             if (p.f == 0) return p.t;
             (p.f * sign > 0 ? b : a) = p;
             if (b.t - a.t <= 0.5 * length) break;
@@ -60,5 +63,8 @@ double RootFinder::root(const RayDensity& density, Point a, Point b) {
     }
     return a.f == b.f ? b.t : a.t - a.f * ((b.t - a.t) / (b.f - a.f));
 }
+
+template double RootFinder::root(const RayDensity&, Point, Point);
+template double RootFinder::root(const FieldRay&, Point, Point);
 
 }  // namespace deburr

@@ -1,4 +1,4 @@
-// Roots of f(t) = ρ(o + t·d) − ½ on a ray segment.
+// Roots of f(t) = ρ(o + t·d) − ½ on a ray segment; of a field (field.hpp), of f itself.
 //
 // A segment is halved until it provably holds at most one root [Lobb §3.4.2, after Kalra & Barr
 // 1989]; the signs at its ends then tell whether it holds one, and regula falsi with interleaved
@@ -61,45 +61,48 @@ inline bool is_faint(SegmentEnd start, SegmentEnd end, RayBounds bounds, double 
 
 struct Crossing {
     double t;
-    bool entering;  // ρ > ½ beyond it
+    bool entering;  // f > 0 beyond it
 };
 
 class RootFinder {
 public:
     RootFinder(RootSettings settings, RootCounters& counters) : settings_(settings), counters_(counters) {}
 
-    /// All crossings of ρ = ½ in [t0, t1], in order, where sharp half-spaces stay as fix_sharp left
-    /// them. `visit(Crossing)` says whether to go on; false if it said no.
-    template <class Visit>
-    bool crossings(const RayDensity& density, double t0, double t1, Visit&& visit);
+    /// All crossings of the surface's level in [t0, t1], in order; sharp half-spaces stay as fix_sharp
+    /// left them. `visit(Crossing)` says whether to go on; false if it said no. OnRay is a RayDensity
+    /// or a FieldRay.
+    template <class OnRay, class Visit>
+    bool crossings(const OnRay& function, double t0, double t1, Visit&& visit);
+
+    // f = 0 is not inside, and what rounding makes of it must not be either: sums of a few products
+    // of numbers in [0, 1] are off by an ε each.
+    static constexpr double rounding = 32 * epsilon;
 
 private:
     struct Point {
         double t, f, slope;
     };
-    Point evaluate(const RayDensity& density, double t) {
+    template <class OnRay>
+    Point evaluate(const OnRay& function, double t) {
         ++counters_.evaluations;
-        const ValueSlope v = density.at(t);
-        const double f = v.value - 0.5;
+        const ValueSlope v = function.at(t);
+        const double f = v.value - OnRay::level;
         return {t, std::abs(f) <= rounding ? 0 : f, v.slope};
     }
-    double root(const RayDensity& density, Point a, Point b);
-
-    // ρ = ½ is not inside, and what rounding makes of it must not be either: sums of a few products
-    // of numbers in [0, 1] are off by an ε each.
-    static constexpr double rounding = 32 * epsilon;
+    template <class OnRay>
+    double root(const OnRay& function, Point a, Point b);
 
     RootSettings settings_;
     RootCounters& counters_;
 };
 
-template <class Visit>
-bool RootFinder::crossings(const RayDensity& density, double t0, double t1, Visit&& visit) {
+template <class OnRay, class Visit>
+bool RootFinder::crossings(const OnRay& function, double t0, double t1, Visit&& visit) {
     // Depth first, near half first. Halving a double's range ends long before the stack does.
     Point stack[1100];
     int top = 0;
-    Point a = evaluate(density, t0);
-    stack[top++] = evaluate(density, t1);
+    Point a = evaluate(function, t0);
+    stack[top++] = evaluate(function, t1);
     while (top > 0) {
         const Point b = stack[top - 1];
         const double length = b.t - a.t;
@@ -107,7 +110,7 @@ bool RootFinder::crossings(const RayDensity& density, double t0, double t1, Visi
         bool done = length <= settings_.negligible || top >= 1099;
         if (!done) {
             const SegmentEnd start{a.f, a.slope}, end{b.f, -b.slope};
-            const RayBounds bounds = density.bounds(a.t, b.t);
+            const RayBounds bounds = function.bounds(a.t, b.t);
             done = at_most_one_root(start, end, bounds, length, settings_.criterion) ||
                    is_faint(start, end, bounds, length, settings_.faint);
         }
@@ -115,11 +118,11 @@ bool RootFinder::crossings(const RayDensity& density, double t0, double t1, Visi
             const double middle = a.t + 0.5 * length;
             if (middle > a.t && middle < b.t) {
                 ++counters_.splits;
-                stack[top++] = evaluate(density, middle);
+                stack[top++] = evaluate(function, middle);
                 continue;
             }
         }
-        if ((a.f > 0) != (b.f > 0) && !visit(Crossing{root(density, a, b), b.f > 0})) return false;
+        if ((a.f > 0) != (b.f > 0) && !visit(Crossing{root(function, a, b), b.f > 0})) return false;
         a = b;
         --top;
     }

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "bounds/expression.hpp"
+#include "bounds/field.hpp"
 
 namespace deburr {
 namespace {
@@ -30,6 +31,15 @@ Solid Solid::rounded(double r, Density density, int line) {
     node->line = line;
     node->leaves = density.node().leaves;
     node->density.push_back(std::move(density));
+    return Solid(node);
+}
+
+Solid Solid::of_field(FieldPtr field, int line) {
+    auto node = std::make_shared<SolidNode>();
+    node->kind = Kind::field;
+    node->line = line;
+    node->leaves = field->size();
+    node->field = std::move(field);
     return Solid(node);
 }
 

@@ -1,5 +1,5 @@
 // Solids as a scene writes them: the primary CSG tree [Lobb §2.2, figure 3], whose leaves are
-// rounded densities.
+// rounded densities and fields (field.hpp).
 //
 // A Solid is a cheap handle on an immutable, shared expression. A sharp half-space is a density of
 // radius 0.
@@ -11,6 +11,7 @@
 
 namespace deburr {
 
+class Field;
 struct SolidNode;
 
 class Solid {
@@ -19,13 +20,16 @@ public:
     static Solid rounded(double r, Density density, int line = 0);
     static Solid sharp(Density density, int line = 0) { return rounded(0.0, std::move(density), line); }
 
+    /// The set f > 0.
+    static Solid of_field(std::shared_ptr<const Field> field, int line = 0);
+
     friend Solid operator|(Solid a, Solid b);
     friend Solid operator&(Solid a, Solid b);
     friend Solid operator-(Solid a, Solid b);
 
     /// Gives everything in it that has no material yet the one with this index in the scene.
     Solid material(int index) const;
-    /// Carries the density field along: x ↦ ρ(A⁻¹x). `map` must be regular.
+    /// Carries densities and fields along: x ↦ ρ(A⁻¹x). `map` must be regular.
     Solid transformed(const Affine& map) const;
 
     const SolidNode& node() const { return *node_; }
@@ -36,15 +40,16 @@ private:
 };
 
 struct SolidNode {
-    enum class Kind { rounded, unite, intersect, subtract, material, transform };
+    enum class Kind { rounded, field, unite, intersect, subtract, material, transform };
     Kind kind = Kind::rounded;
     std::vector<Solid> children;
     std::vector<Density> density;  // rounded: one
     double radius = 0.0;           // rounded
+    std::shared_ptr<const Field> field;
     int material = -1;             // material
     Affine map;                    // transform
-    int line = 0;                  // rounded: place in the scene, 0 unknown
-    double leaves = 1.0;           // half-spaces below, counted once per use
+    int line = 0;                  // rounded, field: place in the scene, 0 unknown
+    double leaves = 1.0;           // half-spaces below, and fields' sizes, counted once per use
 
     SolidNode() = default;
     SolidNode(const SolidNode&) = delete;

@@ -1,6 +1,7 @@
 #include "bounds/solid_range.hpp"
 
 namespace deburr {
+
 Side combine(SolidOp op, Side a, Side b) {
     if (op == SolidOp::subtract) {
         if (a == Side::outside || b == Side::inside) return Side::outside;
@@ -43,11 +44,13 @@ void mark_needed(const SolidTree& tree, const std::vector<Side>& sides, std::vec
 }  // namespace
 
 SolidTree prune(const SolidTree& tree, const Box& box) {
-    std::vector<Pruned> local(tree.leaves.size());
+    std::vector<Pruned> local(tree.leaves.size());  // of densities
     std::vector<Side> sides;
     classify_nodes(tree, sides, [&](int leaf) {
+        const SolidLeaf& of = tree.leaves[std::size_t(leaf)];
+        if (of.field) return classify_field(of.field->range(box));
         Pruned& here = local[std::size_t(leaf)];
-        here = prune(tree.leaves[std::size_t(leaf)].density, box);
+        here = prune(of.density, box);
         return classify(here.range);
     });
     std::vector<char> needed;
@@ -69,7 +72,12 @@ SolidTree prune(const SolidTree& tree, const Box& box) {
             place[i] = add({SolidOp::everything});
         } else if (n.op == SolidOp::leaf) {
             const SolidLeaf& leaf = tree.leaves[std::size_t(n.a)];
-            to.leaves.push_back({std::move(local[std::size_t(n.a)].tree), leaf.material, leaf.line});
+            if (leaf.field) {
+                to.leaves.push_back(leaf);
+                if (FieldPtr left = leaf.field->prune(box)) to.leaves.back().field = std::move(left);
+            } else {
+                to.leaves.push_back({std::move(local[std::size_t(n.a)].tree), leaf.material, leaf.line});
+            }
             place[i] = add({SolidOp::leaf, int(to.leaves.size()) - 1});
         } else if (side(n.b) != Side::straddling) {  // and does not decide it: a is left
             place[i] = place[std::size_t(n.a)];
@@ -89,8 +97,10 @@ LocalSolidSize local_size(const SolidTree& tree, const Box& box) {
     thread_local std::vector<int> sizes;
     sizes.assign(tree.leaves.size(), 0);
     classify_nodes(tree, sides, [&](int leaf) {
-        const LocalSize size = local_size(tree.leaves[std::size_t(leaf)].density, box);
+        const SolidLeaf& of = tree.leaves[std::size_t(leaf)];
+        const LocalSize size = of.field ? of.field->local_size(box) : local_size(of.density, box);
         sizes[std::size_t(leaf)] = size.half_spaces;
+        if (of.field) return classify_field(size.range);
         return classify(size.range);
     });
     mark_needed(tree, sides, needed);

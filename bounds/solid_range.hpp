@@ -14,7 +14,7 @@ Side combine(SolidOp op, Side a, Side b);
 /// all there is.
 SolidTree prune(const SolidTree& tree, const Box& box);
 
-/// Where the box lies, and how many half-spaces `prune` would leave.
+/// Where the box lies, and how many half-spaces, or their like in fields, `prune` would leave.
 struct LocalSolidSize {
     Side side = Side::straddling;
     int leaves = 0, half_spaces = 0;

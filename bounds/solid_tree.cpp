@@ -62,6 +62,13 @@ private:
             done_.push_back(add({SolidOp::leaf, int(tree_.leaves.size()) - 1}));
             return;
         }
+        if (node.kind == Kind::field) {
+            FieldPtr placed = transformed(node.field, task.map);
+            if (!placed) throw SingularPlacement(node.line);
+            tree_.leaves.push_back({DensityTree::constant(0), task.material, node.line, std::move(placed)});
+            done_.push_back(add({SolidOp::leaf, int(tree_.leaves.size()) - 1}));
+            return;
+        }
         const SolidOp op = node.kind == Kind::unite       ? SolidOp::unite
                            : node.kind == Kind::intersect ? SolidOp::intersect
                                                           : SolidOp::subtract;
@@ -111,7 +118,11 @@ bool SolidTree::contains(Vec3 x) const {
         switch (n.op) {
             case SolidOp::nothing: in.push_back(false); break;
             case SolidOp::everything: in.push_back(true); break;
-            case SolidOp::leaf: in.push_back(leaves[std::size_t(n.a)].density.at(x) > 0.5); break;
+            case SolidOp::leaf: {
+                const SolidLeaf& leaf = leaves[std::size_t(n.a)];
+                in.push_back(leaf.field ? leaf.field->at(x).value > 0 : leaf.density.at(x) > 0.5);
+                break;
+            }
             case SolidOp::unite: in.push_back(at(n.a) || at(n.b)); break;
             case SolidOp::intersect: in.push_back(at(n.a) && at(n.b)); break;
             case SolidOp::subtract: in.push_back(at(n.a) && !at(n.b)); break;

@@ -1,16 +1,19 @@
-// The primary CSG tree [Lobb §2.2, figure 3], flat: rounded densities in world space as leaves.
+// The primary CSG tree [Lobb §2.2, figure 3], flat: rounded densities and fields in world space as
+// leaves.
 #pragma once
 #include <vector>
 
 #include "bounds/density_tree.hpp"
+#include "bounds/field.hpp"
 #include "bounds/solid.hpp"
 
 namespace deburr {
 
 struct SolidLeaf {
-    DensityTree density;  // the leaf is the set ρ > ½
+    DensityTree density;  // the leaf is the set ρ > ½; of a field, nothing: a constant 0
     int material = 0;
     int line = 0;
+    FieldPtr field = {};  // if not null, the leaf is the set f > 0
 };
 
 enum class SolidOp : unsigned char { nothing, everything, leaf, unite, intersect, subtract };

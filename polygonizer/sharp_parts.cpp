@@ -56,6 +56,10 @@ public:
     int run(const SolidLeaf& leaf) {
         const Kinds k = kinds(leaf.density);
         if (to_.leaves.size() - leaves_before_ > most_leaves) return -1;
+        if (leaf.field) {
+            to_.leaves.push_back(leaf);
+            return add({SolidOp::leaf, int(to_.leaves.size()) - 1});
+        }
         if (leaf.density.nodes.back().op == Op::constant)
             return add({leaf.density.nodes.back().value > 0.5 ? SolidOp::everything : SolidOp::nothing});
         if (!k.sharp || !k.rounded) {

@@ -49,13 +49,14 @@ SurfaceOffset::SurfaceOffset(const SolidTree& solid) : solid_(separate_sharp(sol
 
 Offset SurfaceOffset::leaf_at(std::size_t leaf, Vec3 x) const {
     Offset o;
-    if (sharp_[leaf]) {
+    const Field* field = solid_.leaves[leaf].field.get();
+    if (sharp_[leaf] && !field) {
         o = sharp_at(solid_.leaves[leaf].density, x);
     } else {
         auto& density = densities_[leaf];
-        if (!density) density = std::make_unique<LocalDensity>(solid_.leaves[leaf].density);
-        const ValueGradient v = density->gradient_at(x);
-        const double slope = glm::length(v.gradient), f = v.value - 0.5;
+        if (!density && !field) density = std::make_unique<LocalDensity>(solid_.leaves[leaf].density);
+        const ValueGradient v = field ? field->at(x) : density->gradient_at(x);
+        const double slope = glm::length(v.gradient), f = field ? v.value : v.value - 0.5;
         if (slope > 0) o = {f / slope, -v.gradient / slope, 0};
         else o.distance = f > 0 ? infinity : f < 0 ? -infinity : 0;
     }
@@ -112,7 +113,8 @@ double SurfaceOffset::distance_along_normal(Vec3 x, double reach) const {
 
 std::size_t SurfaceOffset::half_spaces() const {
     std::size_t count = 0;
-    for (const SolidLeaf& leaf : solid_.leaves) count += leaf.density.half_spaces.size();
+    for (const SolidLeaf& leaf : solid_.leaves)
+        count += leaf.field ? std::size_t(leaf.field->size()) : leaf.density.half_spaces.size();
     return count;
 }
 

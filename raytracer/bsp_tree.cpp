@@ -63,6 +63,9 @@ public:
             for (const SolidLeaf& leaf : tree->leaves) {
                 bsp_.half_spaces += leaf.density.half_spaces.size();
                 for (const HalfSpace& h : leaf.density.half_spaces) reach = std::max(reach, std::abs(h.offset));
+                if (!leaf.field) continue;
+                bsp_.half_spaces += std::size_t(leaf.field->size());
+                reach = std::max(reach, leaf.field->reach());
             }
             const Box box = bounding_box(*tree);
             if (box.empty()) continue;

@@ -63,6 +63,11 @@ LocalSolid::LocalSolid(int solid, const SolidTree& tree, const Box& box, const T
 
 void LocalSolid::add_leaf(const SolidLeaf& leaf, const Box& box, const Tolerances& tolerances,
                           std::optional<bool>& constant) {
+    if (leaf.field) {  // pruned to where it straddles
+        leaves_.push_back({Vec3(0.0), 0, int(softs_.size()), leaf.material});
+        softs_.push_back({LocalDensity(leaf.density), {}, {}, false, false, leaf.field});
+        return;
+    }
     const auto prepared = [&] {
         try {
             return LocalDensity(leaf.density);
@@ -98,8 +103,10 @@ void LocalSolid::add_leaf(const SolidLeaf& leaf, const Box& box, const Tolerance
 
 std::size_t LocalSolid::half_spaces() const {
     std::size_t sum = 0;
-    for (const Leaf& leaf : leaves_)
-        sum += leaf.soft < 0 ? 1 : softs_[std::size_t(leaf.soft)].density.half_spaces().size();
+    for (const Leaf& leaf : leaves_) {
+        const Soft* soft = leaf.soft < 0 ? nullptr : &softs_[std::size_t(leaf.soft)];
+        sum += !soft ? 1 : soft->field ? std::size_t(soft->field->size()) : soft->density.half_spaces().size();
+    }
     return sum;
 }
 
@@ -171,10 +178,31 @@ Vec3 unit(Vec3 v) {
 
 }  // namespace
 
+// visit(t, entering, normal) → go on?
+template <class Visit>
+void LocalSolid::field_crossings(const Field& field, Vec3 origin, Vec3 direction, double t0, double t1,
+                                 CrossingScratch& scratch, bool* start_inside, Visit visit) const {
+    // What is passed over as a mere touch; f is in the ray's unit, of which rounding is all the noise.
+    constexpr double faint = 2 * RootFinder::rounding;
+    if (t1 == infinity) t1 = std::clamp(field.settled(origin, direction), t0, std::max(t0, 1e300));
+    scratch.field.set(field, origin, direction, t0, t1);
+    if (start_inside) {
+        ++scratch.counters.roots.evaluations;
+        *start_inside = scratch.field.at(t0).value > RootFinder::rounding;
+    }
+    RootFinder finder({scratch.criterion, 8 * epsilon * (scale_ + t0), faint}, scratch.counters.roots);
+    finder.crossings(scratch.field, t0, t1, [&](Crossing c) {
+        const Vec3 normal = unit(field.at(origin + direction * c.t).gradient);
+        // At a cone's apex there is none: the ray's own will do.
+        return visit(c.t, c.entering, normal == Vec3(0.0) ? direction : normal);
+    });
+}
+
 // visit(t, entering, normal of the sharp plane or 0) → go on?
 template <class Visit>
 void LocalSolid::soft_crossings(const Soft& soft, Vec3 origin, Vec3 direction, double t0, double t1,
                                 CrossingScratch& scratch, bool* start_inside, Visit visit) const {
+    if (soft.field) return field_crossings(*soft.field, origin, direction, t0, t1, scratch, start_inside, visit);
     const Span whole[1] = {{t0, t1}};
     const Span *first = whole, *last = whole + 1;
     if (soft.bounded) {

@@ -3,7 +3,7 @@
 // A leaf whose local density is one half-space is a plane: it is intersected and done. For the
 // others the ray is first cut by inner and outer bound [Lobb §3.2, figure 7]; in a stretch where a
 // single half-space varies the crossing is a plane's too, and only what remains needs the root
-// finder.
+// finder. A field goes straight to the root finder.
 #pragma once
 #include <optional>
 #include <vector>
@@ -49,6 +49,7 @@ struct CrossingScratch {
     Criterion criterion = Criterion::exact;
     CrossingCounters counters;
     RayDensity density;
+    FieldRay field;
     SearchSpans spans;
     std::vector<double> sharp;
     std::vector<Event> events;
@@ -74,7 +75,7 @@ private:
     struct Leaf {
         Vec3 normal{0.0};  // flat: inside where n·x ≤ offset
         double offset = 0;
-        int soft = -1;  // index of its density; −1: flat
+        int soft = -1;  // index of its density or field; −1: flat
         int material = 0;
     };
     struct Soft {
@@ -82,11 +83,15 @@ private:
         BoundCsg outer, inner;
         bool bounded;  // the bounds hold
         bool all_sharp;
+        FieldPtr field = {};  // if not null, all else is void
     };
 
     void add_leaf(const SolidLeaf& leaf, const Box& box, const Tolerances& tolerances,
                   std::optional<bool>& constant);
     bool evaluate(std::vector<char>& state, const std::vector<char>& inside) const;
+    template <class Visit>
+    void field_crossings(const Field& field, Vec3 origin, Vec3 direction, double t0, double t1,
+                         CrossingScratch& scratch, bool* start_inside, Visit visit) const;
     template <class Visit>
     void soft_crossings(const Soft& soft, Vec3 origin, Vec3 direction, double t0, double t1,
                         CrossingScratch& scratch, bool* start_inside, Visit visit) const;

@@ -79,6 +79,14 @@ double least_radius(const SolidTree& solid) {
     return least < infinity ? least : 0;
 }
 
+// Triage follows half-spaces: what has none it cannot see.
+static void need_densities(const SolidTree& solid, std::size_t id) {
+    for (const SolidLeaf& leaf : solid.leaves)
+        if (leaf.field)
+            throw UnsupportedError(fmt::format(
+                "--method triage: expected rounded polyhedra, got a free form in solid {}; use marching-cubes", id));
+}
+
 SceneMesh mesh_scene(const Scene& scene, const MeshSettings& settings) {
     SceneMesh result;
     std::vector<Box> boxes;
@@ -109,6 +117,7 @@ SceneMesh mesh_scene(const Scene& scene, const MeshSettings& settings) {
             continue;
         }
         if (settings.method == MeshMethod::triage) {
+            need_densities(tree, i + 1);
             TriageStatistics statistics;
             const double radius = least_radius(tree);
             const double relative = radius > 0 ? settings.tolerance_in_radii * radius : infinity;

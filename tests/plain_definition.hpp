@@ -112,12 +112,17 @@ inline double density(const DensityTree& tree, int i, Vec3 x) {
 }
 inline double density(const DensityTree& tree, Vec3 x) { return density(tree, tree.root(), x); }
 
+inline double field(const Field& f, Vec3 x) { return f.at(x).value; }
+
 inline bool contains(const SolidTree& tree, int i, Vec3 x) {
     const SolidTreeNode& n = tree.nodes[std::size_t(i)];
     switch (n.op) {
         case SolidOp::nothing: return false;
         case SolidOp::everything: return true;
-        case SolidOp::leaf: return density(tree.leaves[std::size_t(n.a)].density, x) > 0.5;
+        case SolidOp::leaf: {
+            const SolidLeaf& leaf = tree.leaves[std::size_t(n.a)];
+            return leaf.field ? field(*leaf.field, x) > 0 : density(leaf.density, x) > 0.5;
+        }
         case SolidOp::unite: return contains(tree, n.a, x) || contains(tree, n.b, x);
         case SolidOp::intersect: return contains(tree, n.a, x) && contains(tree, n.b, x);
         case SolidOp::subtract: return contains(tree, n.a, x) && !contains(tree, n.b, x);
@@ -127,10 +132,18 @@ inline bool contains(const SolidTree& tree, int i, Vec3 x) {
 inline bool contains(const SolidTree& tree, Vec3 x) { return contains(tree, tree.root(), x); }
 
 /// First t in (0, t_max) where the ray changes sides of the solid. Between the values of t where a
-/// half-space begins or ceases to vary, `steps` points are looked at.
+/// half-space begins or ceases to vary or a field's box begins or ends, `steps` points are looked at.
 inline double first_crossing(const SolidTree& tree, Vec3 o, Vec3 d, double t_max, int steps) {
     std::vector<double> cuts{0, t_max};
-    for (const SolidLeaf& leaf : tree.leaves)
+    for (const SolidLeaf& leaf : tree.leaves) {
+        if (leaf.field) {
+            const Box box = leaf.field->bounding_box();
+            for (int k = 0; k < 3; ++k)
+                for (const double side : {box.lo[k], box.hi[k]}) {
+                    const double t = (side - o[k]) / d[k];
+                    if (t > 0 && t < t_max) cuts.push_back(t);
+                }
+        }
         for (const HalfSpace& h : leaf.density.half_spaces) {
             const double rate = glm::dot(h.normal, d), at = glm::dot(h.normal, o) - h.offset;
             for (const double level : {-h.radius, 0.0, h.radius}) {
@@ -138,6 +151,7 @@ inline double first_crossing(const SolidTree& tree, Vec3 o, Vec3 d, double t_max
                 if (t > 0 && t < t_max) cuts.push_back(t);
             }
         }
+    }
     std::sort(cuts.begin(), cuts.end());
     const bool start = contains(tree, o);
     double last = 0;

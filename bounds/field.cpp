@@ -1,0 +1,126 @@
+#include "bounds/field.hpp"
+
+#include <algorithm>
+
+namespace deburr {
+namespace {
+
+// The box's image under an affine map, in a box. Corners at infinity are taken axis by axis.
+Box image(const Affine& map, const Box& box) {
+    Box to{map.shift, map.shift};
+    for (int row = 0; row < 3; ++row)
+        for (int k = 0; k < 3; ++k) {
+            const double m = map.linear[k][row];
+            if (m == 0) continue;  // 0·∞ is no number
+            to.lo[row] += m * (m > 0 ? box.lo[k] : box.hi[k]);
+            to.hi[row] += m * (m > 0 ? box.hi[k] : box.lo[k]);
+        }
+    return to;
+}
+
+// Rounding moves an image by no more than this share of what was added up.
+constexpr double image_slack = 16 * epsilon;
+
+Box outward(const Affine& map, const Box& box) {
+    Box to = image(map, box);
+    for (int row = 0; row < 3; ++row) {
+        double sum = std::abs(map.shift[row]);
+        for (int k = 0; k < 3; ++k)
+            for (const double side : {box.lo[k], box.hi[k]})
+                if (std::isfinite(side)) sum += std::abs(map.linear[k][row] * side);
+        to.lo[row] -= image_slack * sum;
+        to.hi[row] += image_slack * sum;
+    }
+    return to;
+}
+
+// Any field, carried along by an affine map.
+class PlacedField final : public Field {
+public:
+    PlacedField(FieldPtr inner, const Affine& map, const Affine& inverse)
+        : inner_(std::move(inner)), map_(map), inverse_(inverse) {}
+
+    ValueGradient at(Vec3 x) const override {
+        ValueGradient v = inner_->at(inverse_(x));
+        v.gradient = glm::transpose(inverse_.linear) * v.gradient;
+        return v;
+    }
+    Range range(const Box& box) const override { return inner_->range(outward(inverse_, box)); }
+    Box bounding_box() const override {
+        const Box box = inner_->bounding_box();
+        return box.empty() ? box : outward(map_, box);
+    }
+    double reach() const override {
+        const double r = inner_->reach();
+        double most = 0;
+        for (int row = 0; row < 3; ++row)
+            most = std::max(most, std::abs(map_.shift[row]) + r * (std::abs(map_.linear[0][row]) +
+                                                                   std::abs(map_.linear[1][row]) +
+                                                                   std::abs(map_.linear[2][row])));
+        return most;
+    }
+    FieldPtr prune(const Box& box) const override {
+        FieldPtr left = inner_->prune(outward(inverse_, box));
+        return left ? std::make_shared<PlacedField>(std::move(left), map_, inverse_) : nullptr;
+    }
+    int size() const override { return inner_->size(); }
+    LocalSize local_size(const Box& box) const override { return inner_->local_size(outward(inverse_, box)); }
+    FieldPtr carried(const Affine& map) const override { return transformed(inner_, compose(map, map_)); }
+
+    double settled(Vec3 origin, Vec3 direction) const override {
+        return inner_->settled(inverse_(origin), inverse_.linear * direction);
+    }
+    void prepare(FieldRay& ray) const override {  // from here on the ray is the inner field's
+        ray.origin = inverse_(ray.origin);
+        ray.direction = inverse_.linear * ray.direction;
+        ray.field = inner_.get();
+        inner_->prepare(ray);
+    }
+    ValueSlope at(const FieldRay& ray, double t) const override { return ray.field->at(ray, t); }
+    RayBounds bounds(const FieldRay& ray, double t0, double t1) const override {
+        return ray.field->bounds(ray, t0, t1);
+    }
+
+private:
+    FieldPtr inner_;
+    Affine map_, inverse_;
+};
+
+bool finite(const Affine& map) {
+    for (int k = 0; k < 3; ++k)
+        for (int row = 0; row < 3; ++row)
+            if (!std::isfinite(map.linear[k][row]) || !std::isfinite(map.shift[row])) return false;
+    return true;
+}
+
+}  // namespace
+
+double Field::reach() const {
+    double most = 0;
+    const Box box = bounding_box();
+    for (int k = 0; k < 3; ++k)
+        for (const double side : {box.lo[k], box.hi[k]})
+            if (std::isfinite(side)) most = std::max(most, std::abs(side));
+    return most;
+}
+
+FieldPtr transformed(const FieldPtr& field, const Affine& map) {
+    const Mat3 inverse = glm::inverse(map.linear);
+    const Affine back{inverse, -(inverse * map.shift)};
+    if (!finite(map) || !finite(back)) return nullptr;
+    if (map.linear == Mat3(1.0) && map.shift == Vec3(0.0)) return field;
+    if (FieldPtr own = field->carried(map)) return own;
+    return std::make_shared<PlacedField>(field, map, back);
+}
+
+double leaves_box(const Box& box, Vec3 origin, Vec3 direction) {
+    double t = infinity;
+    for (int k = 0; k < 3; ++k) {
+        if (direction[k] == 0) continue;
+        const double side = direction[k] > 0 ? box.hi[k] : box.lo[k];
+        if (std::isfinite(side)) t = std::min(t, (side - origin[k]) / direction[k]);
+    }
+    return std::max(0.0, t);
+}
+
+}  // namespace deburr

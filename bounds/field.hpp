@@ -1,0 +1,94 @@
+// A leaf of the primary CSG tree that is no rounded density: the set f > 0 of a smooth function.
+//
+// What a kind of field must tell about itself is what the rest of the program asks of a density:
+// its value and gradient, its range over a box, M, L and G along a ray, and the little of it that
+// matters in a box. The ray tracer, the BSP and the polygonizers need to know no more.
+//
+// f and f′ must be continuous, and f″ bounded. f may have any unit; along a ray a field sets its own
+// (prepare), so that rounding stays below what the root finder allows for.
+#pragma once
+#include <memory>
+#include <vector>
+
+#include "bounds/box_range.hpp"
+#include "bounds/ray_bounds.hpp"
+
+namespace deburr {
+
+class Field;
+class FieldRay;
+using FieldPtr = std::shared_ptr<const Field>;
+
+/// Immutable; safe for several threads.
+class Field {
+public:
+    virtual ~Field() = default;
+
+    /// f and ∇f.
+    virtual ValueGradient at(Vec3 x) const = 0;
+    /// Holds f over the box, whose sides may be infinite; as tight as it can be had at little cost.
+    virtual Range range(const Box& box) const = 0;
+    /// Holds the set f > 0; sides may be infinite.
+    virtual Box bounding_box() const = 0;
+    /// How far from the origin there is anything to see of an unbounded set.
+    virtual double reach() const;
+
+    /// A field whose f has the same sign throughout the box, made of no more than matters there;
+    /// null: this one.
+    virtual FieldPtr prune(const Box&) const { return nullptr; }
+    /// What an evaluation costs, in evaluations of a half-space's density.
+    virtual int size() const { return 1; }
+    /// range(box), and size() of what `prune` would leave.
+    virtual LocalSize local_size(const Box& box) const { return {range(box), size()}; }
+    /// x ↦ f(A⁻¹x) as a field of its own kind, if it has one that is better than a wrapper; or null.
+    virtual FieldPtr carried(const Affine&) const { return nullptr; }
+
+    /// A ray parameter ≥ 0 beyond which f keeps its sign along the ray; asked for rays that do not
+    /// end.
+    virtual double settled(Vec3 origin, Vec3 direction) const = 0;
+    /// Sets up ray.numbers, if the field uses them, for the ray that the others name.
+    virtual void prepare(FieldRay&) const {}
+    /// f and df/dt, in a unit of the ray's: f must be off by less than RootFinder::rounding.
+    virtual ValueSlope at(const FieldRay& ray, double t) const = 0;
+    /// M, L and G of the same over [t0, t1].
+    virtual RayBounds bounds(const FieldRay& ray, double t0, double t1) const = 0;
+};
+
+/// A field along the ray o + t·d, where t0 ≤ t ≤ t1 < ∞. Cheap to set up again and again: keeps its
+/// memory.
+class FieldRay {
+public:
+    static constexpr double level = 0;  // of f on the surface
+
+    /// Keeps a reference to `f`.
+    void set(const Field& f, Vec3 o, Vec3 d, double from, double to) {
+        field = &f;
+        origin = o;
+        direction = d;
+        t0 = from;
+        t1 = to;
+        f.prepare(*this);
+    }
+    ValueSlope at(double t) const { return field->at(*this, t); }
+    /// A little wider than the field says: where f″ is constant, two roots lie exactly at the limit
+    /// of what the criterion for one (root_finder.hpp) rejects, and rounding would decide.
+    RayBounds bounds(double from, double to) const {
+        constexpr double wider = 1 + 0x1p-20;
+        const RayBounds b = field->bounds(*this, from, to);
+        return {b.M * wider, b.L * wider, b.G * wider};
+    }
+
+    const Field* field = nullptr;
+    Vec3 origin{0.0}, direction{0.0};
+    double t0 = 0, t1 = 0;
+    std::vector<double> numbers;  // the field's own
+};
+
+/// x ↦ f(A⁻¹x); null if `map` is singular to a double.
+FieldPtr transformed(const FieldPtr& field, const Affine& map);
+
+/// A ray parameter ≥ 0 beyond which the ray is outside of the box for good; `infinity` if it never
+/// is. For fields that are bounded, what `settled` may return.
+double leaves_box(const Box& box, Vec3 origin, Vec3 direction);
+
+}  // namespace deburr
