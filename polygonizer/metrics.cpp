@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "polygonizer/outward.hpp"
+
 namespace deburr {
 namespace {
 
@@ -51,11 +53,12 @@ MeshMetrics measure(const Mesh& mesh, const SolidTree& solid) {
     const double reach = m.box.empty() ? 0 : glm::length(m.box.hi - m.box.lo);
     Sum first, far, angle;
     for (const Triangle& t : mesh.triangles) {
-        Vec3 middle(0.0);
+        Vec3 middle(0.0), normals(0.0);
         double longest = 0;
         for (std::size_t k = 0; k < 3; ++k) {
             const Vec3 x = mesh.positions[std::size_t(t.vertex[k])];
             middle += x / 3.0;
+            normals += mesh.normals[std::size_t(t.normal[k])];
             longest = std::max(longest, glm::length(x - mesh.positions[std::size_t(t.vertex[(k + 1) % 3])]));
         }
         const Vec3 area = mesh.area_vector(t);
@@ -67,6 +70,7 @@ MeshMetrics measure(const Mesh& mesh, const SolidTree& solid) {
             ++m.degenerate;
             continue;
         }
+        m.inverted += !faces_outward(field, middle, area / twice, normals, longest);
         const Offset here = field.at(middle);
         if (here.normal == Vec3(0.0)) continue;
         first.add(std::abs(here.distance));
@@ -74,7 +78,6 @@ MeshMetrics measure(const Mesh& mesh, const SolidTree& solid) {
         far.add(std::isfinite(distance) ? distance : std::abs(here.distance));
         const double cosine = glm::dot(area, here.normal) / twice;
         angle.add(std::acos(std::clamp(cosine, -1.0, 1.0)) * degrees);
-        m.inverted += cosine <= 0;
     }
     m.first_order = first.spread();
     m.distance = far.spread();

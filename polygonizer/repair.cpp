@@ -1,301 +1,306 @@
 #include "polygonizer/repair.hpp"
 
 #include <algorithm>
+#include <deque>
+
+#include "polygonizer/outward.hpp"
 
 namespace deburr {
 namespace {
 
-// Below this cosine between a triangle and the surface at its middle it counts as leaning, and
-// below this ratio of height to longest side as without area; what replaces it must do better.
-constexpr double leaning = 0.1, better = 0.2;
+// Below this cosine between a facet and the surface at its middle it counts as wrong, and below this
+// ratio of height to longest side as without area; what replaces it must do better.
+constexpr double leaning = 0.05, better = 0.1;
 constexpr double no_area = 1e-6;
 constexpr double same_normal = 1e-6;
 
 struct Shape {
-    double cosine = 1;    // to the surface at its middle; −1 without area
-    double distance = 0;  // of the middle from the surface
-    bool good(double limit) const { return cosine >= limit; }
+    double own = 1;       // cosine to its own surface at its middle; −1 without area
+    double cosine = 1;    // the same, or to the solid's surface that is nearest to the middle if that is less
+    double distance = 0;  // of the middle from the solid's surface
 };
 
-class Editing {
+// How good a set of facets is.
+struct Verdict {
+    int wrong = 0;
+    double worst = 1, distance = 0;
+};
+
+class Repair {
 public:
-    Editing(Mesh& mesh, const OffsetField& solid) : mesh_(mesh), solid_(solid) {
-        around_.resize(mesh.positions.size());
-        for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
-            for (const int v : mesh.triangles[t].vertex) around_[std::size_t(v)].push_back(int(t));
-        alive_.assign(mesh.triangles.size(), true);
-    }
+    Repair(Mesh& mesh, std::vector<Origin>& origins, const SolidTree& solid, const Box& box)
+        : facets_(mesh, origins), solid_(solid, box), surfaces_(solid, box), one_leaf_(solid.leaves.size() == 1),
+          size_(glm::length(box.hi - box.lo)), first_made_(facets_.vertices()) {}
 
-    const Triangle& triangle(int t) const { return mesh_.triangles[std::size_t(t)]; }
-    Vec3 position(int v) const { return mesh_.positions[std::size_t(v)]; }
-    const std::vector<int>& around(int v) const { return around_[std::size_t(v)]; }
-    bool alive(int t) const { return alive_[std::size_t(t)]; }
+    Facets& facets() { return facets_; }
+    const Facets& facets() const { return facets_; }
 
-    bool without_area(const Triangle& t) const {
-        const double twice = glm::length(mesh_.area_vector(t));
+    Shape shape(const Facet& f) const {
+        const Triangle& t = f.triangle;
+        Vec3 x[3], middle(0.0), normals(0.0);
         double longest = 0;
-        for (std::size_t k = 0; k < 3; ++k)
-            longest = std::max(longest, glm::length(position(t.vertex[k]) - position(t.vertex[(k + 1) % 3])));
-        return twice <= no_area * longest * longest;
-    }
-
-    Shape shape(const Triangle& t) const {
-        if (without_area(t)) return {-1, 0};
-        const Vec3 area = mesh_.area_vector(t);
-        Vec3 middle(0.0), normals(0.0);
         for (std::size_t k = 0; k < 3; ++k) {
-            middle += position(t.vertex[k]) / 3.0;
-            normals += mesh_.normals[std::size_t(t.normal[k])];
+            x[k] = facets_.position(t.vertex[k]);
+            middle += x[k] / 3.0;
+            normals += facets_.normal(t.normal[k]);
         }
+        for (std::size_t k = 0; k < 3; ++k) longest = std::max(longest, glm::length(x[k] - x[(k + 1) % 3]));
+        const Vec3 area = glm::cross(x[1] - x[0], x[2] - x[0]);
+        const double twice = glm::length(area);
+        if (twice <= no_area * longest * longest) return {-1, -1, 0};
+        // As a file of single precision will have it.
+        const auto rounded = [](Vec3 v) { return Vec3(glm::vec3(v)); };
+        const Vec3 single = glm::cross(rounded(x[1]) - rounded(x[0]), rounded(x[2]) - rounded(x[0]));
+        const double single_twice = glm::length(single);
+        if (single_twice == 0) return {-1, -1, 0};
+        const auto cosine = [&](Vec3 n) {
+            return std::min(glm::dot(area, n) / twice, glm::dot(single, n) / single_twice);
+        };
         const Offset o = solid_.at(middle);
-        const Vec3 normal = o.normal != Vec3(0.0) ? o.normal : glm::length(normals) > 0 ? glm::normalize(normals) : normals;
-        return {glm::dot(area, normal) / glm::length(area),
-                std::isfinite(o.distance) ? std::abs(o.distance) : 0};
+        Shape s;
+        s.distance = std::isfinite(o.distance) ? std::abs(o.distance) : 0;
+        if (f.origin.leaf < 0) {
+            s.own = cosine(facets_.normal(t.normal[0]));
+        } else {
+            const Offset leaf = one_leaf_ ? o : surfaces_.at({f.origin.leaf}, middle);
+            Vec3 own = leaf.normal;
+            if (own == Vec3(0.0)) own = glm::length(normals) > 0 ? glm::normalize(normals) : normals;
+            if (glm::dot(own, normals) < 0) own = -own;  // a leaf that is subtracted
+            s.own = cosine(own);
+        }
+        s.cosine = s.own;
+        const double nearest = o.normal != Vec3(0.0) && s.distance > surfaces_.slack() ? cosine(o.normal) : s.own;
+        if (nearest > 0 && s.distance > surfaces_.slack()) s.cosine = std::min(s.own, nearest);
+        else if (!faces_outward(solid_, middle, area / twice, normals, longest)) s.cosine = std::min(nearest, -1e-3);
+        return s;
+    }
+    bool wrong(const Facet& f) const { return shape(f).cosine < leaning; }
+    bool wrong(int f) const { return wrong(facets_.at(f)); }
+
+    void add(Verdict& v, const Facet& f, double limit) const {
+        const Shape s = shape(f);
+        v.wrong += s.cosine < limit;
+        v.worst = std::min(v.worst, s.cosine);
+        v.distance = std::max(v.distance, s.distance);
+    }
+    Verdict before(const Change& change) const {
+        Verdict v;
+        for (const int f : change.out) add(v, facets_.at(f), leaning);
+        return v;
+    }
+    Verdict after(const Change& change) const {
+        Verdict v;
+        for (const Facet& f : change.in) add(v, f, better);
+        return v;
     }
 
-    // The normal of a triangle that has one throughout, or 0.
-    Vec3 flat_normal(int t) const {
-        const auto& n = triangle(t).normal;
-        const Vec3 a = mesh_.normals[std::size_t(n[0])];
-        for (const std::size_t k : {1, 2})
-            if (glm::length(mesh_.normals[std::size_t(n[k])] - a) >= same_normal) return Vec3(0.0);
-        return a;
+    SurfacePiece piece(const Facet& f) const {
+        if (f.origin.leaf >= 0) return {f.origin.leaf};
+        const Vec3 n = facets_.normal(f.triangle.normal[0]);
+        return {-1, n, glm::dot(n, facets_.position(f.triangle.vertex[0]))};
+    }
+    static bool same(const SurfacePiece& a, const SurfacePiece& b) {
+        return a.leaf == b.leaf && (a.leaf >= 0 || glm::length(a.normal - b.normal) < same_normal);
+    }
+    void add_piece(std::vector<SurfacePiece>& pieces, const Facet& f) const {
+        const SurfacePiece p = piece(f);
+        for (const SurfacePiece& known : pieces)
+            if (same(known, p)) return;
+        pieces.push_back(p);
     }
 
-    // The triangle that runs from b to a, or −1.
-    int across(int a, int b) const {
-        for (const int t : around(a))
+    // Vertex u onto v, if v lies on all surfaces that meet at u.
+    std::optional<Change> collapse(int u, int v) const {
+        for (const int f : facets_.around(u)) {
+            const Offset o = surfaces_.at(piece(facets_.at(f)), facets_.position(v));
+            if (!(std::abs(o.distance) <= surfaces_.slack())) return {};
+        }
+        return facets_.collapse(u, v);
+    }
+
+    // Edge k of f halved on its surfaces; none if there is no such point on the solid.
+    std::optional<Change> split(int f, std::size_t k, double share = 0.5) {
+        const Facet& facet = facets_.at(f);
+        const int a = facet.triangle.vertex[k], b = facet.triangle.vertex[(k + 1) % 3];
+        const int other = facets_.across(a, b);
+        const Facet& beyond = facets_.at(other);
+        std::vector<SurfacePiece> pieces;
+        add_piece(pieces, facet);
+        add_piece(pieces, beyond);
+        const Vec3 xa = facets_.position(a), xb = facets_.position(b);
+        const double length = glm::length(xb - xa);
+        Vec3 x = xa + (xb - xa) * share;
+        if (!surfaces_.project(x, pieces, 0.5 * length)) return {};
+        if (!on_surface(x)) return {};
+        const int vertex = facets_.add_vertex(x);
+        const auto normal_on = [&](const Facet& g) {
+            if (g.origin.leaf < 0) return g.triangle.normal[0];
+            const Offset o = surfaces_.at({g.origin.leaf}, x);
+            const Vec3 na = facets_.normal(g.triangle.normal[std::size_t(place(g, a))]);
+            const Vec3 nb = facets_.normal(g.triangle.normal[std::size_t(place(g, b))]);
+            return facets_.add_normal(glm::dot(o.normal, na + nb) < 0 ? -o.normal : o.normal);
+        };
+        const int n = normal_on(facet);
+        const int m = same(piece(facet), piece(beyond)) ? n : normal_on(beyond);
+        return facets_.split(f, k, vertex, n, m);
+    }
+
+    double length(int f, std::size_t k) const {
+        const Triangle& t = facets_.at(f).triangle;
+        return glm::length(facets_.position(t.vertex[k]) - facets_.position(t.vertex[(k + 1) % 3]));
+    }
+
+    // The best change that leaves fewer wrong facets.
+    std::optional<Change> straighten(int f, std::size_t& splits_left, RepairStatistics& statistics) {
+        const double longest = std::max({length(f, 0), length(f, 1), length(f, 2)});
+        std::optional<Change> best;
+        int best_gain = 0;
+        double best_worst = 0;
+        std::size_t* best_count = nullptr;
+        const auto offer = [&](std::optional<Change> change, std::size_t& count) {
+            if (!change) return;
+            const Verdict was = before(*change), is = after(*change);
+            if (is.wrong >= was.wrong || is.distance > std::max(2 * was.distance, 1e-3 * longest)) return;
+            const int gain = was.wrong - is.wrong;
+            if (best && (gain < best_gain || (gain == best_gain && is.worst <= best_worst))) return;
+            best = std::move(change);
+            best_gain = gain;
+            best_worst = is.worst;
+            best_count = &count;
+        };
+        for (std::size_t k = 0; k < 3; ++k) {
+            offer(facets_.flip(f, k), statistics.flips);
+            const Triangle& t = facets_.at(f).triangle;
+            const int u = t.vertex[k], v = t.vertex[(k + 1) % 3];
+            if (!made(u)) offer(collapse(u, v), statistics.collapses);
+            if (!made(v)) offer(collapse(v, u), statistics.collapses);
+        }
+        if (!best && splits_left > 0)
             for (std::size_t k = 0; k < 3; ++k)
-                if (triangle(t).vertex[k] == b && triangle(t).vertex[(k + 1) % 3] == a) return t;
-        return -1;
-    }
-    bool joined(int a, int b) const {
-        for (const int t : around(a))
-            for (const int v : triangle(t).vertex)
-                if (v == b) return true;
-        return false;
-    }
-
-    // Edge k of triangle t, from a to b, is replaced by the other diagonal.
-    bool flip(int t, std::size_t k, double limit) {
-        const Triangle old = triangle(t);
-        const int a = old.vertex[k], b = old.vertex[(k + 1) % 3], c = old.vertex[(k + 2) % 3];
-        const int other = across(a, b);
-        if (other < 0 || other == t) return false;
-        const Triangle beyond = triangle(other);
-        std::size_t j = 0;
-        while (beyond.vertex[j] != b) ++j;  // beyond runs b, a, d
-        const int d = beyond.vertex[(j + 2) % 3];
-        if (c == d || joined(c, d) || old.material != beyond.material || old.solid != beyond.solid) return false;
-        const int na = old.normal[k], nb = old.normal[(k + 1) % 3], nc = old.normal[(k + 2) % 3];
-        const int nd = beyond.normal[(j + 2) % 3];
-        Triangle first = old, second = beyond;
-        first.vertex = {a, d, c};
-        first.normal = {na, nd, nc};
-        second.vertex = {d, b, c};
-        second.normal = {nd, nb, nc};
-        const Shape f = shape(first), s = shape(second);
-        if (!f.good(limit) || !s.good(limit)) return false;
-        const double was = std::max(shape(old).distance, shape(beyond).distance);
-        if (std::max(f.distance, s.distance) > std::max(2 * was, slack(a, b))) return false;
-        mesh_.triangles[std::size_t(t)] = first;
-        mesh_.triangles[std::size_t(other)] = second;
-        drop(b, t);
-        drop(a, other);
-        around_[std::size_t(d)].push_back(t);
-        around_[std::size_t(c)].push_back(other);
-        return true;
-    }
-
-    // Vertex u moves onto its neighbour v. Accepts what `accept` says of old and new triangles.
-    template <class Accept>
-    bool collapse(int u, int v, Accept accept) {
-        // Link condition: u and v have exactly the two opposite vertices in common.
-        std::vector<int> nu, nv, common;
-        neighbours(u, nu);
-        neighbours(v, nv);
-        std::set_intersection(nu.begin(), nu.end(), nv.begin(), nv.end(), std::back_inserter(common));
-        if (common.size() != 2 || nu.size() < 4 || nv.size() < 4) return false;
-        std::vector<std::pair<int, Triangle>> changed;
-        std::vector<int> dying;
-        double was = 0;
-        for (const int t : around(u)) {
-            Triangle moved = triangle(t);
-            was = std::max(was, shape(moved).distance);
-            if (std::find(moved.vertex.begin(), moved.vertex.end(), v) != moved.vertex.end()) {
-                dying.push_back(t);
-                continue;
-            }
-            for (std::size_t k = 0; k < 3; ++k)
-                if (moved.vertex[k] == u) {
-                    moved.vertex[k] = v;
-                    moved.normal[k] = nearest_normal(v, moved);
-                }
-            changed.push_back({t, moved});
-        }
-        if (dying.size() != 2) return false;
-        for (const auto& [t, moved] : changed)
-            if (moved.material != triangle(dying[0]).material && !same_surface(v, moved)) return false;
-        for (const auto& [t, moved] : changed)
-            if (!accept(triangle(t), moved, was)) return false;
-        for (const int t : dying) {
-            alive_[std::size_t(t)] = false;
-            for (const int w : triangle(t).vertex) drop(w, t);
-        }
-        for (const auto& [t, moved] : changed) {
-            mesh_.triangles[std::size_t(t)] = moved;
-            around_[std::size_t(v)].push_back(t);
-        }
-        around_[std::size_t(u)].clear();
-        return true;
-    }
-
-    double slack(int a, int b) const { return 1e-3 * glm::length(position(a) - position(b)); }
-
-    void finish() {
-        std::vector<Triangle> triangles;
-        for (std::size_t t = 0; t < mesh_.triangles.size(); ++t)
-            if (alive_[t]) triangles.push_back(mesh_.triangles[t]);
-        std::vector<int> position(mesh_.positions.size(), -1), normal(mesh_.normals.size(), -1);
-        std::vector<Vec3> positions, normals;
-        for (Triangle& t : triangles)
-            for (std::size_t k = 0; k < 3; ++k) {
-                const auto keep = [](int& index, std::vector<int>& place, std::vector<Vec3>& to, const std::vector<Vec3>& from) {
-                    int& p = place[std::size_t(index)];
-                    if (p < 0) {
-                        p = int(to.size());
-                        to.push_back(from[std::size_t(index)]);
-                    }
-                    index = p;
-                };
-                keep(t.vertex[k], position, positions, mesh_.positions);
-                keep(t.normal[k], normal, normals, mesh_.normals);
-            }
-        mesh_.triangles = std::move(triangles);
-        mesh_.positions = std::move(positions);
-        mesh_.normals = std::move(normals);
-    }
-
-private:
-    void drop(int v, int t) {
-        auto& list = around_[std::size_t(v)];
-        list.erase(std::find(list.begin(), list.end(), t));
-    }
-    void neighbours(int v, std::vector<int>& out) const {
-        for (const int t : around(v))
-            for (const int w : triangle(t).vertex)
-                if (w != v) out.push_back(w);
-        std::sort(out.begin(), out.end());
-        out.erase(std::unique(out.begin(), out.end()), out.end());
-    }
-    bool same_surface(int v, const Triangle& t) const {
-        for (const int other : around(v))
-            if (triangle(other).material == t.material) return true;
-        return false;
-    }
-    // Of the normals at v, the one that suits the triangle.
-    int nearest_normal(int v, const Triangle& t) const {
-        Vec3 wanted(0.0);
-        for (const int n : t.normal) wanted += mesh_.normals[std::size_t(n)];
-        int best = -1;
-        double best_dot = -infinity;
-        for (const int other : around(v))
-            for (std::size_t k = 0; k < 3; ++k) {
-                if (triangle(other).vertex[k] != v) continue;
-                const double d = glm::dot(mesh_.normals[std::size_t(triangle(other).normal[k])], wanted);
-                if (d > best_dot) {
-                    best_dot = d;
-                    best = triangle(other).normal[k];
-                }
-            }
+                for (const double share : {0.5, 0.25, 0.75, 0.1, 0.9})
+                    if (length(f, k) > shortest()) offer(split(f, k, share), statistics.splits);
+        if (best) ++*best_count;
+        if (best && best_count == &statistics.splits) --splits_left;
         return best;
     }
 
-    Mesh& mesh_;
-    const OffsetField& solid_;
-    std::vector<std::vector<int>> around_;
-    std::vector<char> alive_;
+    void mend_facets(RepairStatistics& statistics) {
+        std::deque<int> todo;
+        for (std::size_t f = 0; f < facets_.size(); ++f)
+            if (wrong(int(f))) todo.push_back(int(f));
+        std::size_t splits_left = 8 * todo.size();
+        // Facets that nothing helped are asked again after others have changed.
+        std::vector<int> stuck;
+        constexpr int most_rounds = 6;
+        bool changed = true;
+        for (int round = 0; round < most_rounds && changed; ++round) {
+            changed = false;
+            while (!todo.empty()) {
+                const int f = todo.front();
+                todo.pop_front();
+                if (!facets_.alive(f) || !wrong(f)) continue;
+                const auto change = straighten(f, splits_left, statistics);
+                if (!change) {
+                    stuck.push_back(f);
+                    continue;
+                }
+                changed = true;
+                for (const int g : facets_.apply(*change))
+                    if (wrong(g)) todo.push_back(g);
+            }
+            todo.assign(stuck.begin(), stuck.end());
+            stuck.clear();
+        }
+    }
+
+    bool on_surface(Vec3 x) const { return std::abs(solid_.at(x).distance) <= 10 * surfaces_.slack(); }
+
+    // Vertices beside the surface go to where the surfaces around them meet.
+    void mend_vertices(RepairStatistics& statistics) {
+        for (int v = 0; v < facets_.vertices(); ++v) {
+            if (facets_.around(v).empty()) continue;
+            if (on_surface(facets_.position(v))) continue;
+            std::vector<SurfacePiece> pieces;
+            double shortest = infinity;
+            for (const int f : facets_.around(v)) {
+                add_piece(pieces, facets_.at(f));
+                for (std::size_t k = 0; k < 3; ++k)
+                    if (facets_.at(f).triangle.vertex[k] != v)
+                        shortest = std::min(shortest, glm::length(facets_.position(v) - facets_.position(facets_.at(f).triangle.vertex[k])));
+            }
+            Vec3 x = facets_.position(v);
+            if (!surfaces_.project(x, pieces, shortest)) continue;
+            if (!on_surface(x)) continue;
+            facets_.move(v, x);
+            ++statistics.moves;
+        }
+    }
+
+    double shortest() const { return 1e-5 * size_; }
+    // Not again what was there before: a vertex that was put in to mend stays.
+    bool made(int vertex) const { return vertex >= first_made_; }
+
+private:
+    static int place(const Facet& f, int vertex) {
+        const auto& v = f.triangle.vertex;
+        return v[0] == vertex ? 0 : v[1] == vertex ? 1 : 2;
+    }
+
+    Facets facets_;
+    OffsetField solid_;
+    LeafSurfaces surfaces_;
+    bool one_leaf_;
+    double size_;
+    int first_made_;
 };
 
-bool mend(Editing& edit, int t, RepairStatistics& statistics) {
-    const Triangle old = edit.triangle(t);
-    std::array<std::size_t, 3> by_length{0, 1, 2};
-    const auto length = [&](std::size_t k) {
-        return glm::length(edit.position(old.vertex[k]) - edit.position(old.vertex[(k + 1) % 3]));
-    };
-    std::sort(by_length.begin(), by_length.end(), [&](auto a, auto b) { return length(a) > length(b); });
-    const auto accept = [&](const Triangle& before, const Triangle& after, double was) {
-        const Shape s = edit.shape(after);
-        return (s.good(better) || (s.cosine > -1 && s.cosine >= edit.shape(before).cosine)) &&
-               s.distance <= std::max(2 * was, 1e-3 * length(by_length[0]));
-    };
-    for (const std::size_t k : {by_length[2], by_length[1]})
-        if (length(k) < 0.2 * length(by_length[0]))
-            for (const bool back : {false, true}) {
-                const int u = old.vertex[k], v = old.vertex[(k + 1) % 3];
-                if (edit.collapse(back ? v : u, back ? u : v, accept)) {
-                    ++statistics.collapses;
-                    return true;
-                }
-            }
-    for (const std::size_t k : by_length)
-        if (edit.flip(t, k, better)) {
-            ++statistics.flips;
-            return true;
-        }
-    for (const std::size_t k : {by_length[2], by_length[1], by_length[0]})
-        for (const bool back : {false, true}) {
-            const int u = old.vertex[k], v = old.vertex[(k + 1) % 3];
-            if (edit.collapse(back ? v : u, back ? u : v, accept)) {
-                ++statistics.collapses;
-                return true;
-            }
-        }
-    return false;
+// The normal of a facet that has one throughout, or 0.
+Vec3 flat_normal(const Facets& facets, int f) {
+    const auto& n = facets.at(f).triangle.normal;
+    const Vec3 a = facets.normal(n[0]);
+    for (const std::size_t k : {1, 2})
+        if (glm::length(facets.normal(n[k]) - a) >= same_normal) return Vec3(0.0);
+    return a;
 }
 
 }  // namespace
 
-RepairStatistics repair(Mesh& mesh, const OffsetField& solid) {
+RepairStatistics repair(Mesh& mesh, std::vector<Origin>& origins, const SolidTree& solid, const Box& box) {
     RepairStatistics statistics;
-    std::vector<int> bad;
-    Editing edit(mesh, solid);
-    for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
-        if (!edit.shape(mesh.triangles[t]).good(leaning)) bad.push_back(int(t));
-    if (bad.empty()) return statistics;
-    constexpr int most_rounds = 12;
-    for (int round = 0; round < most_rounds && !bad.empty(); ++round) {
-        bool changed = false;
-        std::vector<int> next;
-        for (const int t : bad) {
-            if (!edit.alive(t) || edit.shape(edit.triangle(t)).good(leaning)) continue;
-            if (mend(edit, t, statistics)) changed = true;
-            if (edit.alive(t)) next.push_back(t);
-        }
-        bad = std::move(next);
-        if (!changed) break;
+    Repair work(mesh, origins, solid, box);
+    work.mend_vertices(statistics);
+    work.mend_facets(statistics);
+    work.facets().finish();
+    std::vector<char> beside;
+    for (const Vec3& x : mesh.positions) beside.push_back(!work.on_surface(x));
+    for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+        const auto& v = mesh.triangles[t].vertex;
+        const bool off = beside[std::size_t(v[0])] || beside[std::size_t(v[1])] || beside[std::size_t(v[2])];
+        if (off || work.wrong({mesh.triangles[t], origins[t]})) statistics.left.push_back(int(t));
     }
-    for (const int t : bad) statistics.left += edit.alive(t) && !edit.shape(edit.triangle(t)).good(leaning);
-    edit.finish();
     return statistics;
 }
 
-std::size_t thin_borders(Mesh& mesh, const OffsetField& solid) {
-    Editing edit(mesh, solid);
+std::size_t thin_borders(Mesh& mesh, std::vector<Origin>& origins, const SolidTree& solid, const Box& box) {
+    Repair work(mesh, origins, solid, box);
+    Facets& facets = work.facets();
     double worst = 0;
-    for (const Triangle& t : mesh.triangles) worst = std::max(worst, edit.shape(t).distance);
-    const auto accept = [&](const Triangle&, const Triangle& after, double) {
+    for (std::size_t f = 0; f < facets.size(); ++f) worst = std::max(worst, work.shape(facets.at(int(f))).distance);
+    const auto accept = [&](const Change& change) {
         constexpr double upright = 0.8;
-        const Shape s = edit.shape(after);
-        return s.good(upright) && s.distance <= worst;
+        for (const Facet& f : change.in) {
+            const Shape s = work.shape(f);
+            if (s.cosine < upright || s.distance > worst) return false;
+        }
+        return true;
     };
     std::size_t gone = 0;
-    for (int v = 0; v < int(mesh.positions.size()); ++v) {
-        // Triangles at v in a flat face have one normal throughout; the others do not.
+    for (int v = 0; v < facets.vertices(); ++v) {
+        // Facets at v in a flat face have one normal throughout; the others do not.
         Vec3 plane(0.0);
         bool single = true, bent = false;
-        for (const int t : edit.around(v)) {
-            const Vec3 n = edit.flat_normal(t);
+        for (const int f : facets.around(v)) {
+            const Vec3 n = flat_normal(facets, f);
             bent |= n == Vec3(0.0);
             if (n == Vec3(0.0)) continue;
             single &= plane == Vec3(0.0) || glm::length(n - plane) < same_normal;
@@ -303,26 +308,28 @@ std::size_t thin_borders(Mesh& mesh, const OffsetField& solid) {
         }
         if (plane == Vec3(0.0) || !bent || !single) continue;
         std::vector<int> rim;  // neighbours on the border of the flat fan
-        for (const int t : edit.around(v)) {
-            if (edit.flat_normal(t) == Vec3(0.0)) continue;
-            const Triangle& f = edit.triangle(t);
+        for (const int f : facets.around(v)) {
+            if (flat_normal(facets, f) == Vec3(0.0)) continue;
+            const Triangle& t = facets.at(f).triangle;
             for (std::size_t k = 0; k < 3; ++k) {
-                const int a = f.vertex[k], b = f.vertex[(k + 1) % 3];
-                if ((a == v || b == v) && edit.flat_normal(edit.across(a, b)) == Vec3(0.0))
+                const int a = t.vertex[k], b = t.vertex[(k + 1) % 3];
+                if ((a == v || b == v) && flat_normal(facets, facets.across(a, b)) == Vec3(0.0))
                     rim.push_back(a == v ? b : a);
             }
         }
         if (rim.size() != 2) continue;
-        const Vec3 p = glm::normalize(edit.position(rim[0]) - edit.position(v));
-        const Vec3 q = glm::normalize(edit.position(rim[1]) - edit.position(v));
+        const Vec3 p = glm::normalize(facets.position(rim[0]) - facets.position(v));
+        const Vec3 q = glm::normalize(facets.position(rim[1]) - facets.position(v));
         if (glm::length(p + q) > 1e-9) continue;
-        for (const int to : rim)
-            if (edit.collapse(v, to, accept)) {
-                ++gone;
-                break;
-            }
+        for (const int to : rim) {
+            const auto change = facets.collapse(v, to);
+            if (!change || !accept(*change)) continue;
+            facets.apply(*change);
+            ++gone;
+            break;
+        }
     }
-    edit.finish();
+    facets.finish();
     return gone;
 }
 

@@ -1,24 +1,27 @@
-// Slivers taken out of a closed mesh, by edge flips and edge collapses that keep it a 2-manifold.
+// What is left to mend in a closed mesh: facets without area or facing inward, and vertices beside
+// the surface. It is done by edge flips, collapses and splits that keep it a closed 2-manifold; new
+// vertices are roots on the surfaces that meet there.
 //
-// Where the isosurface grazes a cell's face or edge, roots lie so close together that a triangle
-// has no area, or leans against the surface. Halving the cell does not help, for the sliver stays;
-// one edge less does. Vertices stay where they are, on the surface.
+// Facets come out wrong where the isosurface grazes a cell's face or edge, so that roots lie close
+// together; where two outlines in a plane, each a chain of chords, cross; and where two surfaces are
+// nearer to each other than the mesh is to either. The first needs an edge less, the others more.
 #pragma once
-#include "polygonizer/mesh.hpp"
-#include "polygonizer/surface_offset.hpp"
+#include "polygonizer/facets.hpp"
+#include "polygonizer/leaf_surfaces.hpp"
 
 namespace deburr {
 
 struct RepairStatistics {
-    std::size_t flips = 0, collapses = 0, left = 0;  // left: slivers for which nothing helped
+    std::size_t flips = 0, collapses = 0, splits = 0, moves = 0;
+    std::vector<int> left;  // triangles for which nothing helped
 };
 
 /// `solid` is what the mesh approximates.
-RepairStatistics repair(Mesh& mesh, const OffsetField& solid);
+RepairStatistics repair(Mesh& mesh, std::vector<Origin>& origins, const SolidTree& solid, const Box& box);
 
 /// Collapses vertices on a straight border of a flat face that the face does not need: where two
 /// cells' parts of a rounded edge meet it. Triangles stay as near to the surface as the worst of
 /// them was. Returns how many went.
-std::size_t thin_borders(Mesh& mesh, const OffsetField& solid);
+std::size_t thin_borders(Mesh& mesh, std::vector<Origin>& origins, const SolidTree& solid, const Box& box);
 
 }  // namespace deburr

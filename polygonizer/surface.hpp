@@ -6,16 +6,10 @@
 // touches itself along an edge or in a point: it has separate vertices there, in one place.
 // Flat polygons of one plane are joined, whatever cut them apart.
 #pragma once
-#include "polygonizer/mesh.hpp"
+#include "polygonizer/facets.hpp"
 #include "polygonizer/subspace.hpp"
 
 namespace deburr {
-
-/// Where a triangle comes from: the cell of the subdivision and the leaf whose isosurface it is part
-/// of; −1 both for triangles on planes.
-struct Origin {
-    int cell = -1, leaf = -1;
-};
 
 /// `origins`, if given, gets one for each triangle.
 Mesh surface(const Subspace& subspace, const Subdivision& subdivision, const SolidTree& solid,

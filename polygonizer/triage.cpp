@@ -1,6 +1,7 @@
 #include "polygonizer/triage.hpp"
 
 #include <algorithm>
+#include <limits>
 
 #include "bounds/bounding_box.hpp"
 #include "polygonizer/parallel_family.hpp"
@@ -39,6 +40,15 @@ struct Cut {
     double error;  // how much it is needed
     Plane plane;
 };
+
+// Of each cell the most needed.
+void worst_of_each(std::vector<Cut>& cuts) {
+    std::sort(cuts.begin(), cuts.end(), [](const Cut& a, const Cut& b) {
+        return a.cell != b.cell ? a.cell < b.cell : a.error > b.error;
+    });
+    cuts.erase(std::unique(cuts.begin(), cuts.end(), [](const Cut& a, const Cut& b) { return a.cell == b.cell; }),
+               cuts.end());
+}
 
 // Halves the edge of the triangle along which the surface's normal turns most; along a sweep it
 // does not turn.
@@ -91,12 +101,26 @@ std::vector<Cut> cells_to_halve(const Mesh& mesh, const std::vector<Origin>& ori
         if (!leans && distance <= tolerance) continue;
         cuts.push_back({origins[k].cell, distance, halving(mesh, t, density)});
     }
-    // Of each cell the worst triangle's.
-    std::sort(cuts.begin(), cuts.end(), [](const Cut& a, const Cut& b) {
-        return a.cell != b.cell ? a.cell < b.cell : a.error > b.error;
-    });
-    cuts.erase(std::unique(cuts.begin(), cuts.end(), [](const Cut& a, const Cut& b) { return a.cell == b.cell; }),
-               cuts.end());
+    worst_of_each(cuts);
+    return cuts;
+}
+
+// The cells that triangles came from, and those of their neighbours.
+std::vector<Cut> cells_around(const Mesh& mesh, const std::vector<Origin>& origins, const std::vector<int>& triangles,
+                              const Subdivision& subdivision) {
+    std::vector<char> near(mesh.positions.size(), false);
+    for (const int t : triangles)
+        for (const int v : mesh.triangles[std::size_t(t)].vertex) near[std::size_t(v)] = true;
+    std::vector<Cut> cuts;
+    for (std::size_t k = 0; k < origins.size(); ++k) {
+        if (origins[k].cell < 0) continue;
+        const Triangle& t = mesh.triangles[k];
+        const auto count = std::count_if(t.vertex.begin(), t.vertex.end(), [&](int v) { return near[std::size_t(v)]; });
+        if (count < 2) continue;
+        const Plane plane = halving(mesh, t, *subdivision.open(origins[k].cell, origins[k].leaf)->density);
+        if (plane.normal != Vec3(0.0)) cuts.push_back({origins[k].cell, glm::length(mesh.area_vector(t)), plane});
+    }
+    worst_of_each(cuts);
     return cuts;
 }
 
@@ -106,25 +130,43 @@ Mesh triage(const SolidTree& mixed, const Box& box, const TriageOptions& options
     if (box.empty()) return {};
     const SolidTree solid = separate_sharp(mixed);
     Subdivision subdivision(solid, box);
-    Mesh mesh;
+    Mesh mesh, best;
+    std::vector<Origin> origins, best_origins;
+    std::size_t least_left = std::numeric_limits<std::size_t>::max();
     // Each round halves the cells that need it. Halving quarters the distance, so a tolerance is met,
-    // or cells have become negligible, long before the last; what leans only is left to repair.
+    // or cells have become negligible, long before the last.
     const std::size_t most_rounds = std::isfinite(options.tolerance) ? 24 : 5;
-    for (std::size_t round = 0; round < most_rounds; ++round) {
+    constexpr std::size_t most_mending_rounds = 8;
+    std::size_t mending = 0;
+    for (std::size_t round = 0; mending < most_mending_rounds; ++round) {
         Subdivision work = subdivision;
         Subspace subspace(work);
         subspace.polygonize();
-        std::vector<Origin> origins;
+        origins.clear();
         mesh = surface(subspace, work, solid, &origins);
         if (statistics) statistics->rounds = round + 1;
         bool changed = false;
-        for (const Cut& cut : cells_to_halve(mesh, origins, subdivision, options.tolerance))
+        if (round + 1 < most_rounds)
+            for (const Cut& cut : cells_to_halve(mesh, origins, subdivision, options.tolerance))
+                changed |= subdivision.halve(cut.cell, cut.plane);
+        if (changed) continue;
+        // What repair cannot help needs smaller cells around it.
+        ++mending;
+        const RepairStatistics repaired = repair(mesh, origins, solid, box);
+        const bool better = repaired.left.size() < least_left;
+        if (better) {
+            least_left = repaired.left.size();
+            best = mesh;
+            best_origins = origins;
+        }
+        if (least_left == 0) break;
+        for (const Cut& cut : cells_around(mesh, origins, repaired.left, subdivision))
             changed |= subdivision.halve(cut.cell, cut.plane);
         if (!changed) break;
     }
-    const OffsetField offset(solid, box);
-    repair(mesh, offset);
-    thin_borders(mesh, offset);
+    mesh = std::move(best);
+    origins = std::move(best_origins);
+    thin_borders(mesh, origins, solid, box);
     if (statistics) {
         statistics->cells = subdivision.complex.cells.size();
         statistics->open_cells = 0;
