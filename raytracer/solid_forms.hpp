@@ -6,6 +6,7 @@
 #pragma once
 #include <string>
 #include <unordered_map>
+#include <utility>
 #include <vector>
 
 #include "bounds/solid.hpp"
@@ -37,5 +38,22 @@ private:
     std::unordered_map<std::string, int> solid_keys_, density_keys_;
     std::unordered_map<const void*, int> known_solids_, known_densities_;
 };
+
+/// Calls visit(leaf, placement) for every rounded density of the solid, from left to right.
+template <class Visit>
+void for_each_leaf(const Solid& root, Visit visit) {
+    std::vector<std::pair<const Solid*, Affine>> open{{&root, {}}};
+    while (!open.empty()) {
+        const auto [solid, map] = open.back();
+        open.pop_back();
+        const SolidNode& node = solid->node();
+        if (node.kind == SolidNode::Kind::rounded) {
+            visit(*solid, map);
+            continue;
+        }
+        const Affine inner = node.kind == SolidNode::Kind::transform ? compose(map, node.map) : map;
+        for (auto child = node.children.rbegin(); child != node.children.rend(); ++child) open.push_back({&*child, inner});
+    }
+}
 
 }  // namespace deburr
