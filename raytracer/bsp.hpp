@@ -1,5 +1,5 @@
-// The implicit road: exact rays against primary CSG of rounded densities, through a BSP of local
-// CSG [Lobb §3.5, after Jansen 1986].
+// The implicit road: exact rays against primary CSG of rounded densities, through BSPs of local CSG
+// [Lobb §3.5, after Jansen 1986], one for each form that is placed (spaces.hpp).
 #pragma once
 #include <memory>
 #include <string>
@@ -13,7 +13,9 @@ namespace deburr {
 
 struct BspStatistics {
     std::size_t cells = 0, empty_cells = 0, flat_cells = 0;
-    std::size_t half_spaces = 0;  // in the scene
+    std::size_t half_spaces = 0;  // that the cells were made of
+    std::size_t spaces = 0;       // each with a BSP of its own
+    std::size_t placements = 0;   // of spaces in others
     double mean_local_half_spaces = 0;  // in the cells that hold a surface
     int depth = 0;
 };
@@ -27,8 +29,8 @@ public:
     BspStatistics statistics() const;
 
 private:
-    struct Bsp;
-    std::unique_ptr<Bsp> bsp_;
+    struct Spaces;
+    std::unique_ptr<Spaces> spaces_;
 };
 
 }  // namespace deburr

@@ -1,5 +1,4 @@
 // deburr render SCENE -o FILE …: a picture, exact from the implicit surfaces.
-#include <OpenImageIO/imageio.h>
 #include <fmt/format.h>
 #include <tbb/global_control.h>
 #include <tbb/info.h>
@@ -93,14 +92,14 @@ void check_memory(const Window& window) {
 }
 
 // Every file that can be written is, for the picture was dear; the first error is reported then.
-void write_images(const RenderOptions& o, const Film& film, const ImageNotes& notes,
+void write_images(const RenderOptions& o, const Film& film, const ImageNotes& notes, int threads,
                   Progress& progress) {
     std::string error;
     for (const std::string& path : o.outputs) {
         const double work = writing_work * double(film.pixels.size());
         double told = 0;
         try {
-            write_image(path, film, {o.float_color, o.layers}, notes, [&](double share) {
+            write_image(path, film, {o.float_color, o.layers, threads}, notes, [&](double share) {
                 progress.advance(work * (share - told));
                 told = share;
             });
@@ -120,8 +119,6 @@ int run_render(const RenderOptions& o) {
     const int threads = o.threads.value_or(tbb::info::default_concurrency());
     const tbb::global_control limit(tbb::global_control::max_allowed_parallelism,
                                     std::size_t(threads));
-    OIIO::attribute("threads", threads);
-    OIIO::attribute("exr_threads", threads);
     const auto say = [&](const std::string& line) {
         if (o.verbose && !o.quiet) message(line);
     };
@@ -186,7 +183,7 @@ int run_render(const RenderOptions& o) {
                         {"criterion", o.criterion == Criterion::lobb ? "lobb" : "exact"}};
     for (const auto& [name, value] : scene.parameters)
         notes.attributes.push_back({"parameter." + name, value});
-    write_images(o, film, notes, progress);
+    write_images(o, film, notes, threads, progress);
     clock.end();
     if (film.complete)
         progress.finish();

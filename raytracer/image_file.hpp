@@ -10,14 +10,13 @@
 // Half holds no more than 65504: what is brighter is written as that, so that no infinity reaches
 // a filter.
 #pragma once
-#include <functional>
 #include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
-#include "raytracer/film.hpp"
 #include "raytracer/image_format.hpp"
+#include "raytracer/image_raster.hpp"
 #include "raytracer/scene.hpp"
 
 namespace deburr {
@@ -35,12 +34,15 @@ struct ImageNotes {
 struct ImageFormat {
     bool float_color = false;   // EXR: 32 bits for R G B A
     std::vector<ImageLayer> layers;  // EXR: further ones
+    int threads = 1;                 // EXR: that compress
 };
 
 /// Writes the whole file or nothing; throws WorkError. The format follows from the name, which
 /// image_kind() must know. `done` is told the share of it, from 0 to 1, as it proceeds.
 void write_image(const std::string& path, const Film& film, const ImageFormat& format,
-                 const ImageNotes& notes, const std::function<void(double)>& done = {});
+                 const ImageNotes& notes, const ShareDone& done = {});
+/// The same for any raster of the kind that the format holds.
+void write_raster(const std::string& path, const ImageRaster& image, int threads = 1, const ShareDone& done = {});
 
 /// The sRGB transfer curve [IEC 61966-2-1], 8 bit; less than 0 and NaN give 0.
 unsigned char srgb_byte(double linear);

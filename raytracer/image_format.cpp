@@ -1,11 +1,10 @@
 #include "raytracer/image_format.hpp"
 
-#include <OpenImageIO/imageio.h>
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cctype>
 #include <filesystem>
+
+#include "raytracer/image_module.hpp"
 
 namespace deburr {
 namespace {
@@ -24,15 +23,18 @@ constexpr Extension extensions[] = {
 
 }  // namespace
 
-std::optional<ImageKind> image_kind(const std::string& path) {
+std::string image_extension(const std::string& path) {
     std::string extension = std::filesystem::path(path).extension().string();
     for (char& c : extension) c = char(std::tolower(static_cast<unsigned char>(c)));
+    return extension;
+}
+
+std::optional<ImageKind> image_kind(const std::string& path) {
+    const std::string extension = image_extension(path);
     for (const Extension& known : extensions) {
         if (known.name != extension) continue;
-        // Only what can be encoded in memory can be written whole or not at all.
-        const auto writer = OIIO::ImageOutput::create("x" + extension);
-        if (writer && writer->supports("ioproxy")) return known.kind;
-        if (!writer) OIIO::geterror();  // or it is printed at exit
+        const bool ours = extension == ".exr" || extension == ".png";
+        if (ours || image_module().writes(extension)) return known.kind;
     }
     return std::nullopt;
 }

@@ -14,8 +14,11 @@ enum class ImageKind {
     display,  // 8 bit sRGB RGB
 };
 
-/// By the extension of the file's name, in small or capital letters; nothing if it is unknown or
-/// this machine's OpenImageIO cannot write it.
+/// Of the file's name, with its dot, in small letters.
+std::string image_extension(const std::string& path);
+
+/// By the extension; nothing if it is unknown or this machine's OpenImageIO cannot write it. Throws
+/// UnsupportedError if OpenImageIO is needed and cannot be loaded.
 std::optional<ImageKind> image_kind(const std::string& path);
 
 /// All extensions that image_kind() knows, for messages: ".exr, .png, …".

@@ -5,10 +5,12 @@
 #include <cerrno>
 #include <cstring>
 #include <fstream>
+#include <unordered_set>
 
 #include "bounds/solid_tree.hpp"
 #include "raytracer/errors.hpp"
 #include "raytracer/scene_reader.hpp"
+#include "raytracer/solid_forms.hpp"
 
 namespace deburr {
 namespace {
@@ -82,10 +84,35 @@ void add_statistics_options(CLI::App& command, Options& o) {
 
 namespace {
 
-// What only shows once all placements of a solid are taken together.
+// Neither overflows nor vanishes, nor do a few hundred of its like.
+bool is_ordinary(double x) { return std::abs(x) < 1e20; }
+
+bool is_ordinary(const Affine& map) {
+    const Mat3 inverse = glm::inverse(map.linear);
+    bool fine = true;
+    for (int i = 0; i < 3; ++i)
+        for (int k = 0; k < 3; ++k)
+            fine &= is_ordinary(map.linear[i][k]) && is_ordinary(inverse[i][k]) && is_ordinary(map.shift[i]);
+    return fine;
+}
+
+// What only shows once all placements of a solid are taken together. A leaf that is ordinary once
+// it is placed by an ordinary map is one wherever such a map places it.
 void check_placements(const Scene& scene) {
+    std::unordered_set<const SolidNode*> ordinary;
+    const auto check = [&](const Solid& leaf, const Affine& map) {
+        const bool fine = is_ordinary(map);
+        if (fine && ordinary.count(&leaf.node())) return;
+        const SolidTree tree = flatten(leaf.transformed(map));
+        bool all = fine;
+        for (const HalfSpace& h : tree.leaves[0].density.half_spaces) all &= is_ordinary(h.offset) && is_ordinary(h.radius);
+        if (all) ordinary.insert(&leaf.node());
+    };
     try {
-        for (const Solid& solid : scene.solids) flatten(solid);
+        for (const Solid& solid : scene.solids) {
+            if (solid.node().leaves > most_half_spaces) flatten(solid);  // says so
+            for_each_leaf(solid, check);
+        }
     } catch (const SingularPlacement& error) {
         const std::string where =
             error.line > 0 ? fmt::format("{}:{}", scene.file, error.line) : scene.file;

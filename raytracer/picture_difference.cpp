@@ -1,13 +1,12 @@
 #include "raytracer/picture_difference.hpp"
 
-#include <OpenImageIO/imagebufalgo.h>
-#include <OpenImageIO/imageio.h>
 #include <fmt/format.h>
 
 #include <algorithm>
 
 #include "raytracer/errors.hpp"
-#include "raytracer/image_format.hpp"
+#include "raytracer/image_file.hpp"
+#include "raytracer/image_module.hpp"
 
 namespace deburr {
 namespace {
@@ -28,13 +27,10 @@ double angle(Vec3 a, Vec3 b) {
     return std::atan2(glm::length(glm::cross(a, b)), glm::dot(a, b)) * degrees;
 }
 
-OIIO::ImageBuf colors(const Film& film) {
-    std::vector<float> data;
+ReadImage colors(const Film& film) {
+    ReadImage image{film.width, film.height, film.window, {"R", "G", "B"}, {}};
     for (const Pixel& p : film.pixels)
-        for (int k = 0; k < 3; ++k) data.push_back(float(p.color[k]));
-    OIIO::ImageBuf image(OIIO::ImageSpec(film.window.width, film.window.height, 3, OIIO::TypeDesc::FLOAT));
-    image.set_pixels(OIIO::ROI(0, film.window.width, 0, film.window.height, 0, 1, 0, 3), OIIO::TypeDesc::FLOAT,
-                     data.data());
+        for (int k = 0; k < 3; ++k) image.values.push_back(float(p.color[k]));
     return image;
 }
 
@@ -81,48 +77,60 @@ PictureDifference difference(const Picture& a, const Picture& b, const std::vect
     if (a.has_normal && b.has_normal) d.normal_degrees = figures(angles);
     d.rmse = d.pixels ? std::sqrt(squares / (3.0 * double(d.pixels))) : 0;
     if (d.rmse > 0) d.psnr = -20 * std::log10(d.rmse);
-    OIIO::ImageBufAlgo::CompareResults yee;
-    d.perceptual_fails = OIIO::ImageBufAlgo::compare_Yee(colors(a.film), colors(b.film), yee);
+    d.perceptual_fails = image_module().perceptual_fails(colors(a.film), colors(b.film));
     return d;
 }
 
 void write_difference(const std::string& path, const Picture& a, const Picture& b) {
-    const Window w = a.film.window;
-    const bool exr = image_kind(path) == ImageKind::exr;
-    const int channels = exr ? 6 : 3;
-    std::vector<float> data;
-    for (std::size_t i = 0; i < a.film.pixels.size(); ++i) {
-        const Pixel &p = a.film.pixels[i], &q = b.film.pixels[i];
-        for (int k = 0; k < 3; ++k) data.push_back(float(std::abs(p.color[k] - q.color[k])));
-        if (!exr) continue;
-        const int hit = hit_class(p, q);
-        const bool both = hit == 0 && p.alpha > 0;
-        data.push_back(float(both ? glm::length(p.position - q.position) : 0));
-        data.push_back(float(both ? angle(p.normal, q.normal) : 0));
-        data.push_back(float(hit));
+    const auto kind = image_kind(path);
+    if (!kind) throw WorkError(fmt::format("cannot write '{}': unknown image format", path));
+    const bool bytes = *kind == ImageKind::display, exr = *kind == ImageKind::exr;
+    const auto& first = a.film.pixels;
+    const auto& second = b.film.pixels;
+    ImageRaster image{a.film.width, a.film.height, a.film.window, {}, {}};
+    const auto add = [&](const char* name, auto value) {
+        image.channels.push_back({name, bytes ? ChannelType::byte : ChannelType::single_float,
+                                  [&, value](std::size_t i) { return value(first[i], second[i]); }});
+    };
+    const auto add_color = [&](const char* name, int k) {
+        add(name, [k, bytes](const Pixel& p, const Pixel& q) {
+            const double d = std::abs(p.color[k] - q.color[k]);
+            return bytes ? std::round(255 * std::min(d, 1.0)) : d;
+        });
+    };
+    add_color("R", 0);
+    add_color("G", 1);
+    add_color("B", 2);
+    if (exr) {
+        const auto both = [](const Pixel& p, const Pixel& q) { return hit_class(p, q) == 0 && p.alpha > 0; };
+        add("distance", [=](const Pixel& p, const Pixel& q) { return both(p, q) ? glm::length(p.position - q.position) : 0; });
+        add("angle", [=](const Pixel& p, const Pixel& q) { return both(p, q) ? angle(p.normal, q.normal) : 0; });
+        add("hit", [](const Pixel& p, const Pixel& q) { return double(hit_class(p, q)); });
     }
-    OIIO::ImageSpec spec(w.width, w.height, channels, exr ? OIIO::TypeDesc::FLOAT : OIIO::TypeDesc::UINT8);
-    if (exr) spec.channelnames = {"R", "G", "B", "distance", "angle", "hit"};
-    const auto out = OIIO::ImageOutput::create(path);
-    if (!out || !out->open(path, spec) || !out->write_image(OIIO::TypeDesc::FLOAT, data.data()) || !out->close())
-        throw WorkError(fmt::format("cannot write '{}': {}", path, out ? out->geterror() : OIIO::geterror()));
+    write_raster(path, image);
 }
 
 Picture read_picture(const std::string& path) {
-    const auto in = OIIO::ImageInput::open(path);
-    if (!in) throw UsageError(fmt::format("cannot read picture '{}': {}", path, OIIO::geterror()));
-    const OIIO::ImageSpec spec = in->spec();
-    std::vector<float> data(spec.image_pixels() * std::size_t(spec.nchannels));
-    if (!in->read_image(0, 0, 0, spec.nchannels, OIIO::TypeDesc::FLOAT, data.data()))
-        throw UsageError(fmt::format("cannot read picture '{}': {}", path, in->geterror()));
-    const auto channel = [&](const char* name) { return spec.channelindex(name); };
+    const auto read = [&] {
+        try {
+            return image_module().read(path);
+        } catch (const UnsupportedError&) {
+            throw;
+        } catch (const std::exception& error) {
+            throw UsageError(fmt::format("cannot read picture '{}': {}", path, error.what()));
+        }
+    };
+    const ReadImage image = read();
+    const auto channel = [&](const char* name) {
+        const auto at = std::find(image.channels.begin(), image.channels.end(), name);
+        return at == image.channels.end() ? -1 : int(at - image.channels.begin());
+    };
     const int rgb[3] = {std::max(0, channel("R")), channel("G"), channel("B")}, alpha = channel("A"), id = channel("id");
     const int position[3] = {channel("P.X"), channel("P.Y"), channel("P.Z")};
     const int normal[3] = {channel("N.X"), channel("N.Y"), channel("N.Z")};
-    Picture picture{Film(spec.full_width, spec.full_height, {spec.x - spec.full_x, spec.y - spec.full_y, spec.width, spec.height}),
-                    position[0] >= 0, normal[0] >= 0};
+    Picture picture{Film(image.width, image.height, image.window), position[0] >= 0, normal[0] >= 0};
     for (std::size_t i = 0; i < picture.film.pixels.size(); ++i) {
-        const float* from = &data[i * std::size_t(spec.nchannels)];
+        const float* from = &image.values[i * image.channels.size()];
         Pixel& p = picture.film.pixels[i];
         for (int k = 0; k < 3; ++k) {
             p.color[k] = from[rgb[k] >= 0 ? rgb[k] : rgb[0]];

@@ -5,6 +5,7 @@ namespace deburr {
 TraceCounters& TraceCounters::operator+=(const TraceCounters& o) {
     rays += o.rays;
     shadow_rays += o.shadow_rays;
+    placements += o.placements;
     cells += o.cells;
     flat_hits += o.flat_hits;
     segments += o.segments;

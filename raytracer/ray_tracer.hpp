@@ -25,7 +25,7 @@ struct Hit {
 
 /// What tracing cost; each thread has its own and they are added up.
 struct TraceCounters {
-    std::uint64_t rays = 0, shadow_rays = 0, cells = 0, flat_hits = 0;
+    std::uint64_t rays = 0, shadow_rays = 0, placements = 0, cells = 0, flat_hits = 0;
     std::uint64_t segments = 0, splits = 0, evaluations = 0;
 
     TraceCounters& operator+=(const TraceCounters& o);

@@ -60,14 +60,15 @@ std::string statistics_table(const RunStatistics& run) {
                 row("  of all threads", fmt::format("{:.3f} s", phase.cpu));
     const TraceCounters& c = run.counters;
     text += row("rays", c.rays) + row("shadow rays", c.shadow_rays) +
-            row("cells visited", c.cells) + row("flat hits", c.flat_hits) +
+            row("placements visited", c.placements) + row("cells visited", c.cells) + row("flat hits", c.flat_hits) +
             row("segments", c.segments) + row("splits", c.splits) +
             row("density evaluations", c.evaluations);
     if (c.rays > 0)
         text += row("  per ray",
                     fmt::format("{:.2f}", double(c.evaluations) / double(c.rays + c.shadow_rays)));
     if (run.bsp) {
-        text += row("BSP cells", run.bsp->cells) + row("  empty", run.bsp->empty_cells) +
+        text += row("spaces", run.bsp->spaces) + row("  placements", run.bsp->placements) +
+                row("BSP cells", run.bsp->cells) + row("  empty", run.bsp->empty_cells) +
                 row("  flat", run.bsp->flat_cells) + row("  depth", std::uint64_t(run.bsp->depth)) +
                 row("half-spaces", run.bsp->half_spaces) +
                 row("  per surface cell", fmt::format("{:.2f}", run.bsp->mean_local_half_spaces));
@@ -98,13 +99,16 @@ std::string statistics_json(const RunStatistics& run) {
     const TraceCounters& c = run.counters;
     j["rays"] = c.rays;
     j["shadow_rays"] = c.shadow_rays;
+    j["placements_visited"] = c.placements;
     j["cells_visited"] = c.cells;
     j["flat_hits"] = c.flat_hits;
     j["segments"] = c.segments;
     j["splits"] = c.splits;
     j["density_evaluations"] = c.evaluations;
     if (run.bsp)
-        j["bsp"] = {{"cells", run.bsp->cells},
+        j["bsp"] = {{"spaces", run.bsp->spaces},
+                    {"placements", run.bsp->placements},
+                    {"cells", run.bsp->cells},
                     {"empty_cells", run.bsp->empty_cells},
                     {"flat_cells", run.bsp->flat_cells},
                     {"depth", run.bsp->depth},

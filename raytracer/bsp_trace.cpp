@@ -1,15 +1,8 @@
-#include "raytracer/bsp.hpp"
+#include "raytracer/bsp_trace.hpp"
 
 #include <algorithm>
 
-#include "raytracer/bsp_tree.hpp"
-
 namespace deburr {
-
-struct ImplicitTracer::Bsp {
-    BspTree tree;
-    Criterion criterion;
-};
 
 namespace {
 
@@ -60,18 +53,14 @@ CrossingScratch& scratch() {
     return memory;
 }
 
-// First crossing along the ray in [0, t_max].
-struct Found {
-    SurfaceCrossing crossing;
-    int solid = -1;
-};
+}  // namespace
 
-Found find(const BspTree& tree, Criterion criterion, const Ray& ray, double t_max, bool any,
-           TraceCounters& counters) {
+FoundSurface find_surface(const BspTree& tree, Criterion criterion, const Ray& ray, double t_max, bool any,
+                          TraceCounters& counters) {
     CrossingScratch& memory = scratch();
     memory.criterion = criterion;
     memory.counters = {};
-    Found best;
+    FoundSurface best;
     traverse(tree, ray, t_max, [&](std::size_t number, double t0, double t1) {
         ++counters.cells;
         const BspCell& cell = tree.cells[number];
@@ -84,7 +73,7 @@ Found find(const BspTree& tree, Criterion criterion, const Ray& ray, double t_ma
             const SurfaceCrossing c = local.first_crossing(ray.origin, ray.direction, from,
                                                            std::min(to, best.crossing.t), memory);
             if (c.t < best.crossing.t) {
-                best = {c, local.solid()};
+                best = {c, local.solid(), 0};
                 if (any) return true;
             }
         }
@@ -94,54 +83,8 @@ Found find(const BspTree& tree, Criterion criterion, const Ray& ray, double t_ma
     counters.segments += memory.counters.roots.segments;
     counters.splits += memory.counters.roots.splits;
     counters.evaluations += memory.counters.roots.evaluations;
+    if (best.crossing.t < infinity) best.error = rounding(tree, ray, best.crossing.t);
     return best;
-}
-
-}  // namespace
-
-ImplicitTracer::ImplicitTracer(const std::vector<Solid>& solids, Criterion criterion)
-    : bsp_(new Bsp{build_bsp(solids), criterion}) {}
-
-ImplicitTracer::~ImplicitTracer() = default;
-
-Hit ImplicitTracer::first_hit(const Ray& ray, double t_max, TraceCounters& counters) const {
-    ++counters.rays;
-    const Found found = find(bsp_->tree, bsp_->criterion, ray, t_max, false, counters);
-    if (!(found.crossing.t < infinity)) return {};
-    Hit hit;
-    hit.t = found.crossing.t;
-    hit.position = ray.origin + ray.direction * hit.t;
-    hit.normal = found.crossing.normal;
-    hit.solid = found.solid;
-    hit.material = found.crossing.material;
-    // Far beyond the error of the position, far below anything to be seen.
-    hit.offset = 128 * rounding(bsp_->tree, ray, hit.t);
-    return hit;
-}
-
-bool ImplicitTracer::occluded(const Ray& ray, double t_max, TraceCounters& counters) const {
-    ++counters.shadow_rays;
-    return find(bsp_->tree, bsp_->criterion, ray, t_max, true, counters).crossing.t < infinity;
-}
-
-BspStatistics ImplicitTracer::statistics() const {
-    const BspTree& tree = bsp_->tree;
-    BspStatistics s;
-    s.cells = tree.cells.size();
-    s.half_spaces = tree.half_spaces;
-    s.depth = tree.depth;
-    std::size_t local = 0;
-    for (const BspCell& cell : tree.cells) {
-        bool flat = cell.count > 0;
-        for (std::uint32_t i = cell.first; i < cell.first + cell.count; ++i) {
-            local += tree.locals[i].half_spaces();
-            flat &= tree.locals[i].is_flat();
-        }
-        s.empty_cells += cell.count == 0;
-        s.flat_cells += flat;
-    }
-    if (s.cells > s.empty_cells) s.mean_local_half_spaces = double(local) / double(s.cells - s.empty_cells);
-    return s;
 }
 
 }  // namespace deburr
