@@ -87,7 +87,8 @@ int run_program(int argc, char** argv) {
         program.allow_extras();
         const std::vector<Command> commands = {
             add_render_command(program), add_mesh_command(program),
-            add_compare_command(program), add_info_command(program)};
+            add_compare_command(program), add_info_command(program),
+            add_export_pov_command(program)};
         for (const Command& command : commands) command.app->allow_extras();
         const int code = run(program, commands, argc, argv);
         if (std::fflush(stdout) != 0 || std::ferror(stdout))

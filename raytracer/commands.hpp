@@ -15,5 +15,6 @@ Command add_render_command(CLI::App& program);
 Command add_info_command(CLI::App& program);
 Command add_mesh_command(CLI::App& program);
 Command add_compare_command(CLI::App& program);
+Command add_export_pov_command(CLI::App& program);
 
 }  // namespace deburr

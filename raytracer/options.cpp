@@ -48,9 +48,13 @@ void add_output_option(CLI::App& command, Options& o, const std::string& formats
         ->allow_extra_args(false);
 }
 
-void add_picture_options(CLI::App& command, Options& o) {
+void add_size_option(CLI::App& command, Options& o) {
     add(command, "--size", "WxH", "size of the picture; default: what the scene says",
         [&o](const std::string& text) { o.size = parse_size("--size", text); });
+}
+
+void add_picture_options(CLI::App& command, Options& o) {
+    add_size_option(command, o);
     add(command, "--spp", "N",
         "samples per pixel, 1: one ray through its centre; default: the scene's",
         [&o](const std::string& text) {
