@@ -128,7 +128,8 @@ return {
   image = { width = 600, height = 380, spp = 1 },
   camera = { eye = {16, 15, 22}, target = {0.1, 1.2, -0.9}, up = {0, 1, 0}, fov = 25 },
   lights = {
-    area_light{ position = {-14, 26, 12}, u = {7, 0, 7}, v = {5, 5, -5}, color = {1, 0.95, 0.88}, power = 42000, samples = 1 },
+    area_light{ position = {-14, 26, 12}, u = {5.2, 0, 6.1}, v = {-4.9, -4.6, 4.2},
+                color = {1, 0.95, 0.88}, power = 24000 },
   },
   background = sky{ horizon = {0.52, 0.55, 0.60}, zenith = {0.30, 0.36, 0.46} },
   solids = solids,
