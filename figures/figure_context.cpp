@@ -61,7 +61,7 @@ std::string FigureContext::next_file(const std::string& suffix) const {
     std::string end = suffix;
     std::size_t pictures = 0;
     for (const FigureItem& item : result_.items) pictures += !item.file.empty();
-    if (end.empty() && pictures > 0) end = std::string(1, char('a' + pictures));
+    if (end.empty() && (pictures > 0 || result_.columns > 1)) end = std::string(1, char('a' + pictures));
     return figure_.name + (end.empty() ? "" : "-" + end);
 }
 

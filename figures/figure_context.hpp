@@ -56,7 +56,7 @@ public:
     Film render(const Scene& scene, const RayTracer& tracer, const FigurePictureSettings& settings = {}) const;
 
     /// Write NAME.png, or NAME-SUFFIX.png and, of a plot, also the .svg. Suffixes are a, b, c, … where
-    /// none is given and there is a picture already.
+    /// none is given and there are several pictures: call columns() first then.
     void picture(const Film& film, const std::string& caption = "", std::string suffix = "");
     void plot(const Plot& plot, const std::string& caption = "", std::string suffix = "");
     /// A file in another format, made by the caller: the bytes, and the extension with its dot. It

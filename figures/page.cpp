@@ -25,9 +25,7 @@ std::string picture_cell(const FigureItem& item, int width) {
 }
 
 std::string row(const std::vector<std::string>& cells) {
-    std::string out = "|";
-    for (const std::string& cell : cells) out += " " + cell + " |";
-    return out + "\n";
+    return fmt::format("| {} |\n", fmt::join(cells, " | "));
 }
 
 std::string rule(std::size_t columns, const char* how) {

@@ -20,9 +20,28 @@ std::string quoted(const std::string& text) {
     return out + "'";
 }
 
-std::string data_of(const Curve& curve) {
+// gnuplot spoils areas that reach beyond the ranges [Sutherland & Hodgman 1974].
+std::vector<Vec2> clipped(std::vector<Vec2> polygon, const Plot& plot) {
+    for (int side = 0; side < 4; ++side) {
+        const int k = side / 2;
+        const auto& range = k == 0 ? plot.x_range : plot.y_range;
+        if (!range) continue;
+        const double bound = side % 2 ? range->y : range->x, sign = side % 2 ? -1 : 1;
+        std::vector<Vec2> kept;
+        for (std::size_t i = 0; i < polygon.size(); ++i) {
+            const Vec2 a = polygon[i], b = polygon[(i + 1) % polygon.size()];
+            const double da = sign * (a[k] - bound), db = sign * (b[k] - bound);
+            if (da >= 0) kept.push_back(a);
+            if ((da < 0) != (db < 0)) kept.push_back(glm::mix(a, b, da / (da - db)));
+        }
+        polygon = std::move(kept);
+    }
+    return polygon;
+}
+
+std::string data_of(const Curve& curve, const Plot& plot) {
     std::string out;
-    for (const Vec2& p : curve.points)
+    for (const Vec2& p : curve.kind == Curve::Kind::fill ? clipped(curve.points, plot) : curve.points)
         out += std::isfinite(p.x) && std::isfinite(p.y) ? fmt::format("{:.10g} {:.10g}\n", p.x, p.y) : "\n";
     return out;
 }
@@ -80,7 +99,7 @@ std::vector<Vec2> circle(Vec2 centre, double radius, int steps) {
 }
 
 std::string gnuplot_script(const Plot& p) {
-    std::string s = "set encoding utf8\n";
+    std::string s = "set encoding utf8\nset clip one\nset clip two\n";
     s += fmt::format("set border 3 linecolor rgb {} linewidth 1\n", quoted(house::ink));
     s += fmt::format("set tics nomirror out scale 0.6 textcolor rgb {}\n", quoted(house::ink));
     if (p.axes) s += fmt::format("set grid linecolor rgb {} linetype 1 linewidth 0.7\n", quoted(house::grid));
@@ -111,7 +130,7 @@ std::string gnuplot_script(const Plot& p) {
     if (p.x_range) s += fmt::format("set xrange [{:.10g}:{:.10g}]\n", p.x_range->x, p.x_range->y);
     if (p.y_range) s += fmt::format("set yrange [{:.10g}:{:.10g}]\n", p.y_range->x, p.y_range->y);
     for (std::size_t i = 0; i < p.curves.size(); ++i) {
-        s += fmt::format("$c{} << EOD\n{}EOD\n", i, data_of(p.curves[i]));
+        s += fmt::format("$c{} << EOD\n{}EOD\n", i, data_of(p.curves[i], p));
         parts.push_back(fmt::format("$c{} using 1:2 {} {}", i, style_of(p.curves[i]),
                                     p.curves[i].title.empty() ? "notitle" : "title " + quoted(p.curves[i].title)));
     }
