@@ -30,7 +30,7 @@ std::string row(const std::vector<std::string>& cells) {
 
 std::string rule(std::size_t columns, const char* how) {
     std::string out = "|";
-    for (std::size_t i = 0; i < columns; ++i) out += std::string(how) + "|";
+    for (std::size_t i = 0; i < columns; ++i) out += fmt::format("{}|", how);
     return out + "\n";
 }
 

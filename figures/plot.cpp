@@ -107,6 +107,11 @@ std::string gnuplot_script(const Plot& p) {
     if (!p.title.empty()) s += fmt::format("set title {} textcolor rgb {}\n", quoted(p.title), quoted(house::ink));
     if (!p.x_label.empty()) s += fmt::format("set xlabel {} textcolor rgb {}\n", quoted(p.x_label), quoted(house::ink));
     if (!p.y_label.empty()) s += fmt::format("set ylabel {} textcolor rgb {}\n", quoted(p.y_label), quoted(house::ink));
+    if (!p.x_ticks.empty()) {
+        s += "set xtics (";
+        for (std::size_t i = 0; i < p.x_ticks.size(); ++i) s += fmt::format("{}'{:g}' {:.10g}", i ? ", " : "", p.x_ticks[i], p.x_ticks[i]);
+        s += ")\n";
+    }
     if (p.log_x) s += "set logscale x\n";
     if (p.log_y) s += "set logscale y\n";
     if (p.equal_units) s += "set size ratio -1\n";

@@ -28,7 +28,7 @@ constexpr const char* shade = "#dce6f0";  // inside of a body
 
 struct Curve {
     enum class Kind { line, points, points_and_line, fill };
-    std::vector<Vec2> points;
+    std::vector<Vec2> points = {};
     std::string title = {};  // in the legend; "": not there
     std::string color = house::blue;
     Kind kind = Kind::line;
@@ -73,6 +73,7 @@ struct Plot {
     std::string title = {};
     std::string x_label = {}, y_label = {};
     std::optional<Vec2> x_range = {}, y_range = {};
+    std::vector<double> x_ticks = {};  // empty: as gnuplot likes
     bool log_x = false, log_y = false;
     bool equal_units = false;  // a circle looks round
     bool axes = true;          // false: a drawing without a frame

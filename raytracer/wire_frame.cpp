@@ -9,8 +9,8 @@ namespace {
 
 // Steps along a line, in pixels: the ends of its visible parts are found to this.
 constexpr double step = 0.5;
-// A point is asked about a little in front of the surface, this share of its distance from the eye:
-// far above Embree's single precision, far below a pixel.
+// A point is asked about a little in front of the faces that are seen, and nearer to the eye, by this
+// share of its distance: far above Embree's single precision, far below a pixel.
 constexpr double lift = 1e-4;
 // Two triangles count as one plane if the farther corner of the one is this close to the other's
 // plane, as a share of its size. Roots that make a strip are exact to 1e-10.
@@ -74,7 +74,7 @@ bool clip(Vec2 p, Vec2 q, int width, int height, double& t0, double& t1) {
 
 bool seen(Vec3 x, Vec3 normal, const RayTracer& hiding, const PinholeCamera& camera) {
     const double distance = glm::length(x - camera.eye());
-    const Vec3 start = x + normal * (lift * distance);
+    const Vec3 start = x + (normal + glm::normalize(camera.eye() - x)) * (lift * distance);
     const Vec3 way = camera.eye() - start;
     const double length = glm::length(way);
     TraceCounters unused;
@@ -170,8 +170,9 @@ std::vector<Stroke> wire_frame(const Mesh& mesh, const std::vector<MeshEdge>& ed
             const Vec3 area = mesh.area_vector(mesh.triangles[std::size_t(t)]);
             const double size = glm::length(area);
             if (size == 0) continue;
+            if (glm::dot(area, camera.eye() - line.a) <= 0) continue;
+            front = true;
             normal += area / size;
-            front |= glm::dot(area, camera.eye() - line.a) > 0;
         }
         line.na = line.nb = glm::length(normal) > 0 ? glm::normalize(normal) : normal;
         return front;  // no part of an edge between two faces that look away is seen
