@@ -39,4 +39,11 @@ Ray PinholeCamera::ray(double x, double y) const {
     return {eye_, glm::normalize(corner_ + x * dx_ + y * dy_)};
 }
 
+Vec3 PinholeCamera::project(Vec3 point) const {
+    const Vec3 d = point - eye_;
+    const double z = glm::dot(d, forward_);
+    const Vec3 on_picture = d / z - corner_;
+    return {glm::dot(on_picture, dx_) / glm::dot(dx_, dx_), glm::dot(on_picture, dy_) / glm::dot(dy_, dy_), z};
+}
+
 }  // namespace deburr

@@ -78,17 +78,17 @@ int run(CLI::App& program, const std::vector<Command>& commands, int argc, char*
 
 }  // namespace
 
-int run_program(int argc, char** argv) {
+int run_program(int argc, char** argv, const std::vector<Command (*)(CLI::App&)>& more) {
     open_standard_files();
     signal(SIGXFSZ, SIG_IGN);  // a file that grows too large is an error of write, not an end
     try {
         CLI::App program("Deburr renders CSG models with every edge rounded.", "deburr");
         program.set_version_flag("--version", "deburr " DEBURR_VERSION);
         program.allow_extras();
-        const std::vector<Command> commands = {
-            add_render_command(program), add_mesh_command(program),
-            add_compare_command(program), add_info_command(program),
-            add_export_pov_command(program)};
+        std::vector<Command> commands = {add_render_command(program), add_mesh_command(program),
+                                         add_compare_command(program), add_info_command(program),
+                                         add_export_pov_command(program)};
+        for (const auto add : more) commands.push_back(add(program));
         for (const Command& command : commands) command.app->allow_extras();
         const int code = run(program, commands, argc, argv);
         if (std::fflush(stdout) != 0 || std::ferror(stdout))

@@ -24,16 +24,21 @@
 #include "raytracer/scene_mesh.hpp"
 #include "raytracer/statistics.hpp"
 #include "raytracer/whole_file.hpp"
+#include "raytracer/wire_frame.hpp"
 
 namespace deburr {
 namespace {
 
 struct RenderOptions : Options {
     std::string via = "implicit", tolerance;
+    std::string wire;  // "": no wire frame
+    bool flat = false, edges = false;
 };
 
 // Boxes to look at for each sum and difference before rendering; `info` looks longer.
 constexpr int boxes_to_warn = 1000;
+// Of a mesh's edges, in pixels: fine, and still black.
+constexpr double line_width = 1;
 // Work to write a pixel into a file, where tracing one sample of it is 1: a guess, for the bar.
 constexpr double writing_work = 0.1;
 
@@ -67,6 +72,10 @@ void check_options(const RenderOptions& o) {
         if (o.via != "triage") throw UsageError("--tolerance: expected --via triage, got '" + o.via + "'");
         parse_tolerance(o.tolerance);
     }
+    for (const auto& [name, given] : {std::pair{"--flat", o.flat}, {"--edges", o.edges}, {"--wire", !o.wire.empty()}})
+        if (given && o.via == "implicit") throw UsageError(fmt::format("{}: expected --via {}, got 'implicit'", name, mesh_method_names()));
+    if (!o.wire.empty() && o.wire != "visible" && o.wire != "front")
+        throw UsageError("--wire: expected visible or front, got '" + o.wire + "'");
     if (o.scene.empty()) throw UsageError("render: expected a scene file");
     if (o.outputs.empty()) throw UsageError("render: expected an output file, -o FILE");
     check_image_names("-o", o.outputs);
@@ -143,6 +152,7 @@ int run_render(const RenderOptions& o) {
     clock.begin("build");
     std::unique_ptr<RayTracer> tracer;
     std::optional<BspStatistics> bsp;
+    Mesh lines;  // whose edges are drawn
     if (o.via == "implicit") {
         auto implicit = std::make_unique<ImplicitTracer>(scene.solids, o.criterion);
         bsp = implicit->statistics();
@@ -151,19 +161,29 @@ int run_render(const RenderOptions& o) {
     } else {
         SceneMesh mesh = mesh_scene(scene, picture_mesh_settings(o.via, o.tolerance));
         say(fmt::format("{} triangles, {} vertices", mesh.mesh.triangles.size(), mesh.mesh.positions.size()));
-        tracer = std::make_unique<MeshTracer>(std::move(mesh.mesh));
+        if (o.edges || !o.wire.empty()) lines = mesh.mesh;
+        tracer = std::make_unique<MeshTracer>(o.flat ? flat_shaded(std::move(mesh.mesh)) : std::move(mesh.mesh));
     }
     clock.end();
 
     clock.begin("trace");
     const Integrator integrator(scene, *tracer, {size.width, size.height, spp, o.seed});
+    Pixel paper;  // of a wire frame
+    paper.color = Vec3(1.0);
+    paper.alpha = 1;
     const double pixels = double(window.width) * window.height;
     Progress progress(pixels * (spp + writing_work * double(o.outputs.size())),
                       Progress::standard_error(o.quiet));
     Rendering rendering = render(
         size.width, size.height, window,
-        [&](int x, int y, TraceCounters& counters) { return integrator.pixel(x, y, counters); },
+        [&](int x, int y, TraceCounters& counters) { return o.wire.empty() ? integrator.pixel(x, y, counters) : paper; },
         stop, [&](std::int64_t done) { progress.advance(double(done) * spp); });
+    if (!lines.triangles.empty())
+        draw_strokes(rendering.film,
+                     wire_frame(lines, mesh_edges(lines, o.via == "triage" ? EdgeChoice::polygons : EdgeChoice::triangles), *tracer,
+                                PinholeCamera(scene.camera, size.width, size.height), size.width, size.height,
+                                o.wire == "front" ? WireMode::front : WireMode::visible),
+                     Vec3(0.0), line_width);
     const Film& film = rendering.film;
     if (rendering.pixels_done == 0) {
         progress.stop();
@@ -227,6 +247,10 @@ Command add_render_command(CLI::App& program) {
         ->type_name("NAME");
     command->add_option("--tolerance", options->tolerance, "of the mesh, as for mesh; default: 0.03 of each solid's least radius")
         ->type_name("D");
+    command->add_flag("--flat", options->flat, "of a mesh: each facet with one normal");
+    command->add_flag("--edges", options->edges, "of a mesh: its polygons' edges, as black lines");
+    command->add_option("--wire", options->wire, "of a mesh: only its edges, hidden lines removed (visible) or those of faces that look away (front)")
+        ->type_name("MODE");
     add_run_options(*command, *options);
     add_statistics_options(*command, *options);
     return {command, [options] { return run_render(*options); }};

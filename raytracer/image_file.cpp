@@ -67,7 +67,7 @@ std::vector<ImageAttribute> attributes(const Film& film, const ImageNotes& notes
     std::vector<ImageAttribute> all;
     all.push_back({"Software", "Deburr " DEBURR_VERSION});
     // As OpenEXR's standard attributes are named, and as the others' are.
-    all.push_back({exr ? "capDate" : "DateTime", notes.date});
+    if (!notes.date.empty()) all.push_back({exr ? "capDate" : "DateTime", notes.date});
     if (exr) {
         all.push_back({"worldToCamera", world_to_camera(notes.camera)});
         all.push_back({"worldToNDC", world_to_ndc(notes.camera, film.width, film.height)});

@@ -25,7 +25,7 @@ namespace deburr {
 struct ImageNotes {
     Camera camera;
     int spp = 1;
-    std::string date;                      // UTC, "YYYY:MM:DD hh:mm:ss"
+    std::string date;                      // UTC, "YYYY:MM:DD hh:mm:ss"; "": none
     std::optional<double> render_seconds;  // nothing where files are to be reproducible
     /// "deburr.NAME" = value: the scene, its parameters, the seed, …
     std::vector<std::pair<std::string, std::string>> attributes;

@@ -49,6 +49,9 @@ class PinholeCamera {
 public:
     PinholeCamera(const Camera& camera, int width, int height);
     Ray ray(double x, double y) const;
+    /// Where a point is seen: x and y as ray() takes them, and z its distance along the axis; x and y
+    /// mean nothing for z <= 0.
+    Vec3 project(Vec3 point) const;
     Vec3 forward() const { return forward_; }
     Vec3 eye() const { return eye_; }
 

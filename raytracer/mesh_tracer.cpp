@@ -17,6 +17,10 @@ namespace {
 // leaves a surface starts this many of them away from it.
 constexpr double lift = 64 * double(std::numeric_limits<float>::epsilon());
 
+// How far it is turned beyond the side view, as a share of the angle: far above rounding, far below
+// what is seen.
+constexpr double least_tilt = 1e-6;
+
 double largest(Vec3 v) { return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)}); }
 
 RTCRay ray_of(const Ray& ray, double t_max) {
@@ -103,7 +107,12 @@ Hit MeshTracer::first_hit(const Ray& ray, double t_max, TraceCounters& counters)
     const auto normal = [&](std::size_t k) { return mesh_.normals[std::size_t(t.normal[k])]; };
     hit.position = w * at(0) + u * at(1) + v * at(2);
     const Vec3 n = w * normal(0) + u * normal(1) + v * normal(2);
-    hit.normal = glm::length(n) > 0 ? glm::normalize(n) : glm::normalize(mesh_.area_vector(t));
+    const Vec3 facet = mesh_.area_vector(t);
+    hit.normal = glm::length(n) > 0 ? glm::normalize(n) : glm::normalize(facet);
+    // Near an outline the normal between corners may look away though the facet does not; it is
+    // turned until it is seen from the side, or the outline would be black.
+    const double away = glm::dot(hit.normal, ray.direction);
+    if (away * glm::dot(facet, ray.direction) < 0) hit.normal = glm::normalize(hit.normal - (1 + least_tilt) * away * ray.direction);
     hit.t = std::max(glm::dot(hit.position - ray.origin, ray.direction), double(std::numeric_limits<float>::min()));
     hit.solid = t.solid;
     hit.material = t.material;

@@ -1,0 +1,43 @@
+#include "figures/scene_pictures.hpp"
+
+#include "bounds/bounding_box.hpp"
+#include "raytracer/mesh_tracer.hpp"
+
+namespace deburr {
+
+Scene bounded_part(Scene scene) {
+    std::vector<Solid> solids;
+    std::vector<std::string> names;
+    for (std::size_t i = 0; i < scene.solids.size(); ++i) {
+        if (!bounding_box(flatten(scene.solids[i])).finite()) continue;
+        solids.push_back(scene.solids[i]);
+        names.push_back(scene.names[i]);
+    }
+    scene.solids = std::move(solids);
+    scene.names = std::move(names);
+    return scene;
+}
+
+Film wire_picture(const FigureContext& context, const Scene& scene, const Mesh& mesh, const WirePicture& look) {
+    const int shrink = context.draft() ? 2 : 1;
+    const int width = (look.width ? look.width : scene.width) / shrink, height = (look.height ? look.height : scene.height) / shrink;
+    Film film(width, height, {0, 0, width, height});
+    for (Pixel& p : film.pixels) p.color = Vec3(1.0);
+    const MeshTracer tracer(mesh);
+    draw_strokes(film, wire_frame(mesh, mesh_edges(mesh, look.edges), tracer, PinholeCamera(scene.camera, width, height), width, height, look.mode),
+                 Vec3(0.02), look.line_width);
+    return film;
+}
+
+Film gouraud_picture(const FigureContext& context, const Scene& scene, MeshSettings settings, const FigurePictureSettings& picture) {
+    settings.reach = 1e4;  // floors reach the horizon
+    return context.render(scene, MeshTracer(mesh_scene(scene, settings).mesh), picture);
+}
+
+Scene enlarged(Scene scene, Vec3 target, double size) {
+    scene.camera.target = target;
+    scene.camera.fov = 2 * std::atan(0.5 * size / glm::length(target - scene.camera.eye)) * (180 / M_PI);
+    return scene;
+}
+
+}  // namespace deburr
