@@ -35,7 +35,7 @@ struct NodeRange : Range {
 bool is_constant(Op op, const Range& range, const NodeRange& a, const NodeRange& b) {
     const auto zero = [&] { return range.lo == 0 && range.hi == 0; };
     const auto one = [&] { return range.lo == 1 && range.hi == 1; };
-    if (op == Op::complement) return a.constant;
+    if (op == Op::complement || op == Op::ball_share) return a.constant;
     if (a.constant && b.constant) return true;
     if (op == Op::product || op == Op::conjunction) return (a.constant || b.constant) && zero();
     if (op == Op::disjunction) return (a.constant || b.constant) && one();
@@ -93,6 +93,7 @@ public:
         for (std::size_t i = 0; i < from_.nodes.size(); ++i)
             if (needed_[i]) place_[i] = copy(int(i));
         const int root = place_.back();
+        to_.ball = from_.ball;
         if (root + 1 < int(to_.nodes.size())) to_.nodes.resize(std::size_t(root) + 1);
         return std::move(to_);
     }

@@ -39,6 +39,7 @@ std::vector<Demand> demands(const DensityTree& tree, Demand root) {
                 outer ? ask({true, t}, {false, 1 - t}) : ask({false, t}, {true, 0});
                 break;
             case Op::complement: ask({!outer, 1 - t}, {}); break;
+            case Op::ball_share: ask({outer, t}, {}); break;
             default: break;
         }
     }
@@ -69,6 +70,7 @@ public:
                 case Op::disjunction: place[i] = either(at(n.a), at(n.b)); break;
                 case Op::difference: place[i] = both(at(n.a), complement(at(n.b))); break;
                 case Op::complement: place[i] = complement(at(n.a)); break;
+                case Op::ball_share: place[i] = again(at(n.a)); break;
             }
         }
         csg_.nodes.resize(std::size_t(place.back()) + 1);

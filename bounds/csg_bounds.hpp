@@ -6,7 +6,7 @@
 //
 // Printed differently: theorems 4–6 are headed "outer bound"; what they state and prove is inner.
 // Conjunctions, disjunctions and complements follow the Fréchet inequalities instead, which hold
-// whatever the operands share.
+// whatever the operands share, and so for true convolution as well.
 //
 // Both hold in floating point for points no farther from the origin than the planes are.
 #pragma once

@@ -25,6 +25,8 @@ static std::shared_ptr<DensityNode> make(Kind kind, std::vector<Density> childre
     node->kind = kind;
     node->children = std::move(children);
     node->leaves = leaves_below(*node);
+    node->has_radius = kind == Kind::radius;
+    for (const Density& child : node->children) node->has_radius |= child.node().has_radius;
     node->line = line;
     return node;
 }
@@ -71,6 +73,8 @@ Density Density::radius(double r) const {
     node->value = r;
     return Density(node);
 }
+
+bool Density::has_radius() const { return node_->has_radius; }
 
 Density Density::transformed(const Affine& map) const {
     auto node = make(Kind::transform, {*this});

@@ -45,6 +45,8 @@ public:
     Density radius(double r) const;
     /// The transformed polyhedron, to be rounded afterwards. `map` must be regular.
     Density transformed(const Affine& map) const;
+    /// Whether radius() was used anywhere in it.
+    bool has_radius() const;
 
     const DensityNode& node() const { return *node_; }
 
@@ -72,6 +74,7 @@ struct DensityNode {
     double value = 0.0;   // half_space: offset; radius: r
     Affine map;           // transform
     int line = 0;         // sum, product, difference: place in the scene
+    bool has_radius = false;  // radius, or anything below it
     double leaves = 1.0;  // half-spaces below, counted once per use; may overflow to infinity
 
     DensityNode() = default;

@@ -47,8 +47,8 @@ bool associative(Op op) { return op != Op::difference && op != Op::complement &&
 // Every loop here keeps its own stack: scenes write chains as long as their loops.
 class Flattening {
 public:
-    DensityTree run(const DensityNode& root, Placement place) {
-        tasks_.push_back({&root, place, false});
+    DensityTree run(const DensityNode& root, Placement place, bool boolean) {
+        tasks_.push_back({&root, place, boolean});
         while (!tasks_.empty()) {
             const Task task = tasks_.back();
             tasks_.pop_back();
@@ -141,13 +141,26 @@ HalfSpace transformed(const HalfSpace& h, const Affine& map, bool carry_radius) 
             carry_radius ? h.radius / length : h.radius};
 }
 
-DensityTree flatten(const Density& density, double radius, const Affine& to_world) {
+static DensityTree flatten(const Density& density, double radius, const Affine& to_world, bool convolved) {
     if (density.node().leaves > most_half_spaces)
         throw std::length_error("a density has more than 4 million half-spaces");
-    DensityTree tree = Flattening().run(density.node(), {radius, Affine{}});
+    DensityTree tree = Flattening().run(density.node(), {radius, Affine{}}, convolved);
+    if (convolved) {
+        for (HalfSpace& h : tree.half_spaces) h.radius = radius;
+        tree.nodes.push_back({Op::ball_share, tree.root()});
+        tree.ball = to_world.linear * radius;
+    }
     for (HalfSpace& h : tree.half_spaces) h = transformed(h, to_world, true);
     find_supports(tree);
     return tree;
+}
+
+DensityTree flatten(const Density& density, double radius, const Affine& to_world) {
+    return flatten(density, radius, to_world, false);
+}
+
+DensityTree flatten_convolved(const Density& density, double radius, const Affine& to_world) {
+    return flatten(density, radius, to_world, true);
 }
 
 ValueGradient DensityTree::gradient_at(Vec3 x) const {

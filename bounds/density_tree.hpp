@@ -38,7 +38,8 @@ enum class Op : unsigned char {
     difference,  // Lobb's
     complement,  // 1 − a, whether arithmetic or Boolean
     conjunction,
-    disjunction
+    disjunction,
+    ball_share  // of a Boolean function: the share of a ball where it is true; only ever the root
 };
 
 struct TreeNode {
@@ -58,6 +59,7 @@ struct DensityTree {
     std::vector<HalfSpace> half_spaces;
     std::vector<TreeNode> nodes;  // children before parents, the root last; never empty
     std::vector<Box> supports = {};
+    Mat3 ball{1.0};  // ball_share: makes the unit ball the filter
 
     static DensityTree constant(double value) { return {{}, {{Op::constant, -1, -1, value}}, {}}; }
 
@@ -74,6 +76,10 @@ constexpr double most_half_spaces = 4e6;
 /// Boolean operator + * - become ∨ ∧ ∧¬ (DESIGN §2). Chains of one associative operator come out
 /// balanced, and bounded parts have their supports. Throws std::length_error past most_half_spaces.
 DensityTree flatten(const Density& density, double radius, const Affine& to_world = {});
+
+/// The true convolution [Lobb eq. 1] by a ball of this radius > 0: all of the density is read as a
+/// Boolean function, and radii of its own are not looked at.
+DensityTree flatten_convolved(const Density& density, double radius, const Affine& to_world = {});
 
 /// The half-space's image; the radius scales as distance along the normal does.
 HalfSpace transformed(const HalfSpace& h, const Affine& map, bool carry_radius);

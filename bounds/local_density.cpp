@@ -49,6 +49,11 @@ std::vector<char> roots_of_boolean_parts(const DensityTree& tree, const std::vec
 }  // namespace
 
 LocalDensity::LocalDensity(const DensityTree& tree) {
+    if (tree.nodes.back().op == Op::ball_share) {
+        share_ = std::make_shared<BallShare>(tree);
+        half_spaces_ = share_->half_spaces();
+        return;
+    }
     const std::vector<char> boolean = boolean_nodes(tree);
     const std::vector<char> is_root = roots_of_boolean_parts(tree, boolean);
     std::vector<int> place(tree.nodes.size(), -1);
@@ -180,6 +185,15 @@ static T run(const std::vector<Node>& nodes, const std::vector<int>& kids, std::
 }
 
 ValueGradient LocalDensity::gradient_at(Vec3 x) const {
+    if (share_) {
+        thread_local std::vector<double> alpha, slope;
+        alpha.clear();
+        for (const HalfSpace& h : half_spaces_) alpha.push_back(h.alpha(x));
+        ValueGradient v{share_->at(alpha, slope)};
+        for (std::size_t i = 0; i < alpha.size(); ++i)
+            v.gradient += half_spaces_[i].normal * (slope[i] / half_spaces_[i].radius);
+        return v;
+    }
     thread_local std::vector<ValueGradient> done;
     return run(nodes_, kids_, done, [&](std::size_t i) -> ValueGradient {
         const HalfSpace& h = half_spaces_[i];
@@ -190,10 +204,12 @@ ValueGradient LocalDensity::gradient_at(Vec3 x) const {
 }
 
 Range LocalDensity::range(const Box& box) const {
+    if (share_) return share_->range(box);
     return range_from([&](int i) { return density_range(half_spaces_[std::size_t(i)], box); });
 }
 
 Range LocalDensity::range(const std::vector<Range>& half_spaces) const {
+    if (share_) return share_->range(half_spaces);
     return range_from([&](int i) { return half_spaces[std::size_t(i)]; });
 }
 
@@ -242,6 +258,15 @@ void RayDensity::set(const LocalDensity& density, Vec3 origin, Vec3 direction) {
     }
     leaf_.resize(lines_.size());
     leaf_bounds_.resize(lines_.size());
+    if (!density.share_) return;
+    speed_ = glm::length(density.share_->in_ball(direction));
+    rates_.clear();
+    for (const Line& line : lines_) rates_.push_back(std::abs(line.b));
+}
+
+void RayDensity::alphas(double t, std::vector<double>& all) const {
+    all.clear();
+    for (const Line& line : lines_) all.push_back(line.a + line.b * t);
 }
 
 void RayDensity::fix_sharp(double t) {
@@ -251,6 +276,12 @@ void RayDensity::fix_sharp(double t) {
 }
 
 ValueSlope RayDensity::at(double t) const {
+    if (density_->share_) {
+        alphas(t, alphas_);
+        ValueSlope v{density_->share_->at(alphas_, slopes_)};
+        for (std::size_t i = 0; i < lines_.size(); ++i) v.slope += slopes_[i] * lines_[i].b;
+        return v;
+    }
     for (std::size_t i = 0; i < lines_.size(); ++i) {
         const double alpha = lines_[i].a + lines_[i].b * t;
         leaf_[i] = {profile(alpha), profile_slope(alpha) * lines_[i].b};
@@ -259,6 +290,14 @@ ValueSlope RayDensity::at(double t) const {
 }
 
 Vec3 RayDensity::gradient(double t) const {
+    if (density_->share_) {
+        alphas(t, alphas_);
+        density_->share_->at(alphas_, slopes_);
+        Vec3 gradient(0.0);
+        for (std::size_t i = 0; i < lines_.size(); ++i)
+            gradient += density_->half_spaces_[i].normal * (slopes_[i] / density_->half_spaces_[i].radius);
+        return gradient;
+    }
     thread_local std::vector<ValueGradient> done;
     return run(density_->nodes_, density_->kids_, done, [&](std::size_t i) -> ValueGradient {
                const double alpha = lines_[i].a + lines_[i].b * t;
@@ -269,6 +308,11 @@ Vec3 RayDensity::gradient(double t) const {
 }
 
 RayBounds RayDensity::bounds(double t0, double t1) const {
+    if (density_->share_) {
+        alphas(t0, alphas_);
+        alphas(t1, alphas_at_end_);
+        return density_->share_->bounds(alphas_, alphas_at_end_, rates_, speed_);
+    }
     using Step = LocalDensity::Step;
     for (std::size_t i = 0; i < lines_.size(); ++i)
         leaf_bounds_[i] = half_space_bounds(alpha(i, t0), alpha(i, t1), std::abs(lines_[i].b));

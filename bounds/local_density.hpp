@@ -1,13 +1,16 @@
 // A density made ready for fast evaluation: the papers' arithmetic as it stands, Boolean parts as
-// decision diagrams. Meant for the little that is left of a tree in a cell (box_range.hpp), right
+// decision diagrams, a true convolution as the share of a ball. Meant for the little that is left of a tree in a cell (box_range.hpp), right
 // for any.
 //
 // Along a ray every α is linear in t, so a ray is a small table of them: RayDensity.
 #pragma once
 #include <vector>
 
-#include "bounds/density_tree.hpp"
+#include <memory>
+
+#include "bounds/ball_share.hpp"
 #include "bounds/box_range.hpp"
+#include "bounds/density_tree.hpp"
 #include "bounds/ray_bounds.hpp"
 
 namespace deburr {
@@ -44,6 +47,7 @@ private:
     int add(Node node);
     int add_boolean(const DensityTree& tree, int root);
 
+    std::shared_ptr<const BallShare> share_;  // of a true convolution, which needs no nodes
     std::vector<HalfSpace> half_spaces_;
     std::vector<Node> nodes_;  // operands first, the root last
     std::vector<int> kids_;
@@ -85,6 +89,12 @@ private:
     std::vector<Line> lines_;
     mutable std::vector<ValueSlope> leaf_, done_;
     mutable std::vector<RayBounds> leaf_bounds_, bounds_;
+
+    // Of a true convolution: every α, its rate, and the share's slope by it.
+    void alphas(double t, std::vector<double>& all) const;
+    double speed_ = 0;  // in radii of the ball
+    std::vector<double> rates_;
+    mutable std::vector<double> alphas_, alphas_at_end_, slopes_;
 };
 
 }  // namespace deburr

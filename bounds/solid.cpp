@@ -24,14 +24,24 @@ std::shared_ptr<SolidNode> make(Kind kind, std::vector<Solid> children) {
 
 SolidNode::~SolidNode() { release(children); }
 
-Solid Solid::rounded(double r, Density density, int line) {
-    assert(r >= 0);
+static std::shared_ptr<SolidNode> make_rounded(double r, Density density, int line, bool convolved) {
     auto node = std::make_shared<SolidNode>();
     node->radius = r;
+    node->convolved = convolved;
     node->line = line;
     node->leaves = density.node().leaves;
     node->density.push_back(std::move(density));
-    return Solid(node);
+    return node;
+}
+
+Solid Solid::rounded(double r, Density density, int line) {
+    assert(r >= 0);
+    return Solid(make_rounded(r, std::move(density), line, false));
+}
+
+Solid Solid::convolved(double r, Density density, int line) {
+    assert(r > 0 && !density.has_radius());
+    return Solid(make_rounded(r, std::move(density), line, true));
 }
 
 Solid Solid::of_field(FieldPtr field, int line) {

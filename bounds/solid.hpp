@@ -20,6 +20,9 @@ public:
     static Solid rounded(double r, Density density, int line = 0);
     static Solid sharp(Density density, int line = 0) { return rounded(0.0, std::move(density), line); }
 
+    /// The same by true convolution with a ball of radius r > 0: the density is read as a Boolean
+    /// function, which has no radii of its own.
+    static Solid convolved(double r, Density density, int line = 0);
     /// The set f > 0.
     static Solid of_field(std::shared_ptr<const Field> field, int line = 0);
 
@@ -45,6 +48,7 @@ struct SolidNode {
     std::vector<Solid> children;
     std::vector<Density> density;  // rounded: one
     double radius = 0.0;           // rounded
+    bool convolved = false;        // rounded: truly
     std::shared_ptr<const Field> field;
     int material = -1;             // material
     Affine map;                    // transform

@@ -56,8 +56,10 @@ private:
     void open(Task task) {
         const SolidNode& node = through_placements(task);
         if (node.kind == Kind::rounded) {
-            tree_.leaves.push_back(
-                {flatten(node.density[0], node.radius, task.map), task.material, node.line});
+            const Density& density = node.density[0];
+            tree_.leaves.push_back({node.convolved ? flatten_convolved(density, node.radius, task.map)
+                                                   : flatten(density, node.radius, task.map),
+                                    task.material, node.line});
             if (!has_planes(tree_.leaves.back().density)) throw SingularPlacement(node.line);
             done_.push_back(add({SolidOp::leaf, int(tree_.leaves.size()) - 1}));
             return;

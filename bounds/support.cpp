@@ -49,6 +49,7 @@ void find_supports(DensityTree& tree) {
                 half_spaces[i] = half_spaces[std::size_t(n.a)];
                 continue;
             }
+            case Op::ball_share: all[i] = take(n.a); continue;
             case Op::product:
             case Op::conjunction: all[i] = both(take(n.a), take(n.b)); break;
             default: all[i] = either(take(n.a), take(n.b)); break;  // a − b may be negative where b is

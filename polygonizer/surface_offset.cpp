@@ -30,6 +30,7 @@ Offset sharp_at(const DensityTree& tree, Vec3 x) {
             case Op::conjunction: o = least(at(n.a), at(n.b)); break;
             case Op::difference: o = least(at(n.a), negated(at(n.b))); break;
             case Op::complement: o = negated(at(n.a)); break;
+            case Op::ball_share: break;  // is never sharp
         }
         done.push_back(o);
     }

@@ -126,6 +126,15 @@ SceneResult rounded(SceneCall& call) {
     return call.make(Solid::rounded(radius, need_density(call.argument(1), call.name), call.line));
 }
 
+SceneResult convolved(SceneCall& call) {
+    call.at_most(2);
+    const double radius = number_above(call.argument(0), call.place("radius"), 0);
+    const Density& density = need_density(call.argument(1), call.name);
+    if (density.has_radius())
+        throw BadValue(call.name, "expected a density without radii, got one with :radius(); one ball rounds all of it");
+    return call.make(Solid::convolved(radius, density, call.line));
+}
+
 SceneResult sharp(SceneCall& call) {
     call.at_most(1);
     return call.make(Solid::sharp(need_density(call.argument(0), call.name), call.line));
@@ -278,6 +287,7 @@ const std::vector<SceneFunction>& shape_functions() {
         {Place::global, "convex", "", convex},
         {Place::global, "prism", "", make_prism},
         {Place::global, "rounded", "", rounded},
+        {Place::global, "convolved", "", convolved},
         {Place::global, "sharp", "", sharp},
         {Place::global, "param", "", param},
         {Place::metamethod, "operator +", "__add", add},

@@ -1,0 +1,133 @@
+#include "bounds/truth.hpp"
+
+namespace deburr {
+namespace {
+
+// Bit k of word v is the truth of variable v in assignment k.
+constexpr std::uint64_t assignments[Truth::most_tabulated] = {0xaaaaaaaaaaaaaaaa, 0xcccccccccccccccc,
+                                                              0xf0f0f0f0f0f0f0f0, 0xff00ff00ff00ff00,
+                                                              0xffff0000ffff0000, 0xffffffff00000000};
+
+std::uint64_t all(bool value) { return value ? ~std::uint64_t(0) : 0; }
+
+}  // namespace
+
+void Truth::set(const BooleanFunction& function, const std::vector<Literal>& half_spaces, int count) {
+    const auto& nodes = function.nodes;
+    count_ = count;
+    state_ = 0;
+    if (count <= most_tabulated) {
+        words_.resize(nodes.size());
+        for (std::size_t i = 0; i < nodes.size(); ++i) {
+            const auto& n = nodes[i];
+            const auto at = [&](int child) { return words_[std::size_t(child)]; };
+            switch (n.op) {
+                case Op::half_space: {
+                    const Literal l = half_spaces[std::size_t(n.a)];
+                    const bool same = l.same != n.negated;
+                    words_[i] = l.variable < 0 ? all(same) : assignments[l.variable] ^ all(!same);
+                    break;
+                }
+                case Op::complement: words_[i] = ~at(n.a); break;
+                case Op::conjunction: words_[i] = at(n.a) & at(n.b); break;
+                case Op::disjunction: words_[i] = at(n.a) | at(n.b); break;
+                default: words_[i] = all(n.a != 0);
+            }
+        }
+        table_ = words_.back();
+        return;
+    }
+    nodes_ = nodes;
+    truth_.assign(nodes.size(), false);
+    bits_.assign(std::size_t(count), false);
+    parent_.assign(nodes.size(), -1);
+    uses_.resize(std::max(uses_.size(), std::size_t(count)));
+    for (auto& uses : uses_) uses.clear();
+    for (std::size_t i = 0; i < nodes.size(); ++i) {
+        const auto& n = nodes[i];
+        if (n.op == Op::half_space) {
+            const Literal l = half_spaces[std::size_t(n.a)];
+            truth_[i] = l.variable < 0 ? l.same != n.negated : l.same == n.negated;
+            if (l.variable >= 0) uses_[std::size_t(l.variable)].push_back(int(i));
+            continue;
+        }
+        if (n.op != Op::constant)
+            for (const int child : {n.a, n.b})
+                if (child >= 0) parent_[std::size_t(child)] = int(i);
+        truth_[i] = of_operands(i);
+    }
+}
+
+bool Truth::of_operands(std::size_t node) const {
+    const auto& n = nodes_[node];
+    const auto at = [&](int child) -> bool { return truth_[std::size_t(child)]; };
+    switch (n.op) {
+        case Op::complement: return !at(n.a);
+        case Op::conjunction: return at(n.a) && at(n.b);
+        case Op::disjunction: return at(n.a) || at(n.b);
+        default: return n.a != 0;
+    }
+}
+
+void Truth::flip(int variable) {
+    if (count_ <= most_tabulated) {
+        state_ ^= std::uint64_t(1) << variable;
+        return;
+    }
+    bits_[std::size_t(variable)] ^= 1;
+    for (const int use : uses_[std::size_t(variable)]) {
+        truth_[std::size_t(use)] ^= 1;
+        for (int i = parent_[std::size_t(use)]; i >= 0; i = parent_[std::size_t(i)]) {
+            const bool now = of_operands(std::size_t(i));
+            if (now == bool(truth_[std::size_t(i)])) break;
+            truth_[std::size_t(i)] = now;
+        }
+    }
+}
+
+bool Truth::depends_on(int variable) const {
+    if (count_ > most_tabulated) return true;
+    const std::uint64_t with = assignments[variable];
+    return (table_ & with) >> (1 << variable) != (table_ & ~with);
+}
+
+void mark_open(const BooleanFunction& function, const std::vector<char>& known, std::vector<char>& open) {
+    constexpr char unknown = 2;
+    const auto& nodes = function.nodes;
+    thread_local std::vector<char> value, needed;
+    value.resize(nodes.size());
+    for (std::size_t i = 0; i < nodes.size(); ++i) {
+        const auto& n = nodes[i];
+        const auto at = [&](int child) { return value[std::size_t(child)]; };
+        const auto absorbing = [&](char by, char rest) -> char {
+            if (at(n.a) == by || at(n.b) == by) return by;
+            return at(n.a) == unknown || at(n.b) == unknown ? unknown : rest;
+        };
+        switch (n.op) {
+            case Op::half_space: {
+                const char k = known[std::size_t(n.a)];
+                value[i] = k == unknown ? unknown : char((k != 0) != n.negated);
+                break;
+            }
+            case Op::complement: value[i] = at(n.a) == unknown ? unknown : char(!at(n.a)); break;
+            case Op::conjunction: value[i] = absorbing(0, 1); break;
+            case Op::disjunction: value[i] = absorbing(1, 0); break;
+            default: value[i] = n.a != 0;
+        }
+    }
+    open.assign(known.size(), false);
+    needed.assign(nodes.size(), false);
+    needed.back() = true;
+    for (std::size_t i = nodes.size(); i-- > 0;) {
+        if (!needed[i] || value[i] != unknown) continue;
+        const auto& n = nodes[i];
+        if (n.op == Op::half_space) {
+            open[std::size_t(n.a)] = true;
+            continue;
+        }
+        for (const int child : {n.a, n.b})
+            if (child >= 0) needed[std::size_t(child)] = true;
+    }
+}
+
+}  // namespace deburr
