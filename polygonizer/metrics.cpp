@@ -49,7 +49,7 @@ MeshMetrics measure(const Mesh& mesh, const SolidTree& solid) {
     m.volume = volume(mesh);
     for (const Vec3& x : mesh.positions) m.box = hull(m.box, Box{x, x});
     measure_edges(mesh, m);
-    const OffsetField field(solid, inflated(m.box, 1e-6 * (1 + glm::length(m.box.hi - m.box.lo))));
+    const OffsetField field(solid, inflated(m.box, 1e-6 * (1 + glm::length(m.box.hi - m.box.lo))), m.edge_mean);
     const double reach = m.box.empty() ? 0 : glm::length(m.box.hi - m.box.lo);
     Sum first, far, angle;
     for (const Triangle& t : mesh.triangles) {

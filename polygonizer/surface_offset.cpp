@@ -6,7 +6,7 @@
 namespace deburr {
 namespace {
 
-Offset negated(Offset o) { return {-o.distance, -o.normal, o.leaf}; }
+Offset negated(Offset o) { return {-o.distance, -o.normal, o.leaf, o.plane}; }
 Offset least(const Offset& a, const Offset& b) { return b.distance < a.distance ? b : a; }
 Offset greatest(const Offset& a, const Offset& b) { return b.distance > a.distance ? b : a; }
 
@@ -21,7 +21,7 @@ Offset sharp_at(const DensityTree& tree, Vec3 x) {
             case Op::constant: o.distance = n.value > 0.5 ? infinity : -infinity; break;
             case Op::half_space: {
                 const HalfSpace& h = tree.half_spaces[std::size_t(n.a)];
-                o = {-h.distance(x), h.normal, -1};
+                o = {-h.distance(x), h.normal, -1, n.a};
                 break;
             }
             case Op::sum:
@@ -58,11 +58,50 @@ Offset SurfaceOffset::leaf_at(std::size_t leaf, Vec3 x) const {
         if (!density && !field) density = std::make_unique<LocalDensity>(solid_.leaves[leaf].density);
         const ValueGradient v = field ? field->at(x) : density->gradient_at(x);
         const double slope = glm::length(v.gradient), f = field ? v.value : v.value - 0.5;
-        if (slope > 0) o = {f / slope, -v.gradient / slope, 0};
+        if (slope > 0) o = {f / slope, -v.gradient / slope};
         else o.distance = f > 0 ? infinity : f < 0 ? -infinity : 0;
     }
     o.leaf = int(leaf);
     return o;
+}
+
+std::vector<SurfacePiece> SurfaceOffset::pieces() const {
+    std::vector<SurfacePiece> all;
+    std::vector<double> side(solid_.nodes.size(), 1), side_of_part;
+    for (std::size_t i = solid_.nodes.size(); i-- > 0;) {
+        const SolidTreeNode& n = solid_.nodes[i];
+        if (n.op == SolidOp::nothing || n.op == SolidOp::everything) continue;
+        if (n.op != SolidOp::leaf) {
+            side[std::size_t(n.a)] = side[i];
+            side[std::size_t(n.b)] = n.op == SolidOp::subtract ? -side[i] : side[i];
+            continue;
+        }
+        if (!sharp_[std::size_t(n.a)]) {
+            all.push_back({n.a, -1, side[i]});
+            continue;
+        }
+        const DensityTree& density = solid_.leaves[std::size_t(n.a)].density;
+        side_of_part.assign(density.nodes.size(), side[i]);
+        for (std::size_t j = density.nodes.size(); j-- > 0;) {
+            const TreeNode& part = density.nodes[j];
+            if (part.op == Op::half_space) all.push_back({n.a, part.a, side_of_part[j]});
+            if (part.op == Op::half_space || part.op == Op::constant) continue;
+            side_of_part[std::size_t(part.a)] = part.op == Op::complement ? -side_of_part[j] : side_of_part[j];
+            if (part.b >= 0) side_of_part[std::size_t(part.b)] = part.op == Op::difference ? -side_of_part[j] : side_of_part[j];
+        }
+    }
+    return all;
+}
+
+Offset SurfaceOffset::piece_at(const SurfacePiece& piece, Vec3 x) const {
+    Offset o;
+    if (piece.plane < 0) {
+        o = leaf_at(std::size_t(piece.leaf), x);
+    } else {
+        const HalfSpace& h = solid_.leaves[std::size_t(piece.leaf)].density.half_spaces[std::size_t(piece.plane)];
+        o = {-h.distance(x), h.normal, piece.leaf, piece.plane};
+    }
+    return piece.side < 0 ? negated(o) : o;
 }
 
 Offset SurfaceOffset::at(Vec3 x) const {
@@ -119,8 +158,10 @@ std::size_t SurfaceOffset::half_spaces() const {
     return count;
 }
 
-OffsetField::OffsetField(const SolidTree& solid, const Box& box)
-    : root_(std::make_unique<Node>(Node{box, SurfaceOffset(solid), 0, {}})) {}
+// A surface in the wall between two boxes must be seen from both.
+OffsetField::OffsetField(const SolidTree& solid, const Box& box, double margin)
+    : root_(std::make_unique<Node>(Node{box, SurfaceOffset(solid), 0, {}})),
+      margin_(std::max(margin, 1e-6 * glm::length(box.hi - box.lo))) {}
 
 double OffsetField::distance_along_normal(Vec3 x, double reach) const {
     return search_along_normal(*this, x, reach);
@@ -135,14 +176,13 @@ const SurfaceOffset& OffsetField::near(Vec3 x) const {
     while (node->depth < deepest && node->solid.half_spaces() > few) {
         const Vec3 size = node->box.hi - node->box.lo;
         const int axis = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
+        if (size[axis] < 2 * margin_) break;
         const double middle = 0.5 * (node->box.lo[axis] + node->box.hi[axis]);
         std::unique_ptr<Node>& child = node->children[x[axis] > middle];
         if (!child) {
             Box half = node->box;
             (x[axis] > middle ? half.lo : half.hi)[axis] = middle;
-            // A surface in the wall between two boxes must be seen from both.
-            const double margin = 1e-6 * glm::length(root_->box.hi - root_->box.lo);
-            child = std::make_unique<Node>(Node{half, node->solid.within(inflated(half, margin)), node->depth + 1, {}});
+            child = std::make_unique<Node>(Node{half, node->solid.within(inflated(half, margin_)), node->depth + 1, {}});
         }
         node = child.get();
     }

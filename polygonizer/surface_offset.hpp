@@ -15,6 +15,14 @@ struct Offset {
     double distance = 0;  // > 0 inside
     Vec3 normal{0.0};     // unit, outward; 0 where there is none
     int leaf = -1;        // that the surface nearby belongs to
+    int plane = -1;       // of a sharp leaf: which half-space's
+};
+
+/// A part of the surface that is smooth by itself: a leaf, or one half-space of a sharp leaf.
+struct SurfacePiece {
+    int leaf = -1, plane = -1;
+    double side = 1;  // −1: subtracted, so that the piece's outside is the solid's inside
+    bool operator==(const SurfacePiece&) const = default;
 };
 
 /// Not for several threads at once.
@@ -24,6 +32,10 @@ public:
 
     Offset at(Vec3 x) const;
     bool inside(Vec3 x) const { return at(x).distance > 0; }
+    /// All pieces that the surface is made of.
+    std::vector<SurfacePiece> pieces() const;
+    /// The same of one piece alone, as it would be if the solid ended there.
+    Offset piece_at(const SurfacePiece& piece, Vec3 x) const;
     /// Distance from x to the surface along the normal there, by root search no farther than
     /// `reach`; infinity if there is none.
     double distance_along_normal(Vec3 x, double reach) const;
@@ -48,7 +60,9 @@ private:
 /// only what matters near it. Not for several threads at once.
 class OffsetField {
 public:
-    OffsetField(const SolidTree& solid, const Box& box);
+    /// Surfaces that are nearer to a point than `margin` matter there, whether or not it is beyond
+    /// them: what is asked at the middle of a triangle has to see the surface that this stands for.
+    OffsetField(const SolidTree& solid, const Box& box, double margin = 0);
 
     Offset at(Vec3 x) const { return near(x).at(x); }
     bool inside(Vec3 x) const { return at(x).distance > 0; }
@@ -65,6 +79,7 @@ private:
         std::unique_ptr<Node> children[2];
     };
     std::unique_ptr<Node> root_;
+    double margin_;
 };
 
 }  // namespace deburr

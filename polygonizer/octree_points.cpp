@@ -1,0 +1,271 @@
+#include "polygonizer/octree_points.hpp"
+
+#include <algorithm>
+
+namespace deburr {
+namespace {
+
+struct TangentPlane {
+    Vec3 normal;
+    double offset;
+};
+
+// Eigenvectors of a symmetric matrix as columns, eigenvalues in its diagonal (Jacobi).
+Mat3 eigenvectors(Mat3& a) {
+    Mat3 v(1.0);
+    for (int sweep = 0; sweep < 12; ++sweep)
+        for (int p = 0; p < 2; ++p)
+            for (int q = p + 1; q < 3; ++q) {
+                if (a[p][q] == 0) continue;
+                const double theta = 0.5 * (a[q][q] - a[p][p]) / a[p][q];
+                const double t = (theta >= 0 ? 1 : -1) / (std::abs(theta) + std::sqrt(theta * theta + 1));
+                const double c = 1 / std::sqrt(t * t + 1), s = t * c;
+                Mat3 r(1.0);
+                r[p][p] = r[q][q] = c;
+                r[q][p] = s;
+                r[p][q] = -s;
+                a = glm::transpose(r) * a * r;
+                a[p][q] = a[q][p] = 0;
+                v = v * r;
+            }
+    return v;
+}
+
+// The shortest x with the least sum of (n·x − offset)²; directions in which the planes say less than
+// this share of what they say in the clearest are left alone.
+Vec3 nearest_to_all(const std::vector<TangentPlane>& planes, double least_share) {
+    Mat3 a(0.0);
+    Vec3 b(0.0);
+    for (const TangentPlane& p : planes) {
+        a += glm::outerProduct(p.normal, p.normal);
+        b += p.normal * p.offset;
+    }
+    const Mat3 v = eigenvectors(a);
+    const double largest = std::max({a[0][0], a[1][1], a[2][2]});
+    Vec3 x(0.0);
+    for (int k = 0; k < 3; ++k)
+        if (a[k][k] > least_share * largest) x += v[k] * (glm::dot(v[k], b) / a[k][k]);
+    return x;
+}
+
+// A distance below this share of a cell is none.
+constexpr double on_surface = 1e-13;
+// As good as on the surface, where rounding stops Newton's method.
+constexpr double nearly_on_surface = 1e-9;
+constexpr int most_steps = 30;
+
+double size_of(const Box& cell) { return glm::length(cell.hi - cell.lo); }
+
+Vec3 clamped(Vec3 x, const Box& cell) {
+    constexpr double inward = 1e-3;
+    const Vec3 by = inward * (cell.hi - cell.lo);
+    return glm::clamp(x, cell.lo + by, cell.hi - by);
+}
+
+// Where all pieces are 0, by Gauss and Newton's method.
+std::optional<Vec3> meeting_point(const SurfaceOffset& solid, const std::vector<SurfacePiece>& pieces, Vec3 x, const Box& within) {
+    // Two tangent planes that bend by 1° share all but this much of what they say.
+    constexpr double least_share = 1e-5;
+    const double size = size_of(within);
+    std::vector<TangentPlane> planes(pieces.size());
+    for (int step = 0; step < most_steps; ++step) {
+        double farthest = 0;
+        for (std::size_t k = 0; k < pieces.size(); ++k) {
+            const Offset o = solid.piece_at(pieces[k], x);
+            if (!std::isfinite(o.distance) || o.normal == Vec3(0.0)) return std::nullopt;
+            planes[k] = {o.normal, o.distance};
+            farthest = std::max(farthest, std::abs(o.distance));
+        }
+        if (farthest < on_surface * size) break;
+        if (step + 1 == most_steps && farthest > nearly_on_surface * size) return std::nullopt;
+        x += nearest_to_all(planes, least_share);
+        if (!inflated(within, size).contains(x)) return std::nullopt;
+    }
+    if (!within.contains(x) || !(std::abs(solid.at(x).distance) < nearly_on_surface * size)) return std::nullopt;
+    return x;
+}
+
+bool is_hard(const std::vector<Facet>& facets, double hard_cosine) {
+    for (std::size_t i = 0; i < facets.size(); ++i)
+        for (std::size_t j = 0; j < i; ++j)
+            if (glm::dot(facets[i].normal, facets[j].normal) < hard_cosine) return true;
+    return false;
+}
+
+std::optional<SurfacePoint> hard_point(const SurfaceOffset& solid, const std::vector<SurfacePiece>& pieces, Vec3 from,
+                                       const Box& within, double hard_cosine) {
+    const auto x = meeting_point(solid, pieces, from, within);
+    if (!x) return std::nullopt;
+    SurfacePoint point{*x, {}};
+    for (const SurfacePiece& p : pieces) point.facets.push_back({solid.piece_at(p, *x).normal, solid.material(p.leaf)});
+    if (!is_hard(point.facets, hard_cosine)) return std::nullopt;
+    return point;
+}
+
+// The surface's pieces at the crossings, each once.
+struct Seen {
+    std::vector<SurfacePiece> pieces;
+    std::vector<Facet> facets;  // of the crossings
+    std::vector<TangentPlane> planes;
+};
+
+void see(const SurfaceOffset& solid, Vec3 x, Vec3 origin, Seen& seen) {
+    const Offset o = solid.at(x);
+    if (o.leaf < 0 || o.normal == Vec3(0.0)) return;
+    SurfacePiece piece{o.leaf, o.plane, 1};
+    if (glm::dot(solid.piece_at(piece, x).normal, o.normal) < 0) piece.side = -1;
+    if (std::find(seen.pieces.begin(), seen.pieces.end(), piece) == seen.pieces.end()) seen.pieces.push_back(piece);
+    seen.facets.push_back({o.normal, solid.material(o.leaf)});
+    seen.planes.push_back({o.normal, glm::dot(o.normal, x - origin)});
+}
+
+// From x in the cell to the surface, by Newton's method; if that leads out of the cell, straight to
+// the nearest end of a crossing on the other side.
+Vec3 taken_to_surface(const SurfaceOffset& solid, const Box& cell, const std::vector<CrossingPoint>& crossings, Vec3 start) {
+    const double size = size_of(cell);
+    Vec3 x = start;
+    for (int step = 0; step < most_steps && cell.contains(x); ++step) {
+        const Offset o = solid.at(x);
+        if (std::abs(o.distance) < on_surface * size) return x;
+        if (!std::isfinite(o.distance) || o.normal == Vec3(0.0)) break;
+        x += o.normal * o.distance;
+    }
+    if (cell.contains(x) && std::abs(solid.at(x).distance) < 10 * on_surface * size) return x;
+    const bool inside = solid.inside(start);
+    Vec3 end = inside ? crossings[0].outside : crossings[0].inside;
+    for (const CrossingPoint& c : crossings) {
+        const Vec3 other = inside ? c.outside : c.inside;
+        if (glm::length(other - start) < glm::length(end - start)) end = other;
+    }
+    return inside ? surface_root(solid, start, end) : surface_root(solid, end, start);
+}
+
+}  // namespace
+
+Vec3 surface_root(const SurfaceOffset& solid, Vec3 inside, Vec3 outside) {
+    // Illinois's method, which keeps the root between its points; halving where it dawdles or a
+    // density is saturated.
+    const Vec3 d = outside - inside;
+    double t0 = 0, t1 = 1;
+    double f0 = solid.at(inside).distance, f1 = solid.at(outside).distance;
+    int last = 0;
+    for (int step = 0; step < 200; ++step) {
+        double t = 0.5 * (t0 + t1);
+        if (std::isfinite(f0) && std::isfinite(f1) && f0 > f1 && step % 4 != 3) t = t0 + (t1 - t0) * (f0 / (f0 - f1));
+        if (t <= t0 || t >= t1) t = 0.5 * (t0 + t1);
+        if (t <= t0 || t >= t1 || t1 - t0 < 2 * epsilon) break;
+        const Vec3 x = inside + d * t;
+        const double f = solid.at(x).distance;
+        if (f == 0) return x;
+        if (f > 0) {
+            t0 = t;
+            f0 = f;
+            if (last == 1) f1 *= 0.5;
+            last = 1;
+        } else {
+            t1 = t;
+            f1 = f;
+            if (last == -1) f0 *= 0.5;
+            last = -1;
+        }
+        if (std::abs(f) < on_surface * glm::length(d)) return x;
+    }
+    return inside + d * (0.5 * (t0 + t1));
+}
+
+SurfacePoint surface_point(const SurfaceOffset& solid, const Box& cell, const std::vector<CrossingPoint>& crossings,
+                           double hard_cosine) {
+    Vec3 mean(0.0), normal(0.0);
+    for (const CrossingPoint& c : crossings) mean += c.position / double(crossings.size());
+    Seen seen;
+    for (const CrossingPoint& c : crossings) see(solid, c.position, mean, seen);
+    Vec3 start = mean;
+    const bool bent = is_hard(seen.facets, hard_cosine);
+    if (bent) {
+        // Below this share of the planes' agreement lies what a hard edge of some 10° leaves open.
+        constexpr double least_share = 0.01;
+        start = clamped(mean + nearest_to_all(seen.planes, least_share), cell);
+        if (seen.pieces.size() > 1) {
+            if (auto corner = hard_point(solid, seen.pieces, start, cell, hard_cosine)) return *corner;
+            std::optional<SurfacePoint> best;
+            for (std::size_t i = 0; i < seen.pieces.size() && seen.pieces.size() > 2; ++i)
+                for (std::size_t j = 0; j < i; ++j)
+                    if (const auto p = hard_point(solid, {seen.pieces[i], seen.pieces[j]}, start, cell, hard_cosine))
+                        if (!best || glm::length(p->position - mean) < glm::length(best->position - mean)) best = p;
+            if (best) return *best;
+        }
+    }
+    SurfacePoint point{taken_to_surface(solid, cell, crossings, start), {}};
+    const Offset o = solid.at(point.position);
+    for (const Facet& f : seen.facets) normal += f.normal;
+    const int material = o.leaf >= 0 ? solid.material(o.leaf) : 0;
+    // A tip faces all ways at once.
+    constexpr double tip = 1e-6;
+    const bool is_tip = bent && seen.pieces.size() == 1 && glm::length(point.position - start) < tip * size_of(cell);
+    if (is_tip) point.facets = seen.facets;
+    else if (o.normal != Vec3(0.0)) point.facets.push_back({o.normal, material});
+    else point.facets.push_back({glm::length(normal) > 0 ? glm::normalize(normal) : Vec3(0, 0, 1), material});
+    return point;
+}
+
+namespace {
+
+std::vector<SurfacePiece> pieces_through(const SurfaceOffset& solid, const std::vector<SurfacePiece>& all, Vec3 x, double tolerance) {
+    std::vector<SurfacePiece> through;
+    for (const SurfacePiece& p : all)
+        if (std::abs(solid.piece_at(p, x).distance) < tolerance) through.push_back(p);
+    return through;
+}
+
+std::vector<SurfacePiece> common(const std::vector<SurfacePiece>& a, const std::vector<SurfacePiece>& b) {
+    std::vector<SurfacePiece> both;
+    for (const SurfacePiece& p : a)
+        if (std::find(b.begin(), b.end(), p) != b.end()) both.push_back(p);
+    return both;
+}
+
+std::optional<SurfacePoint> meeting_near(const SurfaceOffset& solid, Vec3 x, const std::vector<SurfacePiece>& pieces,
+                                         double reach, double hard_cosine) {
+    const auto point = hard_point(solid, pieces, x, {x - Vec3(reach), x + Vec3(reach)}, hard_cosine);
+    return point && glm::length(point->position - x) <= reach ? point : std::nullopt;
+}
+
+// Points on a hard edge are that near to both pieces, in lengths of the edge of the mesh.
+constexpr double on_piece = 1e-7;
+
+}  // namespace
+
+std::optional<SurfacePoint> hard_edge_point(const SurfaceOffset& solid, Vec3 x, Vec3 p, Vec3 q, double reach,
+                                            double hard_cosine) {
+    const auto all = solid.pieces();
+    const double tolerance = on_piece * glm::length(p - q);
+    const auto pieces = common(pieces_through(solid, all, p, tolerance), pieces_through(solid, all, q, tolerance));
+    return pieces.size() == 2 ? meeting_near(solid, x, pieces, reach, hard_cosine) : std::nullopt;
+}
+
+std::optional<SurfacePoint> cut_off_point(const SurfaceOffset& solid, const std::vector<Vec3>& points, Vec3 x, double hard_cosine) {
+    const auto all = solid.pieces();
+    double apart = 0;
+    for (const Vec3 point : points) apart = std::max(apart, glm::length(point - points[0]));
+    std::vector<std::vector<SurfacePiece>> through;
+    std::vector<SurfacePiece> any, every;
+    for (const Vec3 point : points) {
+        through.push_back(pieces_through(solid, all, point, on_piece * apart));
+        every = through.size() == 1 ? through[0] : common(every, through.back());
+        for (const SurfacePiece& p : through.back())
+            if (std::find(any.begin(), any.end(), p) == any.end()) any.push_back(p);
+    }
+    if (!every.empty()) return std::nullopt;
+    if (any.size() == points.size() || any.size() == 3)
+        if (const auto point = meeting_near(solid, x, any, apart, hard_cosine)) return point;
+    if (points.size() != 2) return std::nullopt;
+    std::optional<SurfacePoint> best;
+    for (const SurfacePiece& a : through[0])
+        for (const SurfacePiece& b : through[1]) {
+            const auto point = meeting_near(solid, x, {a, b}, apart, hard_cosine);
+            if (point && (!best || glm::length(point->position - x) < glm::length(best->position - x))) best = point;
+        }
+    return best;
+}
+
+}  // namespace deburr
