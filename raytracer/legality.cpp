@@ -19,7 +19,7 @@ public:
     explicit Suspects(const std::vector<Solid>& solids) {
         for (const Solid& solid : solids)
             for_each_leaf(solid, [&](const Solid& leaf, const Affine& map) {
-                if (seen_.insert(&leaf.node()).second && has_sum(leaf.node().density[0].node())) add(leaf, map);
+                if (!leaf.node().field && seen_.insert(&leaf.node()).second && has_sum(leaf.node().density[0].node())) add(leaf, map);
             });
     }
 

@@ -103,7 +103,7 @@ int SolidForms::base(const Solid& root) {
             }
         },
         [&](const Solid& s) {
-            std::string key = key_of(s.node().kind);
+            std::string key = key_of(s.node().kind, s.node().field.get());
             for (const Solid& child : s.node().children) {
                 const PlacedForm part = of(child);
                 key += key_of(part.form, part.map, part.material);

@@ -2,7 +2,8 @@
 //
 // A scene may use one value a thousand times, or call a function that makes an equal one each time;
 // either way it is one form with many placements. Placements are peeled off, also those of a density
-// below its rounding where they are rigid, for rounding does not see these.
+// below its rounding where they are rigid, for rounding does not see these. Fields are equal if they are
+// one value.
 #pragma once
 #include <string>
 #include <unordered_map>
@@ -39,7 +40,7 @@ private:
     std::unordered_map<const void*, int> known_solids_, known_densities_;
 };
 
-/// Calls visit(leaf, placement) for every rounded density of the solid, from left to right.
+/// Calls visit(leaf, placement) for every rounded density and field of the solid, from left to right.
 template <class Visit>
 void for_each_leaf(const Solid& root, Visit visit) {
     std::vector<std::pair<const Solid*, Affine>> open{{&root, {}}};
@@ -47,7 +48,7 @@ void for_each_leaf(const Solid& root, Visit visit) {
         const auto [solid, map] = open.back();
         open.pop_back();
         const SolidNode& node = solid->node();
-        if (node.kind == SolidNode::Kind::rounded) {
+        if (node.children.empty()) {
             visit(*solid, map);
             continue;
         }
