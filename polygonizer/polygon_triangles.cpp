@@ -115,32 +115,46 @@ std::vector<std::array<int, 3>> triangles_of(const std::vector<std::vector<int>>
 
     std::vector<std::array<int, 3>> out;
     constexpr std::size_t large = 400;  // corners beyond which the first good ear is taken
-    while (ring.size() > 3) {
+    // An ear holds no other corner. Where the polygon touches itself, corners lie on the sides of
+    // every ear: then none within has to do.
+    const auto best_ear = [&](bool sides_too) {
         const std::size_t n = ring.size();
         std::size_t best = n;
-        double best_shape = 0, best_any_shape = -infinity;
-        std::size_t best_any = 0;
+        double best_shape = 0;
         for (std::size_t k = 0; k < n; ++k) {
             const Point &a = ring[(k + n - 1) % n], &b = ring[k], &c = ring[(k + 1) % n];
             if (a.vertex == c.vertex) continue;
             const double s = shape(a, b, c);
-            if (s > best_any_shape) {
-                best_any_shape = s;
-                best_any = k;
-            }
             if (s <= best_shape || s < 1e-9) continue;
             bool empty = true;
             for (std::size_t j = 0; j < n && empty; ++j) {
                 const Point& p = ring[j];
                 if (p.vertex == a.vertex || p.vertex == b.vertex || p.vertex == c.vertex) continue;
-                empty = cross(a, b, p) < 0 || cross(b, c, p) < 0 || cross(c, a, p) < 0;
+                const double inner = std::min({cross(a, b, p), cross(b, c, p), cross(c, a, p)});
+                empty = sides_too ? inner < 0 : inner <= 0;
             }
             if (!empty) continue;
             best = k;
             best_shape = s;
             if (n > large && s > 0.1) break;
         }
-        if (best == n) best = best_any;
+        return best;
+    };
+    while (ring.size() > 3) {
+        const std::size_t n = ring.size();
+        std::size_t best = best_ear(true);
+        if (best == n) best = best_ear(false);
+        if (best == n) {
+            double best_shape = -infinity;
+            best = 0;
+            for (std::size_t k = 0; k < n; ++k) {
+                const Point &a = ring[(k + n - 1) % n], &b = ring[k], &c = ring[(k + 1) % n];
+                const double s = shape(a, b, c);
+                if (a.vertex == c.vertex || s <= best_shape) continue;
+                best_shape = s;
+                best = k;
+            }
+        }
         out.push_back({ring[(best + n - 1) % n].vertex, ring[best].vertex, ring[(best + 1) % n].vertex});
         ring.erase(ring.begin() + long(best));
     }

@@ -24,6 +24,7 @@ struct Shape {
 struct Verdict {
     int wrong = 0;
     double worst = 1, distance = 0;
+    double inverted = 0;  // area that faces inward, twice
 };
 
 class Repair {
@@ -82,6 +83,7 @@ public:
         v.wrong += s.cosine < limit;
         v.worst = std::min(v.worst, s.cosine);
         v.distance = std::max(v.distance, s.distance);
+        if (s.own < 0) v.inverted += glm::length(facets_.area_vector(f.triangle));
     }
     Verdict before(const Change& change) const {
         Verdict v;
@@ -160,7 +162,11 @@ public:
         const auto offer = [&](std::optional<Change> change, std::size_t& count) {
             if (!change) return;
             const Verdict was = before(*change), is = after(*change);
-            if (is.wrong >= was.wrong || is.distance > std::max(2 * was.distance, 1e-3 * longest)) return;
+            // In a plane a fold may have to be unrolled flip by flip.
+            const bool unrolls = is.wrong == was.wrong && &count == &statistics.flips &&
+                                 facets_.at(f).origin.leaf < 0 && is.inverted < 0.999 * was.inverted;
+            if (is.wrong >= was.wrong && !unrolls) return;
+            if (is.distance > std::max(2 * was.distance, 1e-3 * longest)) return;
             const int gain = was.wrong - is.wrong;
             if (best && (gain < best_gain || (gain == best_gain && is.worst <= best_worst))) return;
             best = std::move(change);
@@ -215,6 +221,31 @@ public:
 
     bool on_surface(Vec3 x) const { return std::abs(solid_.at(x).distance) <= 10 * surfaces_.slack(); }
 
+    // To the gradients where the vertex now is.
+    void turn_normals(int v) {
+        for (const int f : facets_.around(v)) {
+            const Facet& facet = facets_.at(f);
+            if (facet.origin.leaf < 0) continue;
+            const int k = facet.triangle.normal[std::size_t(facets_.place(f, v))];
+            const Vec3 old = facets_.normal(k), n = surfaces_.at(piece(facet), facets_.position(v)).normal;
+            if (n != Vec3(0.0)) facets_.set_normal(k, glm::dot(n, old) < 0 ? -n : n);
+        }
+    }
+
+    // Where surfaces run closer together than chords are to them, one is as good as the other.
+    bool onto_solid(Vec3& x, double reach) const {
+        const Vec3 start = x;
+        constexpr int steps = 30;
+        for (int k = 0; k < steps; ++k) {
+            const Offset o = solid_.at(x);
+            if (!std::isfinite(o.distance)) return false;
+            x += o.normal * o.distance;
+            if (!(glm::length(x - start) <= reach)) return false;
+            if (std::abs(o.distance) <= 1e-4 * surfaces_.slack()) return on_surface(x);
+        }
+        return on_surface(x);
+    }
+
     // Vertices beside the surface go to where the surfaces around them meet.
     void mend_vertices(RepairStatistics& statistics) {
         for (int v = 0; v < facets_.vertices(); ++v) {
@@ -229,9 +260,13 @@ public:
                         shortest = std::min(shortest, glm::length(facets_.position(v) - facets_.position(facets_.at(f).triangle.vertex[k])));
             }
             Vec3 x = facets_.position(v);
-            if (!surfaces_.project(x, pieces, shortest)) continue;
-            if (!on_surface(x)) continue;
+            const bool on_seam = surfaces_.project(x, pieces, shortest) && on_surface(x);
+            if (!on_seam) {
+                x = facets_.position(v);
+                if (!onto_solid(x, shortest)) continue;
+            }
             facets_.move(v, x);
+            turn_normals(v);
             ++statistics.moves;
         }
     }

@@ -153,6 +153,7 @@ Mesh triage(const SolidTree& mixed, const Box& box, const TriageOptions& options
         // What repair cannot help needs smaller cells around it.
         ++mending;
         const RepairStatistics repaired = repair(mesh, origins, solid, box);
+        if (getenv("DBG")) fprintf(stderr,"round %zu cells %zu tris %zu left %zu (flips %zu coll %zu split %zu moves %zu)\n",round,subdivision.complex.cells.size(),mesh.triangles.size(),repaired.left.size(),repaired.flips,repaired.collapses,repaired.splits,repaired.moves);
         const bool better = repaired.left.size() < least_left;
         if (better) {
             least_left = repaired.left.size();
