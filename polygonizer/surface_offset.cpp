@@ -41,7 +41,7 @@ Offset sharp_at(const DensityTree& tree, Vec3 x) {
 
 SurfaceOffset::SurfaceOffset(const SolidTree& solid) : solid_(separate_sharp(solid)) {
     for (const SolidLeaf& leaf : solid_.leaves) {
-        bool sharp = true;
+        bool sharp = !leaf.field;
         for (const HalfSpace& h : leaf.density.half_spaces) sharp &= h.radius == 0;
         sharp_.push_back(sharp);
     }
@@ -51,7 +51,7 @@ SurfaceOffset::SurfaceOffset(const SolidTree& solid) : solid_(separate_sharp(sol
 Offset SurfaceOffset::leaf_at(std::size_t leaf, Vec3 x) const {
     Offset o;
     const Field* field = solid_.leaves[leaf].field.get();
-    if (sharp_[leaf] && !field) {
+    if (sharp_[leaf]) {
         o = sharp_at(solid_.leaves[leaf].density, x);
     } else {
         auto& density = densities_[leaf];
