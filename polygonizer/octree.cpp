@@ -47,7 +47,7 @@ public:
     Polygonization(const SolidTree& solid, const Box& box, const OctreeOptions& options, double edge)
         : options_(options), hard_cosine_(std::cos(options.hard_angle * radians)), tree_(solid, box, edge, spare_levels) {}
 
-    Mesh run(OctreeStatistics& statistics) {
+    Mesh run(OctreeStatistics& statistics, std::vector<Origin>& origins) {
         // Each halving of cells quarters distances; what leans still is left to repair.
         for (statistics.rounds = 1;; ++statistics.rounds) {
             linking_ = link(tree_);
@@ -67,7 +67,7 @@ public:
         follow_hard_edges(mesh_, tree_, hard_cosine_);
         statistics.partitions = divide_hard_edges(mesh_, tree_, hard_cosine_);
         for (const SurfacePoint& p : mesh_.points) statistics.hard_points += p.hard();
-        return mesh_.mesh();
+        return mesh_.mesh(origins);
     }
 
 private:
@@ -141,8 +141,7 @@ private:
             const double distance = solid.distance_along_normal(middle, reach);
             SurfacePoint p{a.position, {}};
             if (std::isfinite(distance)) p.position = middle + o.normal * (o.distance > 0 ? distance : -distance);
-            const Offset there = solid.at(p.position);
-            p.facets.push_back({there.normal, there.leaf < 0 ? 0 : solid.material(there.leaf)});
+            p.faces.push_back(face_of(solid, solid.at(p.position)));
             mesh_.points.push_back(p);
         }
         crossing_of_.clear();
@@ -173,9 +172,9 @@ private:
         if (diagonals_.insert(std::minmax(q[0], q[2])).second) return;
         // Neither is free: the crossing itself is a point between them.
         const SurfaceOffset& solid = tree_.solid(crossings_[std::size_t(crossing)].position);
-        const Offset o = solid.at(crossings_[std::size_t(crossing)].position);
         const int middle = int(mesh_.points.size());
-        mesh_.points.push_back({crossings_[std::size_t(crossing)].position, {{o.normal, o.leaf < 0 ? 0 : solid.material(o.leaf)}}});
+        const Vec3 x = crossings_[std::size_t(crossing)].position;
+        mesh_.points.push_back({x, {face_of(solid, solid.at(x))}});
         q = {middle, q[0], q[1], q[2], q[3], q[0]};
     }
 
@@ -198,7 +197,7 @@ private:
         for (const int v : t) {
             const SurfacePoint& p = mesh_.points[std::size_t(v)];
             if (p.hard()) return -1;
-            least = std::min(least, glm::dot(area, p.facets[0].normal));
+            least = std::min(least, glm::dot(area, p.faces[0].normal));
         }
         return least / std::max(glm::length(area), std::numeric_limits<double>::min());
     }
@@ -299,10 +298,12 @@ Mesh octree(const SolidTree& mixed, const Box& box, const OctreeOptions& options
     if (solid.leaves.empty()) return {};
     if (!is_within(bounding_box(solid), box)) solid = cut_off(std::move(solid), box);
     const double edge = options.edge > 0 ? options.edge : octree_edge(solid, box);
+    SolidTree numbered = solid;
+    for (std::size_t k = 0; k < numbered.leaves.size(); ++k) numbered.leaves[k].line = int(k);
     OctreeStatistics own;
-    Mesh mesh = Polygonization(solid, box, options, edge).run(statistics ? *statistics : own);
-    const OffsetField offset(solid, box, edge);
-    repair(mesh, offset);
+    std::vector<Origin> origins;
+    Mesh mesh = Polygonization(numbered, box, options, edge).run(statistics ? *statistics : own, origins);
+    repair(mesh, origins, solid, box);
     check(mesh);
     return mesh;
 }

@@ -76,9 +76,9 @@ public:
 private:
     bool bends(int p, int q) const {
         const SurfacePoint &a = mesh_.point(p), &b = mesh_.point(q);
-        if (a.facets.size() == 1 && b.facets.size() == 1) return glm::dot(a.facets[0].normal, b.facets[0].normal) < hard_cosine_;
-        for (const Facet& f : a.facets)
-            for (const Facet& g : b.facets)
+        if (a.faces.size() == 1 && b.faces.size() == 1) return glm::dot(a.faces[0].normal, b.faces[0].normal) < hard_cosine_;
+        for (const Face& f : a.faces)
+            for (const Face& g : b.faces)
                 if (glm::dot(f.normal, g.normal) >= hard_cosine_) return false;
         return true;
     }
@@ -86,10 +86,10 @@ private:
     // Calls `accept` with the normals of the faces that all points of the triangle lie on.
     template <class Accept>
     bool any_face(const Corners& t, Accept accept) const {
-        for (const Facet& f : mesh_.point(t[0]).facets) {
-            const auto faces = [&](const Facet& g) { return glm::dot(f.normal, g.normal) >= hard_cosine_; };
-            const auto &second = mesh_.point(t[1]).facets, &third = mesh_.point(t[2]).facets;
-            if (std::any_of(second.begin(), second.end(), faces) && std::any_of(third.begin(), third.end(), faces) && accept(f.normal))
+        for (const Face& f : mesh_.point(t[0]).faces) {
+            const auto alike = [&](const Face& g) { return glm::dot(f.normal, g.normal) >= hard_cosine_; };
+            const auto &second = mesh_.point(t[1]).faces, &third = mesh_.point(t[2]).faces;
+            if (std::any_of(second.begin(), second.end(), alike) && std::any_of(third.begin(), third.end(), alike) && accept(f.normal))
                 return true;
         }
         return false;
@@ -150,10 +150,10 @@ private:
 
     // Whether a point, which is a corner then, lies on all faces of another and on more.
     bool lies_on_all(const SurfacePoint& corner, const SurfacePoint& other) const {
-        return corner.facets.size() > other.facets.size() &&
-               std::all_of(other.facets.begin(), other.facets.end(), [&](const Facet& f) {
-                   return std::any_of(corner.facets.begin(), corner.facets.end(),
-                                      [&](const Facet& g) { return glm::dot(f.normal, g.normal) >= hard_cosine_; });
+        return corner.faces.size() > other.faces.size() &&
+               std::all_of(other.faces.begin(), other.faces.end(), [&](const Face& f) {
+                   return std::any_of(corner.faces.begin(), corner.faces.end(),
+                                      [&](const Face& g) { return glm::dot(f.normal, g.normal) >= hard_cosine_; });
                });
     }
 

@@ -63,7 +63,7 @@ Vec3 clamped(Vec3 x, const Box& cell) {
 }
 
 // Where all pieces are 0, by Gauss and Newton's method.
-std::optional<Vec3> meeting_point(const SurfaceOffset& solid, const std::vector<SurfacePiece>& pieces, Vec3 x, const Box& within) {
+std::optional<Vec3> meeting_point(const SurfaceOffset& solid, const std::vector<SmoothPiece>& pieces, Vec3 x, const Box& within) {
     // Two tangent planes that bend by 1° share all but this much of what they say.
     constexpr double least_share = 1e-5;
     const double size = size_of(within);
@@ -85,37 +85,37 @@ std::optional<Vec3> meeting_point(const SurfaceOffset& solid, const std::vector<
     return x;
 }
 
-bool is_hard(const std::vector<Facet>& facets, double hard_cosine) {
-    for (std::size_t i = 0; i < facets.size(); ++i)
+bool is_hard(const std::vector<Face>& faces, double hard_cosine) {
+    for (std::size_t i = 0; i < faces.size(); ++i)
         for (std::size_t j = 0; j < i; ++j)
-            if (glm::dot(facets[i].normal, facets[j].normal) < hard_cosine) return true;
+            if (glm::dot(faces[i].normal, faces[j].normal) < hard_cosine) return true;
     return false;
 }
 
-std::optional<SurfacePoint> hard_point(const SurfaceOffset& solid, const std::vector<SurfacePiece>& pieces, Vec3 from,
+std::optional<SurfacePoint> hard_point(const SurfaceOffset& solid, const std::vector<SmoothPiece>& pieces, Vec3 from,
                                        const Box& within, double hard_cosine) {
     const auto x = meeting_point(solid, pieces, from, within);
     if (!x) return std::nullopt;
     SurfacePoint point{*x, {}};
-    for (const SurfacePiece& p : pieces) point.facets.push_back({solid.piece_at(p, *x).normal, solid.material(p.leaf)});
-    if (!is_hard(point.facets, hard_cosine)) return std::nullopt;
+    for (const SmoothPiece& p : pieces) point.faces.push_back(face_of(solid, solid.piece_at(p, *x)));
+    if (!is_hard(point.faces, hard_cosine)) return std::nullopt;
     return point;
 }
 
 // The surface's pieces at the crossings, each once.
 struct Seen {
-    std::vector<SurfacePiece> pieces;
-    std::vector<Facet> facets;  // of the crossings
+    std::vector<SmoothPiece> pieces;
+    std::vector<Face> faces;  // of the crossings
     std::vector<TangentPlane> planes;
 };
 
 void see(const SurfaceOffset& solid, Vec3 x, Vec3 origin, Seen& seen) {
     const Offset o = solid.at(x);
     if (o.leaf < 0 || o.normal == Vec3(0.0)) return;
-    SurfacePiece piece{o.leaf, o.plane, 1};
+    SmoothPiece piece{o.leaf, o.plane, 1};
     if (glm::dot(solid.piece_at(piece, x).normal, o.normal) < 0) piece.side = -1;
     if (std::find(seen.pieces.begin(), seen.pieces.end(), piece) == seen.pieces.end()) seen.pieces.push_back(piece);
-    seen.facets.push_back({o.normal, solid.material(o.leaf)});
+    seen.faces.push_back(face_of(solid, o));
     seen.planes.push_back({o.normal, glm::dot(o.normal, x - origin)});
 }
 
@@ -141,6 +141,11 @@ Vec3 taken_to_surface(const SurfaceOffset& solid, const Box& cell, const std::ve
 }
 
 }  // namespace
+
+Face face_of(const SurfaceOffset& solid, const Offset& there) {
+    if (there.leaf < 0) return {there.normal};
+    return {there.normal, solid.material(there.leaf), solid.sharp(there.leaf) ? -1 : solid.line(there.leaf)};
+}
 
 Vec3 surface_root(const SurfaceOffset& solid, Vec3 inside, Vec3 outside) {
     // Illinois's method, which keeps the root between its points; halving where it dawdles or a
@@ -180,7 +185,7 @@ SurfacePoint surface_point(const SurfaceOffset& solid, const Box& cell, const st
     Seen seen;
     for (const CrossingPoint& c : crossings) see(solid, c.position, mean, seen);
     Vec3 start = mean;
-    const bool bent = is_hard(seen.facets, hard_cosine);
+    const bool bent = is_hard(seen.faces, hard_cosine);
     if (bent) {
         // Below this share of the planes' agreement lies what a hard edge of some 10° leaves open.
         constexpr double least_share = 0.01;
@@ -197,34 +202,34 @@ SurfacePoint surface_point(const SurfaceOffset& solid, const Box& cell, const st
     }
     SurfacePoint point{taken_to_surface(solid, cell, crossings, start), {}};
     const Offset o = solid.at(point.position);
-    for (const Facet& f : seen.facets) normal += f.normal;
-    const int material = o.leaf >= 0 ? solid.material(o.leaf) : 0;
+    for (const Face& f : seen.faces) normal += f.normal;
     // A tip faces all ways at once.
     constexpr double tip = 1e-6;
     const bool is_tip = bent && seen.pieces.size() == 1 && glm::length(point.position - start) < tip * size_of(cell);
-    if (is_tip) point.facets = seen.facets;
-    else if (o.normal != Vec3(0.0)) point.facets.push_back({o.normal, material});
-    else point.facets.push_back({glm::length(normal) > 0 ? glm::normalize(normal) : Vec3(0, 0, 1), material});
+    if (is_tip) point.faces = seen.faces;
+    else point.faces.push_back(face_of(solid, o));
+    Vec3& first = point.faces[0].normal;
+    if (first == Vec3(0.0)) first = glm::length(normal) > 0 ? glm::normalize(normal) : Vec3(0, 0, 1);
     return point;
 }
 
 namespace {
 
-std::vector<SurfacePiece> pieces_through(const SurfaceOffset& solid, const std::vector<SurfacePiece>& all, Vec3 x, double tolerance) {
-    std::vector<SurfacePiece> through;
-    for (const SurfacePiece& p : all)
+std::vector<SmoothPiece> pieces_through(const SurfaceOffset& solid, const std::vector<SmoothPiece>& all, Vec3 x, double tolerance) {
+    std::vector<SmoothPiece> through;
+    for (const SmoothPiece& p : all)
         if (std::abs(solid.piece_at(p, x).distance) < tolerance) through.push_back(p);
     return through;
 }
 
-std::vector<SurfacePiece> common(const std::vector<SurfacePiece>& a, const std::vector<SurfacePiece>& b) {
-    std::vector<SurfacePiece> both;
-    for (const SurfacePiece& p : a)
+std::vector<SmoothPiece> common(const std::vector<SmoothPiece>& a, const std::vector<SmoothPiece>& b) {
+    std::vector<SmoothPiece> both;
+    for (const SmoothPiece& p : a)
         if (std::find(b.begin(), b.end(), p) != b.end()) both.push_back(p);
     return both;
 }
 
-std::optional<SurfacePoint> meeting_near(const SurfaceOffset& solid, Vec3 x, const std::vector<SurfacePiece>& pieces,
+std::optional<SurfacePoint> meeting_near(const SurfaceOffset& solid, Vec3 x, const std::vector<SmoothPiece>& pieces,
                                          double reach, double hard_cosine) {
     const auto point = hard_point(solid, pieces, x, {x - Vec3(reach), x + Vec3(reach)}, hard_cosine);
     return point && glm::length(point->position - x) <= reach ? point : std::nullopt;
@@ -247,12 +252,12 @@ std::optional<SurfacePoint> cut_off_point(const SurfaceOffset& solid, const std:
     const auto all = solid.pieces();
     double apart = 0;
     for (const Vec3 point : points) apart = std::max(apart, glm::length(point - points[0]));
-    std::vector<std::vector<SurfacePiece>> through;
-    std::vector<SurfacePiece> any, every;
+    std::vector<std::vector<SmoothPiece>> through;
+    std::vector<SmoothPiece> any, every;
     for (const Vec3 point : points) {
         through.push_back(pieces_through(solid, all, point, on_piece * apart));
         every = through.size() == 1 ? through[0] : common(every, through.back());
-        for (const SurfacePiece& p : through.back())
+        for (const SmoothPiece& p : through.back())
             if (std::find(any.begin(), any.end(), p) == any.end()) any.push_back(p);
     }
     if (!every.empty()) return std::nullopt;
@@ -260,8 +265,8 @@ std::optional<SurfacePoint> cut_off_point(const SurfaceOffset& solid, const std:
         if (const auto point = meeting_near(solid, x, any, apart, hard_cosine)) return point;
     if (points.size() != 2) return std::nullopt;
     std::optional<SurfacePoint> best;
-    for (const SurfacePiece& a : through[0])
-        for (const SurfacePiece& b : through[1]) {
+    for (const SmoothPiece& a : through[0])
+        for (const SmoothPiece& b : through[1]) {
             const auto point = meeting_near(solid, x, {a, b}, apart, hard_cosine);
             if (point && (!best || glm::length(point->position - x) < glm::length(best->position - x))) best = point;
         }

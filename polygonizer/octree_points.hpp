@@ -14,15 +14,19 @@
 
 namespace deburr {
 
-struct Facet {
+struct Face {
     Vec3 normal{0.0};  // unit, outward
     int material = 0;
+    int leaf = -1;     // by its number in the whole solid; −1: a plane
 };
+
+/// The face of a point on the surface, given what SurfaceOffset says there.
+Face face_of(const SurfaceOffset& solid, const Offset& there);
 
 struct SurfacePoint {
     Vec3 position{0.0};
-    std::vector<Facet> facets;  // one: smooth; more: on a hard edge or a corner
-    bool hard() const { return facets.size() > 1; }
+    std::vector<Face> faces;  // one: smooth; more: on a hard edge or a corner
+    bool hard() const { return faces.size() > 1; }
 };
 
 /// One end inside, one outside, and the surface between them.
@@ -33,7 +37,7 @@ struct CrossingPoint {
 /// The root between two points of which one is inside and the other is not.
 Vec3 surface_root(const SurfaceOffset& solid, Vec3 inside, Vec3 outside);
 
-/// The point of the sheet that passes `cell` in these crossings; in the cell, always. Facets that
+/// The point of the sheet that passes `cell` in these crossings; in the cell, always. Faces that
 /// bend by no more than acos(hard_cosine) are one.
 SurfacePoint surface_point(const SurfaceOffset& solid, const Box& cell, const std::vector<CrossingPoint>& crossings,
                            double hard_cosine);

@@ -38,30 +38,34 @@ void PointMesh::divide(int triangle, SurfacePoint point) {
     triangles.push_back({t[2], t[0], v});
 }
 
-Mesh PointMesh::mesh() const {
+Mesh PointMesh::mesh(std::vector<Origin>& origins) const {
     Mesh mesh;
+    origins.clear();
     std::vector<int> first_normal;
     for (const SurfacePoint& p : points) {
         mesh.positions.push_back(p.position);
         first_normal.push_back(int(mesh.normals.size()));
-        for (const Facet& f : p.facets) mesh.normals.push_back(f.normal);
+        for (const Face& f : p.faces) mesh.normals.push_back(f.normal);
     }
     for (const Corners& t : triangles) {
         Triangle triangle{t, {}};
+        int leaf = -1;
         const Vec3 area = area_vector(t);
         std::size_t fewest = std::numeric_limits<std::size_t>::max();
         for (std::size_t k = 0; k < 3; ++k) {
-            const auto& facets = point(t[k]).facets;
+            const auto& faces = point(t[k]).faces;
             std::size_t best = 0;
-            for (std::size_t f = 1; f < facets.size(); ++f)
-                if (glm::dot(area, facets[f].normal) > glm::dot(area, facets[best].normal)) best = f;
+            for (std::size_t f = 1; f < faces.size(); ++f)
+                if (glm::dot(area, faces[f].normal) > glm::dot(area, faces[best].normal)) best = f;
             triangle.normal[k] = first_normal[std::size_t(t[k])] + int(best);
-            if (facets.size() < fewest) {
-                fewest = facets.size();
-                triangle.material = facets[best].material;
+            if (faces.size() < fewest) {
+                fewest = faces.size();
+                triangle.material = faces[best].material;
+                leaf = faces[best].leaf;
             }
         }
         mesh.triangles.push_back(triangle);
+        origins.push_back(leaf < 0 ? Origin{} : Origin{0, leaf});
     }
     mesh.polygons = polygons;
     return mesh;

@@ -2,7 +2,7 @@
 #pragma once
 #include <array>
 
-#include "polygonizer/mesh.hpp"
+#include "polygonizer/facets.hpp"
 #include "polygonizer/octree_points.hpp"
 
 namespace deburr {
@@ -42,7 +42,8 @@ struct PointMesh {
     void divide(int triangle, SurfacePoint point);
 
     /// Every corner of a triangle takes the normal, of those at its point, that suits it best.
-    Mesh mesh() const;
+    /// `origins` tells the leaf of each triangle; its cell is 0, or both are −1 on a plane.
+    Mesh mesh(std::vector<Origin>& origins) const;
 
 private:
     struct Directed {

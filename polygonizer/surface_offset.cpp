@@ -65,8 +65,8 @@ Offset SurfaceOffset::leaf_at(std::size_t leaf, Vec3 x) const {
     return o;
 }
 
-std::vector<SurfacePiece> SurfaceOffset::pieces() const {
-    std::vector<SurfacePiece> all;
+std::vector<SmoothPiece> SurfaceOffset::pieces() const {
+    std::vector<SmoothPiece> all;
     std::vector<double> side(solid_.nodes.size(), 1), side_of_part;
     for (std::size_t i = solid_.nodes.size(); i-- > 0;) {
         const SolidTreeNode& n = solid_.nodes[i];
@@ -76,7 +76,7 @@ std::vector<SurfacePiece> SurfaceOffset::pieces() const {
             side[std::size_t(n.b)] = n.op == SolidOp::subtract ? -side[i] : side[i];
             continue;
         }
-        if (!sharp_[std::size_t(n.a)]) {
+        if (!sharp(n.a)) {
             all.push_back({n.a, -1, side[i]});
             continue;
         }
@@ -85,7 +85,7 @@ std::vector<SurfacePiece> SurfaceOffset::pieces() const {
         for (std::size_t j = density.nodes.size(); j-- > 0;) {
             const TreeNode& part = density.nodes[j];
             if (part.op == Op::half_space) all.push_back({n.a, part.a, side_of_part[j]});
-            if (part.op == Op::half_space || part.op == Op::constant) continue;
+            if (part.a < 0 || part.op == Op::half_space) continue;
             side_of_part[std::size_t(part.a)] = part.op == Op::complement ? -side_of_part[j] : side_of_part[j];
             if (part.b >= 0) side_of_part[std::size_t(part.b)] = part.op == Op::difference ? -side_of_part[j] : side_of_part[j];
         }
@@ -93,7 +93,7 @@ std::vector<SurfacePiece> SurfaceOffset::pieces() const {
     return all;
 }
 
-Offset SurfaceOffset::piece_at(const SurfacePiece& piece, Vec3 x) const {
+Offset SurfaceOffset::piece_at(const SmoothPiece& piece, Vec3 x) const {
     Offset o;
     if (piece.plane < 0) {
         o = leaf_at(std::size_t(piece.leaf), x);

@@ -18,11 +18,11 @@ struct Offset {
     int plane = -1;       // of a sharp leaf: which half-space's
 };
 
-/// A part of the surface that is smooth by itself: a leaf, or one half-space of a sharp leaf.
-struct SurfacePiece {
+/// A part of the surface that is smooth by itself: a rounded leaf, a field, or one half-space of a sharp leaf.
+struct SmoothPiece {
     int leaf = -1, plane = -1;
     double side = 1;  // −1: subtracted, so that the piece's outside is the solid's inside
-    bool operator==(const SurfacePiece&) const = default;
+    bool operator==(const SmoothPiece&) const = default;
 };
 
 /// Not for several threads at once.
@@ -33,9 +33,9 @@ public:
     Offset at(Vec3 x) const;
     bool inside(Vec3 x) const { return at(x).distance > 0; }
     /// All pieces that the surface is made of.
-    std::vector<SurfacePiece> pieces() const;
+    std::vector<SmoothPiece> pieces() const;
     /// The same of one piece alone, as it would be if the solid ended there.
-    Offset piece_at(const SurfacePiece& piece, Vec3 x) const;
+    Offset piece_at(const SmoothPiece& piece, Vec3 x) const;
     /// Distance from x to the surface along the normal there, by root search no farther than
     /// `reach`; infinity if there is none.
     double distance_along_normal(Vec3 x, double reach) const;
@@ -45,6 +45,9 @@ public:
     double decided(const Box& box) const;
 
     int material(int leaf) const { return solid_.leaves[std::size_t(leaf)].material; }
+    /// The line of the scene that wrote the leaf, or what was put in its place.
+    int line(int leaf) const { return solid_.leaves[std::size_t(leaf)].line; }
+    bool sharp(int leaf) const { return sharp_[std::size_t(leaf)] && !solid_.leaves[std::size_t(leaf)].field; }
     std::size_t half_spaces() const;
 
 private:
