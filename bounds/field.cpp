@@ -50,14 +50,9 @@ public:
         const Box box = inner_->bounding_box();
         return box.empty() ? box : outward(map_, box);
     }
-    double reach() const override {
-        const double r = inner_->reach();
-        double most = 0;
-        for (int row = 0; row < 3; ++row)
-            most = std::max(most, std::abs(map_.shift[row]) + r * (std::abs(map_.linear[0][row]) +
-                                                                   std::abs(map_.linear[1][row]) +
-                                                                   std::abs(map_.linear[2][row])));
-        return most;
+    Box extent() const override {
+        const Box box = inner_->extent();
+        return box.empty() ? box : outward(map_, box);
     }
     FieldPtr prune(const Box& box) const override {
         FieldPtr left = inner_->prune(outward(inverse_, box));
@@ -94,15 +89,6 @@ bool finite(const Affine& map) {
 }
 
 }  // namespace
-
-double Field::reach() const {
-    double most = 0;
-    const Box box = bounding_box();
-    for (int k = 0; k < 3; ++k)
-        for (const double side : {box.lo[k], box.hi[k]})
-            if (std::isfinite(side)) most = std::max(most, std::abs(side));
-    return most;
-}
 
 FieldPtr transformed(const FieldPtr& field, const Affine& map) {
     const Mat3 inverse = glm::inverse(map.linear);

@@ -30,8 +30,9 @@ public:
     virtual Range range(const Box& box) const = 0;
     /// Holds the set f > 0; sides may be infinite.
     virtual Box bounding_box() const = 0;
-    /// How far from the origin there is anything to see of an unbounded set.
-    virtual double reach() const;
+    /// A finite box around what there is to see of an unbounded set, besides its continuation to
+    /// infinity; if bounded, its bounding box. Costs are weighed by it, nothing else.
+    virtual Box extent() const { return bounding_box(); }
 
     /// A field whose f has the same sign throughout the box, made of no more than matters there;
     /// null: this one.

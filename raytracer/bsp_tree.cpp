@@ -65,7 +65,8 @@ public:
                 for (const HalfSpace& h : leaf.density.half_spaces) reach = std::max(reach, std::abs(h.offset));
                 if (!leaf.field) continue;
                 bsp_.half_spaces += std::size_t(leaf.field->size());
-                reach = std::max(reach, leaf.field->reach());
+                const Box extent = leaf.field->extent();
+                if (extent.finite() && !extent.empty()) bounds = hull(bounds, extent);
             }
             const Box box = bounding_box(*tree);
             if (box.empty()) continue;

@@ -85,7 +85,7 @@ Vec3 unit(Vec3 v) {
     return without_negative_zero(v / glm::length(v));
 }
 
-HalfSpace touching(Vec3 normal, const std::vector<Vec3>& points) {
+HullFace touching(Vec3 normal, const std::vector<Vec3>& points) {
     double offset = -infinity;
     for (Vec3 p : points) offset = glm::max(offset, glm::dot(normal, p));
     return {normal, offset + 0.0};
@@ -93,7 +93,7 @@ HalfSpace touching(Vec3 normal, const std::vector<Vec3>& points) {
 
 }  // namespace
 
-std::vector<HalfSpace> convex_hull(std::vector<Vec3> points) {
+std::vector<HullFace> convex_hull(std::vector<Vec3> points) {
     for (Vec3& p : points) p = without_negative_zero(p);
     std::sort(points.begin(), points.end(), before);
     points.erase(std::unique(points.begin(), points.end()), points.end());
@@ -110,7 +110,7 @@ std::vector<HalfSpace> convex_hull(std::vector<Vec3> points) {
         throw std::runtime_error(
             "expected points that span a volume, got points too nearly in one plane");
 
-    std::vector<HalfSpace> faces;
+    std::vector<HullFace> faces;
     const facetT* facet = nullptr;
     FORALLfacets {
         std::vector<Vec3> corners;
@@ -124,12 +124,12 @@ std::vector<HalfSpace> convex_hull(std::vector<Vec3> points) {
         if (glm::length(normal) == 0) continue;
         faces.push_back(touching(unit(glm::dot(normal, outward) < 0 ? -normal : normal), corners));
     }
-    std::sort(faces.begin(), faces.end(), [](const HalfSpace& a, const HalfSpace& b) {
+    std::sort(faces.begin(), faces.end(), [](const HullFace& a, const HullFace& b) {
         return a.normal != b.normal ? before(a.normal, b.normal) : a.offset < b.offset;
     });
-    std::vector<HalfSpace> merged;
-    for (const HalfSpace& face : faces) {
-        const auto same = [&](const HalfSpace& other) {
+    std::vector<HullFace> merged;
+    for (const HullFace& face : faces) {
+        const auto same = [&](const HullFace& other) {
             return glm::distance(face.normal, other.normal) < flatness &&
                    std::abs(face.offset - other.offset) < flatness * size;
         };
@@ -143,7 +143,7 @@ std::vector<HalfSpace> convex_hull(std::vector<Vec3> points) {
     return merged;
 }
 
-std::vector<HalfSpace> prism(std::vector<glm::dvec2> polygon, double y0, double y1) {
+std::vector<HullFace> prism(std::vector<glm::dvec2> polygon, double y0, double y1) {
     if (!(y0 < y1))
         throw std::runtime_error(fmt::format("expected y0 < y1, got {} and {}", y0, y1));
     polygon.erase(std::unique(polygon.begin(), polygon.end()), polygon.end());
@@ -171,7 +171,7 @@ std::vector<HalfSpace> prism(std::vector<glm::dvec2> polygon, double y0, double 
                          [](auto a, auto b) { return std::tie(a.x, a.y) < std::tie(b.x, b.y); }),
         polygon.end());
 
-    std::vector<HalfSpace> faces{{Vec3(0, 1, 0), y1}, {Vec3(0, -1, 0), -y0 + 0.0}};
+    std::vector<HullFace> faces{{Vec3(0, 1, 0), y1}, {Vec3(0, -1, 0), -y0 + 0.0}};
     for (std::size_t i = 0; i < n; ++i) {
         const glm::dvec2 a = polygon[i], side = polygon[(i + 1) % n] - a;
         // Convex where no point is outside of any side: this also finds stars, which turn one way.

@@ -10,15 +10,15 @@
 namespace deburr {
 
 /// n·x ≤ d, n unit and outward.
-struct HalfSpace {
+struct HullFace {
     Vec3 normal;
     double offset;
 };
 
 /// The convex hull (by qhull); faces in one plane are one half-space.
-std::vector<HalfSpace> convex_hull(std::vector<Vec3> points);
+std::vector<HullFace> convex_hull(std::vector<Vec3> points);
 
 /// The polygon's points in the plane (x, z), either way round, raised from y = y0 to y1 > y0.
-std::vector<HalfSpace> prism(std::vector<glm::dvec2> polygon, double y0, double y1);
+std::vector<HullFace> prism(std::vector<glm::dvec2> polygon, double y0, double y1);
 
 }  // namespace deburr

@@ -178,24 +178,59 @@ Vec3 unit(Vec3 v) {
 
 }  // namespace
 
+// Cuts [t0, t1] down to where the ray is in the box; false if nothing is left.
+bool clip(const Box& box, Vec3 origin, Vec3 direction, double& t0, double& t1) {
+    for (int k = 0; k < 3; ++k) {
+        const double o = origin[k], d = direction[k];
+        if (d == 0) {
+            if (o < box.lo[k] || o > box.hi[k]) return false;
+            continue;
+        }
+        t0 = std::max(t0, ((d > 0 ? box.lo : box.hi)[k] - o) / d);
+        t1 = std::min(t1, ((d > 0 ? box.hi : box.lo)[k] - o) / d);
+    }
+    return t0 <= t1;
+}
+
 // visit(t, entering, normal) → go on?
 template <class Visit>
 void LocalSolid::field_crossings(const Field& field, Vec3 origin, Vec3 direction, double t0, double t1,
                                  CrossingScratch& scratch, bool* start_inside, Visit visit) const {
     // What is passed over as a mere touch; f is in the ray's unit, of which rounding is all the noise.
     constexpr double faint = 2 * RootFinder::rounding;
-    if (t1 == infinity) t1 = std::clamp(field.settled(origin, direction), t0, std::max(t0, 1e300));
-    scratch.field.set(field, origin, direction, t0, t1);
-    if (start_inside) {
-        ++scratch.counters.roots.evaluations;
-        *start_inside = scratch.field.at(t0).value > RootFinder::rounding;
-    }
-    RootFinder finder({scratch.criterion, 8 * epsilon * (scale_ + t0), faint}, scratch.counters.roots);
-    finder.crossings(scratch.field, t0, t1, [&](Crossing c) {
-        const Vec3 normal = unit(field.at(origin + direction * c.t).gradient);
+    constexpr double farthest = 1e30;  // squares and cubes are far from overflowing there
+    if (start_inside) *start_inside = false;
+    const double start = t0;
+    // The box may touch the surface, which must be crossed before the box is left.
+    const Box box = inflated(field.bounding_box(), Tolerances{scale_}.margin());
+    if (!clip(box, origin, direction, t0, t1)) return;
+    if (t1 == infinity) t1 = std::clamp(field.settled(origin, direction), t0, std::max(t0, farthest));
+    FieldRay& ray = scratch.field;
+    const auto emit = [&](double t, bool entering) {
+        const Vec3 normal = unit(field.at(origin + direction * t).gradient);
         // At a cone's apex there is none: the ray's own will do.
-        return visit(c.t, c.entering, normal == Vec3(0.0) ? direction : normal);
-    });
+        return visit(t, entering, normal == Vec3(0.0) ? direction : normal);
+    };
+    const auto inside_at = [&](double t) {
+        ++scratch.counters.roots.evaluations;
+        return ray.at(t).value > RootFinder::rounding;
+    };
+    // Piece by piece, each no longer than it is away: far from here f may be so large that what is
+    // here would be lost in its rounding.
+    for (double from = t0, to;; from = to) {
+        to = std::min(t1, 2 * from + 4 * scale_);
+        // Where a piece begins, f may have another sign than where the last ended, by rounding.
+        const bool inside = from > t0 && inside_at(from);
+        ray.set(field, origin, direction, from, to);
+        if (from == start) {
+            if (start_inside) *start_inside = inside_at(from);
+        } else if (inside_at(from) != inside) {
+            if (!emit(from, !inside)) return;
+        }
+        RootFinder finder({scratch.criterion, 8 * epsilon * (scale_ + from), faint}, scratch.counters.roots);
+        if (!finder.crossings(ray, from, to, [&](Crossing c) { return emit(c.t, c.entering); })) return;
+        if (to >= t1) return;
+    }
 }
 
 // visit(t, entering, normal of the sharp plane or 0) → go on?

@@ -14,6 +14,8 @@ std::string kind_of(const SceneObject& object) {
     struct Kind {
         const char* operator()(const Density&) const { return "a density"; }
         const char* operator()(const Solid&) const { return "a solid"; }
+        const char* operator()(const Quadric&) const { return "a quadric"; }
+        const char* operator()(const Perturbation&) const { return "a perturbation"; }
         const char* operator()(const Material&) const { return "a material"; }
         const char* operator()(const Light&) const { return "a light"; }
         const char* operator()(const Texture&) const { return "a texture"; }
@@ -46,6 +48,8 @@ const SceneObject* SceneBuilder::make(decltype(SceneObject::is) object, int line
 Solid SceneBuilder::solid(const SceneObject& object) {
     if (const auto* solid = std::get_if<Solid>(&object.is)) return *solid;
     spend(2);
+    if (const auto* quadric = std::get_if<Quadric>(&object.is))
+        return Solid::of_field(std::make_shared<FreeForm>(*quadric, std::vector<Perturbation>{}), object.line);
     return Solid::sharp(std::get<Density>(object.is), object.line);
 }
 
@@ -220,7 +224,7 @@ void open_scene_functions(lua_State* lua) {
     const int meta = lua_gettop(lua);
     lua_newtable(lua);
     const int methods = lua_gettop(lua);
-    for (const auto* functions : {&shape_functions(), &look_functions()})
+    for (const auto* functions : {&shape_functions(), &form_functions(), &look_functions()})
         for (const SceneFunction& function : *functions) {
             push_function(lua, function);
             switch (function.place) {

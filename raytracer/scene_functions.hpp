@@ -9,6 +9,7 @@
 #include <variant>
 #include <vector>
 
+#include "bounds/free_form.hpp"
 #include "raytracer/lua_values.hpp"
 #include "raytracer/scene.hpp"
 
@@ -17,7 +18,7 @@ struct lua_State;
 namespace deburr {
 
 struct SceneObject {
-    std::variant<Density, Solid, Material, Light, Texture, Background> is;
+    std::variant<Density, Solid, Quadric, Perturbation, Material, Light, Texture, Background> is;
     std::string name;  // of a solid; "" none
     int line = 0;      // of the scene, where it was made
 };
@@ -25,10 +26,7 @@ struct SceneObject {
 /// As in "a density".
 std::string kind_of(const SceneObject& object);
 
-/// An expression with more half-spaces than this is refused.
-constexpr double most_half_spaces = 4'000'000;
-
-/// So is a scene that makes more parts than this: two for an object (one is its expression's node)
+/// A scene that makes more parts than this is refused: two for an object (one is its expression's node)
 /// and one for each half-space of a shape. None is freed before the end, so this bounds the memory.
 constexpr std::size_t most_steps = 4'000'000;
 
@@ -44,7 +42,7 @@ public:
     explicit SceneBuilder(const std::map<std::string, std::string>& defines) : defines_(defines) {}
 
     const SceneObject* make(decltype(SceneObject::is) object, int line, std::string name = "");
-    /// The solid that `object` is or, for a density, means.
+    /// The solid that `object` is or, for a density or a quadric, means.
     Solid solid(const SceneObject& object);
     /// The place of a material in materials(); each has one, however often it is used.
     int index_of(const SceneObject* material);
@@ -100,8 +98,10 @@ struct SceneFunction {
     SceneResult (*body)(SceneCall&);
 };
 
-/// The tables of functions: shapes, operators and placements; materials, textures and lights.
+/// The tables of functions: shapes, operators and placements; quadrics and free forms; materials,
+/// textures and lights.
 const std::vector<SceneFunction>& shape_functions();
+const std::vector<SceneFunction>& form_functions();
 const std::vector<SceneFunction>& look_functions();
 
 /// Registers all functions; the sandbox's host must be a SceneBuilder. May raise Lua errors.

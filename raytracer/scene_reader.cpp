@@ -87,7 +87,8 @@ void read_solids(const LuaValue& value, SceneBuilder& builder, Scene& scene) {
         const std::string place = fmt::format("solids[{}]", scene.solids.size() + 1);
         const SceneObject* object = as_object(item);
         if (!object || !(std::holds_alternative<Solid>(object->is) ||
-                         std::holds_alternative<Density>(object->is)))
+                         std::holds_alternative<Density>(object->is) ||
+                         std::holds_alternative<Quadric>(object->is)))
             expected(place, "a solid or a density", item);
         scene.solids.push_back(builder.solid(*object));
         scene.names.push_back(object->name);

@@ -22,13 +22,19 @@ const Density* as_density(const LuaValue& value) {
 
 bool is_set(const LuaValue& value) {  // something with an inside
     const SceneObject* object = as_object(value);
-    return object && (std::holds_alternative<Density>(object->is) ||
-                      std::holds_alternative<Solid>(object->is));
+    return object && (std::holds_alternative<Density>(object->is) || std::holds_alternative<Solid>(object->is) ||
+                      std::holds_alternative<Quadric>(object->is));
 }
 
 const SceneObject& need_set(const LuaValue& value, const std::string& place) {
     if (!is_set(value)) expected(place, "a density or a solid", value);
     return *as_object(value);
+}
+
+const SceneObject& need_movable(const LuaValue& value, const std::string& place) {
+    const SceneObject* object = as_object(value);
+    if (object && std::holds_alternative<Perturbation>(object->is)) return *object;
+    return need_set(value, place);
 }
 
 const Density& need_density(const LuaValue& value, const std::string& place) {
@@ -85,11 +91,11 @@ SceneResult box(SceneCall& call) {
     return call.make(Density::box(lo, hi));
 }
 
-SceneResult product_of(SceneCall& call, const std::vector<HalfSpace>& faces) {
+SceneResult product_of(SceneCall& call, const std::vector<HullFace>& faces) {
     SceneBuilder::check_size(double(faces.size()));
     call.builder.spend(faces.size());
     std::vector<Density> parts;
-    for (const HalfSpace& face : faces)
+    for (const HullFace& face : faces)
         parts.push_back(Density::half_space(face.normal, face.offset));
     return call.make(Density::product(parts));
 }
@@ -209,15 +215,18 @@ SceneResult name(SceneCall& call) {
 }
 
 SceneResult place(SceneCall& call, const Affine& map) {
-    const SceneObject& self = need_set(call.argument(0), call.name);
+    const SceneObject& self = need_movable(call.argument(0), call.name);
     if (const auto* density = std::get_if<Density>(&self.is))
         return call.make(density->transformed(map));
+    if (const auto* quadric = std::get_if<Quadric>(&self.is)) return call.make(transformed(*quadric, map));
+    if (const auto* p = std::get_if<Perturbation>(&self.is))
+        return call.make(Perturbation{p->factor, transformed(p->quadric, map)});
     return call.make(std::get<Solid>(self.is).transformed(map), self.name);
 }
 
 SceneResult translate(SceneCall& call) {
     call.at_most(4);
-    need_set(call.argument(0), call.name);
+    need_movable(call.argument(0), call.name);
     Affine map;
     for (int k = 0; k < 3; ++k)
         map.shift[k] = number(call.argument(std::size_t(k) + 1), call.place(&"x\0y\0z"[2 * k]));
@@ -226,7 +235,7 @@ SceneResult translate(SceneCall& call) {
 
 SceneResult scale(SceneCall& call) {
     call.at_most(4);
-    need_set(call.argument(0), call.name);
+    need_movable(call.argument(0), call.name);
     const bool even = call.arguments.size() <= 2;
     Affine map;
     for (int k = 0; k < 3; ++k) {
@@ -245,7 +254,7 @@ SceneResult scale(SceneCall& call) {
 // Exact at multiples of 90 degrees about an axis, so that planes stay parallel to axes.
 SceneResult rotate(SceneCall& call) {
     call.at_most(3);
-    need_set(call.argument(0), call.name);
+    need_movable(call.argument(0), call.name);
     const double degrees = std::fmod(number(call.argument(1), call.place("degrees")), 360.0);
     const Vec3 k = direction(call.argument(2), call.place("axis"));
     const int quarters = int(degrees / 90);
@@ -264,7 +273,7 @@ SceneResult rotate(SceneCall& call) {
 // In the plane through the origin with this normal.
 SceneResult mirror(SceneCall& call) {
     call.at_most(2);
-    need_set(call.argument(0), call.name);
+    need_movable(call.argument(0), call.name);
     const Vec3 n = direction(call.argument(1), call.place("normal"));
     Affine map;
     map.linear = Mat3(1.0) - 2.0 * glm::outerProduct(n, n);

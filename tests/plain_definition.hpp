@@ -6,6 +6,7 @@
 #include <cmath>
 #include <vector>
 
+#include "bounds/free_form.hpp"
 #include "bounds/solid_tree.hpp"
 
 namespace deburr::plain {
@@ -112,7 +113,28 @@ inline double density(const DensityTree& tree, int i, Vec3 x) {
 }
 inline double density(const DensityTree& tree, Vec3 x) { return density(tree, tree.root(), x); }
 
-inline double field(const Field& f, Vec3 x) { return f.at(x).value; }
+/// Vyatkin eq. 1.
+inline long double quadric(const Quadric& q, Vec3 x) {
+    const long double y[3] = {(long double)x.x - q.centre.x, (long double)x.y - q.centre.y, (long double)x.z - q.centre.z};
+    long double sum = q.k;
+    for (int i = 0; i < 3; ++i) {
+        sum += q.b[i] * y[i];
+        for (int j = 0; j < 3; ++j) sum += y[i] * q.A[i][j] * y[j];
+    }
+    return sum;
+}
+
+/// Vyatkin eq. 2 and 3; fields of other kinds have no plainer definition than their own.
+inline double field(const Field& f, Vec3 x) {
+    const auto* form = dynamic_cast<const FreeForm*>(&f);
+    if (!form) return f.at(x).value;
+    long double sum = quadric(form->base(), x);
+    for (const Perturbation& p : form->perturbations()) {
+        const long double q = quadric(p.quadric, x);
+        if (q >= 0) sum += p.factor * q * q * q;
+    }
+    return double(sum);
+}
 
 inline bool contains(const SolidTree& tree, int i, Vec3 x) {
     const SolidTreeNode& n = tree.nodes[std::size_t(i)];

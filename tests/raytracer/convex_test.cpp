@@ -16,9 +16,9 @@ Mat3 rotation(std::mt19937& gen) {
     return Mat3(x, y, glm::cross(x, y));
 }
 
-void check_holds(const std::vector<HalfSpace>& hull, const std::vector<Vec3>& points, double size) {
+void check_holds(const std::vector<HullFace>& hull, const std::vector<Vec3>& points, double size) {
     double outside = 0;
-    for (const HalfSpace& face : hull) {
+    for (const HullFace& face : hull) {
         double touching = infinity;
         for (Vec3 p : points) {
             outside = std::max(outside, glm::dot(face.normal, p) - face.offset);

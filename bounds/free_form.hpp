@@ -1,0 +1,57 @@
+// Free forms: a quadric with perturbations [Vyatkin §3.1],
+//
+//     F(x) = Q(x) + Σ fᵢ Rᵢ(x),   Rᵢ = Qᵢ³ where Qᵢ ≥ 0, else 0          [Vyatkin eq. 2, 3]
+//
+// A perturbation of factor f > 0 raises a bump where its quadric is, one of f < 0 a dent; as Rᵢ
+// falls to 0 with its second derivative, F stays smooth. Where Qᵢ ≤ 0 throughout a box, or along a
+// segment, the perturbation does not count, so a form of many costs those that reach there.
+//
+// Along a ray each Q is a quadratic, so F is piecewise a polynomial of degree six.
+#pragma once
+#include <vector>
+
+#include "bounds/field.hpp"
+#include "bounds/quadric.hpp"
+
+namespace deburr {
+
+struct Perturbation {
+    double factor = 0;  // f
+    Quadric quadric;
+    Box support = quadric.bounding_box();  // 0 outside of it
+};
+
+class FreeForm final : public Field {
+public:
+    /// Scales coefficients, by powers of two, so that the largest of each quadric is near 1; the set
+    /// stays the same.
+    FreeForm(const Quadric& base, std::vector<Perturbation> perturbations);
+
+    const Quadric& base() const { return base_; }
+    const std::vector<Perturbation>& perturbations() const { return perturbations_; }
+
+    ValueGradient at(Vec3 x) const override;
+    Range range(const Box& box) const override;
+    Box bounding_box() const override { return box_; }
+    Box extent() const override;
+    FieldPtr prune(const Box& box) const override;
+    int size() const override;
+    LocalSize local_size(const Box& box) const override;
+    FieldPtr carried(const Affine& map) const override;
+    double settled(Vec3 origin, Vec3 direction) const override;
+    void prepare(FieldRay& ray) const override;
+    ValueSlope at(const FieldRay& ray, double t) const override;
+    RayBounds bounds(const FieldRay& ray, double t0, double t1) const override;
+
+private:
+    struct Part {};  // of another form
+    FreeForm(Part, const Quadric& base, std::vector<Perturbation> perturbations, const Box& box)
+        : base_(base), perturbations_(std::move(perturbations)), box_(box) {}
+    void find_box();
+
+    Quadric base_;
+    std::vector<Perturbation> perturbations_;
+    Box box_;  // holds F > 0
+};
+
+}  // namespace deburr

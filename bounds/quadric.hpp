@@ -1,0 +1,58 @@
+// Quadrics Q(x) ≥ 0: what Vyatkin's free forms and their perturbations are made of [Vyatkin eq. 1].
+#pragma once
+#include "bounds/box_range.hpp"
+#include "bounds/vec.hpp"
+
+namespace deburr {
+
+/// Q(x) = yᵀAy + b·y + k, where y = x − centre and A is symmetric; inside where Q > 0.
+/// Printed differently: eq. 1 has no centre. It lets a quadric be moved without the rounding that
+/// expanded coefficients suffer far from the origin.
+struct Quadric {
+    Vec3 centre{0.0};
+    Mat3 A{0.0};
+    Vec3 b{0.0};
+    double k = 0;
+
+    double at(Vec3 x) const { return value(x - centre); }
+    Vec3 gradient(Vec3 x) const { return 2.0 * (A * (x - centre)) + b; }
+    /// Largest absolute value of a coefficient.
+    double largest() const;
+    /// Whether Q is the same everywhere: there is no surface.
+    bool is_constant() const { return A == Mat3(0.0) && b == Vec3(0.0); }
+    /// What the terms of Q add up to without their signs, where |y| ≤ reach: what rounding is
+    /// relative to.
+    double magnitude(Vec3 reach) const;
+    /// Q over the box, rounding included; sides may be infinite.
+    Range range(const Box& box) const;
+    /// Holds the set Q > 0; exact for ellipsoids, and for what is infinite along axes. Where a set
+    /// is infinite at a slant, all of space.
+    Box bounding_box() const;
+
+    /// A box of the size that the coefficients speak of, around the centre; for an infinite set, where
+    /// its shape is to be seen.
+    Box extent() const;
+
+    Quadric scaled(double by) const { return {centre, by * A, by * b, by * k}; }
+
+private:
+    double value(Vec3 y) const { return glm::dot(y, A * y + b) + k; }
+};
+
+/// x ↦ Q(M⁻¹x).
+Quadric transformed(const Quadric& q, const Affine& map);
+
+/// The ten coefficients of eq. 1, in its order: x² y² z² xy xz yz x y z 1.
+Quadric quadric_from(const double (&coefficients)[10]);
+
+/// Those of one axis of symmetry, by the squared distance from the axis and the way along it:
+/// Q = k + along·t + along²·t² + across·ρ², where t is in units of `height` and ρ in units of `radius`.
+struct Revolution {
+    double constant = 0, along = 0, along_squared = 0, across_squared = -1;
+};
+Quadric revolved(const Revolution& form, Vec3 centre, Vec3 axis, double radius, double height);
+
+/// a·t + b·t² for t in [lo, hi], whose ends may be infinite.
+Range parabola_range(double a, double b, double lo, double hi);
+
+}  // namespace deburr
