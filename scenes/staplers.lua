@@ -115,9 +115,9 @@ if show ~= "sharp" then
 end
 
 -- Boards of one tree each, with a fine gap between them.
-for i = -4, 5 do
+for i = -16, 4 do
   local z = 5.2 * i
-  local board = box({-70, -2, z + 0.015}, {60, 0, z + 5.185})
+  local board = box({-110, -2, z + 0.015}, {70, 0, z + 5.185})
   solids[#solids + 1] = rounded(softness * 0.04, board):material(plastic{
     color = wood{ a = {0.46, 0.27, 0.125}, b = {0.31, 0.155, 0.06}, scale = 0.55, axis = {1, 0.012 * i, 0.01},
                   origin = {0, -3.5 - 1.3 * (i % 3), z + 1.7 + 1.1 * (i % 2)} },
@@ -129,7 +129,7 @@ return {
   camera = { eye = {16, 15, 22}, target = {0.1, 1.2, -0.9}, up = {0, 1, 0}, fov = 25 },
   lights = {
     area_light{ position = {-14, 26, 12}, u = {5.2, 0, 6.1}, v = {-4.9, -4.6, 4.2},
-                color = {1, 0.95, 0.88}, power = 24000 },
+                color = {1, 0.95, 0.88}, power = 19000 },
   },
   background = sky{ horizon = {0.52, 0.55, 0.60}, zenith = {0.30, 0.36, 0.46} },
   solids = solids,
