@@ -90,6 +90,9 @@ TEST_CASE("equal solids share a space, however the scene came to them") {
     solids.push_back(Solid::rounded(0.1, cube.transformed(compose(shift(0, 9, 0), scale(2, 2, 2)))));
     solids.push_back(block(0.2).transformed(shift(5, 9, 0)));
     CHECK(statistics(solids).spaces == 4);
+    // So it is where it is rounded in another way.
+    const Solid truly = Solid::convolved(0.1, cube);
+    CHECK(statistics({one, truly.transformed(shift(3, 0, 0)), truly.transformed(shift(6, 0, 0))}).spaces == 3);
     const Same same = same_as_one_bsp(solids, {-1, -1, -1}, {10, 10, 1});
     CHECK(same.hits > 1000);
     CHECK(same.misses > 500);
