@@ -1,7 +1,11 @@
 #include "raytracer/bsp_tree.hpp"
 
+#include <tbb/parallel_for.h>
+#include <tbb/parallel_invoke.h>
+
 #include <algorithm>
 #include <cmath>
+#include <exception>
 #include <memory>
 
 #include "bounds/bounding_box.hpp"
@@ -16,6 +20,12 @@ constexpr double cost_node = 1.0;
 // Cells with no more half-spaces than this are split by what would be left of the solids on either
 // side; larger ones by the solids' boxes and by a few such looks.
 constexpr int few_half_spaces = 48;
+// Halves of a cell with fewer are not worth a task, nor are looks at fewer.
+constexpr int half_spaces_of_a_task = 200;
+// Where a cell of many half-spaces gains nothing by any split, as a box around many facets does, a few
+// further splits are tried before it is taken as it is; anew whenever a part of them is gone.
+constexpr int many_half_spaces = 128, patience = 3;
+constexpr double part_gone = 0.7;
 
 // One solid as far as it reaches into a cell.
 struct Item {
@@ -36,6 +46,20 @@ double cost(const LocalSolidSize& size) {
 struct Split {
     double cost = infinity, position = 0;
     int axis = -1;
+};
+
+// A part of the tree as it is built: both halves of it, or the cell's solids.
+struct Branch {
+    Split split;
+    std::unique_ptr<Branch> child[2];
+    std::vector<LocalSolid> locals;
+    std::exception_ptr error;
+};
+
+// Splits without a gain that are left, and what must be left of the half-spaces for more.
+struct Patience {
+    int splits = patience;
+    double half_spaces = infinity;
 };
 
 // With every filter that is too small to be sampled made sharp.
@@ -88,8 +112,10 @@ public:
             item.tree = without_tiny_radii(std::move(item.tree), bsp_.tolerances.least_radius());
             item.size = local_size(*item.tree, Box::everything());
         }
+        Branch root;
+        split(root, Box::everything(), std::move(items), 0, {});
         bsp_.nodes.emplace_back();
-        split(0, Box::everything(), std::move(items), 0);
+        lay_out(root, 0, 0);
         return std::move(bsp_);
     }
 
@@ -116,45 +142,76 @@ private:
         return local_size(*item.tree, inflated(cell, margin_));
     }
 
-    void split(int node, const Box& cell, std::vector<Item> items, int depth) {
-        bsp_.depth = std::max(bsp_.depth, depth);
+    // Both halves at once where that pays; what is built is the same.
+    void split(Branch& to, const Box& cell, std::vector<Item> items, int depth, Patience patient) const {
         double here = 0;
         int half_spaces = 0;
         for (const Item& item : items) {
             here += cost(item.size);
             half_spaces += item.size.half_spaces;
         }
+        if (half_spaces <= part_gone * patient.half_spaces) patient = {patience, double(half_spaces)};
         Split best;
         if (depth < deepest_ && here > cost_node + cost_flat) {
             best = half_spaces <= few_half_spaces || items.size() == 1 ? best_local(cell, items)
                                                                       : best_of_boxes(cell, items);
         }
-        if (best.axis < 0 || best.cost >= here) {
-            make_cell(node, cell, items);
+        if (best.cost >= here && (half_spaces <= many_half_spaces || patient.splits-- == 0)) best.axis = -1;
+        if (best.axis < 0) {
+            make_cell(to, cell, items);
             return;
         }
-        const int child = int(bsp_.nodes.size());
-        bsp_.nodes[std::size_t(node)] = {best.position, best.axis, child};
-        bsp_.nodes.resize(bsp_.nodes.size() + 2);
-        for (const bool upper : {false, true}) {
+        to.split = best;
+        std::vector<Item> inside[2];
+        const auto half = [&](int upper) {
             const Box part = side(cell, best.axis, best.position, upper);
-            std::vector<Item> inside;
             for (const Item& item : items) {
                 if (misses(item, part)) continue;
-                Item to = item;
+                Item in = item;
                 // A solid that the part holds whole looks the same in it.
                 const bool whole = part.contains(item.box.lo) && part.contains(item.box.hi);
                 if (!whole || item.size.half_spaces > few_half_spaces) {
                     const Box known = inflated(part, margin_);
-                    to.size = local_size(*item.tree, known);
-                    if (to.size.side != Side::straddling) continue;
-                    if (to.size.half_spaces < item.size.half_spaces)
-                        to.tree = std::make_shared<const SolidTree>(prune(*item.tree, known));
+                    in.size = local_size(*item.tree, known);
+                    if (in.size.side != Side::straddling) continue;
+                    if (in.size.half_spaces < item.size.half_spaces)
+                        in.tree = std::make_shared<const SolidTree>(prune(*item.tree, known));
                 }
-                inside.push_back(std::move(to));
+                inside[upper].push_back(std::move(in));
             }
-            if (upper) items.clear();
-            split(child + upper, part, std::move(inside), depth + 1);
+        };
+        const auto descend = [&](int upper) {
+            to.child[upper] = std::make_unique<Branch>();
+            split(*to.child[upper], side(cell, best.axis, best.position, upper), std::move(inside[upper]), depth + 1, patient);
+        };
+        if (half_spaces < half_spaces_of_a_task) {
+            half(0);
+            half(1);
+            items.clear();
+            descend(0);
+            descend(1);
+        } else {
+            tbb::parallel_invoke([&] { half(0); }, [&] { half(1); });
+            items.clear();
+            tbb::parallel_invoke([&] { descend(0); }, [&] { descend(1); });
+        }
+    }
+
+    void lay_out(Branch& from, std::size_t node, int depth) {
+        if (from.error) std::rethrow_exception(from.error);
+        bsp_.depth = std::max(bsp_.depth, depth);
+        if (!from.child[0]) {
+            bsp_.nodes[node] = {0, 3, int(bsp_.cells.size())};
+            bsp_.cells.push_back({std::uint32_t(bsp_.locals.size()), std::uint32_t(from.locals.size())});
+            for (LocalSolid& local : from.locals) bsp_.locals.push_back(std::move(local));
+            return;
+        }
+        const std::size_t child = bsp_.nodes.size();
+        bsp_.nodes[node] = {from.split.position, from.split.axis, int(child)};
+        bsp_.nodes.resize(child + 2);
+        for (const bool upper : {false, true}) {
+            lay_out(*from.child[upper], child + upper, depth + 1);
+            from.child[upper].reset();
         }
     }
 
@@ -172,10 +229,8 @@ private:
     std::vector<double> candidates(const Box& cell, const std::vector<Item>& items, int axis) const {
         std::vector<double> at;
         Box part;
-        int half_spaces = 0;
         for (const Item& item : items) {
             part = hull(part, intersection(item.box, cell));
-            half_spaces += item.size.half_spaces;
             at.push_back(item.box.lo[axis] - 2 * margin_);
             at.push_back(item.box.hi[axis] + 2 * margin_);
             if (item.size.half_spaces > few_half_spaces) continue;
@@ -188,9 +243,7 @@ private:
                 }
         }
         part = intersection(part, world_);
-        const int steps = half_spaces > few_half_spaces ? 8 : 3;
-        for (int k = 1; k <= steps; ++k)
-            at.push_back(part.lo[axis] + (part.hi[axis] - part.lo[axis]) * k / (steps + 1));
+        for (int k = 1; k <= 3; ++k) at.push_back(part.lo[axis] + (part.hi[axis] - part.lo[axis]) * k / 4);
         const double lo = std::max(cell.lo[axis], world_.lo[axis]) + smallest_;
         const double hi = std::min(cell.hi[axis], world_.hi[axis]) - smallest_;
         std::erase_if(at, [&](double x) { return !(x > lo && x < hi); });
@@ -201,17 +254,27 @@ private:
     }
 
     Split best_local(const Box& cell, const std::vector<Item>& items) const {
-        Split best;
-        for (int axis = 0; axis < 3; ++axis) {
-            for (const double position : candidates(cell, items, axis)) {
-                double sum[2] = {0, 0};
-                for (const bool upper : {false, true}) {
-                    const Box part = side(cell, axis, position, upper);
-                    for (const Item& item : items) sum[upper] += cost(size_in(item, part));
-                }
-                consider(best, cell, axis, position, sum[0], sum[1]);
+        struct Look {
+            int axis;
+            double position, sum[2];
+        };
+        std::vector<Look> looks;
+        for (int axis = 0; axis < 3; ++axis)
+            for (const double position : candidates(cell, items, axis)) looks.push_back({axis, position, {0, 0}});
+        const auto look = [&](std::size_t i) {
+            for (const bool upper : {false, true}) {
+                const Box part = side(cell, looks[i].axis, looks[i].position, upper);
+                for (const Item& item : items) looks[i].sum[upper] += cost(size_in(item, part));
             }
-        }
+        };
+        int half_spaces = 0;
+        for (const Item& item : items) half_spaces += item.size.half_spaces;
+        if (half_spaces < half_spaces_of_a_task)
+            for (std::size_t i = 0; i < looks.size(); ++i) look(i);
+        else
+            tbb::parallel_for(std::size_t(0), looks.size(), look);
+        Split best;
+        for (const Look& l : looks) consider(best, cell, l.axis, l.position, l.sum[0], l.sum[1]);
         return best;
     }
 
@@ -245,18 +308,15 @@ private:
         return best;
     }
 
-    void make_cell(int node, const Box& cell, const std::vector<Item>& items) {
+    void make_cell(Branch& to, const Box& cell, const std::vector<Item>& items) const try {
         const Box known = inflated(cell, margin_);
-        BspCell to{std::uint32_t(bsp_.locals.size()), 0};
         for (const Item& item : items) {
             const SolidTree local = prune(*item.tree, known);
             LocalSolid solid(item.solid, local, known, bsp_.tolerances);
-            if (!solid.has_surface()) continue;
-            bsp_.locals.push_back(std::move(solid));
-            ++to.count;
+            if (solid.has_surface()) to.locals.push_back(std::move(solid));
         }
-        bsp_.nodes[std::size_t(node)] = {0, 3, int(bsp_.cells.size())};
-        bsp_.cells.push_back(to);
+    } catch (...) {
+        to.error = std::current_exception();  // the first one in the tree's order is thrown
     }
 
     BspTree bsp_;

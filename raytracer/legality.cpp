@@ -19,7 +19,9 @@ public:
     explicit Suspects(const std::vector<Solid>& solids) {
         for (const Solid& solid : solids)
             for_each_leaf(solid, [&](const Solid& leaf, const Affine& map) {
-                if (!leaf.node().field && seen_.insert(&leaf.node()).second && has_sum(leaf.node().density[0].node())) add(leaf, map);
+                const SolidNode& node = leaf.node();
+                if (node.field || node.convolved || !seen_.insert(&node).second) return;
+                if (has_sum(node.density[0].node())) add(leaf, map);
             });
     }
 

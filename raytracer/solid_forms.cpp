@@ -85,10 +85,12 @@ int SolidForms::density(const Density& root) {
         });
 }
 
-int SolidForms::rounded(double radius, const Density& of, int line) {
+int SolidForms::rounded(const SolidNode& node, const Density& of) {
     bool fresh;
-    const int form = number(solid_keys_, key_of(SolidNode::Kind::rounded, radius, density(of)), fresh);
-    if (fresh) solids_.push_back(Solid::rounded(radius, of, line));
+    const int form = number(solid_keys_, key_of(node.kind, node.radius, node.convolved, density(of)), fresh);
+    if (fresh)
+        solids_.push_back(node.convolved ? Solid::convolved(node.radius, of, node.line)
+                                         : Solid::rounded(node.radius, of, node.line));
     return form;
 }
 
@@ -121,7 +123,7 @@ PlacedForm SolidForms::of(const Solid& solid) {
     const SolidNode& node = at.node();
     if (node.kind == SolidNode::Kind::rounded) {
         const Density& inner = peel_rigid(node.density[0], to);
-        to.form = rounded(node.radius, inner, node.line);
+        to.form = rounded(node, inner);
     } else {
         to.form = base(at);  // at once, where base() is under way: it has numbered the parts
     }

@@ -31,7 +31,7 @@ public:
 
 private:
     int base(const Solid& solid);
-    int rounded(double radius, const Density& density, int line);
+    int rounded(const SolidNode& node, const Density& density);
     int density(const Density& density);
     int number(std::unordered_map<std::string, int>& all, const std::string& key, bool& fresh);
 

@@ -3,6 +3,7 @@
 
 #include <tbb/global_control.h>
 
+#include "ball_field.hpp"
 #include "catch.hpp"
 #include "random_case.hpp"
 #include "raytracer/bsp.hpp"
@@ -89,6 +90,9 @@ TEST_CASE("equal solids share a space, however the scene came to them") {
     solids.push_back(Solid::rounded(0.1, cube.transformed(compose(shift(0, 9, 0), scale(2, 2, 2)))));
     solids.push_back(block(0.2).transformed(shift(5, 9, 0)));
     CHECK(statistics(solids).spaces == 4);
+    // So it is where it is rounded in another way.
+    const Solid truly = Solid::convolved(0.1, cube);
+    CHECK(statistics({one, truly.transformed(shift(3, 0, 0)), truly.transformed(shift(6, 0, 0))}).spaces == 3);
     const Same same = same_as_one_bsp(solids, {-1, -1, -1}, {10, 10, 1});
     CHECK(same.hits > 1000);
     CHECK(same.misses > 500);
@@ -169,10 +173,33 @@ TEST_CASE("what a map squeezes too much, or nothing bounds, is in the world's ow
     CHECK(same_as_one_bsp(solids, {-1, -1, -1}, {4, 1, 1}).hits > 1000);
 }
 
+TEST_CASE("fields are forms of their own") {
+    std::vector<Solid> solids;
+    const auto ball = Solid::of_field(std::make_shared<BallField>());
+    for (int i = 0; i < 4; ++i) solids.push_back(ball.transformed(compose(shift(2.5 * i, 0, 0), scale(1, 0.3 + 0.2 * i, 0.8))).material(i));
+    solids.push_back(block() | block().transformed(shift(0, 0, 3)) | ball.transformed(shift(0, 4, 0)));
+    CHECK(statistics(solids).placements == 7);
+    CHECK(statistics(solids).spaces == 3);
+    CHECK(statistics({ball, Solid::of_field(std::make_shared<BallField>()).transformed(shift(3, 0, 0))}).spaces == 3);
+    CHECK(same_as_one_bsp(solids, {-1, -1, -1}, {9, 5, 4}).hits > 500);
+}
+
+TEST_CASE("cells of a body with many facets know few of them") {
+    std::vector<Density> facets;
+    for (int i = 0; i < 600; ++i) {
+        const double z = 1 - (2 * i + 1) / 600.0, r = std::sqrt(1 - z * z), a = 2.399963 * i;
+        facets.push_back(Density::half_space({r * std::cos(a), z, r * std::sin(a)}, 1));
+    }
+    CHECK(statistics({Solid::rounded(0.01, Density::product(facets))}).mean_local_half_spaces < 60);
+}
+
 TEST_CASE("spaces do not depend on the number of threads") {
     std::vector<Solid> solids;
     for (int i = 0; i < 9000; ++i)
         solids.push_back(block(0.05 + 0.01 * (i % 7)).transformed(compose(shift(i % 20, i / 20 % 20, i / 400), scale(0.4, 0.5, 0.3))));
+    Density many = Density::box({0, 0, -3}, {0.5, 0.5, -2.5});  // and one solid that is built in parallel
+    for (int i = 1; i < 300; ++i) many = many | Density::box({0.7 * (i % 20), i / 20, -3}, {0.7 * (i % 20) + 0.8, i / 20 + 0.5, -2.5});
+    solids.push_back(Solid::rounded(0.04, many));
     const auto hits = [&](std::size_t threads) {
         const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
         const ImplicitTracer tracer(solids);
