@@ -10,6 +10,8 @@
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 
+#include "polygonizer/separate.hpp"
+
 namespace deburr {
 namespace {
 
@@ -217,13 +219,11 @@ std::string known_mesh_extensions() {
 }
 
 std::string encode(const Mesh& mesh, MeshFormat format, const MeshNotes& notes) {
-    switch (format) {
-        case MeshFormat::obj: return obj(mesh, notes);
-        case MeshFormat::ply: return ply(mesh);
-        case MeshFormat::stl: return stl(mesh);
-        case MeshFormat::glb: return glb(mesh, notes);
-    }
-    return {};
+    if (format == MeshFormat::obj) return obj(mesh, notes);
+    if (format == MeshFormat::ply) return ply(mesh);
+    Mesh apart = mesh;  // in single precision too
+    separate_touching(apart, single_precision_step(mesh));
+    return format == MeshFormat::stl ? stl(apart) : glb(apart, notes);
 }
 
 }  // namespace deburr

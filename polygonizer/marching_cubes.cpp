@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <unordered_map>
 
+#include "polygonizer/separate.hpp"
 #include "polygonizer/surface_offset.hpp"
 
 namespace deburr {
@@ -258,7 +259,9 @@ double marching_cubes_count(const Box& box, double grid) {
 
 Mesh marching_cubes(const SolidTree& solid, const Box& box, double grid) {
     if (box.empty()) return {};
-    return March(solid, box, grid).run();
+    Mesh mesh = March(solid, box, grid).run();
+    merge_close(mesh);
+    return mesh;
 }
 
 }  // namespace deburr

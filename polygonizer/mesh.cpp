@@ -81,6 +81,17 @@ Topology topology(const Mesh& mesh) {
     return top;
 }
 
+Box bounding_box(const Mesh& mesh) {
+    Box box;
+    for (const Vec3& x : mesh.positions) box = hull(box, Box{x, x});
+    return box;
+}
+
+Box field_box(const Mesh& mesh) {
+    const Box box = bounding_box(mesh);
+    return inflated(box, 1e-6 * (1 + glm::length(box.hi - box.lo)));
+}
+
 double volume(const Mesh& mesh) {
     if (mesh.positions.empty()) return 0;
     const Vec3 o = mesh.positions[0];

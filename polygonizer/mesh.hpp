@@ -47,6 +47,10 @@ struct Topology {
 
 Topology topology(const Mesh& mesh);
 
+Box bounding_box(const Mesh& mesh);
+/// A box around the mesh in which to look for the surfaces near it (OffsetField).
+Box field_box(const Mesh& mesh);
+
 /// Volume enclosed; positive where triangles face outward.
 double volume(const Mesh& mesh);
 

@@ -47,9 +47,9 @@ MeshMetrics measure(const Mesh& mesh, const SolidTree& solid) {
     m.topology = topology(mesh);
     m.polygons = mesh.polygons;
     m.volume = volume(mesh);
-    for (const Vec3& x : mesh.positions) m.box = hull(m.box, Box{x, x});
+    m.box = bounding_box(mesh);
     measure_edges(mesh, m);
-    const OffsetField field(solid, inflated(m.box, 1e-6 * (1 + glm::length(m.box.hi - m.box.lo))), m.edge_mean);
+    const OffsetField field(solid, field_box(mesh), m.edge_mean);
     const double reach = m.box.empty() ? 0 : glm::length(m.box.hi - m.box.lo);
     Sum first, far, angle;
     for (const Triangle& t : mesh.triangles) {

@@ -303,7 +303,7 @@ Mesh octree(const SolidTree& mixed, const Box& box, const OctreeOptions& options
     OctreeStatistics own;
     std::vector<Origin> origins;
     Mesh mesh = Polygonization(numbered, box, options, edge).run(statistics ? *statistics : own, origins);
-    repair(mesh, origins, solid, box);
+    repair(mesh, origins, solid);
     check(mesh);
     return mesh;
 }

@@ -10,7 +10,7 @@ namespace {
 
 // Below this cosine between a facet and the surface at its middle it counts as wrong, and below this
 // ratio of height to longest side as without area; what replaces it must do better.
-constexpr double leaning = 0.05, better = 0.1;
+constexpr double leaning = 0.2, better = 0.25;
 constexpr double no_area = 1e-6;
 constexpr double same_normal = 1e-6;
 
@@ -29,9 +29,9 @@ struct Verdict {
 
 class Repair {
 public:
-    Repair(Mesh& mesh, std::vector<Origin>& origins, const SolidTree& solid, const Box& box)
-        : facets_(mesh, origins), solid_(solid, box), surfaces_(solid, box), one_leaf_(solid.leaves.size() == 1),
-          size_(glm::length(box.hi - box.lo)), first_made_(facets_.vertices()) {}
+    Repair(Mesh& mesh, std::vector<Origin>& origins, const SolidTree& solid)
+        : facets_(mesh, origins), box_(field_box(mesh)), solid_(solid, box_), surfaces_(solid, box_),
+          one_leaf_(solid.leaves.size() == 1), size_(glm::length(box_.hi - box_.lo)), first_made_(facets_.vertices()) {}
 
     Facets& facets() { return facets_; }
     const Facets& facets() const { return facets_; }
@@ -147,6 +147,17 @@ public:
         return facets_.split(f, k, vertex, n, m);
     }
 
+    std::optional<Change> star(int f, Vec3 x) {
+        const Facet& facet = facets_.at(f);
+        if (!surfaces_.project(x, {piece(facet)}, std::max({length(f, 0), length(f, 1), length(f, 2)}))) return {};
+        if (!on_surface(x)) return {};
+        Vec3 n = surfaces_.at(piece(facet), x).normal, normals(0.0);
+        for (const int k : facet.triangle.normal) normals += facets_.normal(k);
+        if (glm::dot(n, normals) < 0) n = -n;
+        const int vertex = facets_.add_vertex(x);
+        return facets_.star(f, vertex, facets_.add_normal(n));
+    }
+
     double length(int f, std::size_t k) const {
         const Triangle& t = facets_.at(f).triangle;
         return glm::length(facets_.position(t.vertex[k]) - facets_.position(t.vertex[(k + 1) % 3]));
@@ -190,11 +201,36 @@ public:
         return best;
     }
 
+    // A vertex where the facet is farthest from its surface: in the middle of an edge, or its own.
+    std::optional<Change> refine(int f, RepairStatistics& statistics) {
+        std::optional<Change> best;
+        double most = least_sag();
+        const auto offer = [&](std::optional<Change> change, Vec3 from) {
+            if (!change) return;
+            for (const Facet& g : change->in)
+                if (shape(g).own < better) return;
+            const double sag = glm::length(facets_.position(facets_.vertices() - 1) - from);
+            if (sag <= most) return;
+            most = sag;
+            best = std::move(change);
+        };
+        Vec3 middle(0.0);
+        for (std::size_t k = 0; k < 3; ++k) {
+            const Triangle& t = facets_.at(f).triangle;
+            const Vec3 a = facets_.position(t.vertex[k]), b = facets_.position(t.vertex[(k + 1) % 3]);
+            middle += a / 3.0;
+            if (length(f, k) > shortest()) offer(split(f, k), 0.5 * (a + b));
+        }
+        if (facets_.at(f).origin.leaf >= 0) offer(star(f, middle), middle);
+        statistics.splits += best.has_value();
+        return best;
+    }
+
     void mend_facets(RepairStatistics& statistics) {
         std::deque<int> todo;
         for (std::size_t f = 0; f < facets_.size(); ++f)
             if (wrong(int(f))) todo.push_back(int(f));
-        std::size_t splits_left = 8 * todo.size();
+        std::size_t splits_left = 40 * todo.size();
         // Facets that nothing helped are asked again after others have changed.
         std::vector<int> stuck;
         constexpr int most_rounds = 6;
@@ -205,7 +241,11 @@ public:
                 const int f = todo.front();
                 todo.pop_front();
                 if (!facets_.alive(f) || !wrong(f)) continue;
-                const auto change = straighten(f, splits_left, statistics);
+                auto change = straighten(f, splits_left, statistics);
+                if (!change && splits_left > 0 && shape(facets_.at(f)).own >= leaning) {
+                    change = refine(f, statistics);
+                    if (change) --splits_left;
+                }
                 if (!change) {
                     stuck.push_back(f);
                     continue;
@@ -272,6 +312,7 @@ public:
     }
 
     double shortest() const { return 1e-5 * size_; }
+    double least_sag() const { return 1e-7 * size_; }
     // Not again what was there before: a vertex that was put in to mend stays.
     bool made(int vertex) const { return vertex >= first_made_; }
 
@@ -282,6 +323,7 @@ private:
     }
 
     Facets facets_;
+    Box box_;
     OffsetField solid_;
     LeafSurfaces surfaces_;
     bool one_leaf_;
@@ -300,9 +342,10 @@ Vec3 flat_normal(const Facets& facets, int f) {
 
 }  // namespace
 
-RepairStatistics repair(Mesh& mesh, std::vector<Origin>& origins, const SolidTree& solid, const Box& box) {
+RepairStatistics repair(Mesh& mesh, std::vector<Origin>& origins, const SolidTree& solid) {
     RepairStatistics statistics;
-    Repair work(mesh, origins, solid, box);
+    if (mesh.triangles.empty()) return statistics;
+    Repair work(mesh, origins, solid);
     work.mend_vertices(statistics);
     work.mend_facets(statistics);
     work.facets().finish();
@@ -316,8 +359,9 @@ RepairStatistics repair(Mesh& mesh, std::vector<Origin>& origins, const SolidTre
     return statistics;
 }
 
-std::size_t thin_borders(Mesh& mesh, std::vector<Origin>& origins, const SolidTree& solid, const Box& box) {
-    Repair work(mesh, origins, solid, box);
+std::size_t thin_borders(Mesh& mesh, std::vector<Origin>& origins, const SolidTree& solid) {
+    if (mesh.triangles.empty()) return 0;
+    Repair work(mesh, origins, solid);
     Facets& facets = work.facets();
     double worst = 0;
     for (std::size_t f = 0; f < facets.size(); ++f) worst = std::max(worst, work.shape(facets.at(int(f))).distance);

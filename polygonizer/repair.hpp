@@ -17,11 +17,11 @@ struct RepairStatistics {
 };
 
 /// `solid` is what the mesh approximates.
-RepairStatistics repair(Mesh& mesh, std::vector<Origin>& origins, const SolidTree& solid, const Box& box);
+RepairStatistics repair(Mesh& mesh, std::vector<Origin>& origins, const SolidTree& solid);
 
 /// Collapses vertices on a straight border of a flat face that the face does not need: where two
 /// cells' parts of a rounded edge meet it. Triangles stay as near to the surface as the worst of
 /// them was. Returns how many went.
-std::size_t thin_borders(Mesh& mesh, std::vector<Origin>& origins, const SolidTree& solid, const Box& box);
+std::size_t thin_borders(Mesh& mesh, std::vector<Origin>& origins, const SolidTree& solid);
 
 }  // namespace deburr

@@ -6,6 +6,7 @@
 #include "bounds/bounding_box.hpp"
 #include "polygonizer/parallel_family.hpp"
 #include "polygonizer/repair.hpp"
+#include "polygonizer/separate.hpp"
 #include "polygonizer/sharp_parts.hpp"
 #include "polygonizer/surface.hpp"
 
@@ -152,8 +153,7 @@ Mesh triage(const SolidTree& mixed, const Box& box, const TriageOptions& options
         if (changed) continue;
         // What repair cannot help needs smaller cells around it.
         ++mending;
-        const RepairStatistics repaired = repair(mesh, origins, solid, box);
-        if (getenv("DBG")) fprintf(stderr,"round %zu cells %zu tris %zu left %zu (flips %zu coll %zu split %zu moves %zu)\n",round,subdivision.complex.cells.size(),mesh.triangles.size(),repaired.left.size(),repaired.flips,repaired.collapses,repaired.splits,repaired.moves);
+        const RepairStatistics repaired = repair(mesh, origins, solid);
         const bool better = repaired.left.size() < least_left;
         if (better) {
             least_left = repaired.left.size();
@@ -167,7 +167,8 @@ Mesh triage(const SolidTree& mixed, const Box& box, const TriageOptions& options
     }
     mesh = std::move(best);
     origins = std::move(best_origins);
-    thin_borders(mesh, origins, solid, box);
+    thin_borders(mesh, origins, solid);
+    merge_close(mesh);
     if (statistics) {
         statistics->cells = subdivision.complex.cells.size();
         statistics->open_cells = 0;

@@ -6,6 +6,7 @@
 
 #include "bounds/bounding_box.hpp"
 #include "polygonizer/marching_cubes.hpp"
+#include "polygonizer/separate.hpp"
 #include "raytracer/errors.hpp"
 
 namespace deburr {
@@ -135,6 +136,10 @@ SceneMesh mesh_scene(const Scene& scene, const MeshSettings& settings) {
         result.mesh.append(part, int(i));
         result.parts.push_back(std::move(part));
     }
+    separate_touching(result.mesh);
+    auto moved = result.mesh.positions.begin();
+    for (Mesh& part : result.parts)
+        for (Vec3& x : part.positions) x = *moved++;
     return result;
 }
 

@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "catch.hpp"
+#include "polygonizer/welded.hpp"
 #include "raytracer/program.hpp"
 
 using namespace deburr::test;
@@ -22,6 +23,22 @@ TEST_CASE("mesh writes every format, and says that the mesh is closed") {
     CHECK(j["mesh"]["manifold"] == true);
     CHECK(j["mesh"]["inverted"] == 0);
     CHECK(j["mesh"]["vertex_distance_max"] < 1e-6);
+}
+
+TEST_CASE("Parts and solids that touch are closed 2-manifolds in an STL, whose vertices a reader joins by position") {
+    const Folder folder;
+    for (const char* solids :
+         {"sharp(cube() + cube():translate(1,1,0))", "rounded(0.1, cube() + cube():translate(1,1,1))",
+          "sharp(cube()), sharp(cube():translate(0,0,1)), rounded(0.2, cube():translate(1,0,0))",
+          "sharp(cube() + cube():translate(1,1,0)):scale(1000)", "sharp(cube() + cube():translate(1,1,0)):scale(0.001)"})
+        for (const char* method : {"triage", "marching-cubes"}) {
+            CAPTURE(solids, method);
+            write_file(folder / "s.lua", "return { solids = { " + std::string(solids) + " } }");
+            REQUIRE(run({"mesh", folder / "s.lua", "-q", "--method", method, "-o", folder / "a.stl"}).code == 0);
+            const deburr::Topology t = topology(deburr::welded_stl(read_file(folder / "a.stl")));
+            CHECK(t.manifold());
+            CHECK(t.triangles > 0);
+        }
 }
 
 TEST_CASE("admesh finds nothing to mend in an STL") {

@@ -1,0 +1,56 @@
+// A mesh as a reader sees it that joins vertices by their position in single precision, as every
+// reader of STL has to.
+#pragma once
+#include <array>
+#include <cstdint>
+#include <cstring>
+#include <map>
+#include <string>
+
+#include "polygonizer/mesh.hpp"
+
+namespace deburr {
+
+class Welder {
+public:
+    int vertex(std::array<float, 3> x) {
+        for (float& c : x) c += 0.0f;  // −0 is 0
+        const auto [at, fresh] = known_.try_emplace(x, int(mesh.positions.size()));
+        if (fresh) mesh.positions.push_back(Vec3(x[0], x[1], x[2]));
+        return at->second;
+    }
+    Mesh mesh;
+
+private:
+    std::map<std::array<float, 3>, int> known_;
+};
+
+inline Mesh welded(const Mesh& mesh) {
+    Welder w;
+    for (const Triangle& t : mesh.triangles) {
+        Triangle joined = t;
+        for (std::size_t k = 0; k < 3; ++k) {
+            const Vec3 x = mesh.positions[std::size_t(t.vertex[k])];
+            joined.vertex[k] = w.vertex({float(x.x), float(x.y), float(x.z)});
+        }
+        w.mesh.triangles.push_back(joined);
+    }
+    return w.mesh;
+}
+
+/// Of a binary STL file's bytes.
+inline Mesh welded_stl(const std::string& bytes) {
+    Welder w;
+    for (std::size_t at = 84; at + 50 <= bytes.size(); at += 50) {
+        Triangle t{};
+        for (std::size_t k = 0; k < 3; ++k) {
+            std::array<float, 3> x;
+            std::memcpy(x.data(), bytes.data() + at + 12 * (k + 1), sizeof x);
+            t.vertex[k] = w.vertex(x);
+        }
+        w.mesh.triangles.push_back(t);
+    }
+    return w.mesh;
+}
+
+}  // namespace deburr
