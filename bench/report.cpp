@@ -120,10 +120,10 @@ void Report::write_plot_data(const std::string& folder) const {
         for (const Curve& c : section.curves) {
             std::string lines = fmt::format("# {} against {}\n", c.y, c.x);
             for (const auto& [x, y] : c.points) lines += fmt::format("{:g} {:g}\n", x, y);
-            write_whole_file(folder + "/" + data_name(c.name) + ".dat", lines);
+            write_whole_file(fmt::format("{}/{}.dat", folder, data_name(c.name)), lines);
         }
     }
-    if (!bars.empty()) write_whole_file(folder + "/bars.dat", bars);
+    if (!bars.empty()) write_whole_file(fmt::format("{}/bars.dat", folder), bars);
 }
 
 }  // namespace deburr::bench
