@@ -6,6 +6,7 @@
 
 namespace deburr {
 
+/// Of this process, all threads together.
 inline double cpu_seconds() { return double(std::clock()) / CLOCKS_PER_SEC; }
 
 template <class Work>
@@ -21,22 +22,43 @@ inline double median(std::vector<double> values) {
 }
 
 struct Ratio {
-    double a = 0, b = 0;  // median CPU seconds
+    double a = 0, b = 0;  // median seconds
 
     double value() const { return a / b; }
 };
 
-/// A warm-up of each, then both in turns.
+/// A warm-up of each, then `rounds` of both in turns; each returns the seconds it took.
 template <class A, class B>
-Ratio ratio_of(A&& a, B&& b, int rounds = 7) {
+Ratio ratio_of_times(A&& a, B&& b, int rounds) {
     a();
     b();
     std::vector<double> times_a, times_b;
     for (int i = 0; i < rounds; ++i) {
-        times_a.push_back(cpu_seconds_of(a));
-        times_b.push_back(cpu_seconds_of(b));
+        times_a.push_back(a());
+        times_b.push_back(b());
     }
     return {median(times_a), median(times_b)};
+}
+
+/// The same of this process's CPU time.
+template <class A, class B>
+Ratio ratio_of(A&& a, B&& b, int rounds = 5) {
+    return ratio_of_times([&] { return cpu_seconds_of(a); }, [&] { return cpu_seconds_of(b); }, rounds);
+}
+
+/// Median CPU seconds after a warm-up.
+template <class Work>
+double seconds_of(Work&& work, int rounds = 5) {
+    work();
+    std::vector<double> times;
+    for (int i = 0; i < rounds; ++i) times.push_back(cpu_seconds_of(work));
+    return median(times);
+}
+
+/// Keeps the compiler from leaving out what computes `value`.
+template <class T>
+void keep(const T& value) {
+    asm volatile("" : : "g"(&value) : "memory");
 }
 
 }  // namespace deburr

@@ -93,16 +93,18 @@ std::optional<std::string> take_box(std::vector<BoundPlane>& planes) {
 }
 
 std::string braces(const char* keyword, const std::vector<std::string>& parts, const std::string& modifiers) {
-    std::string text = std::string(keyword) + " {\n";
-    for (const std::string& part : parts) text += pov_indented(part) + "\n";
-    return text + (modifiers.empty() ? "" : pov_indented(modifiers) + "\n") + "}";
+    std::string text = fmt::format("{} {{\n", keyword);
+    for (const std::string& part : parts) text += fmt::format("{}\n", pov_indented(part));
+    if (!modifiers.empty()) text += fmt::format("{}\n", pov_indented(modifiers));
+    text += '}';
+    return text;
 }
 
 std::string with(const std::string& object, const std::string& modifiers) {
     if (modifiers.empty()) return object;
     const std::string head = object.substr(0, object.rfind('}'));
-    if (head.find('\n') == std::string::npos) return head + modifiers + " }";
-    return head + pov_indented(modifiers) + "\n}";
+    if (head.find('\n') == std::string::npos) return fmt::format("{}{} }}", head, modifiers);
+    return fmt::format("{}{}\n}}", head, pov_indented(modifiers));
 }
 
 }  // namespace

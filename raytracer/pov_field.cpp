@@ -162,8 +162,8 @@ std::string PovField::formula() const {
     }
     if (terms.back() > most_terms)
         throw UnsupportedError(fmt::format(
-            "{}a formula for POV-Ray would have {:.3g} half-spaces, of {:.0f} at most",
-            line_ > 0 ? fmt::format("the solid of line {}: ", line_) : "", terms.back(), most_terms));
+            "{}expected a formula of at most {:.0f} half-spaces for POV-Ray, got {:.3g}",
+            line_ > 0 ? fmt::format("the solid of line {}: ", line_) : "", most_terms, terms.back()));
 
     std::vector<std::string> done;
     for (const Node& n : nodes_) {

@@ -107,11 +107,11 @@ std::string pov_material(const Material& m) {
     switch (m.kind) {
         case Material::Kind::matte: finish = "diffuse 1 ambient 1"; break;
         case Material::Kind::plastic:
-            finish = "diffuse 1 ambient 1" + (smooth ? "" : " " + highlight(alpha, f0));
+            finish = fmt::format("diffuse 1 ambient 1 {}", smooth ? "" : highlight(alpha, f0));
             break;
         case Material::Kind::metal:
-            finish = "diffuse 0 ambient 0 metallic " +
-                     (smooth ? "reflection { 1 metallic }" : highlight(alpha, 1) + " reflection { 1 metallic }");
+            finish = fmt::format("diffuse 0 ambient 0 metallic {} reflection {{ 1 metallic }}",
+                                 smooth ? "" : highlight(alpha, 1));
             break;
         case Material::Kind::mirror: finish = "diffuse 0 ambient 0 reflection { 1 metallic }"; break;
         case Material::Kind::glass:

@@ -40,6 +40,7 @@ PovCsg sharp_csg(const DensityTree& tree) {
             case Op::conjunction: csg = PovCsg::intersect(take(n.a), take(n.b)); break;
             case Op::difference: csg = PovCsg::subtract(take(n.a), take(n.b)); break;
             case Op::complement: csg = PovCsg::subtract(PovCsg::everything(), take(n.a)); break;
+            case Op::ball_share: csg = take(n.a); break;
         }
         done.push_back(std::move(csg));
     }
@@ -52,10 +53,19 @@ public:
     Leaves(const PovSurface& surface, const SolidLeaf& leaf, bool in_csg)
         : surface_(surface), leaf_(leaf), all_roots_(in_csg) {}
 
-    PovCsg csg() { return csg(leaf_.density); }
+    PovCsg csg() {
+        if (leaf_.field) throw UnsupportedError(of_leaf("expected rounded densities for POV-Ray, got another function"));
+        if (leaf_.density.nodes.back().op == Op::ball_share && !surface_.sharp)
+            throw UnsupportedError(of_leaf("expected rounded densities for POV-Ray, got a true convolution"));
+        return csg(leaf_.density);
+    }
     bool cut() const { return cut_; }
 
 private:
+    std::string of_leaf(const std::string& what) const {
+        return leaf_.line > 0 ? fmt::format("the solid of line {}: {}", leaf_.line, what) : what;
+    }
+
     PovCsg csg(const DensityTree& tree) {
         const auto is_sharp = [&](const HalfSpace& h) { return surface_.sharp || h.radius == 0; };
         const auto first_sharp = std::find_if(tree.half_spaces.begin(), tree.half_spaces.end(), is_sharp);
@@ -77,9 +87,9 @@ private:
         if (classify(part.range) == Side::outside) return PovCsg::nothing();
         if (classify(part.range) == Side::inside) return PovCsg::everything();
         if (++parts_ > most_parts)
-            throw UnsupportedError(fmt::format(
-                "{}its sharp half-spaces divide a rounded density into more than {} parts for POV-Ray",
-                leaf_.line > 0 ? fmt::format("the solid of line {}: ", leaf_.line) : "", most_parts));
+            throw UnsupportedError(of_leaf(fmt::format(
+                "expected sharp half-spaces that divide a rounded density into {} parts at most for POV-Ray, got more",
+                most_parts)));
         return csg(part.tree);
     }
 
@@ -105,8 +115,8 @@ private:
             field.formula(), pov_vector(box.lo), pov_vector(box.hi),
             surface_.max_gradient > 0 ? surface_.max_gradient : field.greatest_slope(box),
             surface_.accuracy > 0 ? surface_.accuracy : default_accuracy * radius);
-        if (all_roots_) text += "  all_intersections\n";
-        return PovCsg::object(text + "}");
+        text += all_roots_ ? "  all_intersections\n}" : "}";
+        return PovCsg::object(text);
     }
 
     const PovSurface& surface_;

@@ -190,5 +190,7 @@ return { solids = { rounded(0.3, d) } })");
     const Outcome outcome = run({"export-pov", folder / "t.lua", "-o", folder / "t.pov"});
     CHECK(outcome.code == 3);
     CHECK(outcome.err.find("line 4") != std::string::npos);
+    write_file(folder / "t.lua", "return { solids = { convolved(0.1, cube()) } }");
+    CHECK(run({"export-pov", folder / "t.lua", "-o", folder / "t.pov"}).code == 3);
     CHECK(folder.names() == std::vector<std::string>{"s.lua", "t.lua"});
 }

@@ -1,0 +1,126 @@
+// How the cost of a ray grows with the number of objects, and with the half-spaces of one.
+#include <fmt/format.h>
+
+#include "bench/picture.hpp"
+#include "bench/sections.hpp"
+#include "raytracer/bsp.hpp"
+
+namespace deburr::bench {
+namespace {
+
+constexpr int rays = 40'000;
+// A scene whose tracer would take longer to build than this is left out, and said so.
+constexpr double longest_build = 60;
+
+double fraction(double x) { return x - std::floor(x); }
+
+// Tilted rounded blocks, placements of one, on a cubic grid.
+std::vector<Solid> blocks(int count) {
+    const int side = std::max(1, int(std::ceil(std::cbrt(count) - 1e-9)));
+    const Solid block = Solid::rounded(0.08, Density::box(Vec3(-0.5), Vec3(0.5)));
+    std::vector<Solid> solids;
+    for (int i = 0; i < count; ++i) {
+        const double a = 0.7 * i, c = std::cos(a), s = std::sin(a);
+        solids.push_back(block.transformed({Mat3(0.6 * c, 0.6 * s, 0, -0.6 * s, 0.6 * c, 0, 0, 0, 0.6),
+                                            Vec3(i % side, i / side % side, i / side / side)}));
+    }
+    return solids;
+}
+
+// From all sides to everywhere: points of two Kronecker sequences, the same in every run.
+std::vector<Ray> rays_through(double side) {
+    std::vector<Ray> all;
+    for (int n = 1; n <= rays; ++n) {
+        const Vec3 target = side * Vec3(fraction(0.8192 * n), fraction(0.6711 * n), fraction(0.5497 * n));
+        const double phi = 6.2831853 * fraction(0.6180 * n), z = 2 * fraction(0.7549 * n) - 1;
+        const Vec3 eye = Vec3(0.5 * side) + 2 * side * Vec3(std::cos(phi) * std::sqrt(1 - z * z), z, std::sin(phi) * std::sqrt(1 - z * z));
+        all.push_back({eye, glm::normalize(target - eye)});
+    }
+    return all;
+}
+
+// A unit plate with k × k square pits, 6 + 5 k² half-spaces in the papers' arithmetic, the clip of all
+// pits counted as one more; everything, the radius too, in proportion to a pit.
+Solid plate(int k) {
+    const double pitch = 1.0 / k;
+    Density pits = Density::box(Vec3(0.0), Vec3(1.0));
+    for (int i = 0; i < k * k; ++i) {
+        const Vec3 corner(pitch * (i % k), -0.5 * pitch, pitch * (i / k));
+        const Density pit = Density::product({Density::half_space({-1, 0, 0}, -(corner.x + 0.25 * pitch)),
+                                              Density::half_space({1, 0, 0}, corner.x + 0.75 * pitch),
+                                              Density::half_space({0, -1, 0}, -corner.y),
+                                              Density::half_space({0, 0, -1}, -(corner.z + 0.25 * pitch)),
+                                              Density::half_space({0, 0, 1}, corner.z + 0.75 * pitch)});
+        pits = i == 0 ? pit : pits + pit;
+    }
+    const Density top = Density::half_space({0, 1, 0}, 0);
+    return Solid::rounded(0.05 * pitch, Density::box({0, -1, 0}, {1, 0, 1}) - top * pits);
+}
+
+// To the middles of the pits' floors and of the crossings between them, steeply from above.
+std::vector<Ray> rays_to_flat_parts(int k) {
+    const double pitch = 1.0 / k;
+    std::vector<Ray> all;
+    for (int n = 1; n <= rays; ++n) {
+        const double i = std::floor(k * fraction(0.8192 * n)), j = std::floor(k * fraction(0.5497 * n));
+        const double shift = n % 2 ? 0.5 : 0.125;  // floor, or rim
+        const Vec3 target((i + shift) * pitch, n % 2 ? -0.5 * pitch : 0, (j + shift) * pitch);
+        const Vec3 eye(target + Vec3(0.1 * fraction(0.618 * n) - 0.05, 2, 0.1 * fraction(0.7549 * n) - 0.05));
+        all.push_back({eye, glm::normalize(target - eye)});
+    }
+    return all;
+}
+
+double seconds_a_ray(const RayTracer& tracer, const std::vector<Ray>& all) {
+    TraceCounters counters;
+    return seconds_of([&] {
+               for (const Ray& ray : all) keep(tracer.first_hit(ray, infinity, counters));
+           }, 5) / double(all.size());
+}
+
+// The last cost over the one where `x` was `reference`.
+struct Growth {
+    double reference_x = 0, reference = 0, last_x = 0, last = 0;
+
+    void add(double x, double seconds) {
+        if (x == reference_x) reference = seconds;
+        last_x = x;
+        last = seconds;
+    }
+};
+
+}  // namespace
+
+void growth_of_tracing(Report& report) {
+    Growth objects{100};
+    double build_a_block = 0;
+    for (const int count : {10, 100, 1'000, 10'000, 100'000}) {
+        if (build_a_block * count > longest_build) {
+            report.note(fmt::format("{} blocks: left out, building would take {:.0f} s", count, build_a_block * count));
+            continue;
+        }
+        const std::vector<Solid> solids = blocks(count);
+        std::optional<ImplicitTracer> tracer;
+        const double build = cpu_seconds_of([&] { tracer.emplace(solids); });
+        build_a_block = build / count;
+        const double ray = seconds_a_ray(*tracer, rays_through(std::cbrt(count)));
+        objects.add(count, ray);
+        report.figure(fmt::format("{} blocks: a ray", count), 1e6 * ray, "µs");
+        report.figure(fmt::format("{} blocks: build", count), build, "s");
+        report.point("rays through blocks", "objects", "µs per ray", count, 1e6 * ray);
+    }
+    report.ratio(fmt::format("a ray through {:.0f} blocks / 100 blocks", objects.last_x), {objects.last, objects.reference}, at_most(3));
+
+    Growth half_spaces{12};
+    for (const int k : {1, 4, 11, 35}) {
+        const int count = 7 + 5 * k * k;
+        const ImplicitTracer tracer({plate(k)});
+        const double ray = seconds_a_ray(tracer, rays_to_flat_parts(k));
+        half_spaces.add(count, ray);
+        report.figure(fmt::format("one object of {} half-spaces: a ray to a flat part", count), 1e6 * ray, "µs");
+        report.point("rays to one object", "half-spaces", "µs per ray", count, 1e6 * ray);
+    }
+    report.ratio(fmt::format("a ray to {:.0f} half-spaces / 12", half_spaces.last_x), {half_spaces.last, half_spaces.reference}, at_most(3));
+}
+
+}  // namespace deburr::bench

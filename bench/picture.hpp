@@ -1,0 +1,52 @@
+// Pictures of scenes on one thread, and the rays they are made of.
+#pragma once
+#include <string>
+#include <vector>
+
+#include "bench/ratio.hpp"
+#include "raytracer/integrator.hpp"
+#include "raytracer/ray_tracer.hpp"
+#include "raytracer/scene_reader.hpp"
+
+namespace deburr::bench {
+
+inline std::string scene_path(const std::string& name) { return DEBURR_SOURCE_DIR "/scenes/" + name + ".lua"; }
+inline Scene scene_of(const std::string& name) { return read_scene(scene_path(name), {}); }
+
+inline void render_picture(const Scene& scene, const RayTracer& tracer, TraceCounters& counters, int spp = 1) {
+    const Integrator integrator(scene, tracer, {scene.width, scene.height, spp, 0});
+    for (int y = 0; y < scene.height; ++y)
+        for (int x = 0; x < scene.width; ++x) keep(integrator.pixel(x, y, counters));
+}
+
+/// Every ray that a picture asks for, in the order it does, to be asked again of any tracer.
+class Recording final : public RayTracer {
+public:
+    explicit Recording(const RayTracer& tracer) : tracer_(tracer) {}
+    Hit first_hit(const Ray& ray, double t_max, TraceCounters& counters) const override {
+        questions_.push_back({ray, t_max, false});
+        return tracer_.first_hit(ray, t_max, counters);
+    }
+    bool occluded(const Ray& ray, double t_max, TraceCounters& counters) const override {
+        questions_.push_back({ray, t_max, true});
+        return tracer_.occluded(ray, t_max, counters);
+    }
+    std::size_t rays() const { return questions_.size(); }
+    void ask(const RayTracer& tracer, TraceCounters& counters) const {
+        for (const Question& q : questions_) {
+            if (q.any) keep(tracer.occluded(q.ray, q.t_max, counters));
+            else keep(tracer.first_hit(q.ray, q.t_max, counters));
+        }
+    }
+
+private:
+    struct Question {
+        Ray ray;
+        double t_max;
+        bool any;
+    };
+    const RayTracer& tracer_;
+    mutable std::vector<Question> questions_;
+};
+
+}  // namespace deburr::bench

@@ -1,0 +1,64 @@
+// Deburr's rounded pictures against POV-Ray's, of the same scenes (deburr export-pov): whole processes
+// on one thread. POV-Ray's isosurfaces at a proven max_gradient, once as accurate as they must be for
+// the right picture, once at its default accuracy; and its sharp CSG of planes and boxes.
+#include <fmt/format.h>
+
+#include "bench/picture.hpp"
+#include "bench/program.hpp"
+#include "bench/sections.hpp"
+#include "raytracer/bsp.hpp"
+
+namespace deburr::bench {
+namespace {
+
+constexpr int rounds = 3;
+
+// Lobb's obj4 alone, and how fast camera rays find it: of each that meets it, the exact hit.
+void primary_hits(Report& report) {
+    Scene scene = scene_of("first");
+    scene.solids.pop_back();  // the ground
+    const ImplicitTracer tracer(scene.solids);
+    const PinholeCamera camera(scene.camera, scene.width, scene.height);
+    TraceCounters counters;
+    std::vector<Ray> rays;
+    for (int y = 0; y < scene.height; ++y)
+        for (int x = 0; x < scene.width; ++x)
+            if (const Ray ray = camera.ray(x + 0.5, y + 0.5); tracer.first_hit(ray, infinity, counters)) rays.push_back(ray);
+    const double seconds = seconds_of([&] {
+        for (const Ray& ray : rays) keep(tracer.first_hit(ray, infinity, counters));
+    }, 9);
+    report.figure("obj4: exact primary hits", 1e-6 * double(rays.size()) / seconds, "million/s", at_least(8));
+}
+
+}  // namespace
+
+void deburr_against_povray(Report& report) {
+    primary_hits(report);
+    report.note("libfive, about 1 million pixels/s of obj4, is not in Debian 12: not run here");
+    if (!cpu_seconds_of_program({"povray", "--version"})) {
+        report.note("povray is not installed: left out");
+        return;
+    }
+    const Folder folder;
+    for (const char* name : {"csg_examples", "variable_rounding"}) {
+        const auto ours = [&] {
+            return *cpu_seconds_of_program({deburr_program(), "render", scene_path(name), "-q", "--threads", "1", "--spp",
+                                            "1", "--size", "600x380", "-o", folder / "ours.png"});
+        };
+        const auto against = [&](const std::string& what, const std::vector<std::string>& options, Bar bar) {
+            std::vector<std::string> words{deburr_program(), "export-pov", scene_path(name), "-q", "--size", "600x380", "-o", folder / "s.pov"};
+            words.insert(words.end(), options.begin(), options.end());
+            cpu_seconds_of_program(words);
+            const auto theirs = [&] {
+                return *cpu_seconds_of_program({"povray", "+I" + (folder / "s.pov"), "+O" + (folder / "theirs.png"),
+                                                "+W600", "+H380", "+WT1", "-A", "-D"});
+            };
+            report.ratio(fmt::format("{}: {}", name, what), ratio_of_times(theirs, ours, rounds), bar);
+        };
+        against("isosurface, right picture", {}, at_least(50));
+        against("isosurface, default accuracy", {"--accuracy", "0.001"}, at_least(15));
+        against("sharp CSG / our rounded", {"--sharp"}, at_least(2));
+    }
+}
+
+}  // namespace deburr::bench

@@ -1,0 +1,46 @@
+// What rounding costs [Lobb table 1: 1.2 to 5.3 times], and what the exact criterion saves.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+
+#include "bench/picture.hpp"
+#include "bench/sections.hpp"
+#include "bench/sharpened.hpp"
+#include "raytracer/bsp.hpp"
+
+namespace deburr::bench {
+namespace {
+
+// Figures 12 and 13, and the staplers, if there are any.
+std::vector<std::string> scenes() {
+    std::vector<std::string> names{"csg_examples", "variable_rounding"};
+    for (const auto& entry : std::filesystem::directory_iterator(DEBURR_SOURCE_DIR "/scenes"))
+        if (const std::string name = entry.path().stem(); entry.path().extension() == ".lua" && name.find("stapler") != std::string::npos)
+            names.push_back(name);
+    std::sort(names.begin() + 2, names.end());
+    return names;
+}
+
+}  // namespace
+
+void rounded_against_sharp(Report& report) {
+    for (const std::string& name : scenes()) {
+        const Scene rounded = scene_of(name);
+        Scene sharp = rounded;
+        for (Solid& solid : sharp.solids) solid = sharpened(solid);
+        const ImplicitTracer of_rounded(rounded.solids), of_sharp(sharp.solids);
+        TraceCounters counters;
+        report.ratio(fmt::format("{}: rounded / sharp", name), ratio_of([&] { render_picture(rounded, of_rounded, counters); },
+                                    [&] { render_picture(sharp, of_sharp, counters); }),
+                     at_most(1.25));
+    }
+    const Scene scene = scene_of("variable_rounding");
+    const ImplicitTracer exact(scene.solids), printed(scene.solids, Criterion::lobb);
+    TraceCounters of_exact, of_printed;
+    render_picture(scene, exact, of_exact);
+    render_picture(scene, printed, of_printed);
+    report.figure("variable_rounding: segments, exact / eq. 6", double(of_exact.segments) / double(of_printed.segments), "counted");
+}
+
+}  // namespace deburr::bench

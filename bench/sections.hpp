@@ -1,0 +1,16 @@
+// The benchmark's sections; each is a file of its own.
+#pragma once
+#include "bench/report.hpp"
+
+namespace deburr::bench {
+
+void implicit_against_embree(Report& report);    // a
+void deburr_against_povray(Report& report);      // b
+void rounded_against_sharp(Report& report);      // c
+void growth_of_tracing(Report& report);          // d
+void triage_against_flying_edges(Report& report);  // e
+void growth_of_triage(Report& report);           // f
+void one_thread_and_two(Report& report);         // g
+void work_per_pixel(Report& report);             // h
+
+}  // namespace deburr::bench
