@@ -3,10 +3,10 @@
 namespace deburr {
 namespace {
 
-// Bit k of word v is the truth of variable v in assignment k.
-constexpr std::uint64_t assignments[Truth::most_tabulated] = {0xaaaaaaaaaaaaaaaa, 0xcccccccccccccccc,
-                                                              0xf0f0f0f0f0f0f0f0, 0xff00ff00ff00ff00,
-                                                              0xffff0000ffff0000, 0xffffffff00000000};
+// Bit k of word v is the truth of variable v in assignment k; further variables number the words.
+constexpr int in_a_word = 6;
+constexpr std::uint64_t assignments[in_a_word] = {0xaaaaaaaaaaaaaaaa, 0xcccccccccccccccc, 0xf0f0f0f0f0f0f0f0,
+                                                  0xff00ff00ff00ff00, 0xffff0000ffff0000, 0xffffffff00000000};
 
 std::uint64_t all(bool value) { return value ? ~std::uint64_t(0) : 0; }
 
@@ -17,24 +17,31 @@ void Truth::set(const BooleanFunction& function, const std::vector<Literal>& hal
     count_ = count;
     state_ = 0;
     if (count <= most_tabulated) {
-        words_.resize(nodes.size());
+        const std::size_t many = std::size_t(1) << std::max(0, count - in_a_word);
+        words_.resize(nodes.size() * many);
         for (std::size_t i = 0; i < nodes.size(); ++i) {
             const auto& n = nodes[i];
-            const auto at = [&](int child) { return words_[std::size_t(child)]; };
-            switch (n.op) {
-                case Op::half_space: {
-                    const Literal l = half_spaces[std::size_t(n.a)];
-                    const bool same = l.same != n.negated;
-                    words_[i] = l.variable < 0 ? all(same) : assignments[l.variable] ^ all(!same);
-                    break;
+            std::uint64_t* to = &words_[i * many];
+            const auto of = [&](int child) { return &words_[std::size_t(child) * many]; };
+            if (n.op == Op::half_space) {
+                const Literal l = half_spaces[std::size_t(n.a)];
+                const bool same = l.same != n.negated;
+                for (std::size_t w = 0; w < many; ++w) {
+                    if (l.variable < 0) to[w] = all(same);
+                    else if (l.variable < in_a_word) to[w] = assignments[l.variable] ^ all(!same);
+                    else to[w] = all((w >> (l.variable - in_a_word) & 1) == same);
                 }
-                case Op::complement: words_[i] = ~at(n.a); break;
-                case Op::conjunction: words_[i] = at(n.a) & at(n.b); break;
-                case Op::disjunction: words_[i] = at(n.a) | at(n.b); break;
-                default: words_[i] = all(n.a != 0);
+            } else if (n.op == Op::complement) {
+                for (std::size_t w = 0; w < many; ++w) to[w] = ~of(n.a)[w];
+            } else if (n.op == Op::conjunction) {
+                for (std::size_t w = 0; w < many; ++w) to[w] = of(n.a)[w] & of(n.b)[w];
+            } else if (n.op == Op::disjunction) {
+                for (std::size_t w = 0; w < many; ++w) to[w] = of(n.a)[w] | of(n.b)[w];
+            } else {
+                for (std::size_t w = 0; w < many; ++w) to[w] = all(n.a != 0);
             }
         }
-        table_ = words_.back();
+        table_ = words_.size() - many;
         return;
     }
     nodes_ = nodes;
@@ -87,8 +94,17 @@ void Truth::flip(int variable) {
 
 bool Truth::depends_on(int variable) const {
     if (count_ > most_tabulated) return true;
-    const std::uint64_t with = assignments[variable];
-    return (table_ & with) >> (1 << variable) != (table_ & ~with);
+    const std::size_t many = words_.size() - table_;
+    for (std::size_t w = 0; w < many; ++w) {
+        const std::uint64_t here = words_[table_ + w];
+        if (variable < in_a_word) {
+            const std::uint64_t with = assignments[variable];
+            if ((here & with) >> (1 << variable) != (here & ~with)) return true;
+        } else if (here != words_[table_ + (w | std::size_t(1) << (variable - in_a_word))]) {
+            return true;
+        }
+    }
+    return false;
 }
 
 void mark_open(const BooleanFunction& function, const std::vector<char>& known, std::vector<char>& open) {

@@ -1,6 +1,6 @@
 // A Boolean function of half-spaces, and its truth while they are flipped one after the other.
 //
-// Small functions are truth tables of 64 bits, made 64 assignments at a time; others keep the truth
+// Functions of few variables are truth tables, made 64 assignments at a time; others keep the truth
 // of every node, and a flip changes what lies above it.
 #pragma once
 #include <cstdint>
@@ -28,12 +28,14 @@ struct Literal {
 
 class Truth {
 public:
-    static constexpr int most_tabulated = 6;
+    static constexpr int most_tabulated = 10;
 
     /// Variables 0 … count − 1, all false.
     void set(const BooleanFunction& function, const std::vector<Literal>& half_spaces, int count);
 
-    bool value() const { return count_ <= most_tabulated ? table_ >> state_ & 1 : bool(truth_.back()); }
+    bool value() const {
+        return count_ <= most_tabulated ? words_[table_ + (state_ >> 6)] >> (state_ & 63) & 1 : bool(truth_.back());
+    }
     bool operator[](int variable) const {
         return count_ <= most_tabulated ? state_ >> variable & 1 : bool(bits_[std::size_t(variable)]);
     }
@@ -48,8 +50,9 @@ private:
     bool of_operands(std::size_t node) const;
 
     int count_ = 0;
-    std::uint64_t table_ = 0, state_ = 0;
-    std::vector<std::uint64_t> words_;
+    std::size_t table_ = 0;    // of the root, in words_
+    std::uint64_t state_ = 0;  // the assignment's number
+    std::vector<std::uint64_t> words_;  // node after node
     // Beyond the table.
     std::vector<BooleanFunction::Node> nodes_;
     std::vector<char> truth_, bits_;

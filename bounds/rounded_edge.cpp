@@ -1,0 +1,74 @@
+#include "bounds/rounded_edge.hpp"
+
+#include <algorithm>
+
+namespace deburr {
+namespace {
+
+using Vec2 = glm::dvec2;
+
+Density wedge(double angle) {
+    const double c = std::cos(angle / 2), s = std::sin(angle / 2);
+    return Density::half_space({c, s, 0}, 0) * Density::half_space({-c, s, 0}, 0);
+}
+
+double distance_to_segment(Vec2 x, Vec2 a, Vec2 b) {
+    const Vec2 d = b - a;
+    const double t = std::clamp(glm::dot(x - a, d) / glm::dot(d, d), 0.0, 1.0);
+    return glm::length(x - a - t * d);
+}
+
+// From the points of one polyline with x up to `width` to the other.
+double one_way(const std::vector<Vec2>& from, const std::vector<Vec2>& to, double width) {
+    double most = 0;
+    for (std::size_t i = 0; i < from.size(); ++i) {
+        if (from[i].x < 0 || from[i].x > width) continue;
+        // Segments are looked at outwards from the same x, until none can be nearer.
+        double least = glm::length(from[i] - to[i]);
+        for (std::size_t k = i; k + 1 < to.size() && to[k].x - from[i].x < least; ++k)
+            least = std::min(least, distance_to_segment(from[i], to[k], to[k + 1]));
+        for (std::size_t k = i; k > 0 && from[i].x - to[k].x < least; --k)
+            least = std::min(least, distance_to_segment(from[i], to[k - 1], to[k]));
+        most = std::max(most, least);
+    }
+    return most;
+}
+
+}  // namespace
+
+RoundedEdge::RoundedEdge(double angle)
+    : angle_(angle), quasi_(flatten(wedge(angle), 1)), truth_(flatten_convolved(wedge(angle), 1)) {}
+
+double RoundedEdge::plane(double x) const { return -std::abs(x) / std::tan(angle_ / 2); }
+
+// Downwards the density rises, to 1 at a radius from both planes.
+double RoundedEdge::depth(const LocalDensity& density, double x) const {
+    double above = plane(x), below = above - 1 / std::sin(angle_ / 2);
+    if (density.at({x, above, 0}) >= 0.5 - 1e-15) return above;
+    for (int k = 0; k < 60; ++k) {
+        const double middle = 0.5 * (above + below);
+        (density.at({x, middle, 0}) >= 0.5 ? below : above) = middle;
+    }
+    return 0.5 * (above + below);
+}
+
+double RoundedEdge::quasi(double x) const { return depth(quasi_, x); }
+double RoundedEdge::truth(double x) const { return depth(truth_, x); }
+
+double RoundedEdge::fillet(double x) const {
+    if (std::abs(x) >= truth_reach() * std::sin(angle_ / 2)) return plane(x);
+    const double r = fillet_radius();
+    return std::sqrt(r * r - x * x) - truth_reach() / std::cos(angle_ / 2);
+}
+
+double distance_between(const SectionCurve& a, const SectionCurve& b, double width, int steps) {
+    std::vector<Vec2> of_a, of_b;
+    for (int k = -steps / 4; k <= steps + steps / 4; ++k) {  // for what is nearest may lie beyond either end
+        const double x = width * k / steps;
+        of_a.push_back({x, a(std::abs(x))});
+        of_b.push_back({x, b(std::abs(x))});
+    }
+    return std::max(one_way(of_a, of_b, width), one_way(of_b, of_a, width));
+}
+
+}  // namespace deburr

@@ -1,0 +1,150 @@
+// Lobb, figure 10: how long a segment must be to hold several roots; the printed criterion and the exact one.
+#include "bounds/root_finder.hpp"
+#include "figures/figure.hpp"
+#include "figures/plot.hpp"
+
+namespace deburr {
+namespace {
+
+// f″ = push for a time, then f‴s next: f and its slope from piece to piece.
+struct Piece {
+    double push, time;
+};
+
+struct Motion {
+    std::vector<Vec2> points = {};
+    double t = 0, f = 0, slope = 0;
+
+    void follow(const std::vector<Piece>& pieces) {
+        points.push_back({t, f});
+        for (const auto& [push, time] : pieces) {
+            constexpr int steps = 80;
+            for (int k = 1; k <= steps; ++k) {
+                const double dt = time * k / steps;
+                points.push_back({t + dt, f + slope * dt + 0.5 * push * dt * dt});
+            }
+            f += slope * time + 0.5 * push * time * time;
+            slope += push * time;
+            t += time;
+        }
+    }
+};
+
+// The quickest way to rest at f = 0 under |f″| ≤ G [root_finder.cpp].
+Motion quickest(double f, double slope, double G) {
+    const double w = std::sqrt(G * f + 0.5 * slope * slope);
+    Motion m{.f = f, .slope = slope};
+    m.follow({{-G, (slope + w) / G}, {G, w / G}});
+    return m;
+}
+
+Plot panel(const std::string& title, Vec2 x_range, Vec2 y_range) {
+    Plot plot;
+    plot.width = 420;
+    plot.height = 340;
+    plot.title = title;
+    plot.x_label = "distance along the ray";
+    plot.y_label = "ρ − ½";
+    plot.x_range = x_range;
+    plot.y_range = y_range;
+    plot.legend = "";
+    plot.curves.push_back({.points = {{x_range.x, 0}, {x_range.y, 0}}, .color = house::ink, .width = 1});
+    return plot;
+}
+
+void dot(Plot& plot, Vec2 at, const char* color) {
+    plot.curves.push_back({.points = {at}, .color = color, .kind = Curve::Kind::points, .width = 2});
+}
+
+void upright(Plot& plot, double x, Vec2 range, const std::string& text, const char* color, double y, Label::Align align) {
+    plot.curves.push_back({.points = {{x, range.x}, {x, range.y}}, .color = color, .width = 1.3, .dash = "-"});
+    plot.labels.push_back({.at = {x + (align == Label::Align::right ? -0.06 : 0.06), y}, .text = text, .align = align, .color = color});
+}
+
+void make(FigureContext& context) {
+    context.columns(3);
+    const RayBounds bounds{1, 1, 1};
+
+    // (a) The slope points to the root already.
+    {
+        const SegmentEnd end{0.45, -0.5};
+        const double printed = lobb_turning_distance(end, bounds), exact = least_turning_distance(end, bounds);
+        const Vec2 y{-0.15, 0.6};
+        Plot plot = panel("(a) towards the root", {0, 2.2}, y);
+        Motion m = quickest(end.f, end.slope, bounds.G);
+        plot.curves.push_back({.points = m.points, .color = house::blue, .width = 2.6});
+        plot.curves.push_back({.points = {{0, end.f}, {end.f / bounds.L, 0}}, .color = house::grey, .width = 1.4, .dash = "."});
+        dot(plot, {0, end.f}, house::blue);
+        dot(plot, {m.t, m.f}, house::blue);
+        upright(plot, printed, y, "eq. 6", house::red, 0.53, Label::Align::left);
+        upright(plot, exact, y, "exact", house::green, 0.46, Label::Align::left);
+        context.plot(plot, fmt::format("ρ₁ and ρ₁′ of different signs: at least {:.2f}, exactly {:.2f}", printed, exact));
+    }
+    // (b) The slope points away: the turn-around.
+    {
+        const SegmentEnd end{0.12, 0.7};
+        const double printed = lobb_turning_distance(end, bounds), exact = least_turning_distance(end, bounds);
+        const Vec2 y{-0.15, 0.6};
+        Plot plot = panel("(b) away from the root", {0, 3}, y);
+        // Eq. 6 takes the density to come back to its value with the slope negated.
+        Motion back{.f = end.f, .slope = end.slope};
+        const double turn_around = 2 * end.slope / bounds.G;
+        back.follow({{-bounds.G, turn_around}, {bounds.G, end.slope / bounds.G}});
+        Motion m = quickest(end.f, end.slope, bounds.G);
+        plot.curves.push_back({.points = {{0, end.f}, {turn_around, end.f}}, .color = house::grey, .width = 1.2, .dash = "."});
+        plot.labels.push_back({.at = {0.5 * turn_around, end.f - 0.035}, .text = "turn-around", .align = Label::Align::centre, .color = house::grey});
+        plot.curves.push_back({.points = m.points, .color = house::blue, .width = 2.6});
+        plot.curves.push_back({.points = back.points, .color = house::ink, .width = 1.4, .dash = "-"});
+        dot(plot, {0, end.f}, house::blue);
+        dot(plot, {m.t, m.f}, house::blue);
+        upright(plot, printed, y, "eq. 6", house::red, 0.53, Label::Align::left);
+        upright(plot, exact, y, "exact", house::green, 0.53, Label::Align::right);
+        context.plot(plot, fmt::format("Of one sign: eq. 6 says {:.2f}, but braking early needs {:.2f}", printed, exact));
+    }
+    // (c) A segment that eq. 6 accepts, with two roots: down to a lowest point in its middle, and back.
+    double lowest = 0, length = 5.5;
+    const SegmentEnd end{1e-12, 1};
+    const bool printed_accepts = at_most_one_root(end, end, bounds, length, Criterion::lobb);
+    const bool exact_accepts = at_most_one_root(end, end, bounds, length, Criterion::exact);
+    const double printed = 2 * lobb_turning_distance(end, bounds), exact = 2 * least_turning_distance(end, bounds);
+    int roots = 0;
+    {
+        const double w = (length / 2 - 1) / 2;
+        Motion m{.f = end.f, .slope = end.slope};
+        m.follow({{-1, 1 + w}, {1, 2 * w}, {-1, 1 + w}});
+        for (std::size_t k = 1; k < m.points.size(); ++k) {
+            lowest = std::min(lowest, m.points[k].y);
+            roots += (m.points[k].y > 0) != (m.points[k - 1].y > 0);
+        }
+        const Vec2 y{-0.45, 0.75};
+        Plot plot = panel("(c) a segment with two roots", {0, 6.2}, y);
+        plot.curves.push_back({.points = m.points, .color = house::blue, .width = 2.6});
+        for (std::size_t k = 1; k < m.points.size(); ++k)
+            if ((m.points[k].y > 0) != (m.points[k - 1].y > 0)) dot(plot, {m.points[k].x, 0}, house::red);
+        dot(plot, {0, end.f}, house::blue);
+        dot(plot, {m.t, m.f}, house::blue);
+        upright(plot, printed, y, "eq. 6", house::red, 0.6, Label::Align::right);
+        upright(plot, exact, y, "exact", house::green, 0.6, Label::Align::right);
+        context.plot(plot, fmt::format("Length {:g}: eq. 6 accepts up to {:.2f}, the exact criterion up to {:.2f}", length, printed, exact));
+    }
+    context.measured(fmt::format(
+        "With L = G = 1, f = 0⁺ and slope 1 inwards at both ends, a segment of length {:g} is {} by eq. 6 as holding at most one root, and the "
+        "function drawn in (c), which keeps to the bounds, has {} (lowest value {:.3f}). The exact criterion {} it. Eq. 6 is not a safe "
+        "bound; rendering uses the exact one.",
+        length, printed_accepts ? "accepted" : "refused", roots, lowest, exact_accepts ? "accepts" : "refuses"));
+}
+
+const RegisteredFigure registered{{
+    .name = "lobb-10",
+    .title = "Figure 10: ray segment length constraints for multiple roots",
+    .shows = "Blue the quickest function within the bounds |f′| ≤ L, |f″| ≤ G from a segment's end to a turning point beyond a root; red what "
+             "eq. 6 takes to be the least distance, green the exact one. Dashed in (b) the way that eq. 6 assumes: back to the start's density with the slope negated.",
+    .claim = "A segment that holds several roots is at least as long as eq. 6 says, with the turn-around distance added where density and "
+             "slope have the same sign (§3.4.2).",
+    .plots = true,
+    .seconds = 1,
+    .make = make,
+}};
+
+}  // namespace
+}  // namespace deburr
