@@ -62,7 +62,7 @@ std::string style_of(const Curve& c) {
     return {};
 }
 
-std::string script_of(const Field& f) {
+std::string script_of(const PlotField& f) {
     const Vec2 step = (f.hi - f.lo) / Vec2(f.columns, f.rows);
     std::string out = "$field << EOD\n";
     for (int j = 0; j < f.rows; ++j) {
