@@ -32,7 +32,7 @@ struct Curve {
     std::string title = {};  // in the legend; "": not there
     std::string color = house::blue;
     Kind kind = Kind::line;
-    double width = 2;        // of the line; fill: of its outline, 0 for none
+    double width = 2;        // of the line or of points; fill: of its outline, 0 for none
     std::string dash = {};   // "": solid, "-" dashed, "." dotted, "-." both
     double opacity = 1;      // fill
 };

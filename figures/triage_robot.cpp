@@ -20,7 +20,7 @@ void make(FigureContext& context) {
     for (int i = 0; i < most_frames && vanished == 0; ++i) {
         context.check_stop();
         const double r = first * std::pow(factor, i);
-        const Scene scene = context.scene("robot.lua", {{"r", fmt::format("{:.6f}", r)}});
+        const Scene scene = context.scene("melting_robot.lua", {{"r", fmt::format("{:.6f}", r)}});
         const SceneMesh mesh = mesh_scene(scene, {.reach = 1e4});
         const Mesh& robot = mesh.parts.at(1);
         open += !topology(robot).manifold();
@@ -48,7 +48,7 @@ const RegisteredFigure registered{{
     .shows = "One Boolean density, one radius, Gouraud-shaded meshes of Triage Polygonization.",
     .claim = "The paper's implementation aborts where it cannot generate a continuous surface, but managed an animation of a robot smoothed "
              "with a larger and larger filter until it vanishes completely.",
-    .scenes = {"robot.lua"},
+    .scenes = {"melting_robot.lua"},
     .seconds = 30,
     .make = make,
 }};
