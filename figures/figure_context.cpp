@@ -74,6 +74,15 @@ void FigureContext::picture(const Film& film, const std::string& caption, std::s
     result_.items.push_back(std::move(item));
 }
 
+void FigureContext::picture_bytes(std::string_view png, int width, const std::string& caption, std::string suffix) {
+    FigureItem item;
+    item.file = next_file(suffix) + ".png";
+    item.caption = caption;
+    item.width = width;
+    write_whole_file((fs::path(output_folder_) / item.file).string(), png);
+    result_.items.push_back(std::move(item));
+}
+
 void FigureContext::plot(const Plot& plot, const std::string& caption, std::string suffix) {
     if (!figure_.plots) throw std::logic_error(figure_.name + " makes a plot, but does not say so");
     check_stop();

@@ -59,6 +59,8 @@ public:
     /// none is given and there are several pictures: call columns() first then.
     void picture(const Film& film, const std::string& caption = "", std::string suffix = "");
     void plot(const Plot& plot, const std::string& caption = "", std::string suffix = "");
+    /// A PNG's bytes, made by the caller; `width` in pixels.
+    void picture_bytes(std::string_view png, int width, const std::string& caption = "", std::string suffix = "");
     /// A file in another format, made by the caller: the bytes, and the extension with its dot. It
     /// goes with the picture before it.
     void also(const std::string& extension, std::string_view bytes);

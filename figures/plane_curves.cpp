@@ -100,8 +100,8 @@ std::vector<std::vector<Vec2>> level_lines(const std::function<double(Vec2)>& f,
     return lines;
 }
 
-Field sampled(const std::function<double(Vec2)>& f, Vec2 lo, Vec2 hi, int columns, int rows) {
-    Field field{.lo = lo, .hi = hi, .columns = columns, .rows = rows};
+PlotField sampled(const std::function<double(Vec2)>& f, Vec2 lo, Vec2 hi, int columns, int rows) {
+    PlotField field{.lo = lo, .hi = hi, .columns = columns, .rows = rows};
     const Vec2 step = (hi - lo) / Vec2(columns, rows);
     for (int j = 0; j < rows; ++j)
         for (int i = 0; i < columns; ++i) field.values.push_back(f(lo + (Vec2(i, j) + 0.5) * step));

@@ -18,6 +18,6 @@ std::vector<std::vector<Vec2>> level_lines(const std::function<double(Vec2)>& f,
 double disc_share(const std::vector<Vec2>& polygon, Vec2 centre, double radius);
 
 /// The function over the rectangle as a field for Plot.
-Field sampled(const std::function<double(Vec2)>& f, Vec2 lo, Vec2 hi, int columns, int rows);
+PlotField sampled(const std::function<double(Vec2)>& f, Vec2 lo, Vec2 hi, int columns, int rows);
 
 }  // namespace deburr

@@ -36,6 +36,7 @@ std::vector<Vec2> clipped(std::vector<Vec2> polygon, const Plot& plot) {
         }
         polygon = std::move(kept);
     }
+    if (!polygon.empty()) polygon.push_back(polygon.front());  // or one side has no outline
     return polygon;
 }
 
@@ -51,7 +52,7 @@ std::string style_of(const Curve& c) {
     const std::string line = fmt::format("linecolor rgb {} linewidth {}{}", quoted(c.color), c.width, dash);
     switch (c.kind) {
         case Curve::Kind::line: return "with lines " + line;
-        case Curve::Kind::points: return fmt::format("with points pointtype 7 pointsize 0.6 linecolor rgb {}", quoted(c.color));
+        case Curve::Kind::points: return fmt::format("with points pointtype 7 pointsize {} linecolor rgb {}", 0.3 * c.width, quoted(c.color));
         case Curve::Kind::points_and_line: return "with linespoints pointtype 7 pointsize 0.6 " + line;
         case Curve::Kind::fill:
             return fmt::format("with filledcurves closed fillcolor rgb {} fillstyle {} {}", quoted(c.color),
@@ -62,7 +63,7 @@ std::string style_of(const Curve& c) {
     return {};
 }
 
-std::string script_of(const Field& f) {
+std::string script_of(const PlotField& f) {
     const Vec2 step = (f.hi - f.lo) / Vec2(f.columns, f.rows);
     std::string out = "$field << EOD\n";
     for (int j = 0; j < f.rows; ++j) {

@@ -32,7 +32,7 @@ struct Curve {
     std::string title = {};  // in the legend; "": not there
     std::string color = house::blue;
     Kind kind = Kind::line;
-    double width = 2;        // of the line; fill: of its outline, 0 for none
+    double width = 2;        // of the line or of points; fill: of its outline, 0 for none
     std::string dash = {};   // "": solid, "-" dashed, "." dotted, "-." both
     double opacity = 1;      // fill
 };
@@ -58,7 +58,7 @@ struct Arrow {
 
 /// Values of a function over a rectangle, at the middles of columns × rows cells, from the lower left
 /// corner, row by row; and lines where they reach `contours`.
-struct Field {
+struct PlotField {
     Vec2 lo{0.0}, hi{1.0};
     int columns = 0, rows = 0;
     std::vector<double> values = {};
@@ -78,7 +78,7 @@ struct Plot {
     bool equal_units = false;  // a circle looks round
     bool axes = true;          // false: a drawing without a frame
     std::string legend = "top right";  // "": none; "top left", "bottom right", "outside", …
-    std::optional<Field> field = {};
+    std::optional<PlotField> field = {};
     std::vector<Curve> curves = {};  // later ones over earlier ones
     std::vector<Arrow> arrows = {};
     std::vector<Label> labels = {};

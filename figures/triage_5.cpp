@@ -16,7 +16,7 @@ void make(FigureContext& context) {
     plot.legend = "";
     plot.x_range = Vec2(-half_width, half_width);
     plot.y_range = Vec2(-half_height, half_height);
-    Field field{.lo = {-half_width, -0.8}, .hi = {half_width, 0.8}, .columns = 440, .rows = 2};
+    PlotField field{.lo = {-half_width, -0.8}, .hi = {half_width, 0.8}, .columns = 440, .rows = 2};
     for (int j = 0; j < field.rows; ++j)
         for (int i = 0; i < field.columns; ++i)
             field.values.push_back(profile((field.lo.x + (i + 0.5) * (field.hi.x - field.lo.x) / field.columns) / r));

@@ -211,7 +211,12 @@ void Subdivision::subdivide(int cell) {
         const int at = place_of[std::size_t(current_)];
         if (places[std::size_t(at)].side != Side::straddling) continue;
         Plane plane{};
-        if (!choose(places[std::size_t(at)], plane)) continue;
+        if (!choose(places[std::size_t(at)], plane)) {
+            // Cells of a filter that reaches all over the object stay large, with many half-spaces.
+            for (OpenLeaf& leaf : places[std::size_t(at)].open)
+                if (!leaf.density) leaf.density = std::make_shared<LocalDensity>(*leaf.tree);
+            continue;
+        }
         if (halve(current_, plane)) todo.push_back(int(complex.cells.size()) - 1);
         else refused_[std::size_t(current_)].push_back(plane);
         todo.push_back(current_);

@@ -5,6 +5,7 @@
 -- other, and the Boolean density, -D form=boolean, gives another shape; visibly so from 0.2 on.
 
 local form = param("form", "lobb")
+local softness = param("softness", 1)  -- all radii times this; 0 makes everything sharp
 
 local box1 = cube():scale(0.5):translate(0.25, 0.8, 0.25)
 local box2 = cube():scale(0.5, 1, 0.5):translate(0.25, 0.8, 0.25)
@@ -16,7 +17,7 @@ local solids = {
 }
 for i, r in ipairs{0.01, 0.05, 0.1, 0.2, 0.3, 0.5} do
   local column, row = (i - 1) % 3, (i - 1) // 3
-  solids[#solids + 1] = rounded(r, density)
+  solids[#solids + 1] = rounded(softness * r, density)
     :translate(1.8 * (column - 1) - 0.5, 0, 2.1 * (row - 0.5) - 0.5)
     :material(plastic{ color = {0.58, 0.13, 0.05}, roughness = 0.32 })
 end

@@ -1,4 +1,5 @@
 // deburr figures: what it refuses, and what it makes again.
+#include <algorithm>
 #include <filesystem>
 
 #include "catch.hpp"
@@ -118,5 +119,16 @@ TEST_CASE("Figures stand in the order of papers and numbers") {
         CHECK(!figure.title.empty());
         CHECK(!figure.claim.empty());
         for (const std::string& scene : figure.scenes) CHECK(fs::exists(DEBURR_SOURCE_DIR "/scenes/" + scene));
+    }
+}
+
+TEST_CASE("Every figure and table of Triage, and the pictures of Lobb, are there") {
+    std::vector<std::string> names;
+    for (const Figure& figure : all_figures()) names.push_back(figure.name);
+    for (const char* name : {"lobb-12", "lobb-13", "lobb-14", "lobb-15", "lobb-table-1", "triage-1", "triage-3", "triage-4", "triage-5",
+                             "triage-6", "triage-8", "triage-13", "triage-15", "triage-16", "triage-17", "triage-18", "triage-19",
+                             "triage-20", "triage-21", "triage-22", "triage-robot", "triage-table-6.2", "triage-table-6.3"}) {
+        CAPTURE(name);
+        CHECK(std::count(names.begin(), names.end(), name) == 1);
     }
 }

@@ -1,0 +1,196 @@
+// Triage, figure 8: from a CSG object with a rounding radius to a classified density field. In the
+// plane: prisms without ends.
+#include "figures/figure.hpp"
+#include "figures/plane_curves.hpp"
+#include "polygonizer/cell_mesh.hpp"
+
+namespace deburr {
+namespace {
+
+constexpr double r = 0.42;
+
+struct Block {
+    Vec2 lo, hi;
+    Density density() const {
+        return Density::half_space({1, 0, 0}, hi.x) * Density::half_space({-1, 0, 0}, -lo.x) * Density::half_space({0, 1, 0}, hi.y) *
+               Density::half_space({0, -1, 0}, -lo.y);
+    }
+    std::vector<Vec2> outline() const { return {lo, {hi.x, lo.y}, hi, {lo.x, hi.y}}; }
+};
+
+const Block whole{{0, 0}, {4, 3}}, hole{{1.25, 1.0}, {2.85, 2.1}};
+const Vec2 lo(-0.9, -0.9), hi(4.9, 3.9);
+
+const char* color_of(DensityClass c) {
+    switch (c) {
+        case DensityClass::zero: return "#ffffff";
+        case DensityClass::low: return "#dfe7f0";
+        case DensityClass::unclassified: return "#f3d79a";
+        case DensityClass::high: return "#e3a892";
+        case DensityClass::one: return "#c4684d";
+    }
+    return "";
+}
+
+Plot panel() {
+    Plot plot;
+    plot.width = 330;
+    plot.height = 270;
+    plot.axes = false;
+    plot.equal_units = true;
+    plot.legend = "";
+    plot.x_range = Vec2(lo.x, hi.x);
+    plot.y_range = Vec2(lo.y, hi.y);
+    return plot;
+}
+
+void outline(Plot& plot, const Block& block, const char* color, double width, const char* dash = "") {
+    std::vector<Vec2> line = block.outline();
+    line.push_back(line[0]);
+    plot.curves.push_back({.points = line, .color = color, .width = width, .dash = dash});
+}
+
+// The planes of a block and their parallels at ±r.
+std::vector<double> planes(double a, double b) { return {a - r, a, a + r, b - r, b, b + r}; }
+
+// Table 1 in every region between the planes.
+void add_regions(Plot& plot, const Block& block) {
+    const std::vector<double> x = planes(block.lo.x, block.hi.x), y = planes(block.lo.y, block.hi.y);
+    const std::vector<DensityClass> across = {DensityClass::low, DensityClass::high, DensityClass::one, DensityClass::high, DensityClass::low};
+    for (std::size_t i = 0; i + 1 < x.size(); ++i)
+        for (std::size_t j = 0; j + 1 < y.size(); ++j)
+            plot.curves.push_back({.points = {{x[i], y[j]}, {x[i + 1], y[j]}, {x[i + 1], y[j + 1]}, {x[i], y[j + 1]}},
+                                   .color = color_of(combine(Op::product, across[i], across[j])), .kind = Curve::Kind::fill, .width = 0.8});
+}
+
+// The cells' corners at the front, as they are seen along z.
+std::vector<Vec2> front_of(const CellComplex& complex, int cell) {
+    std::vector<Vec2> corners;
+    for (const int f : complex.cells[std::size_t(cell)]) {
+        std::vector<Vec2> face;
+        bool front = true;
+        for (const int v : complex.corners(f)) {
+            front &= complex.vertices[std::size_t(v)].z > 0;
+            face.push_back(Vec2(complex.vertices[std::size_t(v)]));
+        }
+        if (front) corners = face;
+    }
+    return corners;
+}
+
+// The tree, leaves from left to right, in class colours.
+Plot tree_of(const Subdivision& s, const std::vector<DensityClass>& classes) {
+    std::vector<std::vector<int>> children(s.places.size());
+    for (std::size_t p = 1; p < s.places.size(); ++p) children[std::size_t(s.places[p].parent)].push_back(int(p));
+    std::vector<int> cell_of(s.places.size(), -1);
+    for (std::size_t c = 0; c < s.place_of.size(); ++c) cell_of[std::size_t(s.place_of[c])] = int(c);
+    Plot plot = panel();
+    plot.equal_units = false;
+    double column = 0, deepest = 0;
+    std::vector<Vec2> leaves;
+    std::vector<DensityClass> of_leaf;
+    const std::function<Vec2(int, double)> place = [&](int p, double depth) -> Vec2 {
+        deepest = std::max(deepest, depth);
+        if (children[std::size_t(p)].empty()) {
+            leaves.push_back({column++, -depth});
+            of_leaf.push_back(classes[std::size_t(cell_of[std::size_t(p)])]);
+            return leaves.back();
+        }
+        std::vector<Vec2> below;
+        const bool real = children[std::size_t(p)].size() > 1;
+        for (const int child : children[std::size_t(p)]) below.push_back(place(child, depth + (real ? 1 : 0)));
+        if (!real) return below[0];
+        const Vec2 here(0.5 * (below.front().x + below.back().x), -depth);
+        for (const Vec2 b : below) plot.curves.push_back({.points = {here, b}, .color = house::grey, .width = 1});
+        return here;
+    };
+    place(0, 0);
+    for (std::size_t k = 0; k < leaves.size(); ++k) {
+        Curve dot{.points = {}, .color = color_of(of_leaf[k]), .kind = Curve::Kind::fill, .width = 0.7};
+        for (const Vec2 p : circle({0, 0}, 1, 24)) dot.points.push_back(leaves[k] + p * Vec2(0.42, 0.42 * deepest / double(leaves.size()) * 1.2));
+        plot.curves.push_back(dot);
+    }
+    plot.x_range = Vec2(-1, column);
+    plot.y_range = Vec2(-deepest - 0.7, 0.5);
+    return plot;
+}
+
+void make(FigureContext& context) {
+    context.columns(4);
+    const SolidTree solid = flatten(Solid::rounded(r, whole.density() - hole.density()));
+    const DensityTree& density = solid.leaves.at(0).density;
+    const auto rho = [&](Vec2 x) { return density.at(Vec3(x.x, x.y, 0)); };
+    const auto level = level_lines(rho, 0.5, lo, hi, 290, 240);
+
+    Plot a = panel();
+    for (std::size_t k = 0; k < level.size(); ++k) {
+        double area = 0;
+        for (std::size_t i = 0; i + 1 < level[k].size(); ++i) area += level[k][i].x * level[k][i + 1].y - level[k][i].y * level[k][i + 1].x;
+        a.curves.push_back({.points = level[k], .color = std::abs(area) > 10 ? house::shade : "#ffffff", .kind = Curve::Kind::fill, .width = 0});
+    }
+    std::stable_sort(a.curves.begin(), a.curves.end(), [](const Curve& x, const Curve& y) { return x.color != "#ffffff" && y.color == "#ffffff"; });
+    for (const auto& line : level) a.curves.push_back({.points = line, .color = house::blue, .width = 2.4});
+    Plot b = panel();
+    outline(b, whole, house::ink, 2);
+    outline(b, hole, house::ink, 2, "-");
+    b.labels.push_back({.at = {2, 2.55}, .text = "A", .align = Label::Align::centre, .size = 14});
+    b.labels.push_back({.at = {2.05, 1.55}, .text = "B", .align = Label::Align::centre, .size = 14});
+    b.labels.push_back({.at = {2, -0.5}, .text = fmt::format("A − B, r = {:g}", r), .align = Label::Align::centre});
+    const auto field = [&](const Block& block) {
+        Plot plot = panel();
+        const SolidTree one = flatten(Solid::rounded(r, block.density()));
+        plot.field = sampled([&](Vec2 x) { return one.leaves[0].density.at(Vec3(x.x, x.y, 0)); }, lo, hi, 174, 144);
+        outline(plot, block, house::ink, 1);
+        return plot;
+    };
+    Plot d = panel();
+    for (const Block& block : {whole, hole}) {
+        const bool first = block.lo == whole.lo;
+        for (const auto& [values, k] : {std::pair{planes(block.lo.x, block.hi.x), 0}, {planes(block.lo.y, block.hi.y), 1}})
+            for (std::size_t i = 0; i < values.size(); ++i) {
+                const bool own = i == 1 || i == 4;
+                const Vec2 from = k == 0 ? Vec2(values[i], lo.y) : Vec2(lo.x, values[i]), to = k == 0 ? Vec2(values[i], hi.y) : Vec2(hi.x, values[i]);
+                d.curves.push_back({.points = {from, to}, .color = first ? house::blue : house::red, .width = own ? 1.8 : 1, .dash = own ? "" : "-"});
+            }
+    }
+    Plot e = panel();
+    add_regions(e, whole);
+    Plot e2 = panel();
+    add_regions(e2, hole);
+
+    Subdivision subdivision(solid, {{lo.x, lo.y, -0.5}, {hi.x, hi.y, 0.5}});
+    Plot f = panel();
+    std::vector<DensityClass> classes;
+    std::array<int, 5> count{};
+    for (int cell = 0; cell < int(subdivision.complex.cells.size()); ++cell) {
+        classes.push_back(cell_class(subdivision, cell, 0, density));
+        ++count[std::size_t(classes.back())];
+        f.curves.push_back({.points = front_of(subdivision.complex, cell), .color = color_of(classes.back()), .kind = Curve::Kind::fill, .width = 0.8});
+    }
+    for (const auto& line : level) f.curves.push_back({.points = line, .color = house::blue, .width = 2.2});
+    context.plot(a, "(a) the smoothed object");
+    context.plot(b, "(b) its definition");
+    context.plot(field(whole), "(c) the density of A");
+    context.plot(d, "(d) planes of A (blue) and B (red), dashed at ±r");
+    context.plot(e, "(e) A's regions");
+    context.plot(e2, "(e) B's regions");
+    context.plot(f, "(f) Deburr's subdivision");
+    context.plot(tree_of(subdivision, classes), "(g) its BSP tree");
+    context.measured(fmt::format("{} cells: {} unclassified, {} high, {} one, {} low, {} zero. Cells are not cut further once they are decided, so there are "
+                                 "fewer than all planes would make.",
+                                 classes.size(), count[std::size_t(DensityClass::unclassified)], count[std::size_t(DensityClass::high)],
+                                 count[std::size_t(DensityClass::one)], count[std::size_t(DensityClass::low)], count[std::size_t(DensityClass::zero)]));
+}
+
+const RegisteredFigure registered{{
+    .name = "triage-8",
+    .title = "Figure 8: from a CSG object to a classified density field",
+    .shows = "White: zero; pale blue: low; yellow: unclassified; light and dark red: high and one.",
+    .claim = "The planes of every primitive, displaced by the radius, partition its density field; the BSP tree classifies that of the object (§4.2.3, §4.2.4).",
+    .plots = true,
+    .seconds = 3,
+    .make = make,
+}};
+
+}  // namespace
+}  // namespace deburr
