@@ -38,25 +38,46 @@ BoxHierarchy::BoxHierarchy(const std::vector<Box>& boxes) {
     for (const Box& box : boxes) bounds_ = hull(bounds_, box);
     std::vector<std::int32_t> order(boxes.size());
     for (std::size_t i = 0; i < order.size(); ++i) order[i] = std::int32_t(i);
-    nodes_.resize(std::max<std::size_t>(1, boxes.size() - 1));
-    build(boxes, order, 0, 0, boxes.size(), 0);
+    std::vector<Pair> pairs(std::max<std::size_t>(1, boxes.size() - 1));
+    build(pairs, boxes, order, 0, 0, boxes.size(), 0);
+    nodes_.reserve(pairs.size() / 2 + 1);
+    add_node(pairs, pairs[0]);
 }
 
-void BoxHierarchy::set(Node& node, int side, const Box& box) const {
-    for (int k = 0; k < 3; ++k) {
-        node.lo[side][k] = below(box.lo[k]);
-        node.hi[side][k] = -below(-box.hi[k]);
+std::int32_t BoxHierarchy::add_node(const std::vector<Pair>& pairs, const Pair& from) {
+    std::pair<Box, std::int32_t> part[4] = {{from.box[0], from.child[0]}, {from.box[1], from.child[1]}};
+    int count = 2;
+    while (count < 4) {  // the largest pair is opened
+        int widest = -1;
+        for (int i = 0; i < count; ++i)
+            if (part[i].second >= 0 && (widest < 0 || area(part[i].first) > area(part[widest].first))) widest = i;
+        if (widest < 0) break;
+        const Pair& inner = pairs[std::size_t(part[widest].second)];
+        part[widest] = {inner.box[0], inner.child[0]};
+        part[count++] = {inner.box[1], inner.child[1]};
     }
+    const std::size_t number = nodes_.size();
+    nodes_.emplace_back();
+    for (int i = 0; i < 4; ++i) {
+        const Box box = i < count ? part[i].first : Box{};
+        for (int k = 0; k < 3; ++k) {
+            nodes_[number].lo[k][i] = below(box.lo[k]);
+            nodes_[number].hi[k][i] = -below(-box.hi[k]);
+        }
+        if (i >= count) continue;
+        const std::int32_t child = part[i].second >= 0 ? add_node(pairs, pairs[std::size_t(part[i].second)]) : part[i].second;
+        nodes_[number].child[i] = child;
+    }
+    return std::int32_t(number);
 }
 
-// n boxes have n − 1 nodes: where each part's are is known beforehand.
-void BoxHierarchy::build(const std::vector<Box>& boxes, std::vector<std::int32_t>& order, std::int32_t node,
-                         std::size_t first, std::size_t end, int depth) {
+// n boxes have n − 1 pairs: where each part's are is known beforehand.
+void BoxHierarchy::build(std::vector<Pair>& pairs, const std::vector<Box>& boxes, std::vector<std::int32_t>& order,
+                         std::int32_t pair, std::size_t first, std::size_t end, int depth) {
     const auto box_at = [&](std::size_t i) -> const Box& { return boxes[std::size_t(order[i])]; };
-    Node& to = nodes_[std::size_t(node)];
+    Pair& to = pairs[std::size_t(pair)];
     if (end - first == 1) {  // there is but one box: its second side is empty
-        set(to, 0, box_at(first));
-        set(to, 1, Box{});
+        to.box[0] = box_at(first);
         to.child[0] = to.child[1] = ~order[first];
         return;
     }
@@ -105,15 +126,15 @@ void BoxHierarchy::build(const std::vector<Box>& boxes, std::vector<std::int32_t
         split = at;
     }
     const std::size_t begins[3] = {first, split, end};
-    const std::int32_t nodes[2] = {node + 1, node + std::int32_t(split - first)};
+    const std::int32_t inner[2] = {pair + 1, pair + std::int32_t(split - first)};
     for (int side = 0; side < 2; ++side) {
         Box box;
         for (std::size_t i = begins[side]; i < begins[side + 1]; ++i) box = hull(box, box_at(i));
-        set(to, side, box);
-        to.child[side] = begins[side + 1] - begins[side] == 1 ? ~order[begins[side]] : nodes[side];
+        to.box[side] = box;
+        to.child[side] = begins[side + 1] - begins[side] == 1 ? ~order[begins[side]] : inner[side];
     }
     const auto descend = [&](int side) {
-        if (to.child[side] >= 0) build(boxes, order, nodes[side], begins[side], begins[side + 1], depth + 1);
+        if (to.child[side] >= 0) build(pairs, boxes, order, inner[side], begins[side], begins[side + 1], depth + 1);
     };
     if (end - first < boxes_of_a_task) {
         descend(0);

@@ -1,5 +1,5 @@
-// A hierarchy over boxes, for rays: binary, split by the surface-area heuristic (MacDonald & Booth
-// 1990) in bins (Wald 2007).
+// A hierarchy over boxes, for rays: split by the surface-area heuristic (MacDonald & Booth 1990) in bins
+// (Wald 2007), and then four boxes to a node, which halves the nodes that have to be waited for.
 //
 // Boxes are kept in single precision, rounded outward; rays meet them in double precision, so that
 // what a ray touches is never missed. The hierarchy does not depend on the number of threads.
@@ -30,14 +30,18 @@ public:
     const Box& bounds() const { return bounds_; }
 
 private:
+    struct Pair {  // of a binary hierarchy
+        Box box[2];
+        std::int32_t child[2];  // a pair, or the complement of a box's number
+    };
     struct alignas(64) Node {
-        float lo[2][3], hi[2][3];
-        std::int32_t child[2];  // a node, or the complement of a box's number
+        float lo[3][4], hi[3][4];
+        std::int32_t child[4];  // a node, or the complement of a box's number
     };
 
-    void build(const std::vector<Box>& boxes, std::vector<std::int32_t>& order, std::int32_t node, std::size_t first,
-               std::size_t end, int depth);
-    void set(Node& node, int side, const Box& box) const;
+    static void build(std::vector<Pair>& pairs, const std::vector<Box>& boxes, std::vector<std::int32_t>& order,
+                      std::int32_t pair, std::size_t first, std::size_t end, int depth);
+    std::int32_t add_node(const std::vector<Pair>& pairs, const Pair& from);
 
     std::vector<Node> nodes_;  // the root first; none if there are no boxes
     Box bounds_;
@@ -62,41 +66,38 @@ void BoxHierarchy::along(const Ray& ray, const double& limit, Visit visit) const
         std::int32_t node;
         double t;
     };
-    Open stack[128];
+    Open stack[512];
     int top = 0;
-    std::int32_t now = 0;
+    Open now{0, 0};
     for (;;) {
-        if (now < 0) {
-            if (visit(~now)) return;
+        if (now.node < 0) {
+            if (visit(~now.node)) return;
         } else {
-            const Node& node = nodes_[std::size_t(now)];
-            double t[2];
-            bool met[2];
-            for (int side = 0; side < 2; ++side) {
-                double from = 0, to = limit;
-                for (int k = 0; k < 3; ++k) {
+            const Node& node = nodes_[std::size_t(now.node)];
+            double from[4] = {0, 0, 0, 0}, to[4] = {limit, limit, limit, limit};
+            for (int k = 0; k < 3; ++k) {
+                const float* near = down[k] ? node.hi[k] : node.lo[k];
+                const float* far = down[k] ? node.lo[k] : node.hi[k];
+                for (int i = 0; i < 4; ++i) {
                     // A NaN, from a ray within a slab's plane, changes nothing.
-                    const double lo = node.lo[side][k], hi = node.hi[side][k];
-                    const double a = ((down[k] ? hi : lo) - near_origin[k]) * inverse[k];
-                    const double b = ((down[k] ? lo : hi) - far_origin[k]) * inverse[k];
-                    from = a > from ? a : from;
-                    to = b < to ? b : to;
+                    const double a = (near[i] - near_origin[k]) * inverse[k], b = (far[i] - far_origin[k]) * inverse[k];
+                    from[i] = a > from[i] ? a : from[i];
+                    to[i] = b < to[i] ? b : to[i];
                 }
-                t[side] = from;
-                met[side] = from <= to * outward;
             }
-            if (met[0] || met[1]) {
-                const int first = met[0] && (!met[1] || t[0] <= t[1]) ? 0 : 1;
-                if (met[0] && met[1]) stack[top++] = {node.child[1 - first], t[1 - first]};
-                now = node.child[first];
-                continue;
+            // Those that are met, the nearest on top.
+            const int bottom = top;
+            for (int i = 0; i < 4; ++i) {
+                if (!(from[i] <= to[i] * outward)) continue;
+                int at = top++;
+                for (; at > bottom && stack[at - 1].t < from[i]; --at) stack[at] = stack[at - 1];
+                stack[at] = {node.child[i], from[i]};
             }
         }
         do {
             if (top == 0) return;
-            --top;
-        } while (stack[top].t > limit);
-        now = stack[top].node;
+            now = stack[--top];
+        } while (now.t > limit);
     }
 }
 
@@ -107,13 +108,13 @@ void BoxHierarchy::meeting(const Box& box, Visit visit) const {
     while (!open.empty()) {
         const Node& node = nodes_[std::size_t(open.back())];
         open.pop_back();
-        for (int side = 0; side < 2; ++side) {
+        for (int i = 0; i < 4; ++i) {
             bool meets = true;
             for (int k = 0; k < 3; ++k)
-                meets &= double(node.lo[side][k]) <= box.hi[k] && double(node.hi[side][k]) >= box.lo[k];
+                meets &= double(node.lo[k][i]) <= box.hi[k] && double(node.hi[k][i]) >= box.lo[k];
             if (!meets) continue;
-            if (node.child[side] < 0) visit(~node.child[side]);
-            else open.push_back(node.child[side]);
+            if (node.child[i] < 0) visit(~node.child[i]);
+            else open.push_back(node.child[i]);
         }
     }
 }
