@@ -39,6 +39,7 @@ if (have("bars")) {
 }
 
 if (have("rays_through_blocks") && have("rays_to_one_object") && have("triage_of_half-spaces") && have("time_of_triage")) {
+    stats file("triage_of_half-spaces") using (log($2/($1*log($1)))) name "NLOGN" nooutput
     set terminal pngcairo size 1080, 340 font font noenhanced
     set output sprintf("%s/bench_growth.png", images)
     set multiplot layout 1, 3
@@ -60,12 +61,11 @@ if (have("rays_through_blocks") && have("rays_to_one_object") && have("triage_of
     plot file("rays_through_blocks") lw 2 pt 7 lc rgb good title "blocks", \
          file("rays_to_one_object") lw 2 pt 5 lc rgb other title "one object, flat parts"
 
-    stats file("triage_of_half-spaces") using (log($2/($1*log($1)))) nooutput
     set title "triage: ms for half-spaces"
     set xlabel "half-spaces in one object"
     set autoscale y
     plot file("triage_of_half-spaces") lw 2 pt 7 lc rgb good title "measured", \
-         file("triage_of_half-spaces") using 1:($1*log($1)*exp(STATS_mean)) with lines dt 2 lc rgb grey title "n log n"
+         file("triage_of_half-spaces") using 1:($1*log($1)*exp(NLOGN_mean)) with lines dt 2 lc rgb grey title "n log n"
 
     set title "seconds for a mesh of obj4"
     set xlabel "radius"
