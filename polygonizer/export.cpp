@@ -44,13 +44,6 @@ std::uint32_t count_of(std::size_t n) {
     return std::uint32_t(n);
 }
 
-std::string name_of(const MeshNotes& notes, int solid) {
-    std::string name = std::size_t(solid) < notes.names.size() ? notes.names[std::size_t(solid)] : "";
-    for (char& c : name)
-        if (static_cast<unsigned char>(c) <= ' ') c = '_';
-    return name.empty() ? fmt::format("solid_{}", solid + 1) : name;
-}
-
 std::string obj(const Mesh& mesh, const MeshNotes& notes) {
     fmt::memory_buffer out;
     const auto to = std::back_inserter(out);
@@ -59,7 +52,7 @@ std::string obj(const Mesh& mesh, const MeshNotes& notes) {
     for (const Vec3& n : mesh.normals) fmt::format_to(to, "vn {} {} {}\n", n.x, n.y, n.z);
     int solid = -1, material = -1;
     for (const Triangle& t : mesh.triangles) {
-        if (t.solid != solid) fmt::format_to(to, "o {}\n", name_of(notes, solid = t.solid));
+        if (t.solid != solid) fmt::format_to(to, "o {}\n", solid_name(notes, solid = t.solid));
         if (t.material != material) fmt::format_to(to, "usemtl material_{}\n", material = t.material);
         fmt::format_to(to, "f {}//{} {}//{} {}//{}\n", t.vertex[0] + 1, t.normal[0] + 1, t.vertex[1] + 1,
                        t.normal[1] + 1, t.vertex[2] + 1, t.normal[2] + 1);
@@ -146,7 +139,7 @@ std::string glb(const Mesh& mesh, const MeshNotes& notes) {
         if (key.first != solid) {
             solid = key.first;
             j["scenes"][0]["nodes"].push_back(j["nodes"].size());
-            j["nodes"].push_back({{"mesh", j["meshes"].size()}, {"name", name_of(notes, solid)}});
+            j["nodes"].push_back({{"mesh", j["meshes"].size()}, {"name", solid_name(notes, solid)}});
             j["meshes"].push_back({{"primitives", Json::array()}});
         }
         const auto [material, is_new] = material_of.try_emplace(key.second, j["materials"].size());
@@ -197,9 +190,17 @@ std::string glb(const Mesh& mesh, const MeshNotes& notes) {
 }
 
 constexpr std::pair<const char*, MeshFormat> formats[] = {
-    {".obj", MeshFormat::obj}, {".ply", MeshFormat::ply}, {".stl", MeshFormat::stl}, {".glb", MeshFormat::glb}};
+    {".obj", MeshFormat::obj}, {".ply", MeshFormat::ply}, {".stl", MeshFormat::stl}, {".glb", MeshFormat::glb},
+    {".ase", MeshFormat::ase}};
 
 }  // namespace
+
+std::string solid_name(const MeshNotes& notes, int solid) {
+    std::string name = std::size_t(solid) < notes.names.size() ? notes.names[std::size_t(solid)] : "";
+    for (char& c : name)
+        if (static_cast<unsigned char>(c) <= ' ') c = '_';
+    return name.empty() ? fmt::format("solid_{}", solid + 1) : name;
+}
 
 std::optional<MeshFormat> mesh_format(const std::string& path) {
     const std::size_t dot = path.find_last_of("./");
@@ -221,6 +222,7 @@ std::string known_mesh_extensions() {
 std::string encode(const Mesh& mesh, MeshFormat format, const MeshNotes& notes) {
     if (format == MeshFormat::obj) return obj(mesh, notes);
     if (format == MeshFormat::ply) return ply(mesh);
+    if (format == MeshFormat::ase) return encode_ase(mesh, notes);
     Mesh apart = mesh;  // in single precision too
     separate_touching(apart, single_precision_step(mesh));
     return format == MeshFormat::stl ? stl(apart) : glb(apart, notes);

@@ -40,6 +40,26 @@ void measure_edges(const Mesh& mesh, MeshMetrics& m) {
     m.edge_spread = std::sqrt(std::max(0.0, squares / double(count) - m.edge_mean * m.edge_mean)) / m.edge_mean;
 }
 
+void measure_vertices(const Mesh& mesh, const OffsetField& field, MeshMetrics& m) {
+    Sum distance, angle;
+    std::vector<char> used(mesh.positions.size(), false);
+    std::vector<Vec3> around(mesh.normals.size(), Vec3(0.0));
+    for (const Triangle& t : mesh.triangles)
+        for (std::size_t k = 0; k < 3; ++k) {
+            used[std::size_t(t.vertex[k])] = true;
+            around[std::size_t(t.normal[k])] += mesh.area_vector(t);
+        }
+    for (std::size_t v = 0; v < used.size(); ++v)
+        if (used[v]) distance.add(std::abs(field.at(mesh.positions[v]).distance));
+    for (std::size_t n = 0; n < around.size(); ++n) {
+        const double size = glm::length(around[n]);
+        if (size > 0) angle.add(std::acos(std::clamp(glm::dot(around[n], mesh.normals[n]) / size, -1.0, 1.0)) * degrees);
+    }
+    m.vertex_distance = distance.max;
+    m.vertex_distance_mean = distance.spread().mean;
+    m.vertex_normal_degrees = angle.spread();
+}
+
 }  // namespace
 
 MeshMetrics measure(const Mesh& mesh, const SolidTree& solid) {
@@ -51,6 +71,7 @@ MeshMetrics measure(const Mesh& mesh, const SolidTree& solid) {
     measure_edges(mesh, m);
     const OffsetField field(solid, field_box(mesh), m.edge_mean);
     const double reach = m.box.empty() ? 0 : glm::length(m.box.hi - m.box.lo);
+    measure_vertices(mesh, field, m);
     Sum first, far, angle;
     for (const Triangle& t : mesh.triangles) {
         Vec3 middle(0.0), normals(0.0);
@@ -64,8 +85,6 @@ MeshMetrics measure(const Mesh& mesh, const SolidTree& solid) {
         const Vec3 area = mesh.area_vector(t);
         const double twice = glm::length(area);
         m.area += 0.5 * twice;
-        for (const int v : t.vertex)
-            m.vertex_distance = std::max(m.vertex_distance, std::abs(field.at(mesh.positions[std::size_t(v)]).distance));
         if (twice <= flat * longest * longest) {
             ++m.degenerate;
             continue;
@@ -111,6 +130,8 @@ MeshMetrics combined(const std::vector<MeshMetrics>& parts) {
         all.volume += m.volume;
         if (!m.box.empty()) all.box = hull(all.box, m.box);
         all.vertex_distance = std::max(all.vertex_distance, m.vertex_distance);
+        all.vertex_distance_mean += share * m.vertex_distance_mean;
+        merge(all.vertex_normal_degrees, m.vertex_normal_degrees, share);
         merge(all.first_order, m.first_order, share);
         merge(all.distance, m.distance, share);
         merge(all.normal_degrees, m.normal_degrees, share);

@@ -1,6 +1,7 @@
 // How far a mesh is from the solid it stands for.
 //
-// Distances are measured twice: to first order, |ρ − ½|/|∇ρ|, and by root search along the normal
+// Among others the paper's three criteria [Vyatkin §4], each for a mesh of whichever method: deviation
+// of vertices, deviation of normals, and uniformity. Distances are measured twice: to first order, |ρ − ½|/|∇ρ|, and by root search along the normal
 // from the middle of every triangle. Units are the scene's.
 #pragma once
 #include "polygonizer/mesh.hpp"
@@ -18,6 +19,8 @@ struct MeshMetrics {
     double area = 0, volume = 0;
     Box box;
     double vertex_distance = 0;  // largest, to first order
+    double vertex_distance_mean = 0;
+    Spread vertex_normal_degrees;  // between the triangles around a vertex, weighted by area, and the surface
     Spread first_order;          // at the middles of triangles
     Spread distance;             // there, by root search
     Spread normal_degrees;       // between triangle and surface, at their middles

@@ -18,10 +18,13 @@ namespace {
 constexpr double radians = 0.017453292519943295;
 // How often a cell may be cut further than its level.
 constexpr int spare_levels = 4;
+constexpr int most_rounds = spare_levels;
 // Cosine between a triangle and the surface below which the cells around it are cut further: 75°.
 constexpr double least_cosine = 0.25;
 // A sliver leans for other reasons, which cutting does not help: repair.hpp.
 constexpr double sliver = 0.005;  // height over longest side
+// Points nearer than this, in cells, are one.
+constexpr double same_place = 1e-6;
 // Two triangles that face as their points do, to this cosine, are as good as two others.
 constexpr double alike = 0.95;
 
@@ -49,13 +52,15 @@ public:
 
     Mesh run(OctreeStatistics& statistics, std::vector<Origin>& origins) {
         // Each halving of cells quarters distances; what leans still is left to repair.
-        for (statistics.rounds = 1;; ++statistics.rounds) {
+        for (;;) {
+            ++statistics.rounds;
             linking_ = link(tree_);
             place_crossings();
             place_points();
             make_triangles();
-            if (statistics.rounds > spare_levels || !cut_further()) break;
+            if (int(statistics.rounds) > most_rounds || !cut_further()) break;
         }
+        statistics.cells = statistics.open_cells = statistics.hard_points = 0;
         for (const OctreeCell& c : tree_.cells())
             if (c.children < 0) {
                 ++statistics.cells;
@@ -70,7 +75,31 @@ public:
         return mesh_.mesh(origins);
     }
 
+    /// Cuts the cells around these triangles; false if they are as small as may be.
+    bool cut_around(const Mesh& mesh, const std::vector<int>& triangles) {
+        std::vector<int> leaves;
+        for (const int t : triangles) {
+            Vec3 middle(0.0);
+            for (const int v : mesh.triangles[std::size_t(t)].vertex) {
+                const Vec3 x = mesh.positions[std::size_t(v)];
+                middle += x / 3.0;
+                leaves.push_back(tree_.find(x));
+            }
+            leaves.push_back(tree_.find(middle));
+        }
+        return split(leaves);
+    }
+
 private:
+    bool split(std::vector<int>& leaves) {
+        std::sort(leaves.begin(), leaves.end());
+        leaves.erase(std::unique(leaves.begin(), leaves.end()), leaves.end());
+        bool changed = false;
+        for (const int leaf : leaves)
+            if (tree_.cell(leaf).open) changed |= tree_.split(leaf);
+        return changed;
+    }
+
     void place_crossings() {
         std::unordered_map<std::uint64_t, CrossingPoint> known = std::move(known_crossings_);
         known_crossings_.clear();
@@ -97,12 +126,25 @@ private:
     void place_points() {
         mesh_ = {};
         std::vector<CrossingPoint> around;
-        for (const Loop& loop : linking_.loops) {
+        std::vector<std::size_t> tips;  // that stick out of their cells
+        const auto place = [&](const Loop& loop, bool tip_may_stick_out) {
             around.clear();
             for (int i = loop.begin; i < loop.end; ++i)
                 around.push_back(crossings_[std::size_t(linking_.around[std::size_t(i)])]);
             const OctreeCell& cell = tree_.cell(loop.leaf);
-            mesh_.points.push_back(surface_point(tree_.solid(cell), tree_.box(cell), around, hard_cosine_));
+            return surface_point(tree_.solid(cell), tree_.box(cell), around, hard_cosine_, tip_may_stick_out);
+        };
+        for (const Loop& loop : linking_.loops) {
+            mesh_.points.push_back(place(loop, true));
+            if (!tree_.box(tree_.cell(loop.leaf)).contains(mesh_.points.back().position)) tips.push_back(mesh_.points.size() - 1);
+        }
+        // A tip is one cell's, its own if that has found it.
+        for (const std::size_t i : tips) {
+            const auto same = [&](const SurfacePoint& p) {
+                return &p != &mesh_.points[i] && p.hard() &&
+                       glm::length(p.position - mesh_.points[i].position) < same_place * tree_.edge();
+            };
+            if (std::any_of(mesh_.points.begin(), mesh_.points.end(), same)) mesh_.points[i] = place(linking_.loops[i], false);
         }
     }
 
@@ -231,12 +273,7 @@ private:
             if (!leans && s.distance <= options_.tolerance) continue;
             for (const int leaf : linking_.crossings[std::size_t(crossing_of_[t])].leaves) leaves.push_back(leaf);
         }
-        std::sort(leaves.begin(), leaves.end());
-        leaves.erase(std::unique(leaves.begin(), leaves.end()), leaves.end());
-        bool changed = false;
-        for (const int leaf : leaves)
-            if (tree_.cell(leaf).open) changed |= tree_.split(leaf);
-        return changed;
+        return split(leaves);
     }
 
     const OctreeOptions& options_;
@@ -301,11 +338,26 @@ Mesh octree(const SolidTree& mixed, const Box& box, const OctreeOptions& options
     SolidTree numbered = solid;
     for (std::size_t k = 0; k < numbered.leaves.size(); ++k) numbered.leaves[k].line = int(k);
     OctreeStatistics own;
-    std::vector<Origin> origins;
-    Mesh mesh = Polygonization(numbered, box, options, edge).run(statistics ? *statistics : own, origins);
-    repair(mesh, origins, solid);
-    check(mesh);
-    return mesh;
+    if (!statistics) statistics = &own;
+    *statistics = {};
+    Polygonization polygonization(numbered, box, options, edge);
+    Mesh best;
+    std::size_t least_left = std::numeric_limits<std::size_t>::max();
+    // What repair cannot help needs smaller cells around it.
+    constexpr int most_mending_rounds = 4;
+    for (int round = 0; round < most_mending_rounds; ++round) {
+        std::vector<Origin> origins;
+        Mesh mesh = polygonization.run(*statistics, origins);
+        const RepairStatistics repaired = repair(mesh, origins, solid);
+        const bool more = !repaired.left.empty() && polygonization.cut_around(mesh, repaired.left);
+        if (repaired.left.size() < least_left) {
+            least_left = repaired.left.size();
+            best = std::move(mesh);
+        }
+        if (!more) break;
+    }
+    check(best);
+    return best;
 }
 
 }  // namespace deburr

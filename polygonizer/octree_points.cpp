@@ -119,6 +119,18 @@ void see(const SurfaceOffset& solid, Vec3 x, Vec3 origin, Seen& seen) {
     seen.planes.push_back({o.normal, glm::dot(o.normal, x - origin)});
 }
 
+// The tip of a cone, where its tangent planes meet. It may stick out of the cell that the cone's last
+// crossings are in, into one that it crosses no edge of.
+std::optional<SurfacePoint> tip_point(const SurfaceOffset& solid, const Box& cell, Vec3 mean, const Seen& seen) {
+    const Vec3 x = mean + nearest_to_all(seen.planes, 0);
+    const double size = size_of(cell);
+    for (const TangentPlane& p : seen.planes)
+        if (std::abs(glm::dot(p.normal, x - mean) - p.offset) > nearly_on_surface * size) return std::nullopt;
+    if (!inflated(cell, cell.hi.x - cell.lo.x).contains(x) || !(std::abs(solid.at(x).distance) < nearly_on_surface * size))
+        return std::nullopt;
+    return SurfacePoint{x, seen.faces};  // it faces all ways at once
+}
+
 // From x in the cell to the surface, by Newton's method; if that leads out of the cell, straight to
 // the nearest end of a crossing on the other side.
 Vec3 taken_to_surface(const SurfaceOffset& solid, const Box& cell, const std::vector<CrossingPoint>& crossings, Vec3 start) {
@@ -179,13 +191,16 @@ Vec3 surface_root(const SurfaceOffset& solid, Vec3 inside, Vec3 outside) {
 }
 
 SurfacePoint surface_point(const SurfaceOffset& solid, const Box& cell, const std::vector<CrossingPoint>& crossings,
-                           double hard_cosine) {
+                           double hard_cosine, bool tip_may_stick_out) {
     Vec3 mean(0.0), normal(0.0);
     for (const CrossingPoint& c : crossings) mean += c.position / double(crossings.size());
     Seen seen;
     for (const CrossingPoint& c : crossings) see(solid, c.position, mean, seen);
     Vec3 start = mean;
     const bool bent = is_hard(seen.faces, hard_cosine);
+    if (bent && seen.pieces.size() == 1)
+        if (const auto tip = tip_point(solid, cell, mean, seen); tip && (tip_may_stick_out || cell.contains(tip->position)))
+            return *tip;
     if (bent) {
         // Below this share of the planes' agreement lies what a hard edge of some 10° leaves open.
         constexpr double least_share = 0.01;
@@ -203,11 +218,7 @@ SurfacePoint surface_point(const SurfaceOffset& solid, const Box& cell, const st
     SurfacePoint point{taken_to_surface(solid, cell, crossings, start), {}};
     const Offset o = solid.at(point.position);
     for (const Face& f : seen.faces) normal += f.normal;
-    // A tip faces all ways at once.
-    constexpr double tip = 1e-6;
-    const bool is_tip = bent && seen.pieces.size() == 1 && glm::length(point.position - start) < tip * size_of(cell);
-    if (is_tip) point.faces = seen.faces;
-    else point.faces.push_back(face_of(solid, o));
+    point.faces.push_back(face_of(solid, o));
     Vec3& first = point.faces[0].normal;
     if (first == Vec3(0.0)) first = glm::length(normal) > 0 ? glm::normalize(normal) : Vec3(0, 0, 1);
     return point;

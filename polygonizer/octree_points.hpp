@@ -37,10 +37,10 @@ struct CrossingPoint {
 /// The root between two points of which one is inside and the other is not.
 Vec3 surface_root(const SurfaceOffset& solid, Vec3 inside, Vec3 outside);
 
-/// The point of the sheet that passes `cell` in these crossings; in the cell, always. Faces that
-/// bend by no more than acos(hard_cosine) are one.
+/// The point of the sheet that passes `cell` in these crossings; in the cell, but for a tip that
+/// sticks out of it, if that may be. Faces that bend by no more than acos(hard_cosine) are one.
 SurfacePoint surface_point(const SurfaceOffset& solid, const Box& cell, const std::vector<CrossingPoint>& crossings,
-                           double hard_cosine);
+                           double hard_cosine, bool tip_may_stick_out);
 
 /// Where the two pieces meet that pass both p and q, no farther than `reach` from x; nothing if they
 /// meet at no hard edge there.

@@ -25,7 +25,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 struct CompareOptions : Options {
-    std::string second, via = "triage", tolerance, json;
+    std::string second, via, tolerance, json;
     std::string most_missed, most_distance, most_rmse;
 };
 
@@ -98,7 +98,7 @@ int run_compare(const CompareOptions& o) {
         if (stop) return interrupted_exit_code;
         j["scene"] = scene.file;
         j["first"] = "implicit";
-        j["second"] = o.via;
+        j["second"] = mesh.method_names();
         j["triangles"] = mesh.mesh.triangles.size();
     }
     const PictureDifference d = difference(a, b, units);
@@ -132,7 +132,7 @@ Command add_compare_command(CLI::App& program) {
         ->type_name("");
     add_output_option(*command, *options, known_extensions());
     add_picture_options(*command, *options);
-    command->add_option("--via", options->via, mesh_method_names() + "; default: triage")->type_name("NAME");
+    command->add_option("--via", options->via, mesh_method_names() + "; default: triage, and octree for solids with free forms")->type_name("NAME");
     command->add_option("--tolerance", options->tolerance, "of the mesh, as for mesh; default: 0.03 of each solid's least radius")->type_name("D");
     command->add_option("--json", options->json, "write the figures as JSON")->type_name("FILE");
     command->add_option("--max-missed", options->most_missed, "exit code 1 if more pixels, in percent of the object's, see another solid or none")

@@ -21,18 +21,31 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 struct MeshCommandOptions : Options {
-    std::string method = "triage", tolerance, grid;
+    std::string method, tolerance, grid, edge, level, hard_angle, faces;
 };
 
 MeshSettings settings(const MeshCommandOptions& o) {
     MeshSettings s;
-    s.method = parse_mesh_method("--method", o.method);
+    if (!o.method.empty()) s.method = parse_mesh_method("--method", o.method);
     if (!o.tolerance.empty()) s.tolerance = parse_tolerance(o.tolerance);
     if (!o.grid.empty()) s.grid = parse_positive("--grid", o.grid);
-    if (!o.tolerance.empty() && s.method != MeshMethod::triage)
-        throw UsageError("--tolerance: expected --method triage, got '" + o.method + "'");
-    if (!o.grid.empty() && s.method != MeshMethod::marching_cubes)
-        throw UsageError("--grid: expected --method marching-cubes, got '" + o.method + "'");
+    if (!o.edge.empty()) s.edge = parse_positive("--edge", o.edge);
+    if (!o.level.empty()) s.level = int(parse_whole("--level", o.level, 1, 12));
+    if (!o.hard_angle.empty()) {
+        s.hard_angle = parse_positive("--hard-edges", o.hard_angle);
+        if (s.hard_angle > 180) throw UsageError(fmt::format("--hard-edges: expected degrees up to 180, got '{}'", o.hard_angle));
+    }
+    if (!o.edge.empty() && !o.level.empty()) throw UsageError("--edge: expected it without --level, which says the same");
+    const auto only = [&](const char* option, const std::string& given, MeshMethod method) {
+        if (!given.empty() && s.method != method)
+            throw UsageError(fmt::format("{}: expected --method {}, got '{}'", option, mesh_method_name(method), o.method));
+    };
+    if (!o.tolerance.empty() && s.method == MeshMethod::marching_cubes)
+        throw UsageError("--tolerance: expected --method triage or octree, got 'marching-cubes'");
+    only("--grid", o.grid, MeshMethod::marching_cubes);
+    only("--edge", o.edge, MeshMethod::octree);
+    only("--level", o.level, MeshMethod::octree);
+    only("--hard-edges", o.hard_angle, MeshMethod::octree);
     return s;
 }
 
@@ -53,7 +66,9 @@ Json json_of(const MeshMetrics& m) {
             {"euler", t.euler},
             {"area", m.area},
             {"volume", m.volume},
+            {"vertex_distance_mean", m.vertex_distance_mean},
             {"vertex_distance_max", m.vertex_distance},
+            {"vertex_normal_degrees", json_of(m.vertex_normal_degrees)},
             {"triangle_distance_first_order", json_of(m.first_order)},
             {"triangle_distance", json_of(m.distance)},
             {"triangle_normal_degrees", json_of(m.normal_degrees)},
@@ -83,6 +98,7 @@ int run_mesh(const MeshCommandOptions& o) {
     if (!o.stats_json.empty()) files.push_back(o.stats_json);
     check_distinct(files);
     const MeshSettings method = settings(o);
+    const auto faces = o.faces.empty() ? 0 : std::size_t(parse_whole("--faces", o.faces, 4, 100'000'000));
     const int threads = o.threads.value_or(tbb::info::default_concurrency());
     const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, std::size_t(threads));
 
@@ -91,7 +107,7 @@ int run_mesh(const MeshCommandOptions& o) {
     const Scene scene = load_scene(o);
     for (const std::string& path : files) check_writable(path);
     clock.begin("polygonize");
-    const SceneMesh mesh = mesh_scene(scene, method);
+    const SceneMesh mesh = faces ? mesh_scene(scene, method, faces) : mesh_scene(scene, method);
     clock.end();
     for (const std::string& warning : mesh.warnings)
         if (!o.quiet) fmt::print(stderr, "deburr: {}\n", warning);
@@ -112,11 +128,16 @@ int run_mesh(const MeshCommandOptions& o) {
         clock.end();
         Json j;
         j["scene"] = scene.file;
-        j["method"] = o.method;
+        j["method"] = mesh.method_names();
         j["parameters"] = scene.parameters;
         j["mesh"] = json_of(metrics);
-        if (method.method == MeshMethod::triage)
+        if (mesh.triage.cells)
             j["triage"] = {{"cells", mesh.triage.cells}, {"open_cells", mesh.triage.open_cells}, {"rounds", mesh.triage.rounds}};
+        if (const OctreeStatistics& t = mesh.octree; t.cells)
+            j["octree"] = {{"level", t.level},           {"edge", t.edge},
+                           {"range_tests", t.range_tests}, {"cells", t.cells},
+                           {"open_cells", t.open_cells}, {"hard_points", t.hard_points},
+                           {"partitions", t.partitions}, {"rounds", t.rounds}};
         for (const PhaseTime& t : clock.times()) j["seconds"][t.name] = t.wall;
         if (o.stats) print_table(j);
         if (!o.stats_json.empty())
@@ -132,12 +153,17 @@ Command add_mesh_command(CLI::App& program) {
     const auto options = std::make_shared<MeshCommandOptions>();
     add_scene_options(*command, *options);
     add_output_option(*command, *options, known_mesh_extensions());
-    command->add_option("--method", options->method, mesh_method_names() + "; default: triage")->type_name("NAME");
+    command->add_option("--method", options->method, mesh_method_names() + "; default: triage, and octree for solids with free forms")->type_name("NAME");
     command->add_option("--tolerance", options->tolerance,
-                        "triage: refine until no triangle's middle is farther from the surface")
+                        "triage, octree: refine until no triangle's middle is farther from the surface")
         ->type_name("D");
     command->add_option("--grid", options->grid, "marching-cubes: side of a cube; default: half the least radius")
         ->type_name("H");
+    command->add_option("--edge", options->edge, "octree: side of a cell, nearly the mean length of edges")->type_name("L");
+    command->add_option("--level", options->level, "octree: 2^N cells along each solid's longest side")->type_name("N");
+    command->add_option("--hard-edges", options->hard_angle, "octree: degrees between faces from which their edge is kept; default: 15")
+        ->type_name("A");
+    command->add_option("--faces", options->faces, "as near to this number of triangles as the method comes")->type_name("N");
     add_run_options(*command, *options);
     add_statistics_options(*command, *options);
     return {command, [options] { return run_mesh(*options); }};

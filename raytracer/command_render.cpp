@@ -69,7 +69,7 @@ void check_road(const std::string& via) {
 void check_options(const RenderOptions& o) {
     check_road(o.via);
     if (!o.tolerance.empty()) {
-        if (o.via != "triage") throw UsageError("--tolerance: expected --via triage, got '" + o.via + "'");
+        if (o.via != "triage" && o.via != "octree") throw UsageError("--tolerance: expected --via triage or octree, got '" + o.via + "'");
         parse_tolerance(o.tolerance);
     }
     for (const auto& [name, given] : {std::pair{"--flat", o.flat}, {"--edges", o.edges}, {"--wire", !o.wire.empty()}})

@@ -4,10 +4,11 @@
 
 #include <algorithm>
 #include <charconv>
+#include <cmath>
 
 #include "bounds/bounding_box.hpp"
 #include "polygonizer/marching_cubes.hpp"
-#include "polygonizer/octree.hpp"
+#include "polygonizer/octree_cells.hpp"
 #include "polygonizer/separate.hpp"
 #include "raytracer/errors.hpp"
 
@@ -22,6 +23,9 @@ constexpr double rendering_reach = 1e4;
 // For pictures: on Figure 12 of Lobb's paper 99 % of the hits are then within 0.03 r of the exact
 // ones, where the paper's one refinement of each edge leaves 0.26 r.
 constexpr double rendering_tolerance = 0.03;
+// The same for free forms, which have no radius, in their sizes: a fifth of a pixel where they fill
+// a picture of 1000.
+constexpr double rendering_tolerance_in_sizes = 2e-4;
 
 bool finite(const Box& box) { return box.empty() || box.finite(); }
 
@@ -48,10 +52,15 @@ Box finite_part(const Scene& scene, const std::vector<Box>& boxes) {
 MeshMethod parse_mesh_method(const std::string& what, const std::string& name) {
     if (name == "triage") return MeshMethod::triage;
     if (name == "marching-cubes") return MeshMethod::marching_cubes;
+    if (name == "octree") return MeshMethod::octree;
     throw UsageError(fmt::format("{}: expected {}, got '{}'", what, mesh_method_names(), name));
 }
 
-std::string mesh_method_names() { return "triage or marching-cubes"; }
+std::string mesh_method_names() { return "triage, marching-cubes or octree"; }
+
+std::string mesh_method_name(MeshMethod method) {
+    return method == MeshMethod::triage ? "triage" : method == MeshMethod::octree ? "octree" : "marching-cubes";
+}
 
 double parse_positive(const std::string& what, const std::string& text) {
     double x = 0;
@@ -67,9 +76,12 @@ double parse_tolerance(const std::string& text) {
 
 MeshSettings picture_mesh_settings(const std::string& via, const std::string& tolerance) {
     MeshSettings settings;
-    settings.method = parse_mesh_method("--via", via);
+    if (!via.empty()) settings.method = parse_mesh_method("--via", via);
     settings.reach = rendering_reach;
-    if (tolerance.empty()) settings.tolerance_in_radii = rendering_tolerance;
+    if (tolerance.empty()) {
+        settings.tolerance_in_radii = rendering_tolerance;
+        settings.tolerance_in_sizes = rendering_tolerance_in_sizes;
+    }
     else settings.tolerance = parse_tolerance(tolerance);
     return settings;
 }
@@ -82,9 +94,59 @@ double least_radius(const SolidTree& solid) {
     return least < infinity ? least : 0;
 }
 
-// Triage follows half-spaces: what has none it cannot see.
-static bool has_field(const SolidTree& solid) {
+namespace {
+
+bool has_field(const SolidTree& solid) {
     return std::any_of(solid.leaves.begin(), solid.leaves.end(), [](const SolidLeaf& leaf) { return leaf.field != nullptr; });
+}
+
+// Triage follows half-spaces: what has none it cannot see.
+void need_densities(const SolidTree& solid, std::size_t id) {
+    if (has_field(solid))
+        throw UnsupportedError(fmt::format(
+            "--method triage: expected rounded polyhedra, got a free form in solid {}; use octree or marching-cubes", id));
+}
+
+Mesh by_octree(const SolidTree& tree, const Box& box, bool cut_off, const MeshSettings& settings, std::size_t id,
+               OctreeStatistics& sum) {
+    const Vec3 size = box.hi - box.lo;
+    const double longest = std::max({size.x, size.y, size.z}), own = octree_edge(tree, box);
+    OctreeOptions options;
+    options.edge = settings.level > 0 ? std::ldexp(longest, -settings.level) : settings.edge > 0 ? settings.edge : own;
+    // What has been cut off is many times as large as it looks.
+    if (cut_off && settings.level == 0) options.edge = std::max(options.edge, own);
+    options.edge *= settings.coarseness;
+    options.hard_angle = settings.hard_angle;
+    const double radius = least_radius(tree);
+    const double relative = radius > 0 ? settings.tolerance_in_radii * radius : settings.tolerance_in_sizes * longest;
+    options.tolerance = std::min(settings.tolerance, has_field(tree) || radius > 0 ? relative : infinity);
+    OctreeStatistics statistics;
+    Mesh mesh;
+    try {
+        mesh = octree(tree, box, options, &statistics);
+    } catch (const OpenMeshError& error) {
+        throw WorkError(fmt::format("solid {}: {}", id, error.what()));
+    } catch (const std::length_error&) {
+        throw UnsupportedError(fmt::format("--edge: cells of {:g} would be more than {} for solid {}", options.edge,
+                                           CellTree::most_cells, id));
+    }
+    sum.level = std::max(sum.level, statistics.level);
+    sum.edge = sum.edge > 0 ? std::min(sum.edge, statistics.edge) : statistics.edge;
+    sum.range_tests += statistics.range_tests;
+    sum.cells += statistics.cells;
+    sum.open_cells += statistics.open_cells;
+    sum.hard_points += statistics.hard_points;
+    sum.partitions += statistics.partitions;
+    sum.rounds = std::max(sum.rounds, statistics.rounds);
+    return mesh;
+}
+
+}  // namespace
+
+std::string SceneMesh::method_names() const {
+    std::string names;
+    for (const MeshMethod m : methods) names += (names.empty() ? "" : ", ") + mesh_method_name(m);
+    return names;
 }
 
 SceneMesh mesh_scene(const Scene& scene, const MeshSettings& settings) {
@@ -101,7 +163,8 @@ SceneMesh mesh_scene(const Scene& scene, const MeshSettings& settings) {
         SolidTree& tree = result.trees[i];
         Mesh part;
         Box box = boxes[i];
-        if (!finite(box)) {
+        const bool unbounded = !finite(box);
+        if (unbounded) {
             // Cut off on infinite sides only; the others keep their margin.
             Box margin = inflated(box, 0.05 * std::max({size.x, size.y, size.z}));
             for (int k = 0; k < 3; ++k) {
@@ -116,18 +179,22 @@ SceneMesh mesh_scene(const Scene& scene, const MeshSettings& settings) {
             result.parts.emplace_back();
             continue;
         }
-        if (settings.method == MeshMethod::triage && has_field(tree)) {
-            part = octree(tree, box, {.tolerance = settings.tolerance});
-        } else if (settings.method == MeshMethod::triage) {
+        const MeshMethod method = settings.method.value_or(has_field(tree) ? MeshMethod::octree : MeshMethod::triage);
+        if (std::find(result.methods.begin(), result.methods.end(), method) == result.methods.end())
+            result.methods.push_back(method);
+        if (method == MeshMethod::octree) {
+            part = by_octree(tree, box, unbounded, settings, i + 1, result.octree);
+        } else if (method == MeshMethod::triage) {
+            need_densities(tree, i + 1);
             TriageStatistics statistics;
             const double radius = least_radius(tree);
             const double relative = radius > 0 ? settings.tolerance_in_radii * radius : infinity;
-            part = triage(tree, box, {std::min(settings.tolerance, relative)}, &statistics);
+            part = triage(tree, box, {settings.coarseness * std::min(settings.tolerance, relative)}, &statistics);
             result.triage.cells += statistics.cells;
             result.triage.open_cells += statistics.open_cells;
             result.triage.rounds = std::max(result.triage.rounds, statistics.rounds);
         } else {
-            const double grid = settings.grid > 0 ? settings.grid : marching_cubes_grid(tree, box);
+            const double grid = settings.coarseness * (settings.grid > 0 ? settings.grid : marching_cubes_grid(tree, box));
             if (marching_cubes_count(box, grid) > most_cubes)
                 throw UnsupportedError(fmt::format(
                     "--grid: a grid of {:g} would have more than {:g} cubes for solid {}", grid, most_cubes, i + 1));
@@ -141,6 +208,36 @@ SceneMesh mesh_scene(const Scene& scene, const MeshSettings& settings) {
     for (Mesh& part : result.parts)
         for (Vec3& x : part.positions) x = *moved++;
     return result;
+}
+
+SceneMesh mesh_scene(const Scene& scene, MeshSettings settings, std::size_t faces) {
+    // Triangles go with the inverse square of lengths, and triage's with the inverse of its tolerance;
+    // near the wanted number the last two meshes tell better.
+    constexpr int most_rounds = 12;
+    constexpr double near_enough = 0.001, worth_a_warning = 0.01;
+    constexpr double largest_step = 16, least_slope = 0.5, greatest_slope = 4;
+    if (settings.method.value_or(MeshMethod::triage) == MeshMethod::triage && !std::isfinite(settings.tolerance))
+        settings.tolerance_in_radii = rendering_tolerance;
+    SceneMesh best;
+    double slope = settings.method == MeshMethod::triage || !settings.method ? 1 : 2, error = infinity;
+    double last_coarseness = 0, last_count = 0;
+    for (int round = 0; round < most_rounds && error > near_enough; ++round) {
+        SceneMesh mesh = mesh_scene(scene, settings);
+        const double count = double(std::max<std::size_t>(mesh.mesh.triangles.size(), 1));
+        if (last_count > 0 && count != last_count && settings.coarseness != last_coarseness)
+            slope = std::clamp(-std::log(count / last_count) / std::log(settings.coarseness / last_coarseness), least_slope,
+                               greatest_slope);
+        last_coarseness = settings.coarseness;
+        last_count = count;
+        settings.coarseness *= std::clamp(std::pow(count / double(faces), 1 / slope), 1 / largest_step, largest_step);
+        const double off = std::abs(count - double(faces)) / double(faces);
+        if (off >= error) continue;
+        error = off;
+        best = std::move(mesh);
+    }
+    if (error > worth_a_warning)
+        best.warnings.push_back(fmt::format("--faces: the nearest to {} that was found is {}", faces, best.mesh.triangles.size()));
+    return best;
 }
 
 std::vector<MeshMetrics> measure_parts(const SceneMesh& mesh) {

@@ -1,28 +1,36 @@
 // A scene's solids as meshes, by whichever method.
 #pragma once
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "polygonizer/metrics.hpp"
+#include "polygonizer/octree.hpp"
 #include "polygonizer/triage.hpp"
 #include "raytracer/scene.hpp"
 
 namespace deburr {
 
-/// Triage leaves solids that hold free forms to the octree.
-enum class MeshMethod { triage, marching_cubes };
+enum class MeshMethod { triage, marching_cubes, octree };
 
 /// Throws UsageError for a name that is none; `what` is for the message.
 MeshMethod parse_mesh_method(const std::string& what, const std::string& name);
 std::string mesh_method_names();
+std::string mesh_method_name(MeshMethod method);
 /// A number > 0, or UsageError.
 double parse_positive(const std::string& what, const std::string& text);
 
 struct MeshSettings {
-    MeshMethod method = MeshMethod::triage;
-    double tolerance = infinity;  // triage
-    double tolerance_in_radii = infinity;  // triage: of each solid's least radius, if less
+    /// None: triage, and the octree for solids that hold what triage cannot follow, free forms.
+    std::optional<MeshMethod> method;
+    double tolerance = infinity;  // triage, octree
+    double tolerance_in_radii = infinity;  // the same, of each solid's least radius, if less
+    double tolerance_in_sizes = infinity;  // octree, without a radius: of each solid's size, if less
     double grid = 0;              // marching cubes; 0: half the least radius
+    double edge = 0;              // octree: side of a cell; 0: by the solid's size and radius
+    int level = 0;                // octree: 2^level cells along the solid's longest side, if not 0
+    double hard_angle = OctreeOptions{}.hard_angle;  // octree
+    double coarseness = 1;        // multiplies each solid's grid, edge or tolerance
     double reach = 8;             // infinite solids end this many sizes of the finite ones away
 };
 
@@ -40,13 +48,21 @@ struct SceneMesh {
     Mesh mesh;                    // of all solids
     std::vector<Mesh> parts;      // solid by solid
     std::vector<SolidTree> trees;
+    std::vector<MeshMethod> methods;  // that were used, each once
     TriageStatistics triage;      // sums
+    OctreeStatistics octree;      // sums; the least edge, the highest level
     std::vector<std::string> warnings;
+
+    std::string method_names() const;  // "octree, triage"
 };
 
 /// Solids that reach to infinity are cut off, at a distance that leaves the others in sight, and a
 /// warning says so. Throws UnsupportedError if a grid would be too fine.
 SceneMesh mesh_scene(const Scene& scene, const MeshSettings& settings);
+
+/// As near to `faces` triangles as the method comes, found by search over its coarseness; a warning
+/// says so if that is not within 1 %.
+SceneMesh mesh_scene(const Scene& scene, MeshSettings settings, std::size_t faces);
 
 std::vector<MeshMetrics> measure_parts(const SceneMesh& mesh);
 

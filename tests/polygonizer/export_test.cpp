@@ -85,7 +85,7 @@ TEST_CASE("A GLB's accessors lie within its buffer") {
 }
 
 TEST_CASE("An empty mesh is a file in every format") {
-    for (const MeshFormat f : {MeshFormat::obj, MeshFormat::ply, MeshFormat::stl, MeshFormat::glb})
+    for (const MeshFormat f : {MeshFormat::obj, MeshFormat::ply, MeshFormat::stl, MeshFormat::glb, MeshFormat::ase})
         CHECK_FALSE(encode(Mesh{}, f).empty());
 }
 

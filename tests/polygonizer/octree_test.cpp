@@ -2,9 +2,11 @@
 
 #include <cstdlib>
 
+#include "bounds/free_form.hpp"
 #include "catch.hpp"
 #include "polygonizer/metrics.hpp"
 #include "polygonizer/triage.hpp"
+#include "random_form.hpp"
 #include "random_solid.hpp"
 
 using namespace deburr;
@@ -145,6 +147,68 @@ TEST_CASE("An empty solid is an empty mesh, and too many cells are refused") {
     const SolidTree nothing = flatten(Solid::sharp(unit_cube()) - Solid::sharp(Density::box(Vec3(-1.0), Vec3(2.0))));
     CHECK(octree(nothing, Box{Vec3(-1.0), Vec3(2.0)}, {0.1}).triangles.empty());
     CHECK_THROWS_AS(octree(flatten(Solid::rounded(0.1, unit_cube())), Box{Vec3(-1.0), Vec3(2.0)}, {1e-6}), std::length_error);
+}
+
+TEST_CASE("A quadric: an ellipsoid's volume, and no hard edge") {
+    const Quadric q{Vec3(0.1, 0.2, 0.3), Mat3(-1, 0, 0, 0, -4, 0, 0, 0, -16), Vec3(0.0), 1};
+    const Measured m = measured(Solid::of_field(std::make_shared<FreeForm>(q, std::vector<Perturbation>{})), {0.02});
+    check_sound(m);
+    CHECK(m.metrics.topology.euler == 2);
+    CHECK(m.statistics.hard_points == 0);
+    CHECK(m.metrics.volume == Approx(4.0 / 3 * 3.14159265358979 / 8).epsilon(1e-3));
+    CHECK(m.metrics.vertex_normal_degrees.mean < 1);
+    CHECK(m.metrics.normal_degrees.mean < 3);
+    CHECK(m.metrics.edge_spread < 0.35);
+}
+
+TEST_CASE("A cone has its tip and the rim of its base, with hard edges [Vyatkin figures 10 and 11]") {
+    // x² + y² ≤ (1 − z)² is two cones; the box ends at the tip of the lower one.
+    const Quadric q = revolved({0, 0, 1, -1}, Vec3(0, 0, 1), Vec3(0, 0, 1), 1, 1);
+    const Solid cone = Solid::of_field(std::make_shared<FreeForm>(q, std::vector<Perturbation>{})) &
+                       Solid::sharp(Density::box({-2, -2, 0}, {2, 2, 1}));
+    const auto distance_of_tip = [](const Mesh& mesh) {
+        double least = infinity;
+        for (const Vec3& x : mesh.positions) least = std::min(least, glm::length(x - Vec3(0, 0, 1)));
+        return least;
+    };
+    const Measured m = measured(cone, {0.07});
+    check_sound(m);
+    CHECK(m.metrics.topology.euler == 2);
+    CHECK(distance_of_tip(m.mesh) < 1e-9);
+    std::size_t rim = 0;
+    for (const Vec3& x : m.mesh.positions) rim += std::abs(x.z) < 1e-9 && std::abs(x.x * x.x + x.y * x.y - 1) < 1e-9;
+    CHECK(rim > 70);
+    OctreeOptions smooth{0.07};
+    smooth.hard_angle = 180;
+    const Measured without = measured(cone, smooth);
+    CHECK(without.metrics.topology.manifold());
+    CHECK(distance_of_tip(without.mesh) > 1e-3);
+    CHECK(without.metrics.distance.max > 3 * m.metrics.distance.max);
+}
+
+TEST_CASE("Random free forms by octree: closed 2-manifolds, outward, on the surface") {
+    std::size_t triangles = 0, inverted = 0, degenerate = 0;
+    for (int seed = 0; seed < 60; ++seed) {
+        CAPTURE(seed);
+        Gen g(std::uint64_t(seed) + 1);
+        Solid solid = Solid::of_field(random_form(g, 3 * (seed % 8)));
+        const Solid block = Solid::rounded(0.1, Density::box(Vec3(-0.4), Vec3(0.3, 0.5, 0.9)));
+        if (seed % 4 == 1) solid = solid - block;
+        if (seed % 4 == 2) solid = solid | block;
+        if (seed % 4 == 3) solid = solid & block;
+        const SolidTree tree = flatten(solid & Solid::sharp(Density::box(Vec3(-1.8), Vec3(1.8))));  // some are infinite
+        const Mesh mesh = octree(tree, polygonization_box(tree), {0.09});
+        const MeshMetrics m = measure(mesh, tree);
+        CHECK(m.topology.manifold());
+        CHECK(m.volume > 0);
+        CHECK(m.vertex_distance < 1e-6);
+        triangles += m.topology.triangles;
+        inverted += m.inverted;
+        degenerate += m.degenerate;
+    }
+    CHECK(triangles > 60'000);
+    CHECK(inverted < triangles / 2000);
+    CHECK(degenerate < triangles / 10000);
 }
 
 // More with DEBURR_STRESS=10000.

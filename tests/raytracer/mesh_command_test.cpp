@@ -1,4 +1,5 @@
 // deburr mesh and deburr compare, as a user calls them.
+#include <cmath>
 #include <cstdlib>
 #include <filesystem>
 #include <nlohmann/json.hpp>
@@ -15,10 +16,10 @@ TEST_CASE("mesh writes every format, and says that the mesh is closed") {
     const Folder folder;
     write_file(folder / "s.lua", "return { solids = { rounded(0.1, cube()) - sharp(box({0.5,0.5,0.5},{2,2,2})) } }");
     const Outcome outcome = run({"mesh", folder / "s.lua", "-o", folder / "a.obj", "-o", folder / "a.ply", "-o",
-                                 folder / "a.stl", "-o", folder / "a.glb", "--stats-json", folder / "a.json"});
+                                 folder / "a.stl", "-o", folder / "a.glb", "-o", folder / "a.ase", "--stats-json", folder / "a.json"});
     CHECK(outcome.err == "");
     REQUIRE(outcome.code == 0);
-    for (const char* name : {"a.obj", "a.ply", "a.stl", "a.glb"}) CHECK(fs::file_size(folder / name) > 1000);
+    for (const char* name : {"a.obj", "a.ply", "a.stl", "a.glb", "a.ase"}) CHECK(fs::file_size(folder / name) > 1000);
     const Json j = Json::parse(read_file(folder / "a.json"));
     CHECK(j["mesh"]["manifold"] == true);
     CHECK(j["mesh"]["inverted"] == 0);
@@ -41,6 +42,48 @@ TEST_CASE("Parts and solids that touch are closed 2-manifolds in an STL, whose v
         }
 }
 
+TEST_CASE("mesh by octree: cells, hard edges and a number of faces as asked") {
+    const Folder folder;
+    write_file(folder / "s.lua", "return { solids = { rounded(0.1, cube()) - sharp(box({0.5,0.5,0.5},{2,2,2})) } }");
+    const auto mesh = [&](std::vector<std::string> more) {
+        std::vector<std::string> words{"mesh", folder / "s.lua", "--method", "octree", "--stats-json", folder / "a.json"};
+        words.insert(words.end(), more.begin(), more.end());
+        const Outcome outcome = run(words);
+        CHECK(outcome.err == "");
+        REQUIRE(outcome.code == 0);
+        const Json j = Json::parse(read_file(folder / "a.json"));
+        CHECK(j["mesh"]["manifold"] == true);
+        CHECK(j["mesh"]["inverted"] == 0);
+        CHECK(j["mesh"]["vertex_distance_max"] < 1e-6);
+        return j;
+    };
+    const Json by_edge = mesh({"--edge", "0.05"});
+    CHECK(by_edge["octree"]["edge"] == 0.05);
+    CHECK(by_edge["octree"]["hard_points"] > 40);
+    CHECK(by_edge["mesh"]["vertex_normal_degrees"]["mean"] < 5);
+    CHECK(mesh({"--level", "4"})["mesh"]["triangles"] < by_edge["mesh"]["triangles"]);
+    CHECK(mesh({"--edge", "0.05", "--hard-edges", "180"})["octree"]["hard_points"] == 0);
+    for (const char* method : {"octree", "marching-cubes"}) {
+        const Outcome outcome = run({"mesh", folder / "s.lua", "--method", method, "--faces", "20000", "--stats-json", folder / "a.json"});
+        CHECK(outcome.code == 0);
+        const double faces = Json::parse(read_file(folder / "a.json"))["mesh"]["triangles"];
+        CHECK(std::abs(faces - 20000) < 200);
+    }
+}
+
+TEST_CASE("mesh takes free forms by octree, and other solids by triage, unless told") {
+    const Folder folder;
+    write_file(folder / "s.lua", "return { solids = { ellipsoid{center={0,0,2}, radii={1,0.5,0.7}}, rounded(0.1, cube()) } }");
+    const Outcome outcome = run({"mesh", folder / "s.lua", "-o", folder / "a.ase", "--stats-json", folder / "a.json"});
+    CHECK(outcome.err == "");
+    REQUIRE(outcome.code == 0);
+    const Json j = Json::parse(read_file(folder / "a.json"));
+    CHECK(j["method"] == "octree, triage");
+    CHECK(j["mesh"]["manifold"] == true);
+    CHECK(j["mesh"]["vertex_distance_max"] < 1e-6);
+    CHECK(run({"mesh", folder / "s.lua", "-o", folder / "b.obj", "--method", "triage"}).code == 3);
+}
+
 TEST_CASE("admesh finds nothing to mend in an STL") {
     if (std::system("command -v admesh >/dev/null 2>&1") != 0) {
         WARN("admesh is not installed");
@@ -61,7 +104,10 @@ TEST_CASE("mesh refuses what it does not know, and writes nothing") {
     write_file(folder / "s.lua", "return { solids = { rounded(0.1, cube()) } }");
     for (const std::vector<std::string>& words :
          {std::vector<std::string>{"-o", "a.xyz"}, {"-o", "a.obj", "--method", "magic"},
-          {"-o", "a.obj", "--tolerance", "-1"}, {"-o", "a.obj", "--grid", "0.1"}, {}}) {
+          {"-o", "a.obj", "--tolerance", "-1"}, {"-o", "a.obj", "--grid", "0.1"}, {"-o", "a.obj", "--edge", "0.1"},
+          {"-o", "a.obj", "--method", "octree", "--level", "13"}, {"-o", "a.obj", "--method", "octree", "--edge", "0"},
+          {"-o", "a.obj", "--method", "octree", "--edge", "1", "--level", "3"},
+          {"-o", "a.obj", "--method", "octree", "--hard-edges", "200"}, {"-o", "a.obj", "--faces", "0"}, {}}) {
         std::vector<std::string> all{"mesh", folder / "s.lua"};
         for (const std::string& word : words) all.push_back(word == "a.obj" ? folder / word : word);
         CHECK(run(all).code == 2);
