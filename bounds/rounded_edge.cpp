@@ -71,4 +71,13 @@ double distance_between(const SectionCurve& a, const SectionCurve& b, double wid
     return std::max(one_way(of_a, of_b, width), one_way(of_b, of_a, width));
 }
 
+EdgeDistances distances(const RoundedEdge& edge, int steps) {
+    const SectionCurve quasi = [&](double x) { return edge.quasi(x); };
+    const SectionCurve truth = [&](double x) { return edge.truth(x); };
+    const SectionCurve fillet = [&](double x) { return edge.fillet(x); };
+    const double w = edge.width();
+    return {distance_between(quasi, truth, w, steps), distance_between(truth, fillet, w, steps),
+            distance_between(quasi, fillet, w, steps)};
+}
+
 }  // namespace deburr

@@ -45,4 +45,9 @@ private:
 /// curves are the same for −x; off by what `steps` even steps in x miss.
 double distance_between(const SectionCurve& a, const SectionCurve& b, double width, int steps);
 
+struct EdgeDistances {
+    double quasi_truth, truth_fillet, quasi_fillet;
+};
+EdgeDistances distances(const RoundedEdge& edge, int steps = 400);
+
 }  // namespace deburr

@@ -1,4 +1,4 @@
-// Lobb, figure 5: an edge rounded in three ways, and how far these are apart over the dihedral angle.
+// Lobb, figure 5: an edge rounded in three ways.
 #include "bounds/rounded_edge.hpp"
 #include "figures/figure.hpp"
 #include "figures/plot.hpp"
@@ -7,18 +7,6 @@ namespace deburr {
 namespace {
 
 constexpr int steps = 400;  // of a curve, to either side
-
-struct Apart {
-    double quasi_truth, truth_fillet, quasi_fillet;
-};
-
-Apart apart(const RoundedEdge& edge) {
-    const auto q = [&](double x) { return edge.quasi(x); };
-    const auto t = [&](double x) { return edge.truth(x); };
-    const auto f = [&](double x) { return edge.fillet(x); };
-    const double w = edge.width();
-    return {distance_between(q, t, w, steps), distance_between(t, f, w, steps), distance_between(q, f, w, steps)};
-}
 
 double radians(double degrees) { return glm::radians(degrees); }
 
@@ -71,50 +59,15 @@ Plot section(double degrees) {
     return plot;
 }
 
-struct Summary {
-    double towards_180 = 0;    // quasi – truth
-    double most_fillet = 0;    // truth – fillet, from 60° on
-    double nearest = infinity, at = 0;  // quasi – truth, and the angle in degrees
-};
-
-Plot over_angles(Summary& summary) {
-    Plot plot;
-    plot.width = 760;
-    plot.height = 420;
-    plot.x_label = "dihedral angle, degrees";
-    plot.y_label = "greatest distance, filter radii";
-    plot.x_range = Vec2(0, 180);
-    plot.y_range = Vec2(0, 0.5);
-    plot.x_ticks = {0, 30, 60, 90, 120, 135, 150, 180};
-    plot.legend = "top center";
-    Curve qt{.title = "quasi-convolution – true convolution", .color = house::blue, .width = 2.6};
-    Curve tf{.title = "true convolution – fillet", .color = house::red, .dash = "-"};
-    Curve qf{.title = "quasi-convolution – fillet", .color = house::grey, .dash = "."};
-    for (double degrees = 12; degrees < 180; degrees += degrees < 172 ? 2 : 0.5) {
-        const Apart a = apart(RoundedEdge(radians(degrees)));
-        qt.points.push_back({degrees, a.quasi_truth});
-        tf.points.push_back({degrees, a.truth_fillet});
-        qf.points.push_back({degrees, a.quasi_fillet});
-        summary.towards_180 = a.quasi_truth;
-        if (degrees >= 60) summary.most_fillet = std::max(summary.most_fillet, a.truth_fillet);
-        if (a.quasi_truth < summary.nearest) {
-            summary.nearest = a.quasi_truth;
-            summary.at = degrees;
-        }
-    }
-    plot.curves = {qf, tf, qt};
-    return plot;
-}
-
 void make(FigureContext& context) {
     context.columns(3);
     FigureTable table{{"angle", "quasi – truth", "truth – fillet", "quasi – fillet", "below the edge: quasi", "truth", "fillet",
                        "leaves the plane at: quasi", "truth, fillet"},
                       {}};
-    std::vector<Apart> found;
+    std::vector<EdgeDistances> found;
     for (const double degrees : {90.0, 30.0, 135.0}) {
         const RoundedEdge edge(radians(degrees));
-        const Apart a = apart(edge);
+        const EdgeDistances a = distances(edge);
         found.push_back(a);
         context.plot(section(degrees), fmt::format("{:g}°: quasi-convolution and truth {:.3f} r apart", degrees, a.quasi_truth));
         const auto r = [](double length) { return fmt::format("{:.4f} r", length); };
@@ -122,16 +75,13 @@ void make(FigureContext& context) {
                               r(-edge.truth(0)), r(-edge.fillet(0)), r(edge.quasi_reach()), r(edge.truth_reach())});
         context.check_stop();
     }
-    Summary summary;
-    context.plot(over_angles(summary), "The greatest distance between the surfaces over the dihedral angle");
     context.table(table);
     context.measured(fmt::format(
         "At 90° the three are within {:.3f} r of each other. The true convolution is within {:.3f} r of the fillet at 90° and {:.3f} r at "
-        "135° (from 60° on never more than {:.3f} r), but {:.2f} r at 30°. At 30° quasi-convolution comes nearest to the edge, then "
-        "truth, then the fillet. At 135° it leaves the planes {:.2f} r from the edge, the others at 1 r; towards 180° it lies {:.2f} r "
-        "inside. It is nearest to the truth at about {:g}°: {:.3f} r.",
+        "135°, but {:.2f} r off it at 30°, where quasi-convolution comes nearest to the edge, then truth, then the fillet. At 135° "
+        "quasi-convolution leaves the planes {:.2f} r from the edge, the others at 1 r; at 179.9° it is {:.3f} r inside.",
         std::max({found[0].quasi_truth, found[0].truth_fillet, found[0].quasi_fillet}), found[0].truth_fillet, found[2].truth_fillet,
-        summary.most_fillet, found[1].truth_fillet, RoundedEdge(radians(135)).quasi_reach(), summary.towards_180, summary.at, summary.nearest));
+        found[1].truth_fillet, RoundedEdge(radians(135)).quasi_reach(), distances(RoundedEdge(radians(179.9))).quasi_truth));
 }
 
 const RegisteredFigure registered{{
