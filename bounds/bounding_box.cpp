@@ -1,6 +1,9 @@
 #include "bounds/bounding_box.hpp"
 
+#include <algorithm>
+
 #include "bounds/polyhedron_box.hpp"
+#include "bounds/solid_range.hpp"
 
 namespace deburr {
 
@@ -45,6 +48,43 @@ Box bounding_box(const DensityTree& tree) {
     return intersection(box, bounding_box(outer_bound(tree, 0.5)));
 }
 
+namespace {
+
+// An infinite field may be cut down to something finite by others: beyond a cone's base nothing is
+// left of it, though the cone's box is all of space. What lies beyond a plane is off if its range says so.
+Box without_empty_ends(const SolidTree& tree, Box box) {
+    Box seen;
+    for (const SolidLeaf& leaf : tree.leaves)
+        if (leaf.field) seen = hull(seen, leaf.field->extent());
+    if (box.empty() || box.finite() || seen.empty() || !seen.finite()) return box;
+    const Vec3 middle = 0.5 * (seen.lo + seen.hi), size = seen.hi - seen.lo;
+    const double least = std::max({size.x, size.y, size.z}) * 0x1p-4;
+    constexpr double most = 0x1p40;    // times as far away as that
+    constexpr double closer = 0.98;    // ends are brought in as long as they come nearer by this
+    for (int pass = 0; pass < 2; ++pass)  // what is known of one axis helps with another
+        for (int k = 0; k < 3; ++k)
+            for (const bool upper : {false, true}) {
+                if (std::isfinite((upper ? box.hi : box.lo)[k])) continue;
+                const auto nothing_beyond = [&](double reach) {
+                    Box beyond = box;
+                    (upper ? beyond.lo : beyond.hi)[k] = middle[k] + (upper ? reach : -reach);
+                    return beyond.empty() || local_size(tree, beyond).side == Side::outside;
+                };
+                double far = least;
+                while (far < most * least && !nothing_beyond(far)) far *= 2;
+                if (far >= most * least) continue;
+                double near = 0.5 * far;
+                while (near < closer * far) {
+                    const double between = 0.5 * (near + far);
+                    (nothing_beyond(between) ? far : near) = between;
+                }
+                (upper ? box.hi : box.lo)[k] = middle[k] + (upper ? far : -far);
+            }
+    return box;
+}
+
+}  // namespace
+
 Box bounding_box(const SolidTree& tree) {
     std::vector<Box> all;
     for (const SolidTreeNode& n : tree.nodes) {
@@ -62,7 +102,7 @@ Box bounding_box(const SolidTree& tree) {
             case SolidOp::subtract: all.push_back(at(n.a)); break;
         }
     }
-    return all.back();
+    return without_empty_ends(tree, all.back());
 }
 
 }  // namespace deburr

@@ -47,9 +47,9 @@ public:
     /// A ray parameter ≥ 0 beyond which f keeps its sign along the ray; asked for rays that do not
     /// end.
     virtual double settled(Vec3 origin, Vec3 direction) const = 0;
-    /// Sets up ray.numbers, if the field uses them, for the ray that the others name.
+    /// Sets up ray.numbers, if the field uses them, and ray.unit, for the ray that the others name.
     virtual void prepare(FieldRay&) const {}
-    /// f and df/dt, in a unit of the ray's: f must be off by less than RootFinder::rounding.
+    /// f and df/dt in ray.unit: there f must be off by less than RootFinder::rounding.
     virtual ValueSlope at(const FieldRay& ray, double t) const = 0;
     /// M, L and G of the same over [t0, t1].
     virtual RayBounds bounds(const FieldRay& ray, double t0, double t1) const = 0;
@@ -68,6 +68,7 @@ public:
         direction = d;
         t0 = from;
         t1 = to;
+        unit = 1;
         f.prepare(*this);
     }
     ValueSlope at(double t) const { return field->at(*this, t); }
@@ -82,6 +83,7 @@ public:
     const Field* field = nullptr;
     Vec3 origin{0.0}, direction{0.0};
     double t0 = 0, t1 = 0;
+    double unit = 1;  // of f here, in f's own
     std::vector<double> numbers;  // the field's own
 };
 

@@ -109,7 +109,8 @@ void FreeForm::prepare(FieldRay& ray) const {
         n.insert(n.end(), {p.factor, q.a, q.b, q.c});
         unit += 3 * std::abs(p.factor) * most * most * magnitude(p.quadric);
     }
-    const double scale = unit > 0 ? 1 / unit : 1;
+    if (unit > 0) ray.unit = unit;
+    const double scale = 1 / ray.unit;
     for (std::size_t i = 1; i < first_perturbation; ++i) n[i] *= scale;
     for (std::size_t i = first_perturbation; i < n.size(); i += stride) n[i] *= scale;
 }

@@ -83,7 +83,7 @@ FoundSurface find_surface(const BspTree& tree, Criterion criterion, const Ray& r
     counters.segments += memory.counters.roots.segments;
     counters.splits += memory.counters.roots.splits;
     counters.evaluations += memory.counters.roots.evaluations;
-    if (best.crossing.t < infinity) best.error = rounding(tree, ray, best.crossing.t);
+    if (best.crossing.t < infinity) best.error = rounding(tree, ray, best.crossing.t) + best.crossing.error;
     return best;
 }
 

@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "bounds/bounding_box.hpp"
+#include "bounds/free_form.hpp"
 #include "raytracer/commands.hpp"
 #include "raytracer/legality.hpp"
 #include "raytracer/options.hpp"
@@ -58,6 +59,21 @@ Json json_of(const Box& box) {
     return {{"lo", json_of(box.lo)}, {"hi", json_of(box.hi)}};
 }
 
+// What a solid is made of.
+struct Parts {
+    double half_spaces = 0, quadrics = 0;
+};
+
+Parts parts_of(const SolidTree& tree) {
+    Parts parts;
+    for (const SolidLeaf& leaf : tree.leaves) {
+        const auto* form = dynamic_cast<const FreeForm*>(leaf.field.get());
+        if (form) parts.quadrics += 1.0 + double(form->perturbations().size());
+        parts.half_spaces += double(leaf.density.half_spaces.size());
+    }
+    return parts;
+}
+
 // All that info has to say; the text is made from it too.
 Json describe(const Scene& scene, Size size) {
     Json j;
@@ -69,18 +85,22 @@ Json describe(const Scene& scene, Size size) {
                    {"fov", scene.camera.fov}};
     j["parameters"] = scene.parameters;
     Box all;
-    double half_spaces = 0;
+    Parts parts;
     j["solids"] = Json::array();
     for (std::size_t i = 0; i < scene.solids.size(); ++i) {
-        const Box box = bounding_box(flatten(scene.solids[i]));
+        const SolidTree tree = flatten(scene.solids[i]);
+        const Box box = bounding_box(tree);
         all = box.empty() ? all : hull(all, box);
-        half_spaces += scene.solids[i].node().leaves;
+        const Parts own = parts_of(tree);
+        parts = {parts.half_spaces + own.half_spaces, parts.quadrics + own.quadrics};
         j["solids"].push_back({{"id", i + 1},
                                {"name", i < scene.names.size() ? scene.names[i] : ""},
-                               {"half_spaces", scene.solids[i].node().leaves},
+                               {"half_spaces", own.half_spaces},
+                               {"quadrics", own.quadrics},
                                {"bounds", json_of(box)}});
     }
-    j["half_spaces"] = half_spaces;
+    j["half_spaces"] = parts.half_spaces;
+    j["quadrics"] = parts.quadrics;
     j["bounds"] = json_of(all);
     j["materials"] = Json::array();
     for (const Material& material : scene.materials)
@@ -114,6 +134,11 @@ std::string text_of_box(const Json& box) {
     return text;
 }
 
+// As in "12 half-spaces "; nothing of none.
+std::string some(const Json& count, const char* of_what) {
+    return count > 0 ? fmt::format("{:.0f} {} ", count.get<double>(), of_what) : "";
+}
+
 void print(const Json& j) {
     const auto row = [](const std::string& name, const std::string& value) {
         fmt::print("{:<14}{}\n", name, value);
@@ -129,12 +154,13 @@ void print(const Json& j) {
         row("parameter", fmt::format("{} = {}", name, value.get<std::string>()));
     row("bounds", text_of_box(j["bounds"]));
     row("half-spaces", fmt::format("{:.0f}", j["half_spaces"].get<double>()));
+    if (j["quadrics"] > 0) row("quadrics", fmt::format("{:.0f}", j["quadrics"].get<double>()));
     row("solids", fmt::format("{}", j["solids"].size()));
     for (const Json& solid : j["solids"]) {
         const auto name = solid["name"].get<std::string>();
         row(fmt::format("  {}", solid["id"].get<std::size_t>()),
-            fmt::format("{}{:.0f} half-spaces in {}", name.empty() ? "" : name + ": ",
-                        solid["half_spaces"].get<double>(), text_of_box(solid["bounds"])));
+            fmt::format("{}{}{}in {}", name.empty() ? "" : name + ": ", some(solid["half_spaces"], "half-spaces"),
+                        some(solid["quadrics"], "quadrics"), text_of_box(solid["bounds"])));
     }
     row("materials", fmt::format("{}", j["materials"].size()));
     for (std::size_t i = 0; i < j["materials"].size(); ++i)

@@ -207,7 +207,10 @@ void LocalSolid::field_crossings(const Field& field, Vec3 origin, Vec3 direction
     if (t1 == infinity) t1 = std::clamp(field.settled(origin, direction), t0, std::max(t0, farthest));
     FieldRay& ray = scratch.field;
     const auto emit = [&](double t, bool entering) {
-        const Vec3 normal = unit(field.at(origin + direction * t).gradient);
+        const Vec3 gradient = field.at(origin + direction * t).gradient, normal = unit(gradient);
+        // Where large terms cancel, f is off by more than its slope makes of a coordinate's rounding.
+        const double slope = glm::length(gradient), most = 0x1p-30 * scale_;
+        scratch.error = slope > 0 ? std::min(4 * epsilon * ray.unit / slope, most) : most;
         // At a cone's apex there is none: the ray's own will do.
         return visit(t, entering, normal == Vec3(0.0) ? direction : normal);
     };
@@ -312,10 +315,11 @@ SurfaceCrossing LocalSolid::first_crossing(Vec3 origin, Vec3 direction, double t
                                            CrossingScratch& scratch) const {
     SurfaceCrossing result;
     // A normal that is known up to its sign: it leaves the solid, so it is against a ray that enters.
-    const auto found = [&](double t, bool entering, Vec3 normal, int material) {
+    const auto found = [&](double t, bool entering, Vec3 normal, int material, double error) {
         if ((glm::dot(normal, direction) < 0) != entering) normal = -normal;
-        result = {t, normal, material};
+        result = {t, normal, material, error};
     };
+    scratch.error = 0;
     if (nodes_.size() == 1) {
         const Leaf& leaf = leaves_[0];
         if (leaf.soft < 0) {
@@ -328,7 +332,7 @@ SurfaceCrossing LocalSolid::first_crossing(Vec3 origin, Vec3 direction, double t
         soft_crossings(softs_[std::size_t(leaf.soft)], origin, direction, t0, t1, scratch, nullptr,
                        [&](double t, bool entering, Vec3 normal) {
                            if (normal == Vec3(0.0)) normal = unit(scratch.density.gradient(t));
-                           found(t, entering, normal, leaf.material);
+                           found(t, entering, normal, leaf.material, scratch.error);
                            return false;
                        });
         return result;
@@ -345,14 +349,15 @@ SurfaceCrossing LocalSolid::first_crossing(Vec3 origin, Vec3 direction, double t
             const double t = room / rate;
             if (rate == 0) scratch.inside[i] = room >= 0;
             else scratch.inside[i] = rate > 0 ? t0 < t : t0 >= t;
-            if (rate != 0 && t > t0 && t <= t1) events.push_back({t, int(i), rate < 0, leaf.normal});
+            if (rate != 0 && t > t0 && t <= t1) events.push_back({t, int(i), rate < 0, leaf.normal, 0});
             continue;
         }
         bool start = false;
+        scratch.error = 0;
         soft_crossings(softs_[std::size_t(leaf.soft)], origin, direction, t0, t1, scratch, &start,
                        [&](double t, bool entering, Vec3 normal) {
                            if (normal == Vec3(0.0)) normal = unit(scratch.density.gradient(t));
-                           events.push_back({t, int(i), entering, normal});
+                           events.push_back({t, int(i), entering, normal, scratch.error});
                            return true;
                        });
         scratch.inside[i] = start;
@@ -376,7 +381,7 @@ SurfaceCrossing LocalSolid::first_crossing(Vec3 origin, Vec3 direction, double t
         }
         if (now == before) continue;
         const auto& event = events[decisive];
-        found(event.t, now, event.normal, leaves_[std::size_t(event.leaf)].material);
+        found(event.t, now, event.normal, leaves_[std::size_t(event.leaf)].material, event.error);
         break;
     }
     return result;

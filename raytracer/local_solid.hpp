@@ -31,6 +31,7 @@ struct SurfaceCrossing {
     double t = infinity;
     Vec3 normal{0.0};  // unit, out of the solid
     int material = 0;
+    double error = 0;  // of its place, besides what coordinates are rounded by
 };
 
 struct CrossingCounters {
@@ -45,6 +46,7 @@ struct CrossingScratch {
         int leaf;
         bool entering;
         Vec3 normal;
+        double error;
     };
     Criterion criterion = Criterion::exact;
     CrossingCounters counters;
@@ -54,6 +56,7 @@ struct CrossingScratch {
     std::vector<double> sharp;
     std::vector<Event> events;
     std::vector<char> inside, state;
+    double error = 0;  // of the crossing that is being visited
 };
 
 class LocalSolid {

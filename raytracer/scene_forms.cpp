@@ -27,12 +27,7 @@ double coefficient(const LuaValue& value, const std::string& place) {
     return c;
 }
 
-SceneResult checked(SceneCall& call, const Quadric& quadric) {
-    const double largest = quadric.largest();
-    if (!(largest <= largest_coefficient))
-        throw BadValue(call.name, "expected lengths of ordinary size, got such that coefficients overflow");
-    return call.make(quadric);
-}
+SceneResult checked(SceneCall& call, const Quadric& quadric) { return call.make(ordinary(quadric, call.name)); }
 
 SceneResult quadric(SceneCall& call) {
     static constexpr const char* names[10] = {"xx", "yy", "zz", "xy", "xz", "yz", "x", "y", "z", "c"};
@@ -147,6 +142,16 @@ SceneResult freeform(SceneCall& call) {
 }
 
 }  // namespace
+
+const Quadric& ordinary(const Quadric& quadric, const char* function) {
+    bool good = std::isfinite(quadric.k) && quadric.largest() <= largest_coefficient;
+    for (int i = 0; i < 3; ++i) {
+        good &= std::isfinite(quadric.b[i]) && std::isfinite(quadric.centre[i]);
+        for (int j = 0; j < 3; ++j) good &= std::isfinite(quadric.A[i][j]);
+    }
+    if (!good) throw BadValue(function, "expected lengths of ordinary size, got such that coefficients overflow");
+    return quadric;
+}
 
 const std::vector<SceneFunction>& form_functions() {
     using Place = SceneFunction::Place;

@@ -104,6 +104,9 @@ const std::vector<SceneFunction>& shape_functions();
 const std::vector<SceneFunction>& form_functions();
 const std::vector<SceneFunction>& look_functions();
 
+/// The quadric itself; throws if its coefficients are too large to be cubed.
+const Quadric& ordinary(const Quadric& quadric, const char* function);
+
 /// Registers all functions; the sandbox's host must be a SceneBuilder. May raise Lua errors.
 void open_scene_functions(lua_State* lua);
 

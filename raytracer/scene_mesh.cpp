@@ -2,10 +2,12 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <charconv>
 
 #include "bounds/bounding_box.hpp"
 #include "polygonizer/marching_cubes.hpp"
+#include "polygonizer/octree.hpp"
 #include "polygonizer/separate.hpp"
 #include "raytracer/errors.hpp"
 
@@ -81,11 +83,8 @@ double least_radius(const SolidTree& solid) {
 }
 
 // Triage follows half-spaces: what has none it cannot see.
-static void need_densities(const SolidTree& solid, std::size_t id) {
-    for (const SolidLeaf& leaf : solid.leaves)
-        if (leaf.field)
-            throw UnsupportedError(fmt::format(
-                "--method triage: expected rounded polyhedra, got a free form in solid {}; use marching-cubes", id));
+static bool has_field(const SolidTree& solid) {
+    return std::any_of(solid.leaves.begin(), solid.leaves.end(), [](const SolidLeaf& leaf) { return leaf.field != nullptr; });
 }
 
 SceneMesh mesh_scene(const Scene& scene, const MeshSettings& settings) {
@@ -117,8 +116,9 @@ SceneMesh mesh_scene(const Scene& scene, const MeshSettings& settings) {
             result.parts.emplace_back();
             continue;
         }
-        if (settings.method == MeshMethod::triage) {
-            need_densities(tree, i + 1);
+        if (settings.method == MeshMethod::triage && has_field(tree)) {
+            part = octree(tree, box, {.tolerance = settings.tolerance});
+        } else if (settings.method == MeshMethod::triage) {
             TriageStatistics statistics;
             const double radius = least_radius(tree);
             const double relative = radius > 0 ? settings.tolerance_in_radii * radius : infinity;

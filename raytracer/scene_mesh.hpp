@@ -9,6 +9,7 @@
 
 namespace deburr {
 
+/// Triage leaves solids that hold free forms to the octree.
 enum class MeshMethod { triage, marching_cubes };
 
 /// Throws UsageError for a name that is none; `what` is for the message.

@@ -218,9 +218,9 @@ SceneResult place(SceneCall& call, const Affine& map) {
     const SceneObject& self = need_movable(call.argument(0), call.name);
     if (const auto* density = std::get_if<Density>(&self.is))
         return call.make(density->transformed(map));
-    if (const auto* quadric = std::get_if<Quadric>(&self.is)) return call.make(transformed(*quadric, map));
+    if (const auto* quadric = std::get_if<Quadric>(&self.is)) return call.make(ordinary(transformed(*quadric, map), call.name));
     if (const auto* p = std::get_if<Perturbation>(&self.is))
-        return call.make(Perturbation{p->factor, transformed(p->quadric, map)});
+        return call.make(Perturbation{p->factor, ordinary(transformed(p->quadric, map), call.name)});
     return call.make(std::get<Solid>(self.is).transformed(map), self.name);
 }
 

@@ -26,6 +26,7 @@ public:
         const Vec3 x = ray.origin + ray.direction * middle;
         const double xx = glm::dot(x, x), dx = glm::dot(ray.direction, x), dd = glm::dot(ray.direction, ray.direction);
         const double sum = 1 + xx + 2 * std::abs(dx) * half + dd * half * half;
+        ray.unit = sum;
         ray.numbers = {middle, (1 - xx) / sum, -2 * dx / sum, -dd / sum};
     }
     ValueSlope at(const FieldRay& ray, double t) const override {

@@ -1,5 +1,6 @@
 #include "bounds/free_form.hpp"
 
+#include "bounds/bounding_box.hpp"
 #include "bounds/root_finder.hpp"
 #include "catch.hpp"
 #include "plain_definition.hpp"
@@ -273,4 +274,39 @@ TEST_CASE("free forms: beyond where it is settled, a ray crosses nothing") {
         for (int k = 0; k < 30; ++k)
             REQUIRE((plain::field(form, o + d * ((t + 1e-6) * std::pow(10, g.between(0.001, 4)))) > 0) == side);
     }
+}
+
+TEST_CASE("bounding boxes: what CSG leaves of an infinite form is bounded, if it is") {
+    const auto solid = [](const Quadric& q) { return Solid::of_field(std::make_shared<FreeForm>(q, std::vector<Perturbation>{})); };
+    const auto slab = [](double lo, double hi) {
+        return Solid::sharp(Density::half_space({0, 1, 0}, hi) * Density::half_space({0, -1, 0}, -lo));
+    };
+    // Cut at half of its height, a cone of radius 3 has radius 1.5 there.
+    const Solid cone = solid(revolved({0, 0, 1, -1}, {5, 2, -1}, {0, 1, 0}, 3, 2));
+    const Box box = bounding_box(flatten(cone & slab(1, 1.9)));
+    CHECK(box.lo.y == Approx(1));
+    CHECK(box.hi.y == Approx(1.9));
+    for (const double side : {box.hi.x - 5, 5 - box.lo.x, box.hi.z + 1, -1 - box.lo.z}) {
+        CHECK(side >= 1.5);
+        CHECK(side < 1.6);
+    }
+    const Box open = bounding_box(flatten(cone & Solid::sharp(Density::half_space({0, 1, 0}, 1))));
+    CHECK(open.hi.y == Approx(1));
+    CHECK(open.lo.y == -infinity);
+    CHECK(open.hi.x == infinity);
+    // The same of any form: points inside stay inside.
+    int inside = 0;
+    for (auto seed : seeds(300)) {
+        CAPTURE(seed);
+        Gen g(seed);
+        const SolidTree tree = flatten(solid(random_quadric(g)) & (g.chance(0.5) ? solid(random_quadric(g)) : slab(-1, 1)));
+        const Box around = bounding_box(tree);
+        for (int k = 0; k < 40; ++k) {
+            const Vec3 x = g.point(g.chance(0.5) ? 2 : 200);
+            if (!tree.contains(x)) continue;
+            ++inside;
+            REQUIRE(around.contains(x));
+        }
+    }
+    CHECK(inside > 500);
 }

@@ -356,6 +356,7 @@ TEST_CASE("info says what is in a scene") {
     const auto j = nlohmann::json::parse(run({"info", "--json", place.scene}).out);
     CHECK(j["solids"].size() == 2);
     CHECK(j["half_spaces"] == 12);
+    CHECK(j["quadrics"] == 0);
     CHECK(j["parameters"]["r"] == "0.1");
     CHECK(j["image"]["width"] == 60);
 }

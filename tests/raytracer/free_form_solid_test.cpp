@@ -176,6 +176,33 @@ TEST_CASE("thin sheets are seen from wherever they are looked at") {
     }
 }
 
+TEST_CASE("rays that leave a surface do not meet it at once, also where large terms cancel in it") {
+    int hits = 0, again = 0;
+    for (auto seed : seeds(60)) {
+        Gen g(seed);
+        // A bump and, in it, a dent, each a thousand times as high as what is left of them.
+        const Quadric disc = random_ellipsoid(g, 0.6, 0.8, 0.3);
+        Quadric hole = disc;
+        hole.A = hole.A * g.between(1.2, 1.6);
+        const double f = g.between(30, 3'000);
+        const ImplicitTracer tracer({Solid::of_field(std::make_shared<FreeForm>(
+            random_ellipsoid(g, 0.5, 1, 0.1), std::vector<Perturbation>{{f, disc}, {-2 * f, hole}}))});
+        for (int k = 0; k < 400; ++k) {
+            TraceCounters counters;
+            const Vec3 o = 4.0 * g.direction();
+            const Hit hit = tracer.first_hit({o, glm::normalize(g.point(0.5) - o)}, infinity, counters);
+            if (!hit) continue;
+            ++hits;
+            const Vec3 d = g.direction();
+            if (std::abs(glm::dot(d, hit.normal)) < 0.2) continue;
+            again += tracer.first_hit(leave(hit, d), 1e-6, counters).t < infinity;
+            CHECK(hit.offset < 1e-7);  // far below anything to be seen
+        }
+    }
+    CHECK(hits > 10'000);
+    CHECK(again == 0);
+}
+
 TEST_CASE("a form of many perturbations costs what reaches the cell") {
     // The same density of bumps along a bar, ten and a hundred times as long.
     double cost[3];

@@ -92,6 +92,40 @@ TEST_CASE("shapes say what they expect") {
     })));
 }
 
+TEST_CASE("quadrics, perturbations and free forms say what they expect") {
+    check(GENERATE(values<Case>({
+        {"quadric{ c = 1 }", "s.lua:1: quadric: expected a surface: a coefficient besides c that is not 0, got only c = 1"},
+        {"quadric{ xx = 0/0 }", "s.lua:1: quadric.xx: expected a finite number, got nan"},
+        {"quadric{ yz = 1/0 }", "s.lua:1: quadric.yz: expected a finite number, got inf"},
+        {"quadric{ xx = 1e60 }", "s.lua:1: quadric.xx: expected a coefficient of at most 1e+50, got 1e+60"},
+        {"quadric{ 1, 2, 3 }", "s.lua:1: quadric: expected ten coefficients (xx yy zz xy xz yz x y z c), got 3"},
+        {"quadric{ 1, 1, 1, 0, 0, 0, 0, 0, 0, 0/0 }", "s.lua:1: quadric: c: expected a finite number, got nan"},
+        {"quadric{ xq = 1 }",
+         "s.lua:1: quadric.xq: expected one of the fields xx, yy, zz, xy, xz, yz, x, y, z, c, got 'xq'"},
+        {"quadric()", "s.lua:1: quadric: expected coefficients { xx = … } or a list of ten, got nothing"},
+        {"ellipsoid{ radius = 0 }", "s.lua:1: ellipsoid.radius: expected a number > 0, got 0"},
+        {"ellipsoid{ radii = {1, -1, 1} }", "s.lua:1: ellipsoid.radii: expected three numbers > 0, got {1, -1, 1}"},
+        {"ellipsoid{ radius = 1, radii = {1, 1, 1} }", "s.lua:1: ellipsoid: expected radius or radii, got both"},
+        {"ellipsoid{ radius = 1e-40 }",
+         "s.lua:1: ellipsoid: expected lengths of ordinary size, got such that coefficients overflow"},
+        {"local e = ellipsoid{} for i = 1, 5 do e = e:scale(1e-90) end",
+         "s.lua:1: scale: expected lengths of ordinary size, got such that coefficients overflow"},
+        {"cone{ axis = {0, 0, 0} }", "s.lua:1: cone.axis: expected a direction other than {0, 0, 0}, got {0, 0, 0}"},
+        {"cone{ height = -1 }", "s.lua:1: cone.height: expected a number > 0, got -1"},
+        {"hyperboloid{ sheets = 3 }", "s.lua:1: hyperboloid.sheets: expected a whole number from 1 to 2, got 3"},
+        {"perturbation(0/0, ellipsoid{})", "s.lua:1: perturbation: factor: expected a finite number, got nan"},
+        {"perturbation(1, cube())", "s.lua:1: perturbation: expected a quadric, got a density"},
+        {"freeform(cube(), {})", "s.lua:1: freeform: expected a quadric, got a density"},
+        {"freeform(ellipsoid{})", "s.lua:1: freeform: expected a list of perturbations, got nothing"},
+        {"freeform(ellipsoid{}, { ellipsoid{} })", "s.lua:1: freeform[1]: expected a perturbation, got a quadric"},
+        {"return { solids = { perturbation(1, ellipsoid{}) } }",
+         "s.lua:1: solids[1]: expected a solid or a density, got a perturbation"},
+        {"local a = ellipsoid{} + ellipsoid{}",
+         "s.lua:1: operator +: expected densities on both sides (solids have | & -), got a quadric"},
+        {"rounded(0.1, ellipsoid{})", "s.lua:1: rounded: expected a density, got a quadric"},
+    })));
+}
+
 TEST_CASE("a star, which turns one way, is not convex") {
     const std::string star =
         "local p = {} for i = 0, 4 do p[i + 1] = {math.cos(i * 0.8 * math.pi), math.sin(i * 0.8 * "
