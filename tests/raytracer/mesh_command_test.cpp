@@ -70,15 +70,18 @@ TEST_CASE("mesh refuses what it does not know, and writes nothing") {
 }
 
 // Limits: the tolerance is 0.03 r, and a ray that grazes a rounded edge meets it that much farther
-// along; variable_rounding's radius of 0.5 is as large as the object.
+// along; variable_rounding's radius of 0.5 is as large as the object. Free forms have no radius to
+// follow: their mesh is as fine as a grid of 64 cells, and a lamp mirrored in it has other outlines.
 TEST_CASE("Every scene's mesh looks like its implicit surface") {
     for (const auto& entry : fs::directory_iterator(DEBURR_SOURCE_DIR "/scenes")) {
         if (entry.path().extension() != ".lua") continue;
         CAPTURE(entry.path().string());
         const Folder folder;
+        const auto info = nlohmann::json::parse(run({"info", "--json", entry.path().string()}).out);
+        const std::string rmse = info["quadrics"] > 0 ? "0.15" : "0.03";
         const Outcome outcome =
             run({"compare", entry.path().string(), "--size", "300x190", "--max-missed", "0.8", "--max-distance",
-                 "0.1", "--max-rmse", "0.03", "--json", folder / "a.json", "-o", folder / "difference.exr"});
+                 "0.1", "--max-rmse", rmse, "--json", folder / "a.json", "-o", folder / "difference.exr"});
         INFO(outcome.out);
         CHECK(outcome.code == 0);
         CHECK(fs::exists(folder / "difference.exr"));
