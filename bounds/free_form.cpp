@@ -17,7 +17,7 @@ namespace {
 
 constexpr double slack = 16 * epsilon;  // as of quadrics; cubes triple it
 
-// What an evaluation costs next to a half-space's density, and a quadric next to that; measured.
+// What an evaluation costs next to a half-space's density, and a quadric next to that.
 constexpr int cost_base = 2, cost_perturbation = 2;
 
 double cube(double x) { return x * x * x; }

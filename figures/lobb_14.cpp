@@ -7,7 +7,7 @@ namespace {
 
 void make(FigureContext& context) {
     const Scene scene = context.scene("staplers.lua");
-    context.picture(context.render(scene, {.width = 840, .height = 532, .spp = 64}));
+    context.picture(context.render(scene, {.width = 840, .height = 532, .spp = 128}));
     std::size_t half_spaces = 0, sharp = 0;
     const SolidTree soft = flatten(context.scene("staplers.lua", {{"show", "rounded"}}).solids.at(0));
     double least = infinity, greatest = 0;
@@ -29,7 +29,7 @@ const RegisteredFigure registered{{
     .claim = "Small roundings soften the look, do away with Mach bands, and show where parts meet: at the base on the ground and under the "
              "staple holder (§4.1).",
     .scenes = {"staplers.lua"},
-    .seconds = 60,
+    .seconds = 50,
     .make = make,
 }};
 

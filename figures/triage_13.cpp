@@ -155,9 +155,9 @@ void refinement(FigureContext& context) {
         else plot.curves.push_back({.points = {flat(a), flat(refined), flat(b)}, .color = house::blue, .width = 2.4});
         if (step < 3) {
             plot.curves.push_back({.points = {start, end}, .color = house::red, .width = 1.4, .dash = step == 1 ? "-" : ""});
-            dot(start, house::red, "{/:Italic s}_{start}", {0.03, -0.02});
-            dot(end, house::red, "{/:Italic s}_{end}", {0.03, 0.02});
-            dot({0, 0}, house::ink, "{/:Italic p}_{mid}", {0.03, 0.05});
+            dot(start, house::red, "{/:Italic s}_{start}", {-0.2, -0.02});
+            dot(end, house::red, "{/:Italic s}_{end}", {0.0, 0.08});
+            dot({0, 0}, house::ink, "{/:Italic p}_{mid}", {0.03, -0.07});
         }
         if (step > 1) dot(flat(refined), house::amber, "", {0, 0});
         dot(flat(a), house::red, "", {0, 0});

@@ -19,8 +19,8 @@ std::string count(const SceneMesh& mesh) {
                        t.manifold() ? "a closed 2-manifold" : fmt::format("with {} open edges", t.open_edges));
 }
 
-const FigurePictureSettings whole{.width = 600, .height = 380, .spp = 24};
-const FigurePictureSettings detail{.width = 420, .height = 300, .spp = 16};
+const FigurePictureSettings whole{.width = 600, .height = 380, .spp = 64};
+const FigurePictureSettings detail{.width = 420, .height = 300, .spp = 48};
 
 // (a) and (b) of a scene.
 void pair(FigureContext& context, const Scene& scene, const Mesh& lines, const FigurePictureSettings& size, const std::string& what) {

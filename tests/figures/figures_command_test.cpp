@@ -122,12 +122,13 @@ TEST_CASE("Figures stand in the order of papers and numbers") {
     }
 }
 
-TEST_CASE("Every figure and table of Triage, and the pictures of Lobb, are there") {
+TEST_CASE("Every figure and table of the three papers is there") {
     std::vector<std::string> names;
     for (const Figure& figure : all_figures()) names.push_back(figure.name);
-    for (const char* name : {"lobb-12", "lobb-13", "lobb-14", "lobb-15", "lobb-table-1", "triage-1", "triage-3", "triage-4", "triage-5",
+    for (const char* name : {"lobb-2", "lobb-5", "lobb-6", "lobb-7", "lobb-10", "lobb-12", "lobb-13", "lobb-14", "lobb-15", "lobb-table-1", "triage-1", "triage-3", "triage-4", "triage-5",
                              "triage-6", "triage-8", "triage-13", "triage-15", "triage-16", "triage-17", "triage-18", "triage-19",
-                             "triage-20", "triage-21", "triage-22", "triage-robot", "triage-table-6.2", "triage-table-6.3"}) {
+                             "triage-20", "triage-21", "triage-22", "triage-robot", "triage-table-6.2", "triage-table-6.3", "vyatkin-1", "vyatkin-2",
+                             "vyatkin-3", "vyatkin-8", "vyatkin-10", "vyatkin-11", "vyatkin-14", "vyatkin-16"}) {
         CAPTURE(name);
         CHECK(std::count(names.begin(), names.end(), name) == 1);
     }

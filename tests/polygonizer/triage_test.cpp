@@ -112,6 +112,21 @@ TEST_CASE("A clipped density is sharp at the clip [Triage §6.1, the punch pin]"
     CHECK(m.metrics.box.hi.z == Approx(1.5).epsilon(1e-12));
 }
 
+TEST_CASE("A filter that reaches all over an object of many half-spaces melts it, still closed [Triage §6.4]") {
+    Density row = Density::box(Vec3(0.0), Vec3(1.0));
+    for (int i = 1; i < 6; ++i) row = row + Density::box({double(i), 0, 0}, {i + 1.0, 1, 1});
+    std::size_t gone = 0;
+    for (const double r : {0.3, 0.6, 0.9, 1.5, 3.0, 9.0}) {
+        CAPTURE(r);
+        const SolidTree tree = flatten(Solid::rounded(r, row));
+        const Mesh mesh = triage(tree, polygonization_box(tree));
+        CHECK(topology(mesh).manifold());
+        gone += mesh.triangles.empty();
+    }
+    CHECK(gone > 0);
+    CHECK(gone < 5);
+}
+
 TEST_CASE("A tolerance is met, still closed") {
     for (const double tolerance : {0.005, 0.001}) {
         const Measured m = measured(obj4(0.1), tolerance);
