@@ -12,6 +12,8 @@
 // as children lie in [0, M]: slopes of children are averaged with weights pⱼ ≥ 0 of sum 1.
 #include "bounds/local_density.hpp"
 
+#include <algorithm>
+
 #include "bounds/decision_diagram.hpp"
 
 namespace deburr {
@@ -244,6 +246,81 @@ Range LocalDensity::range_from(OfHalfSpace leaf) const {
         }
     }
     return done.back();
+}
+
+// ---- its form ------------------------------------------------------------------------------------
+
+std::optional<LocalDensity::Product> LocalDensity::as_product() const {
+    if (share_) return std::nullopt;
+    std::vector<std::optional<Product>> form;
+    const auto complement = [](std::optional<Product> p) {
+        if (!p) return p;
+        if (p->factors.size() == 1) p->factors[0].flipped = !p->factors[0].flipped;
+        else p->complement = !p->complement;
+        return p;
+    };
+    const auto times = [](std::optional<Product> a, const std::optional<Product>& b) {
+        if (!a || !b || a->complement || b->complement) return std::optional<Product>();
+        a->factors.insert(a->factors.end(), b->factors.begin(), b->factors.end());
+        return a;
+    };
+    const auto is = [&](int child, double value) {
+        const Node& n = nodes_[std::size_t(child)];
+        return n.step == Step::constant && n.value == value;
+    };
+    for (const Node& n : nodes_) {
+        const auto at = [&](int child) { return form[std::size_t(child)]; };
+        std::optional<Product> p;
+        switch (n.step) {
+            case Step::half_space: p = Product{{{n.a, false}}}; break;
+            case Step::product: p = times(at(n.a), at(n.b)); break;
+            case Step::complement: p = complement(at(n.a)); break;
+            case Step::decide: {
+                if (n.b != 1) break;
+                const int below = kids_[std::size_t(n.a) + 1], above = kids_[std::size_t(n.a) + 2];
+                const Product F{{{kids_[std::size_t(n.a)], false}}}, G{{{kids_[std::size_t(n.a)], true}}};
+                if (is(above, 0)) p = times(F, at(below));
+                else if (is(below, 0)) p = times(G, at(above));
+                else if (is(below, 1)) p = complement(times(G, complement(at(above))));
+                else if (is(above, 1)) p = complement(times(F, complement(at(below))));
+                break;
+            }
+            default: break;
+        }
+        form.push_back(std::move(p));
+    }
+    return form.back();
+}
+
+bool LocalDensity::is_affine_in_each(const std::vector<int>& variable_of) const {
+    if (share_) return false;
+    // Degrees, node by node, variable by variable.
+    std::vector<std::vector<int>> degree;
+    for (const Node& n : nodes_) {
+        std::vector<int> d(variable_of.size(), 0);
+        const auto at = [&](int child, std::size_t v) { return degree[std::size_t(child)][v]; };
+        for (std::size_t v = 0; v < d.size(); ++v) {
+            switch (n.step) {
+                case Step::constant: break;
+                case Step::half_space: d[v] = variable_of[std::size_t(n.a)] == int(v); break;
+                case Step::sum:
+                case Step::difference: d[v] = std::max(at(n.a, v), at(n.b, v)); break;
+                case Step::product: d[v] = at(n.a, v) + at(n.b, v); break;
+                case Step::complement: d[v] = at(n.a, v); break;
+                case Step::decide: {
+                    const int* thresholds = &kids_[std::size_t(n.a)];
+                    const int* children = thresholds + n.b;
+                    for (int j = 0; j <= n.b; ++j) d[v] = std::max(d[v], at(children[j], v));
+                    for (int j = 0; j < n.b; ++j)
+                        if (variable_of[std::size_t(thresholds[j])] == int(v)) ++d[v];
+                    break;
+                }
+            }
+            if (d[v] > 1) return false;
+        }
+        degree.push_back(std::move(d));
+    }
+    return true;
 }
 
 // ---- along a ray ---------------------------------------------------------------------------------

@@ -4,6 +4,7 @@
 //
 // Along a ray every α is linear in t, so a ray is a small table of them: RayDensity.
 #pragma once
+#include <optional>
 #include <vector>
 
 #include <memory>
@@ -23,6 +24,19 @@ public:
     const std::vector<HalfSpace>& half_spaces() const { return half_spaces_; }
     bool has_sharp() const { return has_sharp_; }
 
+    struct Product {
+        struct Factor {
+            int half_space;
+            bool flipped;  // 1 − F
+        };
+        std::vector<Factor> factors;
+        bool complement = false;  // one minus the product
+    };
+    /// The density written as a product of half-spaces, if it can be read off the expression.
+    std::optional<Product> as_product() const;
+    /// Whether ρ is a polynomial of degree 1 in each of several variables, of which variable_of[i] is
+    /// the one that half-space i is a linear function of.
+    bool is_affine_in_each(const std::vector<int>& variable_of) const;
 
     double at(Vec3 x) const { return gradient_at(x).value; }
     ValueGradient gradient_at(Vec3 x) const;

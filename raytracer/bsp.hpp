@@ -8,6 +8,7 @@
 #include "bounds/root_finder.hpp"
 #include "raytracer/ray_tracer.hpp"
 #include "raytracer/scene.hpp"
+#include "raytracer/search.hpp"
 
 namespace deburr {
 
@@ -22,7 +23,9 @@ struct BspStatistics {
 
 class ImplicitTracer final : public RayTracer {
 public:
-    explicit ImplicitTracer(const std::vector<Solid>& solids, Criterion criterion = Criterion::exact);
+    /// The criterion matters where roots are searched for.
+    explicit ImplicitTracer(const std::vector<Solid>& solids, Criterion criterion = Criterion::exact,
+                            Search search = Search::where_needed);
     ~ImplicitTracer() override;
     Hit first_hit(const Ray& ray, double t_max, TraceCounters& counters) const override;
     bool occluded(const Ray& ray, double t_max, TraceCounters& counters) const override;

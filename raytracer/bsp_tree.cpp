@@ -13,10 +13,12 @@
 namespace deburr {
 namespace {
 
-// Measured on rays through single cells, in units of one visit of an inner node: a plane, a local
-// density, each of its half-spaces, and each leaf that CSG has to combine.
-constexpr double cost_flat = 2.0, cost_soft = 8.0, cost_half_space = 2.0, cost_csg_leaf = 4.0;
-constexpr double cost_node = 1.0;
+// In units of one visit of an inner node, some 5 ns: a plane; a density, by its number of half-spaces,
+// of which the first three are mostly a product and the others want a search; each leaf that CSG has
+// to combine. Chosen by the time that csg_examples, variable_rounding and 10,000 blocks took.
+constexpr double cost_node = 1.0, cost_flat = 3.0, cost_soft = 6.0, cost_half_space = 2.0;
+constexpr double cost_further_half_space = 20.0, cost_csg_leaf = 10.0;
+constexpr int few_factors = 3;
 // Cells with no more half-spaces than this are split by what would be left of the solids on either
 // side; larger ones by the solids' boxes and by a few such looks.
 constexpr int few_half_spaces = 48;
@@ -38,9 +40,9 @@ struct Item {
 double cost(const LocalSolidSize& size) {
     if (size.side != Side::straddling) return 0;
     if (size.half_spaces <= 1) return cost_flat;
-    const double csg = size.leaves > 1 ? cost_csg_leaf * size.leaves : 0;
-    if (size.half_spaces == size.leaves) return cost_flat * size.leaves + csg;
-    return cost_soft * size.leaves + cost_half_space * size.half_spaces + csg;
+    return cost_soft + cost_half_space * size.half_spaces +
+           cost_further_half_space * std::max(0, size.half_spaces - few_factors) +
+           (size.leaves > 1 ? cost_csg_leaf * size.leaves : 0);
 }
 
 struct Split {
@@ -78,6 +80,8 @@ std::shared_ptr<const SolidTree> without_tiny_radii(std::shared_ptr<const SolidT
 
 class Builder {
 public:
+    explicit Builder(Search search) : search_(search) {}
+
     BspTree run(const std::vector<Solid>& solids) {
         std::vector<Item> items;
         Box bounds;
@@ -112,6 +116,13 @@ public:
             item.tree = without_tiny_radii(std::move(item.tree), bsp_.tolerances.least_radius());
             item.size = local_size(*item.tree, Box::everything());
         }
+        // A floor in every cell would leave none of them empty.
+        std::erase_if(items, [&](const Item& item) {
+            if (item.size.half_spaces != 1) return false;
+            LocalSolid plane(item.solid, *item.tree, Box::everything(), bsp_.tolerances);
+            if (plane.has_surface()) bsp_.planes.push_back(std::move(plane));
+            return true;
+        });
         Branch root;
         split(root, Box::everything(), std::move(items), 0, {});
         bsp_.nodes.emplace_back();
@@ -312,13 +323,14 @@ private:
         const Box known = inflated(cell, margin_);
         for (const Item& item : items) {
             const SolidTree local = prune(*item.tree, known);
-            LocalSolid solid(item.solid, local, known, bsp_.tolerances);
+            LocalSolid solid(item.solid, local, known, bsp_.tolerances, search_);
             if (solid.has_surface()) to.locals.push_back(std::move(solid));
         }
     } catch (...) {
         to.error = std::current_exception();  // the first one in the tree's order is thrown
     }
 
+    Search search_;
     BspTree bsp_;
     Box world_;
     double margin_ = 0, smallest_ = 0;
@@ -327,6 +339,6 @@ private:
 
 }  // namespace
 
-BspTree build_bsp(const std::vector<Solid>& solids) { return Builder().run(solids); }
+BspTree build_bsp(const std::vector<Solid>& solids, Search search) { return Builder(search).run(solids); }
 
 }  // namespace deburr

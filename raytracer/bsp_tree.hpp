@@ -27,10 +27,11 @@ struct BspTree {
     std::vector<BspNode> nodes;  // the root first
     std::vector<BspCell> cells;
     std::vector<LocalSolid> locals;
+    std::vector<LocalSolid> planes;  // solids that are one half-space: not in the cells
     std::size_t half_spaces = 0;  // of all solids
     int depth = 0;
 };
 
-BspTree build_bsp(const std::vector<Solid>& solids);
+BspTree build_bsp(const std::vector<Solid>& solids, Search search = Search::where_needed);
 
 }  // namespace deburr

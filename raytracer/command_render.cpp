@@ -154,7 +154,8 @@ int run_render(const RenderOptions& o) {
     std::optional<BspStatistics> bsp;
     Mesh lines;  // whose edges are drawn
     if (o.via == "implicit") {
-        auto implicit = std::make_unique<ImplicitTracer>(scene.solids, o.criterion);
+        auto implicit = std::make_unique<ImplicitTracer>(scene.solids, o.criterion,
+                                                           o.criterion == Criterion::lobb ? Search::always : Search::where_needed);
         bsp = implicit->statistics();
         tracer = std::move(implicit);
         say(fmt::format("{} cells of {} half-spaces", bsp->cells, bsp->half_spaces));

@@ -1,14 +1,12 @@
 #include <algorithm>
 
 #include "raytracer/bsp.hpp"
-#include "raytracer/bsp_trace.hpp"
 #include "raytracer/spaces.hpp"
 
 namespace deburr {
 
 struct ImplicitTracer::Spaces {
     std::vector<Space> all;
-    Criterion criterion;
 
     FoundSurface find(const Space& space, const Ray& ray, double t_max, bool any, TraceCounters& counters) const;
 };
@@ -19,7 +17,7 @@ FoundSurface ImplicitTracer::Spaces::find(const Space& space, const Ray& ray, do
                                           TraceCounters& counters) const {
     FoundSurface best;
     if (!space.solids.empty()) {
-        best = find_surface(space.bsp, criterion, ray, t_max, any, counters);
+        best = space.bsp.find(ray, t_max, any, counters);
         if (best.crossing.t < infinity) {
             best.solid = space.solids[std::size_t(best.solid)];
             if (any) return best;
@@ -29,13 +27,19 @@ FoundSurface ImplicitTracer::Spaces::find(const Space& space, const Ray& ray, do
     space.hierarchy.along(ray, limit, [&](int number) {
         ++counters.placements;
         const Placement& p = space.placements[std::size_t(number)];
-        const Vec3 direction = p.into.linear * ray.direction;
-        const double rate = glm::length(direction);
-        FoundSurface found = find(all[std::size_t(p.space)], {p.into(ray.origin), direction / rate}, limit * rate, any, counters);
+        Ray there{ray.origin + p.into.shift, ray.direction};
+        double rate = 1;
+        if (!p.only_moved) {
+            there = {p.into(ray.origin), p.into.linear * ray.direction};
+            rate = glm::length(there.direction);
+            there.direction /= rate;
+        }
+        FoundSurface found = find(all[std::size_t(p.space)], there, limit * rate, any, counters);
         const double t = found.crossing.t / rate;
         if (!(t < best.crossing.t)) return false;
         best.crossing.t = limit = t;
-        best.crossing.normal = glm::normalize(found.crossing.normal * p.into.linear);  // by the transpose
+        best.crossing.normal = found.crossing.normal;
+        if (!any && !p.only_moved) best.crossing.normal = glm::normalize(found.crossing.normal * p.into.linear);  // by the transpose
         best.crossing.material = found.crossing.material < 0 ? p.material : found.crossing.material;
         best.solid = p.solid;
         const Vec3 o = glm::abs(ray.origin);
@@ -45,8 +49,8 @@ FoundSurface ImplicitTracer::Spaces::find(const Space& space, const Ray& ray, do
     return best;
 }
 
-ImplicitTracer::ImplicitTracer(const std::vector<Solid>& solids, Criterion criterion)
-    : spaces_(new Spaces{build_spaces(solids), criterion}) {}
+ImplicitTracer::ImplicitTracer(const std::vector<Solid>& solids, Criterion criterion, Search search)
+    : spaces_(new Spaces{build_spaces(solids, criterion, search)}) {}
 
 ImplicitTracer::~ImplicitTracer() = default;
 
@@ -74,7 +78,8 @@ BspStatistics ImplicitTracer::statistics() const {
     BspStatistics s;
     std::size_t local = 0;
     for (const Space& space : spaces_->all) {
-        const BspTree& tree = space.bsp;
+        const BspTree& tree = space.bsp.tree();
+        const Pieces& pieces = space.bsp.pieces();
         ++s.spaces;
         s.placements += space.placements.size();
         s.cells += tree.cells.size();
@@ -83,8 +88,8 @@ BspStatistics ImplicitTracer::statistics() const {
         for (const BspCell& cell : tree.cells) {
             bool flat = cell.count > 0;
             for (std::uint32_t i = cell.first; i < cell.first + cell.count; ++i) {
-                local += tree.locals[i].half_spaces();
-                flat &= tree.locals[i].is_flat();
+                local += pieces.half_spaces(i);
+                flat &= pieces[i].kind == Piece::Kind::plane;
             }
             s.empty_cells += cell.count == 0;
             s.flat_cells += flat;

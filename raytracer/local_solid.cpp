@@ -32,14 +32,15 @@ FlatDensity flat_density(const LocalDensity& density) {
 
 }  // namespace
 
-LocalSolid::LocalSolid(int solid, const SolidTree& tree, const Box& box, const Tolerances& tolerances)
+LocalSolid::LocalSolid(int solid, const SolidTree& tree, const Box& box, const Tolerances& tolerances,
+                       Search search)
     : solid_(solid), scale_(tolerances.scale) {
     std::vector<int> place(tree.nodes.size(), -1);
     for (std::size_t i = 0; i < tree.nodes.size(); ++i) {
         SolidTreeNode n = tree.nodes[i];
         if (n.op == SolidOp::leaf) {
             std::optional<bool> constant;
-            add_leaf(tree.leaves[std::size_t(n.a)], box, tolerances, constant);
+            add_leaf(tree.leaves[std::size_t(n.a)], box, tolerances, search, constant);
             if (constant) n = {*constant ? SolidOp::everything : SolidOp::nothing};
             else n.a = int(leaves_.size()) - 1;
         }
@@ -62,10 +63,10 @@ LocalSolid::LocalSolid(int solid, const SolidTree& tree, const Box& box, const T
 }
 
 void LocalSolid::add_leaf(const SolidLeaf& leaf, const Box& box, const Tolerances& tolerances,
-                          std::optional<bool>& constant) {
+                          Search search, std::optional<bool>& constant) {
     if (leaf.field) {  // pruned to where it straddles
         leaves_.push_back({Vec3(0.0), 0, int(softs_.size()), leaf.material});
-        softs_.push_back({LocalDensity(leaf.density), {}, {}, false, false, leaf.field});
+        softs_.push_back({LocalDensity(leaf.density), std::nullopt, {}, {}, false, false, leaf.field});
         return;
     }
     const auto prepared = [&] {
@@ -90,12 +91,22 @@ void LocalSolid::add_leaf(const SolidLeaf& leaf, const Box& box, const Tolerance
         }
         to.normal = flat.normal;
         to.offset = flat.offset;
+    } else if (auto convex = search == Search::always ? std::nullopt : convex_density(density, scale_)) {
+        if (convex->planes.size() == 1) {  // other planes coincide with it, or do not matter
+            const AlphaPlane& p = convex->planes[0];
+            const double length = glm::length(p.slope) * (convex->complement ? -1 : 1);
+            to.normal = p.slope / length;
+            to.offset = -p.base / length;
+        } else {
+            to.soft = int(softs_.size());
+            softs_.push_back({std::move(density), std::move(convex), {}, {}, false, false});
+        }
     } else {
         to.soft = int(softs_.size());
         const double clear = tolerances.clear();
         const auto is_sharp = [](const HalfSpace& h) { return h.radius == 0; };
         const bool all_sharp = std::all_of(density.half_spaces().begin(), density.half_spaces().end(), is_sharp);
-        softs_.push_back({std::move(density), outer_bound(leaf.density, 0.5, clear),
+        softs_.push_back({std::move(density), std::nullopt, outer_bound(leaf.density, 0.5, clear),
                           inner_bound(leaf.density, 0.5, clear), bounds_hold(leaf.density, box), all_sharp});
     }
     leaves_.push_back(to);
@@ -108,6 +119,56 @@ std::size_t LocalSolid::half_spaces() const {
         sum += !soft ? 1 : soft->field ? std::size_t(soft->field->size()) : soft->density.half_spaces().size();
     }
     return sum;
+}
+
+std::optional<LocalSolid::Convex> LocalSolid::convex() const {
+    constexpr std::size_t most_leaves = 6;
+    if (leaves_.empty() || leaves_.size() > most_leaves) return std::nullopt;
+    for (const Leaf& leaf : leaves_)
+        if (leaf.material != leaves_[0].material) return std::nullopt;
+    // As a Boolean function of the leaves: an intersection of these and their complements if it is
+    // true in one case only, the complement of such a one if it is false in one.
+    std::vector<char> state, inside(leaves_.size());
+    unsigned ones = 0, zeros = 0, the_one = 0, the_zero = 0;
+    for (unsigned bits = 0; bits < 1u << leaves_.size(); ++bits) {
+        for (std::size_t i = 0; i < leaves_.size(); ++i) inside[i] = bits >> i & 1;
+        const bool in = evaluate(state, inside);
+        (in ? ones : zeros)++;
+        (in ? the_one : the_zero) = bits;
+    }
+    if (ones == 1)
+        if (auto found = intersection_of_leaves(the_one)) return Convex{*std::move(found), leaves_[0].material};
+    if (zeros == 1)
+        if (auto found = intersection_of_leaves(the_zero)) {
+            found->complement = true;
+            return Convex{*std::move(found), leaves_[0].material};
+        }
+    return std::nullopt;
+}
+
+std::optional<ConvexDensity> LocalSolid::intersection_of_leaves(unsigned positive) const {
+    ConvexDensity d;
+    std::vector<AlphaPlane> sharp;
+    for (std::size_t i = 0; i < leaves_.size(); ++i) {
+        const Leaf& leaf = leaves_[i];
+        const bool is_positive = positive >> i & 1;
+        if (leaf.soft < 0) {
+            const double sign = is_positive ? 1 : -1;
+            sharp.push_back({sign * leaf.normal, -sign * leaf.offset});
+            continue;
+        }
+        const auto& part = softs_[std::size_t(leaf.soft)].convex;
+        if (!part || part->complement == is_positive) return std::nullopt;
+        const auto soft_end = part->planes.end() - part->sharp;
+        // {P > ½} of two products is not that of their product.
+        if (!d.planes.empty() && soft_end != part->planes.begin()) return std::nullopt;
+        d.planes.insert(d.planes.end(), part->planes.begin(), soft_end);
+        sharp.insert(sharp.end(), soft_end, part->planes.end());
+    }
+    d.planes.insert(d.planes.end(), sharp.begin(), sharp.end());
+    d.sharp = int(sharp.size());
+    if (d.planes.size() > std::size_t(most_factors)) return std::nullopt;
+    return d;
 }
 
 bool LocalSolid::evaluate(std::vector<char>& state, const std::vector<char>& inside) const {
@@ -236,11 +297,22 @@ void LocalSolid::field_crossings(const Field& field, Vec3 origin, Vec3 direction
     }
 }
 
-// visit(t, entering, normal of the sharp plane or 0) → go on?
+// visit(t, entering, normal or 0: not known yet) → go on?
 template <class Visit>
 void LocalSolid::soft_crossings(const Soft& soft, Vec3 origin, Vec3 direction, double t0, double t1,
                                 CrossingScratch& scratch, bool* start_inside, Visit visit) const {
     if (soft.field) return field_crossings(*soft.field, origin, direction, t0, t1, scratch, start_inside, visit);
+    if (soft.convex) {
+        const ConvexView view = ConvexView::of(*soft.convex);
+        const ConvexCrossings all = all_crossings(view, origin, direction, t0, t1, 8 * epsilon * (scale_ + t0),
+                                                  scratch.counters.roots.evaluations);
+        if (start_inside) *start_inside = all.start_inside;
+        for (int i = 0; i < all.count; ++i) {
+            const ConvexCrossing& c = all.at[i];
+            if (!visit(c.t, c.entering, surface_normal(view, c, origin + direction * c.t))) return;
+        }
+        return;
+    }
     const Span whole[1] = {{t0, t1}};
     const Span *first = whole, *last = whole + 1;
     if (soft.bounded) {

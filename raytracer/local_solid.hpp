@@ -1,17 +1,19 @@
 // What is left of a solid in a cell, and where a ray crosses its surface there.
 //
-// A leaf whose local density is one half-space is a plane: it is intersected and done. For the
-// others the ray is first cut by inner and outer bound [Lobb §3.2, figure 7]; in a stretch where a
-// single half-space varies the crossing is a plane's too, and only what remains needs the root
-// finder. A field goes straight to the root finder.
+// A leaf whose local density is one half-space is a plane: it is intersected and done; a product of
+// half-spaces needs no search either (convex_density.hpp). For the others the ray is first cut by
+// inner and outer bound [Lobb §3.2, figure 7]; in a stretch where a single half-space varies the
+// crossing is a plane's too, and only what remains needs the root finder. A field goes straight to it.
 #pragma once
 #include <optional>
 #include <vector>
 
+#include "bounds/convex_density.hpp"
 #include "bounds/csg_bounds.hpp"
 #include "bounds/local_density.hpp"
 #include "bounds/root_finder.hpp"
 #include "bounds/solid_range.hpp"
+#include "raytracer/search.hpp"
 
 namespace deburr {
 
@@ -62,13 +64,22 @@ struct CrossingScratch {
 class LocalSolid {
 public:
     /// `tree` is a solid pruned to the box. The box's inside must be the only place it is asked for.
-    LocalSolid(int solid, const SolidTree& tree, const Box& box, const Tolerances& tolerances);
+    LocalSolid(int solid, const SolidTree& tree, const Box& box, const Tolerances& tolerances,
+               Search search = Search::where_needed);
 
     int solid() const { return solid_; }
     /// False if no ray can cross a surface here.
     bool has_surface() const { return !nodes_.empty() && has_surface_; }
     bool is_flat() const { return leaves_.size() == 1 && leaves_[0].soft < 0; }
     std::size_t half_spaces() const;
+
+    struct Convex {
+        ConvexDensity density;
+        int material;
+    };
+    /// The whole of it as one product, if it is one and of one material. Planes are sharp factors of
+    /// it: what they were rounded by no longer matters. Empty after Search::always, but for planes.
+    std::optional<Convex> convex() const;
 
     /// First crossing of the solid's surface in [t0, t1].
     SurfaceCrossing first_crossing(Vec3 origin, Vec3 direction, double t0, double t1,
@@ -83,14 +94,17 @@ private:
     };
     struct Soft {
         LocalDensity density;
+        std::optional<ConvexDensity> convex;  // then the bounds below are empty
         BoundCsg outer, inner;
         bool bounded;  // the bounds hold
         bool all_sharp;
         FieldPtr field = {};  // if not null, all else is void
     };
 
-    void add_leaf(const SolidLeaf& leaf, const Box& box, const Tolerances& tolerances,
+    void add_leaf(const SolidLeaf& leaf, const Box& box, const Tolerances& tolerances, Search search,
                   std::optional<bool>& constant);
+    /// The intersection of those leaves whose bit is set and of the others' complements.
+    std::optional<ConvexDensity> intersection_of_leaves(unsigned positive) const;
     bool evaluate(std::vector<char>& state, const std::vector<char>& inside) const;
     template <class Visit>
     void field_crossings(const Field& field, Vec3 origin, Vec3 direction, double t0, double t1,

@@ -207,8 +207,9 @@ private:
             fill(number, {centred.shift == Vec3(0.0) ? solid : solid.transformed({Mat3(1.0), -centred.shift})}, depth + 1);
         }
         const Affine map = compose(part.placed.map, centred);
+        const Affine into = inverse(map);
         spaces[std::size_t(space)].placements.push_back(
-            {inverse(map), norm(map.linear), number, part.solid, part.placed.material});
+            {into, norm(map.linear), number, part.solid, part.placed.material, into.linear == Mat3(1.0)});
     }
 
     SolidForms forms_;
@@ -219,12 +220,12 @@ private:
 
 }  // namespace
 
-std::vector<Space> build_spaces(const std::vector<Solid>& solids) {
+std::vector<Space> build_spaces(const std::vector<Solid>& solids, Criterion criterion, Search search) {
     Plan plan(solids);
     std::vector<std::exception_ptr> errors(plan.spaces.size());
     tbb::parallel_for(std::size_t(0), plan.spaces.size(), [&](std::size_t i) {
         try {
-            plan.spaces[i].bsp = build_bsp(plan.in_bsp[i]);
+            plan.spaces[i].bsp = BspTracer(build_bsp(plan.in_bsp[i], search), criterion);
         } catch (...) {
             errors[i] = std::current_exception();
         }

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "raytracer/box_hierarchy.hpp"
-#include "raytracer/bsp_tree.hpp"
+#include "raytracer/bsp_trace.hpp"
 
 namespace deburr {
 
@@ -18,10 +18,11 @@ struct Placement {
     int space = 0;       // that is placed
     int solid = 0;       // of the world; of no meaning in other spaces
     int material = -1;   // of what has none there; −1: that of the placement around, if any
+    bool only_moved = false;  // neither turned nor scaled
 };
 
 struct Space {
-    BspTree bsp;
+    BspTracer bsp;
     std::vector<int> solids;  // in the world's numbers, by the BSP's
     std::vector<Placement> placements;
     BoxHierarchy hierarchy;  // over the placements
@@ -29,6 +30,6 @@ struct Space {
 };
 
 /// Materials that are still to be named are −1. The result does not depend on the number of threads.
-std::vector<Space> build_spaces(const std::vector<Solid>& solids);
+std::vector<Space> build_spaces(const std::vector<Solid>& solids, Criterion criterion, Search search);
 
 }  // namespace deburr

@@ -264,6 +264,44 @@ TEST_CASE("unbounded solids are hit at any distance") {
     CHECK_FALSE(tracer.first_hit({{0.5, 3, 5}, glm::normalize(Vec3(0.1, 1, 0.1))}, infinity, counters));
 }
 
+TEST_CASE("bounded solids among unbounded ones are hit from near and far, pixel for pixel") {
+    // A beam and a trench without end; a block on the one, one in the other, one far outside.
+    const Solid beam = Solid::rounded(0.1, Density::half_space({0, 1, 0}, 0.5) * Density::half_space({0, -1, 0}, 0.5) *
+                                               Density::half_space({0, 0, 1}, 0.5) * Density::half_space({0, 0, -1}, 0.5));
+    const Solid ground = Solid::rounded(0.2, Density::half_space({0, 1, 0}, -2) &
+                                                 ~(Density::half_space({1, 0, 0}, 3) & Density::half_space({-1, 0, 0}, -2)));
+    const std::vector<Solid> solids{beam, ground, Solid::rounded(0.1, Density::box({0, 0.5, -0.3}, {0.6, 1, 0.3})),
+                                    Solid::rounded(0.1, Density::box({2.2, -2.2, 1}, {2.7, -1.5, 1.5})),
+                                    Solid::sharp(Density::half_space({0, 1, 0}, -3))};
+    for (const Vec3 eye : {Vec3(2, 3, 4), Vec3(0.2, 1.5, 0), Vec3(40, 25, 60), Vec3(-30, 0.7, 0.1)}) {
+        CAPTURE(eye.x);
+        const Agreement a = compare(solids, look(eye, {1, 0, 0.3}, 50), 48, 30, 300);
+        CHECK(a.differ == 0);
+        CHECK(a.hits > 400);
+    }
+}
+
+TEST_CASE("products need no search, and a search finds the same") {
+    int hits = 0, differ = 0;
+    TraceCounters direct, by_search;
+    for (auto seed : seeds(400)) {
+        Gen g(seed);
+        const std::vector<Solid> solids{g.solid(int(seed % 2)), g.solid(0)};
+        const ImplicitTracer tracer(solids), searching(solids, Criterion::exact, Search::always);
+        for (int k = 0; k < 40; ++k) {
+            const Vec3 o = g.point(3), d = glm::normalize(g.point(0.8) - o);
+            const Hit a = tracer.first_hit({o, d}, infinity, direct), b = searching.first_hit({o, d}, infinity, by_search);
+            differ += a.t != b.t && !(std::abs(a.t - b.t) < 1e-9);
+            if (!a || !b) continue;
+            ++hits;
+            differ += a.t == b.t && glm::length(a.normal - b.normal) > 1e-6;
+        }
+    }
+    CHECK(hits > 3'000);
+    CHECK(differ < hits / 1'000);  // rays that graze, and edges
+    CHECK(direct.evaluations < by_search.evaluations);
+}
+
 TEST_CASE("rays leave their own surface at any scale and place of the scene") {
     int left = 0;
     for (const double scale : {1e-6, 1.0, 1e6})

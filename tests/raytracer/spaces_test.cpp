@@ -30,7 +30,7 @@ struct Same {
 // Rays from points around and within, towards points within, half of them parallel to an axis.
 Same same_as_one_bsp(const std::vector<Solid>& solids, Vec3 lo, Vec3 hi, int rays = 4000) {
     const ImplicitTracer tracer(solids);
-    const BspTree plain = build_bsp(solids);
+    const BspTracer plain(build_bsp(solids), Criterion::exact);
     Same all;
     int differ = 0;
     for (const auto seed : seeds(rays)) {
@@ -49,7 +49,7 @@ Same same_as_one_bsp(const std::vector<Solid>& solids, Vec3 lo, Vec3 hi, int ray
         const double t_max = g.chance(0.2) ? glm::length(hi - lo) * g.number() : infinity;
         TraceCounters counters;
         const Hit hit = tracer.first_hit(ray, t_max, counters);
-        const FoundSurface want = find_surface(plain, Criterion::exact, ray, t_max, false, counters);
+        const FoundSurface want = plain.find(ray, t_max, false, counters);
         const double t = want.crossing.t;
         bool same = (hit.t < infinity) == (t < infinity) && tracer.occluded(ray, t_max, counters) == (t < infinity);
         if (same && hit) {

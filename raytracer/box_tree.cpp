@@ -1,0 +1,88 @@
+#include "raytracer/box_tree.hpp"
+
+#include <algorithm>
+#include <stdexcept>
+
+namespace deburr {
+namespace {
+
+double area(const Box& b) {
+    const Vec3 d = b.hi - b.lo;
+    return d.x * d.y + d.y * d.z + d.z * d.x;
+}
+
+// How far off a ray in single precision can be, where coordinates are at most 1: its origin and the
+// boxes are rounded by 2⁻²⁵, differences of the two by 2⁻²⁴; reciprocal, direction and product each
+// stretch a distance of at most 2√3 by 2⁻²⁴. That is 12·2⁻²⁴ at most.
+constexpr double slack = 0x1p-19;
+
+}  // namespace
+
+int BoxTree::Builder::item(std::uint32_t number, const Box& box) {
+    parts_.push_back({box, int(number), -1});
+    return int(parts_.size()) - 1;
+}
+
+int BoxTree::Builder::join(int a, int b) {
+    if (a == nothing) return b;
+    if (b == nothing) return a;
+    parts_.push_back({hull(parts_[std::size_t(a)].box, parts_[std::size_t(b)].box), a, b});
+    return int(parts_.size()) - 1;
+}
+
+BoxTree::BoxTree(const Builder& from, int root) {
+    if (root == Builder::nothing) return;
+    box_ = from.parts_[std::size_t(root)].box;
+    middle_ = 0.5 * (box_.lo + box_.hi);
+    const Vec3 sides = box_.hi - box_.lo;
+    const double largest = std::max({sides.x, sides.y, sides.z});
+    per_unit_ = largest > 0 ? 2 / largest : 1;
+    if (collapse(from, root, 0) < 0) {  // one item alone
+        nodes_.push_back(node_of(from, {root}));
+        nodes_[0].child[0] = ~from.parts_[std::size_t(root)].a;
+    }
+}
+
+// The largest of the children is opened until there are four, or items only.
+std::int32_t BoxTree::collapse(const Builder& from, int root, int depth) {
+    const auto part = [&](int i) -> const Builder::Part& { return from.parts_[std::size_t(i)]; };
+    if (part(root).b < 0) return ~part(root).a;
+    if (depth >= deepest) throw std::length_error("expected a BSP of at most 100 levels");
+    std::vector<int> children{part(root).a, part(root).b};
+    while (children.size() < 4) {
+        int largest = -1;
+        for (std::size_t i = 0; i < children.size(); ++i)
+            if (part(children[i]).b >= 0 &&
+                (largest < 0 || area(part(children[i]).box) > area(part(children[std::size_t(largest)]).box)))
+                largest = int(i);
+        if (largest < 0) break;
+        const int open = children[std::size_t(largest)];
+        children[std::size_t(largest)] = part(open).a;
+        children.push_back(part(open).b);
+    }
+    const auto number = std::int32_t(nodes_.size());
+    nodes_.push_back(node_of(from, children));
+    for (std::size_t i = 0; i < children.size(); ++i) {
+        const std::int32_t child = collapse(from, children[i], depth + 1);
+        nodes_[std::size_t(number)].child[i] = child;
+    }
+    return number;
+}
+
+BoxTree::Node BoxTree::node_of(const Builder& from, const std::vector<int>& children) const {
+    Node n;
+    for (std::size_t i = 0; i < 4; ++i) {
+        n.child[i] = 0;
+        for (int k = 0; k < 3; ++k) {
+            n.side[k][i] = std::numeric_limits<float>::max();
+            n.side[k][i + 4] = -std::numeric_limits<float>::max();
+            if (i >= children.size()) continue;
+            const Box& box = from.parts_[std::size_t(children[i])].box;
+            n.side[k][i] = float((box.lo[k] - middle_[k]) * per_unit_ - slack);
+            n.side[k][i + 4] = float((box.hi[k] - middle_[k]) * per_unit_ + slack);
+        }
+    }
+    return n;
+}
+
+}  // namespace deburr

@@ -1,0 +1,92 @@
+// A piece of one solid's surface: what may be crossed of it in one cell, laid out to be crossed fast.
+//
+// Most pieces are a plane or a product of half-spaces (bounds/convex_density.hpp), whose numbers lie
+// side by side with those of their neighbours. What is neither is a LocalSolid.
+#pragma once
+#include <cstdint>
+#include <vector>
+
+#include "bounds/convex_density.hpp"
+#include "raytracer/local_solid.hpp"
+#include "raytracer/ray_tracer.hpp"
+
+namespace deburr {
+
+struct Piece {
+    enum class Kind : std::uint8_t { plane, convex, general };
+
+    Box box;  // the cell; beyond it the piece is not valid
+    std::uint32_t first = 0;  // in Pieces::planes; general: in Pieces::locals
+    std::int32_t solid = 0, material = 0;
+    std::uint8_t soft = 0, sharp = 0;  // factors
+    Kind kind = Kind::plane;
+    bool complement = false;
+};
+static_assert(sizeof(Piece) == 64);  // a cache line
+
+/// Where a piece is crossed, and what its normal there is to be computed from.
+struct PieceCrossing {
+    double t = infinity;
+    ConvexCrossing convex;  // of a convex piece
+    Vec3 normal{0.0};       // of a general one
+    int material = 0;
+    double error = 0;       // of a general one (SurfaceCrossing)
+};
+
+class Pieces {
+public:
+    Pieces() = default;
+    Pieces(const Tolerances& tolerances, Criterion criterion)
+        : scale_(tolerances.scale), margin_(tolerances.margin()), criterion_(criterion) {}
+
+    /// `box`: the cell.
+    void add(LocalSolid&& local, const Box& box);
+
+    std::size_t size() const { return pieces_.size(); }
+    const Piece& operator[](std::size_t i) const { return pieces_[i]; }
+    std::size_t half_spaces(std::size_t i) const;
+
+    /// First crossing of piece i in [t0, t1]; `any`: some crossing will do, and its t means nothing.
+    PieceCrossing crossing(std::size_t i, Vec3 origin, Vec3 direction, double t0, double t1, bool any,
+                           TraceCounters& counters) const;
+    /// Unit normal, out of the solid.
+    Vec3 normal(std::size_t i, const PieceCrossing& crossing, Vec3 origin, Vec3 direction) const;
+
+    /// A box around what can be crossed of piece i, within its cell.
+    Box surface_box(std::size_t i) const;
+
+private:
+    ConvexView view(const Piece& p) const { return {&planes_[p.first], p.soft, p.sharp, p.complement}; }
+    PieceCrossing general_crossing(const Piece& p, Vec3 origin, Vec3 direction, double t0, double t1,
+                                   TraceCounters& counters) const;
+
+    std::vector<Piece> pieces_;
+    std::vector<AlphaPlane> planes_;
+    std::vector<LocalSolid> locals_;
+    double scale_ = 1, margin_ = 0;
+    Criterion criterion_ = Criterion::exact;
+};
+
+inline PieceCrossing Pieces::crossing(std::size_t i, Vec3 origin, Vec3 direction, double t0, double t1,
+                                      bool any, TraceCounters& counters) const {
+    const Piece& p = pieces_[i];
+    if (p.kind == Piece::Kind::plane) {
+        const AlphaPlane& plane = planes_[p.first];
+        const double t = -(glm::dot(plane.slope, origin) + plane.base) / glm::dot(plane.slope, direction);
+        if (!(t >= t0 && t <= t1)) return {};
+        ++counters.flat_hits;
+        return {t, {}, {}, p.material};
+    }
+    if (p.kind == Piece::Kind::convex) {
+        const double negligible = 8 * epsilon * (scale_ + t0);
+        if (any) {
+            if (!any_crossing(view(p), origin, direction, t0, t1, negligible, counters.evaluations)) return {};
+            return {t0, {}, {}, p.material};
+        }
+        const ConvexCrossing c = first_crossing(view(p), origin, direction, t0, t1, negligible, counters.evaluations);
+        return {c.t, c, {}, p.material};
+    }
+    return general_crossing(p, origin, direction, t0, t1, counters);
+}
+
+}  // namespace deburr
