@@ -8,9 +8,16 @@
 namespace deburr {
 namespace {
 
-// Below this cosine between a facet and the surface at its middle it counts as wrong, and below this
-// ratio of height to longest side as without area; what replaces it must do better.
-constexpr double leaning = 0.2, better = 0.25;
+// Below `leaning`, a cosine between a facet and the surface at its middle, it counts as wrong; what
+// replaces it must do better, and may be so much farther from the surface as `farther` says, in
+// distances before and in lengths of its longest side.
+struct Limits {
+    double leaning, better, farther, of_longest;
+    double near;  // of a surface, in lengths of the longest side
+};
+// First all that lean are helped, then those that face inward at any price.
+constexpr Limits gentle{0.2, 0.25, 2, 1e-3, 0}, last_resort{0.05, 0.06, 5, 2e-2, 2e-2};
+// Below this ratio of height to longest side a facet is without area.
 constexpr double no_area = 1e-6;
 constexpr double same_normal = 1e-6;
 
@@ -75,7 +82,7 @@ public:
         else if (!faces_outward(solid_, middle, area / twice, normals, longest)) s.cosine = std::min(nearest, -1e-3);
         return s;
     }
-    bool wrong(const Facet& f) const { return shape(f).cosine < leaning; }
+    bool wrong(const Facet& f) const { return shape(f).cosine < limits_.leaning; }
     bool wrong(int f) const { return wrong(facets_.at(f)); }
 
     void add(Verdict& v, const Facet& f, double limit) const {
@@ -87,12 +94,12 @@ public:
     }
     Verdict before(const Change& change) const {
         Verdict v;
-        for (const int f : change.out) add(v, facets_.at(f), leaning);
+        for (const int f : change.out) add(v, facets_.at(f), limits_.leaning);
         return v;
     }
     Verdict after(const Change& change) const {
         Verdict v;
-        for (const Facet& f : change.in) add(v, f, better);
+        for (const Facet& f : change.in) add(v, f, limits_.better);
         return v;
     }
 
@@ -111,11 +118,12 @@ public:
         pieces.push_back(p);
     }
 
-    // Vertex u onto v, if v lies on all surfaces that meet at u.
-    std::optional<Change> collapse(int u, int v) const {
+    // Vertex u onto v, if v lies on all surfaces that meet at u, or at the last so near to them that
+    // facets may stand for one or the other.
+    std::optional<Change> collapse(int u, int v, double near) const {
         for (const int f : facets_.around(u)) {
             const Offset o = surfaces_.at(piece(facets_.at(f)), facets_.position(v));
-            if (!(std::abs(o.distance) <= surfaces_.slack())) return {};
+            if (!(std::abs(o.distance) <= std::max(surfaces_.slack(), near))) return {};
         }
         return facets_.collapse(u, v);
     }
@@ -173,11 +181,11 @@ public:
         const auto offer = [&](std::optional<Change> change, std::size_t& count) {
             if (!change) return;
             const Verdict was = before(*change), is = after(*change);
-            // In a plane a fold may have to be unrolled flip by flip.
-            const bool unrolls = is.wrong == was.wrong && &count == &statistics.flips &&
-                                 facets_.at(f).origin.leaf < 0 && is.inverted < 0.999 * was.inverted;
+            // A fold may have to be unrolled flip by flip.
+            constexpr double less = 0.999;
+            const bool unrolls = is.wrong == was.wrong && &count == &statistics.flips && is.inverted < less * was.inverted;
             if (is.wrong >= was.wrong && !unrolls) return;
-            if (is.distance > std::max(2 * was.distance, 1e-3 * longest)) return;
+            if (is.distance > std::max(limits_.farther * was.distance, limits_.of_longest * longest)) return;
             const int gain = was.wrong - is.wrong;
             if (best && (gain < best_gain || (gain == best_gain && is.worst <= best_worst))) return;
             best = std::move(change);
@@ -189,8 +197,8 @@ public:
             offer(facets_.flip(f, k), statistics.flips);
             const Triangle& t = facets_.at(f).triangle;
             const int u = t.vertex[k], v = t.vertex[(k + 1) % 3];
-            if (!made(u)) offer(collapse(u, v), statistics.collapses);
-            if (!made(v)) offer(collapse(v, u), statistics.collapses);
+            if (!made(u)) offer(collapse(u, v, limits_.near * longest), statistics.collapses);
+            if (!made(v)) offer(collapse(v, u, limits_.near * longest), statistics.collapses);
         }
         if (!best && splits_left > 0)
             for (std::size_t k = 0; k < 3; ++k)
@@ -208,7 +216,7 @@ public:
         const auto offer = [&](std::optional<Change> change, Vec3 from) {
             if (!change) return;
             for (const Facet& g : change->in)
-                if (shape(g).own < better) return;
+                if (shape(g).own < limits_.better) return;
             const double sag = glm::length(facets_.position(facets_.vertices() - 1) - from);
             if (sag <= most) return;
             most = sag;
@@ -226,6 +234,8 @@ public:
         return best;
     }
 
+    void limit(const Limits& limits) { limits_ = limits; }
+
     void mend_facets(RepairStatistics& statistics) {
         std::deque<int> todo;
         for (std::size_t f = 0; f < facets_.size(); ++f)
@@ -242,7 +252,7 @@ public:
                 todo.pop_front();
                 if (!facets_.alive(f) || !wrong(f)) continue;
                 auto change = straighten(f, splits_left, statistics);
-                if (!change && splits_left > 0 && shape(facets_.at(f)).own >= leaning) {
+                if (!change && splits_left > 0 && shape(facets_.at(f)).own >= limits_.leaning) {
                     change = refine(f, statistics);
                     if (change) --splits_left;
                 }
@@ -329,6 +339,7 @@ private:
     bool one_leaf_;
     double size_;
     int first_made_;
+    Limits limits_ = gentle;
 };
 
 // The normal of a facet that has one throughout, or 0.
@@ -347,7 +358,10 @@ RepairStatistics repair(Mesh& mesh, std::vector<Origin>& origins, const SolidTre
     if (mesh.triangles.empty()) return statistics;
     Repair work(mesh, origins, solid);
     work.mend_vertices(statistics);
-    work.mend_facets(statistics);
+    for (const Limits& limits : {gentle, last_resort}) {
+        work.limit(limits);
+        work.mend_facets(statistics);
+    }
     work.facets().finish();
     std::vector<char> beside;
     for (const Vec3& x : mesh.positions) beside.push_back(!work.on_surface(x));

@@ -36,6 +36,10 @@ Box polygonization_box(const SolidTree& solid) {
 
 namespace {
 
+// Of a tolerance, at the middles of triangles and edges: the rest is for what lies between, and for
+// distances being of first order.
+constexpr double at_middles = 0.85;
+
 struct Cut {
     int cell;
     double error;  // how much it is needed
@@ -98,7 +102,14 @@ std::vector<Cut> cells_to_halve(const Mesh& mesh, const std::vector<Origin>& ori
         const double slope = glm::length(here.gradient), size = glm::length(area);
         const double side = glm::dot(here.gradient, normal) > 0 ? 1 : -1;
         const bool leans = size > sliver * longest2 && side * glm::dot(area, here.gradient) < least_cosine * size * slope;
-        const double distance = slope > 0 ? std::abs(here.value - 0.5) / slope : 0;
+        double distance = slope > 0 ? std::abs(here.value - 0.5) / slope : 0;
+        if (std::isfinite(tolerance))
+            for (std::size_t j = 0; j < 3; ++j) {
+                const Vec3 x = 0.5 * (mesh.positions[std::size_t(t.vertex[j])] + mesh.positions[std::size_t(t.vertex[(j + 1) % 3])]);
+                const ValueGradient middle = density.gradient_at(x);
+                const double steep = glm::length(middle.gradient);
+                if (steep > 0) distance = std::max(distance, std::abs(middle.value - 0.5) / steep);
+            }
         if (!leans && distance <= tolerance) continue;
         cuts.push_back({origins[k].cell, distance, halving(mesh, t, density)});
     }
@@ -148,7 +159,7 @@ Mesh triage(const SolidTree& mixed, const Box& box, const TriageOptions& options
         if (statistics) statistics->rounds = round + 1;
         bool changed = false;
         if (round + 1 < most_rounds)
-            for (const Cut& cut : cells_to_halve(mesh, origins, subdivision, options.tolerance))
+            for (const Cut& cut : cells_to_halve(mesh, origins, subdivision, at_middles * options.tolerance))
                 changed |= subdivision.halve(cut.cell, cut.plane);
         if (changed) continue;
         // What repair cannot help needs smaller cells around it.

@@ -155,7 +155,7 @@ Command add_mesh_command(CLI::App& program) {
     add_output_option(*command, *options, known_mesh_extensions());
     command->add_option("--method", options->method, mesh_method_names() + "; default: triage, and octree for solids with free forms")->type_name("NAME");
     command->add_option("--tolerance", options->tolerance,
-                        "triage, octree: refine until no triangle's middle is farther from the surface")
+                        "triage, octree: refine until no point of the mesh is farther from the surface")
         ->type_name("D");
     command->add_option("--grid", options->grid, "marching-cubes: side of a cube; default: half the least radius")
         ->type_name("H");

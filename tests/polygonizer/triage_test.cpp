@@ -6,8 +6,10 @@
 #include "catch.hpp"
 #include "polygonizer/cell_complex.hpp"
 #include "polygonizer/metrics.hpp"
+#include "polygonizer/separate.hpp"
 #include "polygonizer/subspace.hpp"
 #include "random_solid.hpp"
+#include "welded.hpp"
 
 using namespace deburr;
 
@@ -127,11 +129,24 @@ TEST_CASE("A filter that reaches all over an object of many half-spaces melts it
     CHECK(gone < 5);
 }
 
-TEST_CASE("A tolerance is met, still closed") {
+TEST_CASE("A tolerance is met all over the mesh, still closed") {
     for (const double tolerance : {0.005, 0.001}) {
-        const Measured m = measured(obj4(0.1), tolerance);
-        CHECK(m.metrics.topology.manifold());
-        CHECK(m.metrics.distance.max <= 1.1 * tolerance);
+        CAPTURE(tolerance);
+        const SolidTree tree = flatten(obj4(0.1));
+        const Mesh mesh = mesh_of(tree, tolerance);
+        CHECK(topology(mesh).manifold());
+        const OffsetField field(tree, field_box(mesh));
+        double farthest = 0;
+        constexpr int parts = 8;
+        for (const Triangle& t : mesh.triangles)
+            for (int i = 0; i <= parts; ++i)
+                for (int j = 0; i + j <= parts; ++j) {
+                    const auto at = [&](std::size_t k) { return mesh.positions[std::size_t(t.vertex[k])]; };
+                    const Vec3 x = (at(0) * double(i) + at(1) * double(j) + at(2) * double(parts - i - j)) / double(parts);
+                    farthest = std::max(farthest, field.distance_along_normal(x, 0.1));
+                }
+        CHECK(farthest <= tolerance);
+        CHECK(farthest > 0.3 * tolerance);
     }
 }
 
@@ -146,18 +161,18 @@ TEST_CASE("Primary CSG of rounded solids is closed and sharp where the tree is")
     }
 }
 
-// 10,000 cases with DEBURR_STRESS=10000, about two minutes.
-TEST_CASE("Random CSG objects: no abort, no hole, no non-manifold edge") {
+// 10,000 cases with DEBURR_STRESS=10000, about ten minutes.
+TEST_CASE("Random CSG objects: no abort, no hole, no non-manifold edge, no facet inward, no vertex beside the surface") {
     const char* wanted = std::getenv("DEBURR_STRESS");
     const int cases = wanted ? std::atoi(wanted) : 300;
-    std::size_t triangles = 0, inverted = 0, degenerate = 0;
+    std::size_t triangles = 0, inverted = 0, degenerate = 0, beside = 0;
     for (int seed = 0; seed < cases; ++seed) {
         CAPTURE(seed);
         const SolidTree tree = flatten(RandomSolid(seed).solid());
         Box box = polygonization_box(tree);
         if (box.empty()) continue;
         box = intersection(box, Box{Vec3(-8.0), Vec3(8.0)});
-        const Mesh mesh = triage(tree, box);
+        Mesh mesh = triage(tree, box);
         const Topology t = topology(mesh);
         CHECK(t.manifold());
         CHECK(t.euler % 2 == 0);
@@ -167,9 +182,33 @@ TEST_CASE("Random CSG objects: no abort, no hole, no non-manifold edge") {
         const MeshMetrics m = measure(mesh, tree);
         inverted += m.inverted;
         degenerate += m.degenerate;
+        beside += m.vertex_distance > 1e-6;
+        CHECK(separate_touching(mesh) == 0);
+        CHECK(topology(welded(mesh)).closed());
     }
     CHECK(triangles > 100 * std::size_t(cases));
-    // Where two surfaces run closer together than a triangle's height they may cross.
-    CHECK(inverted < triangles / 200);
-    CHECK(degenerate < triangles / 1000);
+    // What is left, a few in 10,000: surfaces that touch along a line, and illegal sharp sums.
+    CHECK(inverted <= std::size_t(cases) / 500);
+    CHECK(beside <= std::size_t(cases) / 1000);
+    CHECK(degenerate <= std::size_t(cases) / 500);
+}
+
+TEST_CASE("Facets that leaned inward face outward: folds, slivers, walls thinner than the mesh is fine") {
+    for (const int seed : {47, 78, 211, 285, 332, 354, 413, 448, 455, 552, 584, 618, 659, 904, 925, 962, 1162, 4446}) {
+        CAPTURE(seed);
+        const SolidTree tree = flatten(RandomSolid(seed).solid());
+        const MeshMetrics m = measure(mesh_of(tree), tree);
+        CHECK(m.topology.manifold());
+        CHECK(m.inverted == 0);
+        CHECK(m.degenerate == 0);
+        CHECK(m.vertex_distance < 1e-6);
+    }
+}
+
+TEST_CASE("Seams of rounded solids lie on both surfaces") {
+    for (const int seed : {43, 65, 172, 348, 526, 683, 737, 844}) {
+        CAPTURE(seed);
+        const SolidTree tree = flatten(RandomSolid(seed).solid());
+        CHECK(measure(mesh_of(tree), tree).vertex_distance < 1e-6);
+    }
 }
