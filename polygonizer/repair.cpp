@@ -20,6 +20,9 @@ constexpr Limits gentle{0.2, 0.25, 2, 1e-3, 0}, last_resort{0.05, 0.06, 5, 2e-2,
 // Below this ratio of height to longest side a facet is without area.
 constexpr double no_area = 1e-6;
 constexpr double same_normal = 1e-6;
+// Where surfaces run closer together than any facet is small, mending one makes two that need it. So
+// there are this many splits, more for every wrong facet, and this many tries for each.
+constexpr std::size_t most_splits = 80, more_splits = 8, most_tries = 100;
 
 struct Shape {
     double own = 1;       // cosine to its own surface at its middle; −1 without area
@@ -240,14 +243,17 @@ public:
         std::deque<int> todo;
         for (std::size_t f = 0; f < facets_.size(); ++f)
             if (wrong(int(f))) todo.push_back(int(f));
-        std::size_t splits_left = 40 * todo.size();
+        if (!splits_left_) splits_left_ = most_splits + more_splits * todo.size();
+        std::size_t& splits_left = *splits_left_;
+        std::size_t tries_left = most_tries * todo.size();
         // Facets that nothing helped are asked again after others have changed.
         std::vector<int> stuck;
         constexpr int most_rounds = 6;
         bool changed = true;
         for (int round = 0; round < most_rounds && changed; ++round) {
             changed = false;
-            while (!todo.empty()) {
+            while (!todo.empty() && tries_left > 0) {
+                --tries_left;
                 const int f = todo.front();
                 todo.pop_front();
                 if (!facets_.alive(f) || !wrong(f)) continue;
@@ -340,6 +346,7 @@ private:
     double size_;
     int first_made_;
     Limits limits_ = gentle;
+    std::optional<std::size_t> splits_left_;
 };
 
 // The normal of a facet that has one throughout, or 0.
