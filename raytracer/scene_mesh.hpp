@@ -22,7 +22,7 @@ double parse_positive(const std::string& what, const std::string& text);
 
 struct MeshSettings {
     /// None: triage, and the octree for solids that hold what triage cannot follow, free forms.
-    std::optional<MeshMethod> method;
+    std::optional<MeshMethod> method = {};
     double tolerance = infinity;  // triage, octree
     double tolerance_in_radii = infinity;  // the same, of each solid's least radius, if less
     double tolerance_in_sizes = infinity;  // octree, without a radius: of each solid's size, if less
