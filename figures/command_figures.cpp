@@ -28,7 +28,7 @@ struct FiguresOptions : Options {
 };
 
 int list(const std::vector<Figure>& figures) {
-    for (const Figure& figure : figures) fmt::print("{:<18}{}\n", figure.name, figure.title);
+    for (const Figure& figure : figures) fmt::print("{:<20}{}\n", figure.name, figure.title);
     return 0;
 }
 
