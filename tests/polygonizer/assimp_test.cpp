@@ -62,7 +62,7 @@ TEST_CASE("ASE keeps every vertex's digits, every corner's normal, and each soli
     SolidTree tree = flatten(Solid::rounded(0.1, Density::box(Vec3(0.0), Vec3(1.0, 1.0 / 3, 0.7))).material(0) -
                              Solid::sharp(Density::box({0.5, -1, 0.3}, {2, 2, 2})).material(2));
     Mesh mesh = octree(tree, polygonization_box(tree), {0.1});
-    mesh.append(mesh, 1);
+    mesh.append(Mesh(mesh), 1);
     const std::string text = encode(mesh, MeshFormat::ase, {{"", "two \"words\""}, {Vec3(0.1, 0.2, 0.3), Vec3(0.0), Vec3(1.0, 0.5, 0.25)}});
     std::istringstream in(text);
     std::string word;

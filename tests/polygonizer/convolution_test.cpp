@@ -25,6 +25,7 @@ TEST_CASE("triage and marching cubes make closed manifolds of convolved solids, 
         Gen g(seed);
         Density d = g.box();
         for (int k = g.below(3); k > 0; --k) d = g.chance(0.5) ? d | g.box() : d & ~g.box();
+        if (d.has_radius()) continue;
         const double r = g.between(0.08, 0.3);
         const SolidTree tree = flatten(Solid::convolved(r, d));
         const Box box = polygonization_box(tree);
