@@ -159,7 +159,7 @@ TEST_CASE("POV-Ray sees the silhouettes that Deburr sees") {
     }
 }
 
-TEST_CASE("--sharp is the scene with every radius 0") {
+TEST_CASE("export-pov --sharp is the scene with every radius 0") {
     if (!has_povray()) return;
     const Folder folder;
     write_file(folder / "s.lua", "return { solids = { rounded(0.2, cube() - halfspace({0, 1, 0}, 1) * box({0.25, 0.8, 0.25}, {0.75, 1.8, 0.75})) } }");
