@@ -16,7 +16,7 @@ void implicit_against_embree(Report& report) {
         const ImplicitTracer implicit(scene.solids);
         SceneMesh mesh = mesh_scene(scene, picture_mesh_settings("triage", ""));
         const std::size_t triangles = mesh.mesh.triangles.size();
-        const MeshTracer embree(std::move(mesh.mesh));
+        const MeshTracer embree(std::move(mesh.mesh), mesh.near);
         for (const int spp : {1, 16}) {
             if (spp > 1) {  // as many samples take as long on a smaller picture
                 scene.width /= 2;

@@ -30,8 +30,9 @@ Film wire_picture(const FigureContext& context, const Scene& scene, const Mesh& 
 }
 
 Film gouraud_picture(const FigureContext& context, const Scene& scene, MeshSettings settings, const FigurePictureSettings& picture) {
-    settings.reach = 1e4;  // floors reach the horizon
-    return context.render(scene, MeshTracer(mesh_scene(scene, settings).mesh), picture);
+    settings.reach = rendering_reach;
+    const SceneMesh mesh = mesh_scene(scene, settings);
+    return context.render(scene, MeshTracer(mesh.mesh, mesh.near), picture);
 }
 
 Scene enlarged(Scene scene, Vec3 target, double size) {

@@ -37,9 +37,9 @@ void make(FigureContext& context) {
     // The floor is the same for both.
     Scene ground = scene;
     ground.solids = {scene.solids.at(0)};
-    Mesh with_floor = mesh_scene(ground, {.reach = 1e4}).mesh;
-    with_floor.append(marching.mesh, 1);
-    context.picture(context.render(scene, MeshTracer(with_floor), size), "(b) marching cubes, Gouraud shaded");
+    SceneMesh with_floor = mesh_scene(ground, {.reach = rendering_reach});
+    with_floor.mesh.append(marching.mesh, 1);
+    context.picture(context.render(scene, MeshTracer(with_floor.mesh, with_floor.near), size), "(b) marching cubes, Gouraud shaded");
     context.measured(fmt::format("Triage: {} triangles ({} polygons); marching cubes at half of each radius: {} triangles. The six "
                                  "took marching cubes {:.0f} times as long; most of both is the smallest radius, see table 6.2.",
                                  triage.mesh.triangles.size(), triage.mesh.polygons, marching.mesh.triangles.size(),

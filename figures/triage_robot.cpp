@@ -21,13 +21,13 @@ void make(FigureContext& context) {
         context.check_stop();
         const double r = first * std::pow(factor, i);
         const Scene scene = context.scene("melting_robot.lua", {{"r", fmt::format("{:.6f}", r)}});
-        const SceneMesh mesh = mesh_scene(scene, {.reach = 1e4});
+        const SceneMesh mesh = mesh_scene(scene, {.reach = rendering_reach});
         const Mesh& robot = mesh.parts.at(1);
         open += !topology(robot).manifold();
         triangles += robot.triangles.size();
         most = std::max(most, robot.triangles.size());
         if (robot.triangles.empty()) vanished = r;
-        frames.push_back(context.render(scene, MeshTracer(mesh.mesh), size));
+        frames.push_back(context.render(scene, MeshTracer(mesh.mesh, mesh.near), size));
         radii.push_back(r);
     }
     context.columns(4);
@@ -45,7 +45,7 @@ void make(FigureContext& context) {
 const RegisteredFigure registered{{
     .name = "triage-robot",
     .title = "§6.4: a robot smoothed until it vanishes",
-    .shows = "One Boolean density, one radius, Gouraud-shaded meshes of Triage Polygonization.",
+    .shows = "One sum of densities that touch, one radius, Gouraud-shaded meshes of Triage Polygonization.",
     .claim = "The paper's implementation aborts where it cannot generate a continuous surface, but managed an animation of a robot smoothed "
              "with a larger and larger filter until it vanishes completely.",
     .scenes = {"melting_robot.lua"},

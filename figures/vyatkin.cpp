@@ -51,9 +51,9 @@ Film shaded(const FigureContext& context, const Scene& scene, const Mesh& mesh, 
     ground.solids.clear();
     for (const Solid& solid : scene.solids)
         if (!bounding_box(flatten(solid)).finite()) ground.solids.push_back(solid);
-    Mesh all = mesh_scene(ground, {.reach = 1e4}).mesh;
-    all.append(mesh, int(ground.solids.size()));
-    return context.render(scene, MeshTracer(all), size);
+    SceneMesh all = mesh_scene(ground, {.reach = rendering_reach});
+    all.mesh.append(mesh, int(ground.solids.size()));
+    return context.render(scene, MeshTracer(all.mesh, all.near), size);
 }
 
 // The vertices that are seen, as dots.
@@ -171,7 +171,7 @@ const RegisteredFigure figure_8{{.name = "vyatkin-8",
                                  .make = grid}};
 const RegisteredFigure figure_10{{.name = "vyatkin-10",
                                   .title = "Figure 10: a cone's mesh with artifacts",
-                                  .shows = "Hard edges are treated like smooth surface (--hard-angle 180).",
+                                  .shows = "Hard edges are treated like smooth surface (--hard-edges 180).",
                                   .claim = "At hard edges, of faces more than 45° apart, the form is lost (§3.4).",
                                   .scenes = {"cone.lua"},
                                   .seconds = 8,

@@ -128,7 +128,8 @@ OpenLeaf Subdivision::localize(const OpenLeaf& leaf, Side& side) {
         local.tree = std::make_shared<DensityTree>(std::move(pruned.tree));
         local.density = nullptr;
     }
-    if (!local.density && local.tree->half_spaces.size() <= 2 * many)
+    // Part of a cell that was small enough, or that nothing more divides: small enough too.
+    if (!local.density && (leaf.density || local.tree->half_spaces.size() <= 2 * many))
         local.density = std::make_shared<LocalDensity>(*local.tree);
     if (local.density) {
         ranges_over(local.density->half_spaces(), corners_, complex.tolerance, ranges_);

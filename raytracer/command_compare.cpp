@@ -94,7 +94,7 @@ int run_compare(const CompareOptions& o) {
         const SceneMesh mesh = mesh_scene(scene, settings);
         units = radii(mesh);
         a = trace(scene, ImplicitTracer(scene.solids), size, spp, o.seed, stop);
-        b = trace(scene, MeshTracer(mesh.mesh), size, spp, o.seed, stop);
+        b = trace(scene, MeshTracer(mesh.mesh, mesh.near), size, spp, o.seed, stop);
         if (stop) return interrupted_exit_code;
         j["scene"] = scene.file;
         j["first"] = "implicit";

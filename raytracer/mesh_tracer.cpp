@@ -9,6 +9,7 @@
 #include <algorithm>
 
 #include "raytracer/errors.hpp"
+#include "raytracer/split_far.hpp"
 
 namespace deburr {
 namespace {
@@ -35,6 +36,17 @@ RTCRay ray_of(const Ray& ray, double t_max) {
     r.tfar = float(std::min(t_max, double(std::numeric_limits<float>::max())));
     r.mask = ~0u;
     return r;
+}
+
+// Where the ray meets the plane of the triangle x + u·e1 + v·e2, in double precision: single leaves
+// 10⁻⁷ of the triangle's size, and floors reach far. Nearly along the plane, u and v stay.
+void meet(const Ray& ray, Vec3 x, Vec3 e1, Vec3 e2, double& u, double& v) {
+    const Vec3 area = glm::cross(e1, e2);
+    const double rate = glm::dot(area, ray.direction);
+    if (std::abs(rate) <= 1e-9 * glm::length(area)) return;
+    const Vec3 moment = glm::cross(ray.origin - x, ray.direction);
+    u = glm::dot(e2, moment) / -rate;
+    v = glm::dot(e1, moment) / rate;
 }
 
 }  // namespace
@@ -84,7 +96,8 @@ private:
     }
 };
 
-MeshTracer::MeshTracer(Mesh mesh) : mesh_(std::move(mesh)), embree_(std::make_unique<Embree>(mesh_)) {}
+MeshTracer::MeshTracer(Mesh mesh, const Box& near)
+    : mesh_(split_far(std::move(mesh), near)), embree_(std::make_unique<Embree>(mesh_)) {}
 MeshTracer::~MeshTracer() = default;
 
 Hit MeshTracer::first_hit(const Ray& ray, double t_max, TraceCounters& counters) const {
@@ -102,12 +115,15 @@ Hit MeshTracer::first_hit(const Ray& ray, double t_max, TraceCounters& counters)
     Hit hit;
     if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID) return hit;
     const Triangle& t = mesh_.triangles[query.hit.primID];
-    const double u = query.hit.u, v = query.hit.v, w = 1 - u - v;
     const auto at = [&](std::size_t k) { return mesh_.positions[std::size_t(t.vertex[k])]; };
     const auto normal = [&](std::size_t k) { return mesh_.normals[std::size_t(t.normal[k])]; };
-    hit.position = w * at(0) + u * at(1) + v * at(2);
+    const Vec3 e1 = at(1) - at(0), e2 = at(2) - at(0);
+    double u = query.hit.u, v = query.hit.v;
+    meet(ray, at(0), e1, e2, u, v);
+    const double w = 1 - u - v;
+    hit.position = at(0) + u * e1 + v * e2;
     const Vec3 n = w * normal(0) + u * normal(1) + v * normal(2);
-    const Vec3 facet = mesh_.area_vector(t);
+    const Vec3 facet = glm::cross(e1, e2);
     hit.normal = glm::length(n) > 0 ? glm::normalize(n) : glm::normalize(facet);
     // Near an outline the normal between corners may look away though the facet does not; it is
     // turned until it is seen from the side, or the outline would be black.

@@ -12,8 +12,8 @@ namespace deburr {
 
 class MeshTracer final : public RayTracer {
 public:
-    /// Triangles say which solid and material they are.
-    explicit MeshTracer(Mesh mesh);
+    /// Triangles say which solid and material they are. Rays are most exact in and around `near`.
+    explicit MeshTracer(Mesh mesh, const Box& near = {});
     ~MeshTracer() override;
     Hit first_hit(const Ray& ray, double t_max, TraceCounters& counters) const override;
     bool occluded(const Ray& ray, double t_max, TraceCounters& counters) const override;

@@ -18,8 +18,6 @@ namespace {
 // A grid of more cubes than this is refused: it would take tens of gigabytes.
 constexpr double most_cubes = 2e9;
 
-// For pictures: the horizon of a floor that ends so far away is the true one to a pixel.
-constexpr double rendering_reach = 1e4;
 // For pictures: on Figure 12 of Lobb's paper 99 % of the hits are then within 0.03 r of the exact
 // ones, where the paper's one refinement of each edge leaves 0.26 r.
 constexpr double rendering_tolerance = 0.03;
@@ -156,9 +154,9 @@ SceneMesh mesh_scene(const Scene& scene, const MeshSettings& settings) {
         result.trees.push_back(flatten(solid));
         boxes.push_back(bounding_box(result.trees.back()));
     }
-    const Box finite_box = finite_part(scene, boxes);
-    const Vec3 size = finite_box.hi - finite_box.lo;
-    const Box limit = inflated(finite_box, settings.reach * std::max({size.x, size.y, size.z, 1e-6}));
+    result.near = finite_part(scene, boxes);
+    const Vec3 size = result.near.hi - result.near.lo;
+    const Box limit = inflated(result.near, settings.reach * std::max({size.x, size.y, size.z, 1e-6}));
     for (std::size_t i = 0; i < scene.solids.size(); ++i) {
         SolidTree& tree = result.trees[i];
         Mesh part;

@@ -20,6 +20,9 @@ std::string mesh_method_name(MeshMethod method);
 /// A number > 0, or UsageError.
 double parse_positive(const std::string& what, const std::string& text);
 
+/// For pictures: the horizon of a floor that ends so many sizes away is the true one to a pixel.
+inline constexpr double rendering_reach = 1e4;
+
 struct MeshSettings {
     /// None: triage, and the octree for solids that hold what triage cannot follow, free forms.
     std::optional<MeshMethod> method = {};
@@ -47,6 +50,7 @@ double least_radius(const SolidTree& solid);
 struct SceneMesh {
     Mesh mesh;                    // of all solids
     std::vector<Mesh> parts;      // solid by solid
+    Box near;                     // of the finite solids: infinite ones are cut off far around it
     std::vector<SolidTree> trees;
     std::vector<MeshMethod> methods;  // that were used, each once
     TriageStatistics triage;      // sums

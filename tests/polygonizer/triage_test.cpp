@@ -150,6 +150,17 @@ TEST_CASE("A tolerance is met all over the mesh, still closed") {
     }
 }
 
+TEST_CASE("Where a filter reaches all over many half-spaces a tolerance is met too, still closed") {
+    Density columns = Density::box(Vec3(0.0), {1, 1, 0.4});
+    for (int k = 1; k < 9; ++k) {
+        const Vec3 corner(k / 3, k % 3, 0);
+        columns = columns + Density::box(corner, corner + Vec3(1, 1, 0.4 + 0.3 * ((k / 3 * 7 + k % 3 * 3) % 4)));
+    }
+    const Measured m = measured(Solid::rounded(1.2, columns), 0.01);
+    CHECK(topology(m.mesh).manifold());
+    CHECK(m.metrics.vertex_distance < 1e-6);
+}
+
 TEST_CASE("Primary CSG of rounded solids is closed and sharp where the tree is") {
     const Density ball_like = Density::box({0.5, 0.5, 0.5}, {1.2, 1.3, 1.1});
     const Solid a = Solid::rounded(0.1, unit_cube()), b = Solid::rounded(0.15, ball_like);

@@ -1,0 +1,93 @@
+#include "raytracer/split_far.hpp"
+
+#include <algorithm>
+#include <array>
+#include <map>
+
+namespace deburr {
+namespace {
+
+double distance_to_segment(Vec3 x, Vec3 a, Vec3 b) {
+    const Vec3 d = b - a;
+    const double square = glm::dot(d, d);
+    const double s = square > 0 ? std::clamp(glm::dot(x - a, d) / square, 0.0, 1.0) : 0.0;
+    return glm::distance(x, a + s * d);
+}
+
+class Splitter {
+public:
+    Splitter(Mesh& mesh, const Box& near)
+        : mesh_(mesh), middle_(0.5 * (near.lo + near.hi)), size_(glm::length(near.hi - near.lo)) {
+        const Box all = bounding_box(mesh);
+        if (!all.empty()) size_ = std::max(size_, least_share * glm::length(all.hi - all.lo));
+    }
+
+    bool round() {
+        middles_.clear();
+        std::vector<Triangle> out;
+        bool split = false;
+        for (const Triangle& t : mesh_.triangles) {
+            std::array<int, 3> m;
+            for (std::size_t k = 0; k < 3; ++k) m[k] = middle(t.vertex[k], t.vertex[(k + 1) % 3]);
+            split |= m[0] >= 0 || m[1] >= 0 || m[2] >= 0;
+            halve(t, m, out);
+        }
+        mesh_.triangles = std::move(out);
+        return split;
+    }
+
+private:
+    static constexpr double least_share = 1e-7;  // of the mesh's size: where single precision ends
+
+    // The edge's middle vertex; -1 if the edge is short enough.
+    int middle(int a, int b) {
+        if (a > b) std::swap(a, b);  // both sides decide and compute alike
+        const Vec3 xa = mesh_.positions[std::size_t(a)], xb = mesh_.positions[std::size_t(b)];
+        const double length = glm::distance(xa, xb);
+        if (length <= size_ + distance_to_segment(middle_, xa, xb)) return -1;
+        const auto [at, fresh] = middles_.try_emplace({a, b}, int(mesh_.positions.size()));
+        if (fresh) mesh_.positions.push_back(0.5 * (xa + xb));
+        return at->second;
+    }
+
+    int middle_normal(int a, int b) {
+        if (a == b) return a;
+        const Vec3 sum = mesh_.normals[std::size_t(a)] + mesh_.normals[std::size_t(b)];
+        if (glm::length(sum) <= 0) return a;
+        mesh_.normals.push_back(glm::normalize(sum));
+        return int(mesh_.normals.size()) - 1;
+    }
+
+    // Halves the triangle at one edge, and the halves at the others; m: middles of its edges, or -1.
+    void halve(const Triangle& t, const std::array<int, 3>& m, std::vector<Triangle>& out) {
+        std::size_t a = 0;
+        while (a < 3 && m[a] < 0) ++a;
+        if (a == 3) return out.push_back(t);
+        const std::size_t b = (a + 1) % 3, c = (a + 2) % 3;
+        const int normal = middle_normal(t.normal[a], t.normal[b]);
+        Triangle before = t, beyond = t;
+        before.vertex[b] = beyond.vertex[a] = m[a];
+        before.normal[b] = beyond.normal[a] = normal;
+        std::array<int, 3> of_before{-1, -1, -1}, of_beyond{-1, -1, -1};
+        of_before[c] = m[c];
+        of_beyond[b] = m[b];
+        halve(before, of_before, out);
+        halve(beyond, of_beyond, out);
+    }
+
+    Mesh& mesh_;
+    Vec3 middle_;
+    double size_;
+    std::map<std::pair<int, int>, int> middles_;
+};
+
+}  // namespace
+
+Mesh split_far(Mesh mesh, const Box& near) {
+    if (near.empty() || !near.finite()) return mesh;
+    Splitter splitter(mesh, near);
+    while (splitter.round()) {}
+    return mesh;
+}
+
+}  // namespace deburr
