@@ -32,6 +32,12 @@ OIIO::ImageBuf buffer(const ReadImage& image) {
 
 class Module final : public ImageModule {
 public:
+    // Pictures are small: no pools of threads, which on the way out may outlive what they use.
+    Module() {
+        OIIO::attribute("threads", 1);
+        OIIO::attribute("exr_threads", -1);  // none but the caller's
+    }
+
     bool writes(const std::string& extension) const override {
         const auto writer = OIIO::ImageOutput::create("x" + extension);
         if (!writer) OIIO::geterror();  // or it is printed at exit

@@ -132,7 +132,7 @@ TEST_CASE("Every scene's mesh looks like its implicit surface") {
         const Outcome outcome =
             run({"compare", entry.path().string(), "--size", "300x190", "--max-missed", "0.8", "--max-distance",
                  "0.1", "--max-rmse", rmse, "--json", folder / "a.json", "-o", folder / "difference.exr"});
-        INFO(outcome.out);
+        INFO(outcome.err << outcome.out);
         CHECK(outcome.code == 0);
         CHECK(fs::exists(folder / "difference.exr"));
     }
