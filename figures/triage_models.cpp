@@ -12,15 +12,14 @@ Scene object_of(const Scene& scene, bool only_first) {
     return object;
 }
 
-
 std::string count(const SceneMesh& mesh) {
     const Topology t = topology(mesh.mesh);
     return fmt::format("{} polygons, cut into {} triangles, {}", mesh.mesh.polygons, mesh.mesh.triangles.size(),
                        t.manifold() ? "a closed 2-manifold" : fmt::format("with {} open edges", t.open_edges));
 }
 
-const FigurePictureSettings whole{.width = 600, .height = 380, .spp = 64};
-const FigurePictureSettings detail{.width = 420, .height = 300, .spp = 48};
+const FigurePictureSettings whole{.width = 720, .height = 456, .spp = 96};
+const FigurePictureSettings detail{.width = 420, .height = 300, .spp = 96};
 
 // (a) and (b) of a scene.
 void pair(FigureContext& context, const Scene& scene, const Mesh& lines, const FigurePictureSettings& size, const std::string& what) {

@@ -208,12 +208,12 @@ bool Bsdf::sample_layer(Vec2 u, Vec3& to_light, Vec3& weight) const {
         weight = layer_.fresnel(color_, cos_eye_);
         return true;
     }
-    const Vec3 facet = layer_.ggx().facet(to_eye_, normal_, u);
+    const Vec3 facet = ggx_.facet(to_eye_, normal_, u);
     to_light = glm::normalize(reflected(to_eye_, facet));
     const double cos_light = glm::dot(to_light, normal_);
     if (!(cos_light > 0)) return false;
     weight = layer_.fresnel(color_, glm::dot(facet, to_light)) *
-             layer_.ggx().shadowing(cos_light, cos_eye_);
+             ggx_.shadowing(cos_light, cos_eye_);
     return true;
 }
 

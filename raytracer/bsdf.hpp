@@ -84,8 +84,7 @@ class Bsdf {
 public:
     Bsdf(const SurfaceLayer& layer, Vec3 color, Vec3 normal, Vec3 to_eye);
 
-    /// The same with a layer no sharper than `alpha` in value() and layer_density(); smooth ones
-    /// stay smooth.
+    /// The same with a layer no sharper than `alpha`, but for its albedo; smooth ones stay smooth.
     Bsdf blurred(double alpha) const;
 
     struct Value {

@@ -24,6 +24,9 @@ constexpr double least_share = 0.1, least_share_alone = 0.25;
 // A highlight that a base sees is a caustic: few paths find it, and those are bright. They find it
 // with at least this α, dimmer and wider [Kaplanyan & Dachsbacher 2013].
 constexpr double caustic_alpha = 0.5;
+// The same between rough layers: what one reflects of another's highlights is blurred already, and
+// with the other no sharper than this many times the one's α hardly looks different.
+constexpr double blur_in_blur = 2.0;
 
 // What a path draws random numbers for, at each depth; and once, for its way through the filter.
 enum Purpose : std::uint32_t { choice, turn, layer_turn, first_light, purposes = 1024 };
@@ -54,6 +57,7 @@ struct Integrator::Path {
     bool scattered = false;      // by a base
     bool sees_lights = false;    // it was reflected last
     double density = infinity;   // of that reflection, per solid angle
+    double blur = 0.0;           // least α of the highlights that it sees
 
     std::uint32_t dimension(std::uint32_t purpose) const {
         return std::uint32_t(depth) * purposes + purpose;
@@ -200,10 +204,10 @@ Vec3 Integrator::transmittance(const Hit& hit, const Incident& light, const Path
 Vec3 Integrator::color_from(const Hit& hit, Vec3 direction, const Path& path) const {
     if (material(hit).kind == Material::Kind::glass) return color_of_glass(hit, direction, path);
     const SurfaceLayer& layer = layers_[std::size_t(hit.material)];
-    const Bsdf bsdf(layer, texture_color(hit), towards_ray(hit.normal, direction), -direction);
+    const Bsdf bsdf = Bsdf(layer, texture_color(hit), towards_ray(hit.normal, direction), -direction).blurred(path.blur);
     const Vec3 ambient = bsdf.base_albedo() * scene_.ambient;
     if (path.without_noise || path.scattered || path.depth >= scene_.bounces)
-        return ambient + lit(path.scattered ? bsdf.blurred(caustic_alpha) : bsdf, hit, path, 0.0) +
+        return ambient + lit(bsdf, hit, path, 0.0) +
                reflected_without_noise(bsdf, hit, path);
 
     const double base = sky_.black() ? 0.0 : brightest(bsdf.base_albedo());
@@ -217,13 +221,15 @@ Vec3 Integrator::color_from(const Hit& hit, Vec3 direction, const Path& path) co
     Vec3 way, weight;
     if (chosen < share &&
         bsdf.sample_layer(path.sampler.square(path.dimension(layer_turn)), way, weight)) {
-        const Path next = path.reflected(share * bsdf.layer_density(way));
+        Path next = path.reflected(share * bsdf.layer_density(way));
+        if (!layer.smooth()) next.blur = std::min(caustic_alpha, std::max(path.blur, blur_in_blur * layer.ggx().alpha));
         color += weight / share * color_along(leave(hit, way), next);
     }
     if (base > 0 && (both || chosen >= share)) {
         weight = bsdf.sample_base(path.sampler.square(path.dimension(turn)), way);
         Path next = path.on();
         next.scattered = true;
+        next.blur = caustic_alpha;
         next.sees_lights = false;
         color += weight / base_share * color_along(leave(hit, way), next);
     }
