@@ -109,12 +109,7 @@ Curve CellDrawing::dots(const std::vector<Vec3>& at, const std::string& color) c
 }
 
 Plot CellDrawing::plot(int width, int height) const {
-    Plot plot;
-    plot.width = width;
-    plot.height = height;
-    plot.axes = false;
-    plot.equal_units = true;
-    plot.legend = "";
+    Plot plot = drawing(width, height);
     Vec2 lo(1e9), hi(-1e9);
     // What is behind first: an edge is in front if a wall beside it is.
     for (const bool front : {false, true})

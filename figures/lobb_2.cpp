@@ -5,8 +5,6 @@
 namespace deburr {
 namespace {
 
-double cross(Vec2 a, Vec2 b) { return a.x * b.y - a.y * b.x; }
-
 // What of the polygon is within a convex outline [Sutherland & Hodgman 1974].
 std::vector<Vec2> clipped(std::vector<Vec2> polygon, const std::vector<Vec2>& outline) {
     for (std::size_t k = 0; k + 1 < outline.size() && !polygon.empty(); ++k) {
@@ -41,12 +39,7 @@ void make(FigureContext& context) {
     const auto share = [&](Vec2 x) { return disc_share(polygon, x, r); };
     const auto lines = level_lines(share, 0.5, {-0.5, -0.5}, {5.7, 3.7}, 310, 210);
 
-    Plot plot;
-    plot.width = 700;
-    plot.height = 480;
-    plot.axes = false;
-    plot.equal_units = true;
-    plot.legend = "";
+    Plot plot = drawing(700, 480);
     plot.x_range = Vec2(-0.8, 6.0);
     plot.y_range = Vec2(-0.75, 3.9);
     for (const auto& line : lines) plot.curves.push_back({.points = line, .color = house::shade, .kind = Curve::Kind::fill, .width = 0});

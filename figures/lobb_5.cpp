@@ -21,12 +21,7 @@ Plot section(double degrees) {
     const double half = radians(degrees / 2), s = std::sin(half);
     // As much of the planes as shows where they are left.
     const double along = 1.25 * edge.quasi_reach(), width = along * s, bottom = edge.plane(width);
-    Plot plot;
-    plot.width = 400;
-    plot.height = 430;
-    plot.axes = false;
-    plot.equal_units = true;
-    plot.legend = "";
+    Plot plot = drawing(400, 430);
     // Square, and the section in its middle.
     const double centre_y = -edge.truth_reach() / std::cos(half);
     const double lowest = std::min(bottom, centre_y), size = std::max(2 * width, 0.12 - lowest) * 1.06;

@@ -50,12 +50,7 @@ void make(FigureContext& context) {
         return true;
     });
 
-    Plot plot;
-    plot.width = 900;
-    plot.height = 520;
-    plot.axes = false;
-    plot.equal_units = true;
-    plot.legend = "";
+    Plot plot = drawing(900, 520);
     plot.x_range = Vec2(-3.3, 7.6);
     plot.y_range = Vec2(-3.2, 2.85);
     const Vec2 lo{-1, -0.9}, hi{7.2, 3.2};

@@ -4,11 +4,10 @@
 #include <cmath>
 #include <deque>
 #include <map>
+#include <numbers>
 
 namespace deburr {
 namespace {
-
-double cross(Vec2 a, Vec2 b) { return a.x * b.y - a.y * b.x; }
 
 // Where f, of different signs at the ends, is 0; by bisection to the last digit.
 Vec2 root(const std::function<double(Vec2)>& f, double level, Vec2 a, Vec2 b) {
@@ -39,7 +38,7 @@ double disc_share(const std::vector<Vec2>& polygon, Vec2 centre, double radius) 
     double area = 0;
     for (std::size_t i = 0; i < polygon.size(); ++i)
         area += triangle_in_disc(polygon[i] - centre, polygon[(i + 1) % polygon.size()] - centre, radius);
-    return area / (M_PI * radius * radius);
+    return area / (std::numbers::pi * radius * radius);
 }
 
 std::vector<std::vector<Vec2>> level_lines(const std::function<double(Vec2)>& f, double level, Vec2 lo, Vec2 hi,

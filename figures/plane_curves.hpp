@@ -8,6 +8,9 @@
 
 namespace deburr {
 
+/// Positive if b is counter-clockwise of a.
+inline double cross(Vec2 a, Vec2 b) { return a.x * b.y - a.y * b.x; }
+
 /// The lines f = level within the rectangle: a grid of columns × rows finds them, and their points,
 /// on the grid's lines, are exact roots. Closed where they close.
 std::vector<std::vector<Vec2>> level_lines(const std::function<double(Vec2)>& f, double level, Vec2 lo, Vec2 hi,

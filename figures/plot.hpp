@@ -84,6 +84,17 @@ struct Plot {
     std::vector<Label> labels = {};
 };
 
+/// A drawing: no axes, no legend, equal units.
+inline Plot drawing(int width, int height) {
+    Plot plot;
+    plot.width = width;
+    plot.height = height;
+    plot.equal_units = true;
+    plot.axes = false;
+    plot.legend = "";
+    return plot;
+}
+
 struct PlotImages {
     std::string svg, png;  // the files' bytes
 };

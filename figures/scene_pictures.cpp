@@ -1,5 +1,7 @@
 #include "figures/scene_pictures.hpp"
 
+#include <numbers>
+
 #include "bounds/bounding_box.hpp"
 #include "raytracer/mesh_tracer.hpp"
 
@@ -37,7 +39,7 @@ Film gouraud_picture(const FigureContext& context, const Scene& scene, MeshSetti
 
 Scene enlarged(Scene scene, Vec3 target, double size) {
     scene.camera.target = target;
-    scene.camera.fov = 2 * std::atan(0.5 * size / glm::length(target - scene.camera.eye)) * (180 / M_PI);
+    scene.camera.fov = 2 * std::atan(0.5 * size / glm::length(target - scene.camera.eye)) * (180 / std::numbers::pi);
     return scene;
 }
 

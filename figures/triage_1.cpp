@@ -11,12 +11,7 @@ void make(FigureContext& context) {
     const auto share = [&](Vec2 x) { return disc_share(polygon, x, r); };
     const auto lines = level_lines(share, 0.5, {-0.5, -0.5}, {4.7, 3.3}, 208, 152);
 
-    Plot plot;
-    plot.width = 560;
-    plot.height = 400;
-    plot.axes = false;
-    plot.equal_units = true;
-    plot.legend = "";
+    Plot plot = drawing(560, 400);
     plot.x_range = Vec2(-0.75, 4.95);
     plot.y_range = Vec2(-0.72, 3.35);
     std::vector<Vec2> outline = polygon;

@@ -125,12 +125,7 @@ void refinement(FigureContext& context) {
     const auto level = level_lines([&](Vec2 p) { return cell.density().at(space(p)); }, 0.5, lo - 0.02, hi + 0.02, 160, 160);
 
     const auto draw = [&](int step) {
-        Plot plot;
-        plot.width = 330;
-        plot.height = 300;
-        plot.axes = false;
-        plot.equal_units = true;
-        plot.legend = "";
+        Plot plot = drawing(330, 300);
         const Vec2 margin = 0.12 * (hi - lo);
         plot.x_range = Vec2(lo.x - margin.x, hi.x + margin.x);
         plot.y_range = Vec2(lo.y - margin.y, hi.y + margin.y);

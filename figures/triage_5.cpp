@@ -8,12 +8,7 @@ namespace {
 
 void make(FigureContext& context) {
     constexpr double r = 1, half_height = 1.05, half_width = 2.2;
-    Plot plot;
-    plot.width = 640;
-    plot.height = 300;
-    plot.axes = false;
-    plot.equal_units = true;
-    plot.legend = "";
+    Plot plot = drawing(640, 300);
     plot.x_range = Vec2(-half_width, half_width);
     plot.y_range = Vec2(-half_height, half_height);
     PlotField field{.lo = {-half_width, -0.8}, .hi = {half_width, 0.8}, .columns = 440, .rows = 2};

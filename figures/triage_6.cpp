@@ -38,12 +38,7 @@ void make(FigureContext& context) {
     // Where two planes at signed distances d1, d2 meet.
     const auto meet = [&](double d1, double d2) { return Vec2(d1, (d2 - n2.x * d1) / n2.y); };
 
-    Plot plot;
-    plot.width = 640;
-    plot.height = 520;
-    plot.axes = false;
-    plot.equal_units = true;
-    plot.legend = "";
+    Plot plot = drawing(640, 520);
     plot.x_range = Vec2(lo.x, hi.x);
     plot.y_range = Vec2(lo.y, hi.y + 0.25);
 

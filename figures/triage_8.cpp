@@ -33,12 +33,7 @@ const char* color_of(DensityClass c) {
 }
 
 Plot panel() {
-    Plot plot;
-    plot.width = 330;
-    plot.height = 270;
-    plot.axes = false;
-    plot.equal_units = true;
-    plot.legend = "";
+    Plot plot = drawing(330, 270);
     plot.x_range = Vec2(lo.x, hi.x);
     plot.y_range = Vec2(lo.y, hi.y);
     return plot;
