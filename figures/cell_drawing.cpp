@@ -96,8 +96,8 @@ Curve CellDrawing::polygon(const std::vector<Vec3>& corners, const std::string& 
     return curve;
 }
 
-Curve CellDrawing::line(const std::vector<Vec3>& through, const std::string& color, double width) const {
-    Curve curve{.points = {}, .color = color, .width = width};
+Curve CellDrawing::line(const std::vector<Vec3>& through, const std::string& color, double width, const std::string& dash) const {
+    Curve curve{.points = {}, .color = color, .width = width, .dash = dash};
     for (const Vec3& x : through) curve.points.push_back(project(x));
     return curve;
 }
@@ -123,9 +123,7 @@ Plot CellDrawing::plot(int width, int height) const {
             std::vector<Vec3> around = wall;
             around.push_back(wall[0]);
             if (!front) {
-                Curve curve = line(around, "#b5b5b5", 1.2);
-                curve.dash = "-";
-                plot.curves.push_back(curve);
+                plot.curves.push_back(line(around, "#b5b5b5", 1.2, "-"));
             } else {
                 plot.curves.push_back(line(around, house::grey, 1.6));
             }
