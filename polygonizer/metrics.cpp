@@ -89,8 +89,8 @@ MeshMetrics measure(const Mesh& mesh, const SolidTree& solid) {
             ++m.degenerate;
             continue;
         }
-        m.inverted += !faces_outward(field, middle, area / twice, normals, longest);
         const Offset here = field.at(middle);
+        m.inverted += !faces_outward(field, middle, here, area / twice, normals, longest);
         if (here.normal == Vec3(0.0)) continue;
         first.add(std::abs(here.distance));
         const double distance = field.distance_along_normal(middle, std::min(reach, 0.5 * longest));
