@@ -6,10 +6,22 @@
 
 namespace deburr {
 
-FacetJudge::FacetJudge(const SolidTree& solid, const Mesh& mesh) : FacetJudge(solid, field_box(mesh)) {}
+OffsetField field_around(const Mesh& mesh, const SolidTree& solid) {
+    // A facet is nearer to its surface than this: rounding moves a surface by less than the radius, and
+    // facets of free forms are small against their distance.
+    double margin = 0;
+    for (const SolidLeaf& leaf : solid.leaves) {
+        for (const HalfSpace& h : leaf.density.half_spaces) margin = std::max(margin, h.radius);
+        if (leaf.field) margin = std::max(margin, mean_edge(mesh));
+    }
+    return OffsetField(solid, field_box(mesh), margin);
+}
 
-FacetJudge::FacetJudge(const SolidTree& solid, const Box& box)
-    : solid_(solid, box), surfaces_(solid, box), one_leaf_(solid.leaves.size() == 1), size_(glm::length(box.hi - box.lo)) {}
+FacetJudge::FacetJudge(const SolidTree& solid, const Mesh& mesh)
+    : solid_(field_around(mesh, solid)), surfaces_(solid, field_box(mesh)), one_leaf_(solid.leaves.size() == 1) {
+    const Box box = field_box(mesh);
+    size_ = glm::length(box.hi - box.lo);
+}
 
 FacetShape FacetJudge::shape(const Facets& facets, const Facet& f, double least) const {
     // Below this ratio of height to longest side a facet is without area.

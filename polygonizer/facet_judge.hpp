@@ -11,6 +11,10 @@ struct FacetShape {
     double distance = 0;  // of the middle from the solid's surface
 };
 
+/// The solid as it is seen from the facets of a mesh: from the middle of each the surface that it stands
+/// for, and all that are nearer.
+OffsetField field_around(const Mesh& mesh, const SolidTree& solid);
+
 /// For all meshes of one solid. Not for several threads at once.
 class FacetJudge {
 public:
@@ -26,8 +30,6 @@ public:
     double size() const { return size_; }
 
 private:
-    FacetJudge(const SolidTree& solid, const Box& box);
-
     OffsetField solid_;
     LeafSurfaces surfaces_;
     bool one_leaf_;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "polygonizer/facet_judge.hpp"
 #include "polygonizer/outward.hpp"
 
 namespace deburr {
@@ -69,7 +70,7 @@ MeshMetrics measure(const Mesh& mesh, const SolidTree& solid) {
     m.volume = volume(mesh);
     m.box = bounding_box(mesh);
     measure_edges(mesh, m);
-    const OffsetField field(solid, field_box(mesh), m.edge_mean);
+    const OffsetField field = field_around(mesh, solid);
     const double reach = m.box.empty() ? 0 : glm::length(m.box.hi - m.box.lo);
     measure_vertices(mesh, field, m);
     Sum first, far, angle;

@@ -66,11 +66,6 @@ public:
         std::copy(last, end(), first);
         size_ -= std::uint32_t(last - first);
     }
-    void resize(std::size_t size) {
-        reserve(std::uint32_t(size));
-        if (size > size_) std::fill(end(), begin() + size, T{});
-        size_ = std::uint32_t(size);
-    }
 
 private:
     void reserve(std::uint32_t wanted) {

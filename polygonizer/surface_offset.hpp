@@ -67,7 +67,7 @@ private:
 class OffsetField {
 public:
     /// Surfaces that are nearer to a point than `margin` matter there, whether or not it is beyond
-    /// them: what is asked at the middle of a triangle has to see the surface that this stands for.
+    /// them: farther ones may be missing.
     OffsetField(const SolidTree& solid, const Box& box, double margin = 0);
 
     Offset at(Vec3 x) const { return near(x).at(x); }
