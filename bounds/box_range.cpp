@@ -3,28 +3,6 @@
 namespace deburr {
 namespace {
 
-Range product(Range a, Range b) {
-    if (a.lo >= 0 && b.lo >= 0) return {a.lo * b.lo, a.hi * b.hi};
-    const auto [lo, hi] = std::minmax({a.lo * b.lo, a.lo * b.hi, a.hi * b.lo, a.hi * b.hi});
-    return {lo, hi};
-}
-
-}  // namespace
-
-Range combine(Op op, Range a, Range b) {
-    switch (op) {
-        case Op::sum: return {a.lo + b.lo, a.hi + b.hi};
-        case Op::product: return product(a, b);
-        case Op::difference: return {a.lo - b.hi, a.hi - b.lo};
-        case Op::complement: return {1 - a.hi, 1 - a.lo};
-        case Op::conjunction: return {std::max(0.0, a.lo + b.lo - 1), std::min(a.hi, b.hi)};
-        case Op::disjunction: return {std::max(a.lo, b.lo), std::min(1.0, a.hi + b.hi)};
-        default: return a;
-    }
-}
-
-namespace {
-
 // ρ of a node over the region, and whether it is constant there for a reason that holds wherever the
 // half-spaces that are not saturated may lie. (That a range is a single value is no such reason: it
 // is one over a box that is a point.)
@@ -77,10 +55,9 @@ const std::vector<NodeRange>& ranges(const DensityTree& tree, const std::vector<
 // Folds constants while it copies what the root reaches; children first, as in the original.
 class Folding {
 public:
-    Folding(const DensityTree& from, const std::vector<NodeRange>& ranges) : from_(from), ranges_(ranges) {}
+    Folding(const DensityTree& from, const std::vector<NodeRange>& ranges) : from_(from), ranges_(ranges) { mark(); }
 
     int size() {
-        mark();
         int half_spaces = 0;
         for (std::size_t i = 0; i < from_.nodes.size(); ++i)
             half_spaces += needed_[i] && !constant(int(i)) && from_.nodes[i].op == Op::half_space;
@@ -88,7 +65,6 @@ public:
     }
 
     DensityTree run() {
-        mark();
         place_.assign(from_.nodes.size(), -1);
         for (std::size_t i = 0; i < from_.nodes.size(); ++i)
             if (needed_[i]) place_[i] = copy(int(i));
@@ -197,6 +173,13 @@ Range density_range(const DensityTree& tree, const std::vector<Range>& half_spac
 LocalSize local_size(const DensityTree& tree, const Box& box) {
     const std::vector<NodeRange>& all = ranges(tree, box);
     return {all.back(), Folding(tree, all).size()};
+}
+
+Pruned prune_further(const DensityTree& tree, const std::vector<Range>& half_spaces) {
+    const std::vector<NodeRange>& all = ranges(tree, half_spaces);
+    Folding folding(tree, all);
+    if (std::size_t(folding.size()) == tree.half_spaces.size()) return {{}, all.back()};
+    return {folding.run(), all.back()};
 }
 
 Pruned prune(const DensityTree& tree, const Box& box) {

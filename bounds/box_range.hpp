@@ -7,6 +7,8 @@
 //
 // Not promised: that a range is the tightest.
 #pragma once
+#include <algorithm>
+
 #include "bounds/density_tree.hpp"
 
 namespace deburr {
@@ -16,7 +18,21 @@ struct Range {
 };
 
 /// What op(a, b) can be, given what a and b can be, whatever they share; a complement has no b.
-Range combine(Op op, Range a, Range b);
+inline Range combine(Op op, Range a, Range b) {
+    switch (op) {
+        case Op::sum: return {a.lo + b.lo, a.hi + b.hi};
+        case Op::product: {
+            if (a.lo >= 0 && b.lo >= 0) return {a.lo * b.lo, a.hi * b.hi};
+            const auto [lo, hi] = std::minmax({a.lo * b.lo, a.lo * b.hi, a.hi * b.lo, a.hi * b.hi});
+            return {lo, hi};
+        }
+        case Op::difference: return {a.lo - b.hi, a.hi - b.lo};
+        case Op::complement: return {1 - a.hi, 1 - a.lo};
+        case Op::conjunction: return {std::max(0.0, a.lo + b.lo - 1), std::min(a.hi, b.hi)};
+        case Op::disjunction: return {std::max(a.lo, b.lo), std::min(1.0, a.hi + b.hi)};
+        default: return a;
+    }
+}
 
 /// Least and greatest n·x − offset over the box; infinite sides are allowed.
 Range distance_range(const HalfSpace& h, const Box& box);
@@ -56,6 +72,9 @@ Pruned prune(const DensityTree& tree, const Box& box);
 
 /// The same over any region, given ρ of every half-space over it.
 Pruned prune(const DensityTree& tree, const std::vector<Range>& half_spaces);
+
+/// The same, with a tree only where that has fewer half-spaces than before: nodes are empty else.
+Pruned prune_further(const DensityTree& tree, const std::vector<Range>& half_spaces);
 
 struct LocalSize {
     Range range;

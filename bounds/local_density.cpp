@@ -22,6 +22,7 @@ namespace {
 // Which nodes are Boolean functions of half-spaces, and so may be part of a diagram.
 std::vector<char> boolean_nodes(const DensityTree& tree) {
     std::vector<char> boolean;
+    boolean.reserve(tree.nodes.size());
     for (const TreeNode& n : tree.nodes) {
         switch (n.op) {
             case Op::half_space:
@@ -56,6 +57,8 @@ LocalDensity::LocalDensity(const DensityTree& tree) {
         half_spaces_ = share_->half_spaces();
         return;
     }
+    nodes_.reserve(tree.nodes.size());
+    half_spaces_.reserve(tree.half_spaces.size());
     const std::vector<char> boolean = boolean_nodes(tree);
     const std::vector<char> is_root = roots_of_boolean_parts(tree, boolean);
     std::vector<int> place(tree.nodes.size(), -1);
@@ -157,11 +160,12 @@ ValueSlope operator*(ValueSlope a, ValueSlope b) {
 
 }  // namespace
 
-// One pass over the steps in any arithmetic: values with gradients, or with slopes.
+// One pass over the steps in any arithmetic: values alone, with gradients, or with slopes.
 template <class T, class Node, class Leaf>
-static T run(const std::vector<Node>& nodes, const std::vector<int>& kids, std::vector<T>& done, Leaf leaf) {
+static T run(const std::vector<Node>& nodes, const std::vector<int>& kids, std::vector<T>& memory, Leaf leaf) {
     using Step = decltype(Node::step);
-    done.resize(nodes.size());
+    if (memory.size() < nodes.size()) memory.resize(nodes.size());
+    T* const done = memory.data();
     for (std::size_t i = 0; i < nodes.size(); ++i) {
         const Node& n = nodes[i];
         const auto at = [&](int child) -> const T& { return done[std::size_t(child)]; };
@@ -183,7 +187,13 @@ static T run(const std::vector<Node>& nodes, const std::vector<int>& kids, std::
             }
         }
     }
-    return done.back();
+    return done[nodes.size() - 1];
+}
+
+double LocalDensity::at(Vec3 x) const {
+    if (share_) return gradient_at(x).value;
+    thread_local std::vector<double> done;
+    return run(nodes_, kids_, done, [&](std::size_t i) { return half_spaces_[i].density(x); });
 }
 
 ValueGradient LocalDensity::gradient_at(Vec3 x) const {
@@ -210,15 +220,16 @@ Range LocalDensity::range(const Box& box) const {
     return range_from([&](int i) { return density_range(half_spaces_[std::size_t(i)], box); });
 }
 
-Range LocalDensity::range(const std::vector<Range>& half_spaces) const {
-    if (share_) return share_->range(half_spaces);
+Range LocalDensity::range(std::span<const Range> half_spaces) const {
+    if (share_) return share_->range({half_spaces.begin(), half_spaces.end()});
     return range_from([&](int i) { return half_spaces[std::size_t(i)]; });
 }
 
 template <class OfHalfSpace>
 Range LocalDensity::range_from(OfHalfSpace leaf) const {
-    thread_local std::vector<Range> done;
-    done.resize(nodes_.size());
+    thread_local std::vector<Range> memory;
+    if (memory.size() < nodes_.size()) memory.resize(nodes_.size());
+    Range* const done = memory.data();
     for (std::size_t i = 0; i < nodes_.size(); ++i) {
         const Node& n = nodes_[i];
         const auto at = [&](int child) { return done[std::size_t(child)]; };
@@ -245,7 +256,7 @@ Range LocalDensity::range_from(OfHalfSpace leaf) const {
             }
         }
     }
-    return done.back();
+    return done[nodes_.size() - 1];
 }
 
 // ---- its form ------------------------------------------------------------------------------------

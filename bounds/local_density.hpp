@@ -4,10 +4,10 @@
 //
 // Along a ray every α is linear in t, so a ray is a small table of them: RayDensity.
 #pragma once
-#include <optional>
-#include <vector>
-
 #include <memory>
+#include <optional>
+#include <span>
+#include <vector>
 
 #include "bounds/ball_share.hpp"
 #include "bounds/box_range.hpp"
@@ -38,12 +38,12 @@ public:
     /// the one that half-space i is a linear function of.
     bool is_affine_in_each(const std::vector<int>& variable_of) const;
 
-    double at(Vec3 x) const { return gradient_at(x).value; }
+    double at(Vec3 x) const;
     ValueGradient gradient_at(Vec3 x) const;
     /// ρ over a box; tighter than the tree's, as it sees what operands share.
     Range range(const Box& box) const;
     /// The same over any region, given ρ of every half-space (half_spaces()) over it.
-    Range range(const std::vector<Range>& half_spaces) const;
+    Range range(std::span<const Range> half_spaces) const;
 
 private:
     friend class RayDensity;

@@ -61,7 +61,7 @@ CellDrawing::CellDrawing(const Solid& solid, Vec3 seed, Plane cut, Vec3 eye_dire
 
     Subspace subspace(subdivision);
     subspace.polygonize();
-    const CellComplex& after = subdivision.complex;
+    const CellComplex& after = subspace.complex();
     std::map<int, int> known;
     std::map<std::pair<int, int>, int> next;  // half-edges without a twin, from one point to the next
     for (int f = 0; f < int(after.faces.size()); ++f) {

@@ -66,7 +66,7 @@ void make(FigureContext& context) {
     Subspace subspace(subdivision);
     subspace.polygonize();
     std::vector<Origin> origins;
-    const Mesh mesh = surface(subspace, subdivision, solid, &origins);
+    const Mesh mesh = surface(subspace, solid, &origins);
     const Mesh tree = part_of(mesh, origins, true), curved = part_of(mesh, origins, false);
     const auto all = [](const Scene& s, Vec3 color) { return std::vector<Vec3>(s.materials.size(), color); };
     MeshLook look;

@@ -1,11 +1,12 @@
 #include "polygonizer/boundary_polygons.hpp"
 
 #include <algorithm>
+#include <ranges>
 
 namespace deburr {
 
-BoundaryPolygons::BoundaryPolygons(const Subspace& subspace, const Subdivision& subdivision, const SolidTree& solid)
-    : subspace_(subspace), subdivision_(subdivision), complex_(subdivision.complex), solid_(solid) {
+BoundaryPolygons::BoundaryPolygons(const Subspace& subspace, const SolidTree& solid)
+    : subspace_(subspace), complex_(subspace.complex()), solid_(solid) {
     one_material_ = std::all_of(solid.leaves.begin(), solid.leaves.end(), [&](const SolidLeaf& l) {
         return l.material == solid.leaves[0].material;
     });
@@ -42,7 +43,7 @@ void BoundaryPolygons::collect() {
         p.count = int(face.loop.size());
         if (back) steps_.insert(steps_.end(), face.loop.begin(), face.loop.end());
         else
-            for (auto s = face.loop.rbegin(); s != face.loop.rend(); ++s) steps_.push_back(*s ^ 1);
+            for (const auto s : face.loop | std::views::reverse) steps_.push_back(s ^ 1);
         const Vec3 area = complex_.area_vector(int(f)) * (back ? 1.0 : -1.0);
         if (glm::length(area) > 0) p.normal = glm::normalize(area);
         p.offset = glm::dot(p.normal, complex_.vertices[std::size_t(complex_.start(steps_[std::size_t(p.first)]))]);

@@ -18,7 +18,7 @@ struct Polygon {
 
 class BoundaryPolygons {
 protected:
-    BoundaryPolygons(const Subspace& subspace, const Subdivision& subdivision, const SolidTree& solid);
+    BoundaryPolygons(const Subspace& subspace, const SolidTree& solid);
 
     int next(int h) const {
         const Polygon& p = polygons_[std::size_t(owner_[std::size_t(h)])];
@@ -30,7 +30,6 @@ protected:
     }
 
     const Subspace& subspace_;
-    const Subdivision& subdivision_;
     const CellComplex& complex_;
     const SolidTree& solid_;
     std::vector<Polygon> polygons_;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cassert>
 #include <map>
+#include <ranges>
 
 namespace deburr {
 
@@ -108,10 +109,10 @@ int CellComplex::split_edge(int edge, Vec3 x) {
     return middle;
 }
 
-int CellComplex::split_face(int face, int a, int b, const std::vector<Vec3>& between) {
+int CellComplex::split_face(int face, int a, int b, std::span<const Vec3> between) {
     assert(a != b);
     const int fresh = int(faces.size());
-    std::vector<Step> chain;
+    List<8> chain;
     int last = a;
     for (std::size_t k = 0; k <= between.size(); ++k) {
         const int next = k < between.size() ? add_vertex(between[k]) : b;
@@ -126,13 +127,13 @@ int CellComplex::split_face(int face, int a, int b, const std::vector<Vec3>& bet
     const auto to = std::find_if(old.begin(), old.end(), [&](Step s) { return start(s) == b; });
     assert(to != old.end());
     Face half{{old.begin(), to}, faces[face].back, faces[face].front};
-    std::vector<Step> kept = chain;
-    kept.insert(kept.end(), to, old.end());
+    List<8> kept = chain;
+    kept.append(to, old.end());
     for (Step s : half.loop) {
         auto& around = edges[s >> 1].faces;
         *std::find(around.begin(), around.end(), face) = fresh;
     }
-    for (auto s = chain.rbegin(); s != chain.rend(); ++s) half.loop.push_back(*s ^ 1);
+    for (const Step s : chain | std::views::reverse) half.loop.push_back(s ^ 1);
     old = std::move(kept);
     if (half.back != outside) cells[half.back].push_back(fresh);
     if (half.front != outside) cells[half.front].push_back(fresh);
@@ -140,21 +141,20 @@ int CellComplex::split_face(int face, int a, int b, const std::vector<Vec3>& bet
     return fresh;
 }
 
-int CellComplex::split_cell(int cell, const std::vector<Step>& loop, int seed,
-                            const std::vector<std::vector<int>>& disc) {
+int CellComplex::split_cell(int cell, std::span<const Step> loop, int seed, std::span<const Corners> disc) {
     const int fresh = int(cells.size());
     cells.emplace_back();
 
     // What the loop cuts off on the side of the seed becomes the new cell's.
-    std::vector<int> rim;
-    for (Step s : loop) rim.push_back(s >> 1);
-    std::sort(rim.begin(), rim.end());
-    std::vector<int> moved{seed};
+    rim_.resize(edges.size(), 0);
+    ++rim_stamp_;
+    for (Step s : loop) rim_[s >> 1] = rim_stamp_;
+    List<12> moved{seed};
     auto move = [&](int f) { (faces[f].back == cell ? faces[f].back : faces[f].front) = fresh; };
     move(seed);
     for (std::size_t k = 0; k < moved.size(); ++k)
         for (Step s : faces[moved[k]].loop) {
-            if (std::binary_search(rim.begin(), rim.end(), s >> 1)) continue;
+            if (rim_[s >> 1] == rim_stamp_) continue;
             for (int other : edges[s >> 1].faces)
                 if (faces[other].back == cell || faces[other].front == cell) {
                     move(other);
@@ -167,23 +167,29 @@ int CellComplex::split_cell(int cell, const std::vector<Step>& loop, int seed,
               old.end());
     cells[fresh] = std::move(moved);
 
-    std::map<std::pair<int, int>, Step> known;  // by direction
-    for (Step s : loop) {
-        known[{start(s), end(s)}] = s;
-        known[{end(s), start(s)}] = s ^ 1;
-    }
-    for (const auto& polygon : disc) {
+    // What was put in last is the first to be asked for.
+    struct Known {
+        int from, to;
+        Step step;
+    };
+    ShortList<Known, 24> known;
+    for (Step s : loop) known.push_back({start(s), end(s), s});
+    const auto step_between = [&](int a, int b) -> Step {
+        for (const Known& k : known | std::views::reverse) {
+            if (k.from == a && k.to == b) return k.step;
+            if (k.from == b && k.to == a) return k.step ^ 1;
+        }
+        known.push_back({a, b, 2 * int(edges.size())});
+        edges.push_back({a, b, {}});
+        return known.back().step;
+    };
+    for (const Corners& polygon : disc) {
         const int f = int(faces.size());
         Face face{{}, cell, fresh};
         for (std::size_t k = 0; k < polygon.size(); ++k) {
-            const int a = polygon[k], b = polygon[(k + 1) % polygon.size()];
-            const auto [it, is_new] = known.try_emplace({a, b}, 2 * int(edges.size()));
-            if (is_new) {
-                known[{b, a}] = it->second ^ 1;
-                edges.push_back({a, b, {}});
-            }
-            edges[it->second >> 1].faces.push_back(f);
-            face.loop.push_back(it->second);
+            const Step s = step_between(polygon[k], polygon[(k + 1) % polygon.size()]);
+            edges[s >> 1].faces.push_back(f);
+            face.loop.push_back(s);
         }
         faces.push_back(std::move(face));
         cells[cell].push_back(f);
@@ -202,22 +208,32 @@ bool CellComplex::classify(int cell, const Plane& plane) {
         above |= side_[v] > 0;
         below |= side_[v] < 0;
     }
-    return above && below;
+    if (!above || !below) return false;
+    reach_.clear();
+    for (int f : cells[cell]) {
+        Reach& reach = reach_.emplace_back(Reach{f, false, false});
+        for (Step s : faces[f].loop) {
+            reach.above |= side_[start(s)] > 0;
+            reach.below |= side_[start(s)] < 0;
+        }
+    }
+    return true;
+}
+
+const CellComplex::Reach& CellComplex::reach_of(int face) const {
+    return *std::find_if(reach_.begin(), reach_.end(), [&](const Reach& r) { return r.face == face; });
 }
 
 // Whether the cut is one simple loop: every face is crossed not at all or in two places, and these
 // places, an edge or a vertex each, are joined to a single ring.
-bool CellComplex::cut_is_simple(int cell) const {
-    std::vector<std::pair<int, int>> links;  // places: ~edge crossed, or vertex
-    for (int f : cells[cell]) {
-        const auto& loop = faces[f].loop;
+bool CellComplex::cut_is_simple(int cell) {
+    auto& links = joins_;  // places: ~edge crossed, or vertex
+    links.clear();
+    for (const Reach& reach : reach_) {
+        if (!reach.above) continue;
+        const auto& loop = faces[reach.face].loop;
         const std::size_t n = loop.size();
-        int above = 0, below = 0;
-        for (Step s : loop) {
-            above += side_[start(s)] > 0;
-            below += side_[start(s)] < 0;
-        }
-        if (above && below) {
+        if (reach.below) {
             int places[2], count = 0;
             for (std::size_t k = 0; k < n; ++k) {
                 const int here = start(loop[k]), next = end(loop[k]);
@@ -225,7 +241,7 @@ bool CellComplex::cut_is_simple(int cell) const {
                 if (side_[here] * side_[next] < 0) {
                     place = ~(loop[k] >> 1);
                 } else if (side_[next] == 0 && side_[here] != 0) {
-                    const int after = side_[end(loop[(k + 1) % n])];
+                    const int after = side_[end(loop[k + 1 < n ? k + 1 : 0])];
                     if (after == side_[here]) continue;  // touches only
                     if (after == 0) return false;        // an edge on the plane between both sides
                     place = next;
@@ -237,48 +253,43 @@ bool CellComplex::cut_is_simple(int cell) const {
             }
             if (count != 2) return false;
             links.push_back({places[0], places[1]});
-        } else if (above) {
+        } else {
             for (Step s : loop) {
                 if (side_[start(s)] != 0 || side_[end(s)] != 0) continue;
-                const int other = across(s >> 1, f, cell);
-                bool below_there = false, above_there = false;
-                for (Step o : faces[other].loop) {
-                    below_there |= side_[start(o)] < 0;
-                    above_there |= side_[start(o)] > 0;
-                }
-                if (above_there) continue;
-                if (!below_there) return false;  // a whole face on the plane within the cut
+                const Reach& other = reach_of(across(s >> 1, reach.face, cell));
+                if (other.above) continue;
+                if (!other.below) return false;  // a whole face on the plane within the cut
                 links.push_back({start(s), end(s)});
             }
         }
     }
     if (links.size() < 3) return false;
     // A ring: walk it.
-    std::vector<bool> used(links.size(), false);
-    int at = links[0].second;
-    used[0] = true;
+    int at = links[0].to;
+    links[0].used = true;
     std::size_t walked = 1;
-    while (at != links[0].first) {
-        std::size_t next = links.size();
-        for (std::size_t k = 0; k < links.size(); ++k) {
-            if (used[k] || (links[k].first != at && links[k].second != at)) continue;
-            if (next != links.size()) return false;
-            next = k;
+    while (at != links[0].from) {
+        Join* next = nullptr;
+        for (Join& join : links) {
+            if (join.used || (join.from != at && join.to != at)) continue;
+            if (next) return false;
+            next = &join;
         }
-        if (next == links.size()) return false;
-        used[next] = true;
+        if (!next) return false;
+        next->used = true;
         ++walked;
-        at = links[next].first == at ? links[next].second : links[next].first;
+        at = next->from == at ? next->to : next->from;
     }
     return walked == links.size();
 }
 
 int CellComplex::cut(int cell, const Plane& plane) {
     if (!classify(cell, plane) || !cut_is_simple(cell)) return -1;
-    const std::vector<int> old_faces = cells[cell];
-    for (int f : old_faces)
-        for (std::size_t k = 0; k < faces[f].loop.size(); ++k) {
-            const Step s = faces[f].loop[k];
+    for (const Reach& reach : reach_) {
+        if (!reach.above || !reach.below) continue;
+        auto& loop = faces[reach.face].loop;
+        for (std::size_t k = 0; k < loop.size(); ++k) {
+            const Step s = loop[k];
             const int a = start(s), b = end(s);
             if (side_[a] * side_[b] >= 0) continue;
             const double da = plane.distance(vertices[a]), db = plane.distance(vertices[b]);
@@ -287,36 +298,29 @@ int CellComplex::cut(int cell, const Plane& plane) {
             split_edge(s >> 1, x);
             side_.push_back(0);
         }
-    std::vector<Step> ring;
-    std::map<int, std::vector<Step>> leaving;
+    }
+    List<8> ring;
     int seed = -1;
-    for (int f : old_faces) {
-        bool above = false, below = false;
-        for (Step s : faces[f].loop) {
-            above |= side_[start(s)] > 0;
-            below |= side_[start(s)] < 0;
-        }
-        if (above && below) {
+    for (const Reach& reach : reach_) {
+        if (!reach.above) continue;
+        const auto& loop = faces[reach.face].loop;
+        if (reach.below) {
             int from = -1, to = -1;  // the half with the positive side runs from `from` to `to`
-            const auto& loop = faces[f].loop;
             for (std::size_t k = 0; k < loop.size(); ++k) {
                 const int before = side_[start(loop[k])], v = end(loop[k]);
-                const int after = side_[end(loop[(k + 1) % loop.size()])];
                 if (side_[v] != 0) continue;
+                const int after = side_[end(loop[k + 1 < loop.size() ? k + 1 : 0])];
                 if (before < 0 && after > 0) from = v;
                 if (before > 0 && after < 0) to = v;
             }
-            const int upper = split_face(f, from, to);
+            seed = split_face(reach.face, from, to);
             ring.push_back(2 * (int(edges.size()) - 1));
-            seed = upper;
-        } else if (above) {
-            seed = f;
-            for (Step s : faces[f].loop) {
+        } else {
+            seed = reach.face;
+            for (Step s : loop) {
+                // No face that was halved has an edge on the plane, so all that meet here are known.
                 if (side_[start(s)] != 0 || side_[end(s)] != 0) continue;
-                bool flush = false;
-                const int other = across(s >> 1, f, cell);
-                for (Step o : faces[other].loop) flush |= side_[start(o)] > 0;
-                if (!flush) ring.push_back(s);
+                if (!reach_of(across(s >> 1, reach.face, cell)).above) ring.push_back(s);
             }
         }
     }
@@ -328,7 +332,7 @@ int CellComplex::cut(int cell, const Plane& plane) {
             std::swap(ring[k + 1], ring[j]);
             break;
         }
-    std::vector<int> polygon;
+    Corners polygon;
     for (Step s : ring) polygon.push_back(start(s));
     // Which way round is combinatorial, not a matter of a sliver's area: the ring must run against
     // the new cell's face at its first edge.
@@ -347,7 +351,7 @@ int CellComplex::cut(int cell, const Plane& plane) {
     // Seen from the new cell, its faces' loops run counter-clockwise where it is the front cell.
     const bool is_front = faces[upper_face].front == cell;
     if (along == is_front) std::reverse(polygon.begin(), polygon.end());
-    return split_cell(cell, ring, seed, {polygon});
+    return split_cell(cell, ring, seed, {&polygon, 1});
 }
 
 }  // namespace deburr

@@ -13,12 +13,12 @@
 // signs of a cell's vertices contradict convexity, the cut is refused and nothing is changed;
 // the cell then stays whole, and is left to the isosurface.
 #pragma once
-#include <array>
 #include <cstdint>
-#include <utility>
+#include <span>
 #include <vector>
 
 #include "bounds/vec.hpp"
+#include "polygonizer/short_list.hpp"
 
 namespace deburr {
 
@@ -32,14 +32,17 @@ class CellComplex {
 public:
     /// An edge with a direction: 2·edge, +1 if it runs from head to tail.
     using Step = int;
+    template <std::uint32_t usual>
+    using List = ShortList<int, usual>;
+    using Corners = List<6>;
 
     struct Edge {
         int tail, head;
-        std::vector<int> faces;  // all around it, in no order
+        List<6> faces;  // all around it, in no order
     };
     struct Face {
-        std::vector<Step> loop;  // counter-clockwise, seen from the front cell
-        int back, front;         // cells; `outside` beyond the first box
+        List<8> loop;     // steps, counter-clockwise, seen from the front cell
+        int back, front;  // cells; `outside` beyond the first box
     };
     static constexpr int outside = -1;
 
@@ -49,7 +52,7 @@ public:
     std::vector<Vec3> vertices;
     std::vector<Edge> edges;
     std::vector<Face> faces;
-    std::vector<std::vector<int>> cells;  // faces of each
+    std::vector<List<12>> cells;  // faces of each
     double tolerance;
 
     int start(Step s) const { return (s & 1) ? edges[s >> 1].head : edges[s >> 1].tail; }
@@ -74,24 +77,36 @@ public:
     int split_edge(int edge, Vec3 x);
     /// Leads a chain of new vertices from a to b, two vertices of the face; it keeps what lies left
     /// of the chain. Returns the new face; the new edges are the last ones.
-    int split_face(int face, int a, int b, const std::vector<Vec3>& between = {});
+    int split_face(int face, int a, int b, std::span<const Vec3> between = {});
     /// Puts the disc into the cell: faces given by their corners, counter-clockwise seen from the
     /// side of `seed`, a face of the cell, where the new cell will be. `loop` is the disc's rim,
     /// edges of the cell. Returns the new cell; the new faces are the last ones.
-    int split_cell(int cell, const std::vector<Step>& loop, int seed,
-                   const std::vector<std::vector<int>>& disc);
+    int split_cell(int cell, std::span<const Step> loop, int seed, std::span<const Corners> disc);
     /// Cuts a convex cell; returns the new cell, on the side the normal points to, or -1 if the
     /// plane does not cut it or the cut was refused.
     int cut(int cell, const Plane& plane);
 
 private:
+    struct Join {  // of two places of a cut, an edge or a vertex each
+        int from, to;
+        bool used = false;
+    };
+    struct Reach {  // of a face of the cell that a plane is cutting
+        int face;
+        bool above, below;  // whether it has vertices there
+    };
     std::vector<signed char> side_;  // of a vertex, while a plane is cutting
     std::vector<int> scratch_;
+    std::vector<Join> joins_;
+    std::vector<Reach> reach_;
     mutable std::vector<std::uint32_t> seen_;
     mutable std::uint32_t stamp_ = 0;
+    std::vector<std::uint32_t> rim_;  // by edge: when it was last on the rim of a disc
+    std::uint32_t rim_stamp_ = 0;
 
     bool classify(int cell, const Plane& plane);
-    bool cut_is_simple(int cell) const;
+    bool cut_is_simple(int cell);
+    const Reach& reach_of(int face) const;
 };
 
 }  // namespace deburr

@@ -56,7 +56,7 @@ bool strips(const std::vector<Vec3>& rim, Vec3 sweep, double tolerance, Disc& di
     std::vector<int> right, left;
     if (!walk(1, right) || !walk(-1, left)) return false;
 
-    std::vector<int> line{low};  // what the faces so far end at, from left to right
+    CellComplex::Corners line{low};  // what the faces so far end at, from left to right
     std::size_t i = 1, j = 1;    // the next ones
     const auto level = [&](int v) { return u[std::size_t(v)]; };
     const double top = level(high) - slack;
@@ -68,16 +68,14 @@ bool strips(const std::vector<Vec3>& rim, Vec3 sweep, double tolerance, Disc& di
         } else if (ruling && j + 1 < left.size() && l <= here) {
             line.insert(line.begin(), left[j++]);
         } else if (r >= top && l >= top) {
-            line.insert(line.end(), right.begin() + long(i), right.end());
-            line.insert(line.end(), left.rbegin() + 1, left.rend() - long(j));
+            line.append(right.data() + i, right.data() + right.size());
+            for (std::size_t k = left.size() - 1; k > j; --k) line.push_back(left[k - 1]);
             if (line.size() < 3) return false;
             disc.faces.push_back(line);
             return true;
         } else {
             const bool on_right = r <= l + slack, on_left = l <= r + slack;
-            const std::vector<int> next = on_right && on_left ? std::vector{left[j], right[i]}
-                                          : on_right          ? std::vector{line.front(), right[i]}
-                                                              : std::vector{left[j], line.back()};
+            const CellComplex::Corners next{on_left ? left[j] : line.front(), on_right ? right[i] : line.back()};
             if (on_right) line.push_back(right[i++]);
             if (on_left) line.push_back(left[j++]);
             if (line.size() > 2) disc.faces.push_back(line);
@@ -137,7 +135,7 @@ bool follows(const std::vector<Vec3>& rim, const LocalDensity& density) {
 }
 
 // The fan about a corner of the rim whose worst triangle leans least.
-Disc fan_about_corner(const std::vector<Vec3>& rim, const LocalDensity& density) {
+void fan_about_corner(const std::vector<Vec3>& rim, const LocalDensity& density, Disc& disc) {
     const int n = int(rim.size());
     int best = 0;
     double best_worst = -infinity;
@@ -155,39 +153,31 @@ Disc fan_about_corner(const std::vector<Vec3>& rim, const LocalDensity& density)
             best = apex;
         }
     }
-    Disc disc;
     for (int k = 1; k + 1 < n; ++k) disc.faces.push_back({best, (best + k) % n, (best + k + 1) % n});
-    return disc;
 }
 
 }  // namespace
 
-Disc span_loop(const std::vector<Vec3>& rim, const LocalDensity& density, const std::vector<Wall>& walls,
-               double tolerance) {
-    Disc disc;
+void span_loop(const std::vector<Vec3>& rim, const LocalDensity& density, const std::vector<Wall>& walls,
+               double tolerance, Disc& disc) {
+    disc.faces.clear();
+    disc.has_centre = false;
     const int n = int(rim.size());
-    std::vector<int> all(rim.size());
-    std::iota(all.begin(), all.end(), 0);
-    if (n == 3 && follows(rim, density)) {
-        disc.faces.push_back(all);
-        return disc;
-    }
+    const auto whole = [&] {
+        auto& face = disc.faces.emplace_back();
+        for (int k = 0; k < n; ++k) face.push_back(k);
+    };
+    if (n == 3 && follows(rim, density)) return whole();
     const Vec3 area = area_vector(rim);
     const bool flat = glm::length(area) > 0 && is_flat(rim, glm::normalize(area), tolerance);
     Vec3 sweep;
-    if (n > 3 && !(flat && !follows(rim, density)) && is_swept(density, sweep) && strips(rim, sweep, tolerance, disc)) return disc;
+    if (n > 3 && !(flat && !follows(rim, density)) && is_swept(density, sweep) && strips(rim, sweep, tolerance, disc)) return;
     disc.faces.clear();
-    if (displaced_centroid(rim, flat, density, walls, tolerance, disc.centre)) {
-        const Vec3 c = std::accumulate(rim.begin(), rim.end(), Vec3(0.0)) / double(n);
-        if (flat && glm::length(disc.centre - c) <= 2 * tolerance) {
-            disc.faces.push_back(all);
-            return disc;
-        }
-        disc.has_centre = true;
-        for (int k = 0; k < n; ++k) disc.faces.push_back({n, k, (k + 1) % n});
-        return disc;
-    }
-    return fan_about_corner(rim, density);
+    if (!displaced_centroid(rim, flat, density, walls, tolerance, disc.centre)) return fan_about_corner(rim, density, disc);
+    const Vec3 c = std::accumulate(rim.begin(), rim.end(), Vec3(0.0)) / double(n);
+    if (flat && glm::length(disc.centre - c) <= 2 * tolerance) return whole();
+    disc.has_centre = true;
+    for (int k = 0; k < n; ++k) disc.faces.push_back({n, k, (k + 1) % n});
 }
 
 }  // namespace deburr

@@ -3,11 +3,12 @@
 #include <vector>
 
 #include "bounds/local_density.hpp"
+#include "polygonizer/cell_complex.hpp"
 
 namespace deburr {
 
 struct Disc {
-    std::vector<std::vector<int>> faces;  // corners: positions in the rim; its size: the centre
+    std::vector<CellComplex::Corners> faces;  // positions in the rim; its size: the centre
     bool has_centre = false;
     Vec3 centre{0.0};
 };
@@ -18,7 +19,7 @@ struct Wall {
     Vec3 normal;
     double offset;
 };
-Disc span_loop(const std::vector<Vec3>& rim, const LocalDensity& density, const std::vector<Wall>& walls,
-               double tolerance);
+void span_loop(const std::vector<Vec3>& rim, const LocalDensity& density, const std::vector<Wall>& walls,
+               double tolerance, Disc& disc);
 
 }  // namespace deburr

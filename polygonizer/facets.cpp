@@ -11,6 +11,7 @@ constexpr double same_normal = 1e-6;
 
 Facets::Facets(Mesh& mesh, std::vector<Origin>& origins) : mesh_(mesh), origins_(origins) {
     around_.resize(mesh.positions.size());
+    facets_.reserve(mesh.triangles.size());
     for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
         facets_.push_back({mesh.triangles[t], origins[t]});
         for (const int v : mesh.triangles[t].vertex) around_[std::size_t(v)].push_back(int(t));
@@ -144,7 +145,8 @@ std::vector<int> Facets::apply(const Change& change) {
         alive_[std::size_t(f)] = false;
         for (const int v : at(f).triangle.vertex) {
             auto& list = around_[std::size_t(v)];
-            list.erase(std::find(list.begin(), list.end(), f));
+            const auto at = std::find(list.begin(), list.end(), f);
+            list.erase(at, at + 1);
         }
     }
     std::vector<int> fresh;

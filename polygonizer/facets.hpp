@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "polygonizer/mesh.hpp"
+#include "polygonizer/short_list.hpp"
 
 namespace deburr {
 
@@ -27,13 +28,15 @@ struct Change {
 
 class Facets {
 public:
+    using Fan = ShortList<int, 8>;
+
     /// `origins`: one for each triangle. Both are brought up to date by finish().
     Facets(Mesh& mesh, std::vector<Origin>& origins);
 
     std::size_t size() const { return facets_.size(); }
     bool alive(int f) const { return alive_[std::size_t(f)]; }
     const Facet& at(int f) const { return facets_[std::size_t(f)]; }
-    const std::vector<int>& around(int vertex) const { return around_[std::size_t(vertex)]; }
+    const Fan& around(int vertex) const { return around_[std::size_t(vertex)]; }
     Vec3 position(int v) const { return mesh_.positions[std::size_t(v)]; }
     Vec3 normal(int n) const { return mesh_.normals[std::size_t(n)]; }
     Vec3 area_vector(const Triangle& t) const { return mesh_.area_vector(t); }
@@ -75,7 +78,7 @@ private:
     Mesh& mesh_;
     std::vector<Origin>& origins_;
     std::vector<Facet> facets_;
-    std::vector<std::vector<int>> around_;
+    std::vector<Fan> around_;
     std::vector<char> alive_;
 };
 

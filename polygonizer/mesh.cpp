@@ -87,6 +87,14 @@ Box bounding_box(const Mesh& mesh) {
     return box;
 }
 
+double mean_edge(const Mesh& mesh) {
+    double sum = 0;
+    for (const Triangle& t : mesh.triangles)
+        for (std::size_t k = 0; k < 3; ++k)  // every edge in both of its triangles
+            sum += glm::length(mesh.positions[std::size_t(t.vertex[k])] - mesh.positions[std::size_t(t.vertex[(k + 1) % 3])]);
+    return mesh.triangles.empty() ? 0 : sum / (3 * double(mesh.triangles.size()));
+}
+
 Box field_box(const Mesh& mesh) {
     const Box box = bounding_box(mesh);
     return inflated(box, 1e-6 * (1 + glm::length(box.hi - box.lo)));

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "polygonizer/facet_judge.hpp"
 #include "polygonizer/outward.hpp"
 
 namespace deburr {
@@ -69,7 +70,7 @@ MeshMetrics measure(const Mesh& mesh, const SolidTree& solid) {
     m.volume = volume(mesh);
     m.box = bounding_box(mesh);
     measure_edges(mesh, m);
-    const OffsetField field(solid, field_box(mesh), m.edge_mean);
+    const OffsetField field = field_around(mesh, solid);
     const double reach = m.box.empty() ? 0 : glm::length(m.box.hi - m.box.lo);
     measure_vertices(mesh, field, m);
     Sum first, far, angle;
@@ -89,8 +90,8 @@ MeshMetrics measure(const Mesh& mesh, const SolidTree& solid) {
             ++m.degenerate;
             continue;
         }
-        m.inverted += !faces_outward(field, middle, area / twice, normals, longest);
         const Offset here = field.at(middle);
+        m.inverted += !faces_outward(field, middle, here, area / twice, normals, longest);
         if (here.normal == Vec3(0.0)) continue;
         first.add(std::abs(here.distance));
         const double distance = field.distance_along_normal(middle, std::min(reach, 0.5 * longest));

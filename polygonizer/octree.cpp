@@ -348,7 +348,7 @@ Mesh octree(const SolidTree& mixed, const Box& box, const OctreeOptions& options
     for (int round = 0; round < most_mending_rounds; ++round) {
         std::vector<Origin> origins;
         Mesh mesh = polygonization.run(*statistics, origins);
-        const RepairStatistics repaired = repair(mesh, origins, solid);
+        const RepairStatistics repaired = repair(mesh, origins, FacetJudge(solid, mesh));
         const bool more = !repaired.left.empty() && polygonization.cut_around(mesh, repaired.left);
         if (repaired.left.size() < least_left) {
             least_left = repaired.left.size();

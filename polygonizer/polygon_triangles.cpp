@@ -87,33 +87,41 @@ double shape(const Point& a, const Point& b, const Point& c) {
 
 std::vector<std::array<int, 3>> triangles_of(const std::vector<std::vector<int>>& loops,
                                              const std::vector<Vec3>& positions, Vec3 normal) {
+    if (loops.size() == 1 && loops[0].size() == 3) return {{loops[0][0], loops[0][1], loops[0][2]}};
     // Seen along the axis nearest to the normal, so that flush coordinates stay as they are.
     const Vec3 m = glm::abs(normal);
     const int drop = m.x >= m.y && m.x >= m.z ? 0 : m.y >= m.z ? 1 : 2;
     int ix = (drop + 1) % 3, iy = (drop + 2) % 3;
     if (normal[drop] < 0) std::swap(ix, iy);
-    std::vector<std::vector<Point>> flat;
-    for (const auto& loop : loops) {
-        flat.emplace_back();
+    const auto flatten = [&](const std::vector<int>& loop, std::vector<Point>& flat) {
+        flat.clear();
         for (const int v : loop) {
             const Vec3& x = positions[std::size_t(v)];
-            flat.back().push_back({x[ix], x[iy], v});
+            flat.push_back({x[ix], x[iy], v});
         }
-    }
-    std::size_t outer = 0;
-    for (std::size_t k = 1; k < flat.size(); ++k)
-        if (area(flat[k]) > area(flat[outer])) outer = k;
-    std::swap(flat[0], flat[outer]);
-    std::vector<Point> ring = std::move(flat[0]);
-    flat.erase(flat.begin());
-    std::sort(flat.begin(), flat.end(), [](const auto& a, const auto& b) { return a[0].x < b[0].x; });
-    while (!flat.empty()) {
-        const auto hole = std::move(flat.front());
+    };
+    thread_local std::vector<Point> ring;
+    if (loops.size() == 1) {
+        flatten(loops[0], ring);
+    } else {
+        std::vector<std::vector<Point>> flat(loops.size());
+        for (std::size_t k = 0; k < loops.size(); ++k) flatten(loops[k], flat[k]);
+        std::size_t outer = 0;
+        for (std::size_t k = 1; k < flat.size(); ++k)
+            if (area(flat[k]) > area(flat[outer])) outer = k;
+        std::swap(flat[0], flat[outer]);
+        ring = std::move(flat[0]);
         flat.erase(flat.begin());
-        join(ring, hole, flat);
+        std::sort(flat.begin(), flat.end(), [](const auto& a, const auto& b) { return a[0].x < b[0].x; });
+        while (!flat.empty()) {
+            const auto hole = std::move(flat.front());
+            flat.erase(flat.begin());
+            join(ring, hole, flat);
+        }
     }
 
     std::vector<std::array<int, 3>> out;
+    out.reserve(ring.size() - 2);
     constexpr std::size_t large = 400;  // corners beyond which the first good ear is taken
     // An ear holds no other corner. Where the polygon touches itself, corners lie on the sides of
     // every ear: then none within has to do.

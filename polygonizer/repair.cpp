@@ -2,8 +2,7 @@
 
 #include <algorithm>
 #include <deque>
-
-#include "polygonizer/outward.hpp"
+#include <optional>
 
 namespace deburr {
 namespace {
@@ -17,18 +16,10 @@ struct Limits {
 };
 // First all that lean are helped, then those that face inward at any price.
 constexpr Limits gentle{0.2, 0.25, 2, 1e-3, 0}, last_resort{0.05, 0.06, 5, 2e-2, 2e-2};
-// Below this ratio of height to longest side a facet is without area.
-constexpr double no_area = 1e-6;
 constexpr double same_normal = 1e-6;
 // Where surfaces run closer together than any facet is small, mending one makes two that need it. So
 // there are this many splits, more for every wrong facet, and this many tries for each.
 constexpr std::size_t most_splits = 80, more_splits = 8, most_tries = 100;
-
-struct Shape {
-    double own = 1;       // cosine to its own surface at its middle; −1 without area
-    double cosine = 1;    // the same, or to the solid's surface that is nearest to the middle if that is less
-    double distance = 0;  // of the middle from the solid's surface
-};
 
 // How good a set of facets is.
 struct Verdict {
@@ -39,70 +30,32 @@ struct Verdict {
 
 class Repair {
 public:
-    Repair(Mesh& mesh, std::vector<Origin>& origins, const SolidTree& solid)
-        : facets_(mesh, origins), box_(field_box(mesh)), solid_(solid, box_), surfaces_(solid, box_),
-          one_leaf_(solid.leaves.size() == 1), size_(glm::length(box_.hi - box_.lo)), first_made_(facets_.vertices()) {}
+    Repair(Mesh& mesh, std::vector<Origin>& origins, const FacetJudge& judge)
+        : facets_(mesh, origins), judge_(judge), solid_(judge.solid()), surfaces_(judge.surfaces()),
+          shapes_(facets_.size()), first_made_(facets_.vertices()) {}
 
-    Facets& facets() { return facets_; }
-    const Facets& facets() const { return facets_; }
-
-    Shape shape(const Facet& f) const {
-        const Triangle& t = f.triangle;
-        Vec3 x[3], middle(0.0), normals(0.0);
-        double longest = 0;
-        for (std::size_t k = 0; k < 3; ++k) {
-            x[k] = facets_.position(t.vertex[k]);
-            middle += x[k] / 3.0;
-            normals += facets_.normal(t.normal[k]);
-        }
-        for (std::size_t k = 0; k < 3; ++k) longest = std::max(longest, glm::length(x[k] - x[(k + 1) % 3]));
-        const Vec3 area = glm::cross(x[1] - x[0], x[2] - x[0]);
-        const double twice = glm::length(area);
-        if (twice <= no_area * longest * longest) return {-1, -1, 0};
-        // As a file of single precision will have it.
-        const auto rounded = [](Vec3 v) { return Vec3(glm::vec3(v)); };
-        const Vec3 single = glm::cross(rounded(x[1]) - rounded(x[0]), rounded(x[2]) - rounded(x[0]));
-        const double single_twice = glm::length(single);
-        if (single_twice == 0) return {-1, -1, 0};
-        const auto cosine = [&](Vec3 n) {
-            return std::min(glm::dot(area, n) / twice, glm::dot(single, n) / single_twice);
-        };
-        const Offset o = solid_.at(middle);
-        Shape s;
-        s.distance = std::isfinite(o.distance) ? std::abs(o.distance) : 0;
-        if (f.origin.leaf < 0) {
-            s.own = cosine(facets_.normal(t.normal[0]));
-        } else {
-            const Offset leaf = one_leaf_ ? o : surfaces_.at({f.origin.leaf}, middle);
-            Vec3 own = leaf.normal;
-            if (own == Vec3(0.0)) own = glm::length(normals) > 0 ? glm::normalize(normals) : normals;
-            if (glm::dot(own, normals) < 0) own = -own;  // a leaf that is subtracted
-            s.own = cosine(own);
-        }
-        s.cosine = s.own;
-        const double nearest = o.normal != Vec3(0.0) && s.distance > surfaces_.slack() ? cosine(o.normal) : s.own;
-        if (nearest > 0 && s.distance > surfaces_.slack()) s.cosine = std::min(s.own, nearest);
-        else if (!faces_outward(solid_, middle, area / twice, normals, longest)) s.cosine = std::min(nearest, -1e-3);
-        return s;
+    FacetShape shape(const Facet& f) const { return judge_.shape(facets_, f); }
+    const FacetShape& shape(int f) {
+        auto& known = shapes_[std::size_t(f)];
+        if (!known) known = shape(facets_.at(f));
+        return *known;
     }
-    bool wrong(const Facet& f) const { return shape(f).cosine < limits_.leaning; }
-    bool wrong(int f) const { return wrong(facets_.at(f)); }
+    bool wrong(int f) { return shape(f).cosine < limits_.leaning; }
 
-    void add(Verdict& v, const Facet& f, double limit) const {
-        const Shape s = shape(f);
+    void add(Verdict& v, const Facet& f, const FacetShape& s, double limit) const {
         v.wrong += s.cosine < limit;
         v.worst = std::min(v.worst, s.cosine);
         v.distance = std::max(v.distance, s.distance);
         if (s.own < 0) v.inverted += glm::length(facets_.area_vector(f.triangle));
     }
-    Verdict before(const Change& change) const {
+    Verdict before(const Change& change) {
         Verdict v;
-        for (const int f : change.out) add(v, facets_.at(f), limits_.leaning);
+        for (const int f : change.out) add(v, facets_.at(f), shape(f), limits_.leaning);
         return v;
     }
     Verdict after(const Change& change) const {
         Verdict v;
-        for (const Facet& f : change.in) add(v, f, limits_.better);
+        for (const Facet& f : change.in) add(v, f, shape(f), limits_.better);
         return v;
     }
 
@@ -258,7 +211,7 @@ public:
                 todo.pop_front();
                 if (!facets_.alive(f) || !wrong(f)) continue;
                 auto change = straighten(f, splits_left, statistics);
-                if (!change && splits_left > 0 && shape(facets_.at(f)).own >= limits_.leaning) {
+                if (!change && splits_left > 0 && shape(f).own >= limits_.leaning) {
                     change = refine(f, statistics);
                     if (change) --splits_left;
                 }
@@ -267,7 +220,7 @@ public:
                     continue;
                 }
                 changed = true;
-                for (const int g : facets_.apply(*change))
+                for (const int g : apply(*change))
                     if (wrong(g)) todo.push_back(g);
             }
             todo.assign(stuck.begin(), stuck.end());
@@ -275,7 +228,7 @@ public:
         }
     }
 
-    bool on_surface(Vec3 x) const { return std::abs(solid_.at(x).distance) <= 10 * surfaces_.slack(); }
+    bool on_surface(Vec3 x) const { return judge_.on_surface(x); }
 
     // To the gradients where the vertex now is.
     void turn_normals(int v) {
@@ -302,8 +255,9 @@ public:
         return on_surface(x);
     }
 
-    // Vertices beside the surface go to where the surfaces around them meet.
+    // Vertices beside the surface go to where the surfaces around them meet. Before any facet is judged.
     void mend_vertices(RepairStatistics& statistics) {
+        beside_.assign(std::size_t(facets_.vertices()), false);
         for (int v = 0; v < facets_.vertices(); ++v) {
             if (facets_.around(v).empty()) continue;
             if (on_surface(facets_.position(v))) continue;
@@ -319,7 +273,8 @@ public:
             const bool on_seam = surfaces_.project(x, pieces, shortest) && on_surface(x);
             if (!on_seam) {
                 x = facets_.position(v);
-                if (!onto_solid(x, shortest)) continue;
+                beside_[std::size_t(v)] = !onto_solid(x, shortest);
+                if (beside_[std::size_t(v)]) continue;
             }
             facets_.move(v, x);
             turn_normals(v);
@@ -327,110 +282,63 @@ public:
         }
     }
 
-    double shortest() const { return 1e-5 * size_; }
-    double least_sag() const { return 1e-7 * size_; }
+    // Drops what is no longer used, and says what is still wrong or has a vertex beside the surface.
+    void finish(RepairStatistics& statistics) {
+        int t = 0;
+        for (std::size_t f = 0; f < facets_.size(); ++f) {
+            if (!facets_.alive(int(f))) continue;
+            const auto& v = facets_.at(int(f)).triangle.vertex;
+            if (is_beside(v[0]) || is_beside(v[1]) || is_beside(v[2]) || wrong(int(f))) statistics.left.push_back(t);
+            statistics.farthest = std::max(statistics.farthest, shape(int(f)).distance);
+            ++t;
+        }
+        facets_.finish();
+    }
+
+private:
+    std::vector<int> apply(const Change& change) {
+        std::vector<int> fresh = facets_.apply(change);
+        shapes_.resize(facets_.size());
+        for (const int f : fresh) shapes_[std::size_t(f)].reset();
+        return fresh;
+    }
+    // Vertices that were put in to mend are on the surface.
+    bool is_beside(int v) const { return std::size_t(v) < beside_.size() && beside_[std::size_t(v)]; }
+
+    double shortest() const { return 1e-5 * judge_.size(); }
+    double least_sag() const { return 1e-7 * judge_.size(); }
     // Not again what was there before: a vertex that was put in to mend stays.
     bool made(int vertex) const { return vertex >= first_made_; }
 
-private:
     static int place(const Facet& f, int vertex) {
         const auto& v = f.triangle.vertex;
         return v[0] == vertex ? 0 : v[1] == vertex ? 1 : 2;
     }
 
     Facets facets_;
-    Box box_;
-    OffsetField solid_;
-    LeafSurfaces surfaces_;
-    bool one_leaf_;
-    double size_;
+    const FacetJudge& judge_;
+    const OffsetField& solid_;
+    const LeafSurfaces& surfaces_;
+    std::vector<std::optional<FacetShape>> shapes_;  // of the facets, where known
+    std::vector<char> beside_;                       // vertices that nothing brought onto the surface
     int first_made_;
     Limits limits_ = gentle;
     std::optional<std::size_t> splits_left_;
 };
 
-// The normal of a facet that has one throughout, or 0.
-Vec3 flat_normal(const Facets& facets, int f) {
-    const auto& n = facets.at(f).triangle.normal;
-    const Vec3 a = facets.normal(n[0]);
-    for (const std::size_t k : {1, 2})
-        if (glm::length(facets.normal(n[k]) - a) >= same_normal) return Vec3(0.0);
-    return a;
-}
-
 }  // namespace
 
-RepairStatistics repair(Mesh& mesh, std::vector<Origin>& origins, const SolidTree& solid) {
+RepairStatistics repair(Mesh& mesh, std::vector<Origin>& origins, const FacetJudge& judge) {
     RepairStatistics statistics;
     if (mesh.triangles.empty()) return statistics;
-    Repair work(mesh, origins, solid);
+    Repair work(mesh, origins, judge);
     work.mend_vertices(statistics);
     for (const Limits& limits : {gentle, last_resort}) {
         work.limit(limits);
         work.mend_facets(statistics);
     }
-    work.facets().finish();
-    std::vector<char> beside;
-    for (const Vec3& x : mesh.positions) beside.push_back(!work.on_surface(x));
-    for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
-        const auto& v = mesh.triangles[t].vertex;
-        const bool off = beside[std::size_t(v[0])] || beside[std::size_t(v[1])] || beside[std::size_t(v[2])];
-        if (off || work.wrong({mesh.triangles[t], origins[t]})) statistics.left.push_back(int(t));
-    }
+    work.finish(statistics);
     return statistics;
-}
-
-std::size_t thin_borders(Mesh& mesh, std::vector<Origin>& origins, const SolidTree& solid) {
-    if (mesh.triangles.empty()) return 0;
-    Repair work(mesh, origins, solid);
-    Facets& facets = work.facets();
-    double worst = 0;
-    for (std::size_t f = 0; f < facets.size(); ++f) worst = std::max(worst, work.shape(facets.at(int(f))).distance);
-    const auto accept = [&](const Change& change) {
-        constexpr double upright = 0.8;
-        for (const Facet& f : change.in) {
-            const Shape s = work.shape(f);
-            if (s.cosine < upright || s.distance > worst) return false;
-        }
-        return true;
-    };
-    std::size_t gone = 0;
-    for (int v = 0; v < facets.vertices(); ++v) {
-        // Facets at v in a flat face have one normal throughout; the others do not.
-        Vec3 plane(0.0);
-        bool single = true, bent = false;
-        for (const int f : facets.around(v)) {
-            const Vec3 n = flat_normal(facets, f);
-            bent |= n == Vec3(0.0);
-            if (n == Vec3(0.0)) continue;
-            single &= plane == Vec3(0.0) || glm::length(n - plane) < same_normal;
-            plane = n;
-        }
-        if (plane == Vec3(0.0) || !bent || !single) continue;
-        std::vector<int> rim;  // neighbours on the border of the flat fan
-        for (const int f : facets.around(v)) {
-            if (flat_normal(facets, f) == Vec3(0.0)) continue;
-            const Triangle& t = facets.at(f).triangle;
-            for (std::size_t k = 0; k < 3; ++k) {
-                const int a = t.vertex[k], b = t.vertex[(k + 1) % 3];
-                if ((a == v || b == v) && flat_normal(facets, facets.across(a, b)) == Vec3(0.0))
-                    rim.push_back(a == v ? b : a);
-            }
-        }
-        if (rim.size() != 2) continue;
-        const Vec3 p = glm::normalize(facets.position(rim[0]) - facets.position(v));
-        const Vec3 q = glm::normalize(facets.position(rim[1]) - facets.position(v));
-        if (glm::length(p + q) > 1e-9) continue;
-        for (const int to : rim) {
-            const auto change = facets.collapse(v, to);
-            if (!change || !accept(*change)) continue;
-            facets.apply(*change);
-            ++gone;
-            break;
-        }
-    }
-    facets.finish();
-    return gone;
 }
 
 }  // namespace deburr

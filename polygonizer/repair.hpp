@@ -6,22 +6,16 @@
 // together; where two outlines in a plane, each a chain of chords, cross; and where two surfaces are
 // nearer to each other than the mesh is to either. The first needs an edge less, the others more.
 #pragma once
-#include "polygonizer/facets.hpp"
-#include "polygonizer/leaf_surfaces.hpp"
+#include "polygonizer/facet_judge.hpp"
 
 namespace deburr {
 
 struct RepairStatistics {
     std::size_t flips = 0, collapses = 0, splits = 0, moves = 0;
     std::vector<int> left;  // triangles for which nothing helped
+    double farthest = 0;    // distance of a triangle's middle from the surface, in the end
 };
 
-/// `solid` is what the mesh approximates.
-RepairStatistics repair(Mesh& mesh, std::vector<Origin>& origins, const SolidTree& solid);
-
-/// Collapses vertices on a straight border of a flat face that the face does not need: where two
-/// cells' parts of a rounded edge meet it. Triangles stay as near to the surface as the worst of
-/// them was. Returns how many went.
-std::size_t thin_borders(Mesh& mesh, std::vector<Origin>& origins, const SolidTree& solid);
+RepairStatistics repair(Mesh& mesh, std::vector<Origin>& origins, const FacetJudge& judge);
 
 }  // namespace deburr

@@ -36,6 +36,8 @@ Range rho_between(const HalfSpace& h, double lo, double hi, double tolerance) {
     return {hi > 0 ? 0.0 : 1.0, lo >= 0 ? 0.0 : 1.0};  // sharp: constant on either closed side
 }
 
+bool varies(Range rho) { return rho.hi != 0 && rho.lo != 1; }
+
 Range distances(const HalfSpace& h, const std::vector<Vec3>& corners) {
     Range d{infinity, -infinity};
     for (const Vec3& x : corners) {
@@ -71,6 +73,7 @@ Side fold(std::vector<SolidTreeNode>& solid, SideOfLeaf side_of_leaf) {
         solid.clear();
         return root;
     }
+    if (solid.size() == 1) return root;
     std::vector<char> needed(solid.size(), false);
     needed.back() = true;
     for (std::size_t i = solid.size(); i-- > 0;) {
@@ -120,11 +123,11 @@ Subdivision::Subdivision(const SolidTree& solid, const Box& box)
 // The leaf within corners_.
 OpenLeaf Subdivision::localize(const OpenLeaf& leaf, Side& side) {
     ranges_over(leaf.tree->half_spaces, corners_, complex.tolerance, ranges_);
-    Pruned pruned = prune(*leaf.tree, ranges_);
+    Pruned pruned = prune_further(*leaf.tree, ranges_);
     side = decide(pruned.range);
     if (side != Side::straddling) return leaf;
     OpenLeaf local = leaf;
-    if (pruned.tree.half_spaces.size() < leaf.tree->half_spaces.size()) {
+    if (!pruned.tree.nodes.empty()) {
         local.tree = std::make_shared<DensityTree>(std::move(pruned.tree));
         local.density = nullptr;
     }
@@ -143,11 +146,17 @@ OpenLeaf Subdivision::localize(const OpenLeaf& leaf, Side& side) {
     return local;
 }
 
-int Subdivision::new_place(int parent, int cell) {
-    std::vector<int> vertices;
-    complex.vertices_of(cell, vertices);
+void Subdivision::look_at(int cell) {
+    const std::pair now{cell, complex.cells.size()};
+    if (looked_at_ == now) return;
+    looked_at_ = now;
+    complex.vertices_of(cell, vertices_);
     corners_.clear();
-    for (int v : vertices) corners_.push_back(complex.vertices[std::size_t(v)]);
+    for (int v : vertices_) corners_.push_back(complex.vertices[std::size_t(v)]);
+}
+
+int Subdivision::new_place(int parent, int cell) {
+    look_at(cell);
     Place place;
     place.parent = parent;
     place.solid = places[std::size_t(parent)].solid;
@@ -195,8 +204,8 @@ bool Subdivision::halve(int cell, const Plane& plane) {
     if (upper < 0) return false;
     const int parent = place_of[std::size_t(cell)];
     refused_.push_back(refused_[std::size_t(cell)]);
-    place_of[std::size_t(cell)] = new_place(parent, cell);
     place_of.push_back(new_place(parent, upper));
+    place_of[std::size_t(cell)] = new_place(parent, cell);
     return true;
 }
 
@@ -205,12 +214,9 @@ void Subdivision::subdivide(int cell) {
     while (!todo.empty()) {
         current_ = todo.back();
         todo.pop_back();
-        std::vector<int> vertices;
-        complex.vertices_of(current_, vertices);
-        corners_.clear();
-        for (int v : vertices) corners_.push_back(complex.vertices[std::size_t(v)]);
         const int at = place_of[std::size_t(current_)];
         if (places[std::size_t(at)].side != Side::straddling) continue;
+        look_at(current_);
         Plane plane{};
         if (!choose(places[std::size_t(at)], plane)) {
             // Cells of a filter that reaches all over the object stay large, with many half-spaces.
@@ -224,39 +230,62 @@ void Subdivision::subdivide(int cell) {
     }
 }
 
-// Half-spaces left to deal with on one side of the plane; 0 where the solid is decided.
-double Subdivision::cost(const Place& place, const Plane& plane, bool above) {
-    std::vector<std::pair<int, Side>> sides;
+// Half-spaces left to deal with on one side of a plane with this offset and the normal that reach_ was
+// turned to; 0 where the solid is decided.
+double Subdivision::cost(const Place& place, double offset, bool above) {
+    std::size_t first = 0;
     double left = 0;
-    for (const OpenLeaf& leaf : place.open) {
-        ranges_.clear();
-        std::size_t varying = 0;
-        for (const HalfSpace& h : leaf.density->half_spaces()) {
-            Range d = distances(h, corners_);
-            const double cosine = glm::dot(h.normal, plane.normal);
-            if (std::abs(cosine) > 1 - 1e-12) {
-                const double at = plane.offset * (cosine > 0 ? 1 : -1) - h.offset;
-                if ((cosine > 0) == above) d.lo = std::max(d.lo, at);
-                else d.hi = std::min(d.hi, at);
-            }
-            ranges_.push_back(rho_between(h, d.lo, d.hi, complex.tolerance));
-            varying += ranges_.back().hi != 0 && ranges_.back().lo != 1;
+    for (std::size_t k = 0; k < place.open.size(); ++k) {
+        const LocalDensity& density = *place.open[k].density;
+        const std::size_t count = density.half_spaces().size();
+        std::size_t varying = varying_[k];
+        for (std::size_t i = first; i < first + count; ++i) {
+            const Reach& reach = reach_[i];
+            if (reach.along == 0) continue;
+            Range d = reach.distance;
+            const double at = offset * reach.along - reach.half_space->offset;
+            if ((reach.along > 0) == above) d.lo = std::max(d.lo, at);
+            else d.hi = std::min(d.hi, at);
+            ranges_[i] = rho_between(*reach.half_space, d.lo, d.hi, complex.tolerance);
+            varying += varies(ranges_[i]);
         }
-        const Side side = decide(leaf.density->range(ranges_));
-        sides.push_back({leaf.leaf, side});
-        if (side == Side::straddling) left += 1.0 + double(varying);
+        sides_[k] = decide(density.range(std::span(ranges_).subspan(first, count)));
+        if (sides_[k] == Side::straddling) left += 1.0 + double(varying);
+        first += count;
     }
     if (left == 0) return 0;
     if (place.open.size() > 1) {
         std::vector<SolidTreeNode> solid = place.solid;
         const Side side = fold(solid, [&](int leaf) {
-            for (const auto& [l, s] : sides)
-                if (l == leaf) return s;
+            for (std::size_t k = 0; k < place.open.size(); ++k)
+                if (place.open[k].leaf == leaf) return sides_[k];
             return Side::straddling;
         });
         if (side != Side::straddling) return 0;
     }
     return left;
+}
+
+// Makes ready for planes of this normal.
+Range Subdivision::turn(const Place& place, Vec3 normal) {
+    ranges_.clear();
+    varying_.assign(place.open.size(), 0);
+    sides_.resize(place.open.size());
+    auto reach = reach_.begin();
+    for (std::size_t k = 0; k < place.open.size(); ++k)
+        for (std::size_t count = place.open[k].density->half_spaces().size(); count > 0; --count, ++reach) {
+            const double cosine = glm::dot(reach->half_space->normal, normal);
+            reach->along = std::abs(cosine) > 1 - 1e-12 ? (cosine > 0 ? 1 : -1) : 0;
+            ranges_.push_back(reach->rho);
+            if (reach->along == 0) varying_[k] += varies(reach->rho);
+        }
+    return extent_along(normal, corners_);
+}
+
+bool Subdivision::is_refused(const Plane& plane) const {
+    for (const Plane& r : refused_[std::size_t(current_)])
+        if (r.normal == plane.normal && r.offset == plane.offset) return true;
+    return false;
 }
 
 bool Subdivision::choose(const Place& place, Plane& plane) {
@@ -269,14 +298,20 @@ bool Subdivision::choose(const Place& place, Plane& plane) {
     if ((half_spaces > many || !all_small) && choose_neutral(place, plane)) return true;
     if (!all_small) return false;
 
+    reach_.clear();
+    for (const OpenLeaf& leaf : place.open)
+        for (const HalfSpace& h : leaf.density->half_spaces()) {
+            const Range d = distances(h, corners_);
+            reach_.push_back({&h, d, rho_between(h, d.lo, d.hi, complex.tolerance), 0});
+        }
     double best = infinity;
-    const auto consider = [&](const Plane& p, double bias) {
-        const Range s = extent_along(p.normal, corners_);
+    const auto consider = [&](const Plane& p, Range s, double bias) {
         if (s.hi - p.offset <= complex.tolerance || p.offset - s.lo <= complex.tolerance) return;
-        for (const Plane& r : refused_[std::size_t(current_)])
-            if (r.normal == p.normal && r.offset == p.offset) return;
+        if (is_refused(p)) return;
         const double share = (s.hi - p.offset) / (s.hi - s.lo);
-        const double c = cost(place, p, true) * std::sqrt(share) + cost(place, p, false) * std::sqrt(1 - share) + bias;
+        const double above = cost(place, p.offset, true) * std::sqrt(share);
+        if (above + bias >= best) return;
+        const double c = above + cost(place, p.offset, false) * std::sqrt(1 - share) + bias;
         if (c >= best) return;
         best = c;
         plane = p;
@@ -284,16 +319,17 @@ bool Subdivision::choose(const Place& place, Plane& plane) {
     for (const OpenLeaf& leaf : place.open) {
         const auto& planes = leaf.density->half_spaces();
         if (is_parallel_family(*leaf.density)) {
-            const Range s = extent_along(planes[0].normal, corners_);
+            const Range s = turn(place, planes[0].normal);
             for (const Plane& p : level_planes(*leaf.density, s, complex.tolerance).planes)
-                consider(p, 0);
+                consider(p, s, 0);
             continue;
         }
         for (const HalfSpace& h : planes) {
-            consider({h.normal, h.offset}, 0);
+            const Range s = turn(place, h.normal);
+            consider({h.normal, h.offset}, s, 0);
             if (h.radius == 0) continue;
-            consider({h.normal, h.offset + h.radius}, 0.5);
-            consider({h.normal, h.offset - h.radius}, 0.5);
+            consider({h.normal, h.offset + h.radius}, s, 0.5);
+            consider({h.normal, h.offset - h.radius}, s, 0.5);
         }
     }
     return best < infinity;
@@ -330,9 +366,7 @@ bool Subdivision::choose_neutral(const Place& place, Plane& plane) const {
                 plane.offset = at;
             }
         }
-    for (const Plane& r : refused_[std::size_t(current_)])
-        if (r.normal == plane.normal && r.offset == plane.offset) return false;
-    return true;
+    return !is_refused(plane);
 }
 
 }  // namespace deburr

@@ -51,17 +51,31 @@ public:
     void subdivide(int cell);
 
 private:
-    struct Extent;  // of the cell that is being looked at
+    // What is known of a half-space in the cell that is being looked at.
+    struct Reach {
+        const HalfSpace* half_space;
+        Range distance, rho;
+        int along;  // 1 or −1 where its normal is the plane's that is being considered, or against it; else 0
+    };
+
     int new_place(int parent, int cell);
     OpenLeaf localize(const OpenLeaf& leaf, Side& side);
     bool choose(const Place& place, Plane& plane);
     bool choose_neutral(const Place& place, Plane& plane) const;
-    double cost(const Place& place, const Plane& plane, bool above);
+    Range turn(const Place& place, Vec3 normal);
+    double cost(const Place& place, double offset, bool above);
+    bool is_refused(const Plane& plane) const;
+    void look_at(int cell);
 
-    std::vector<Vec3> corners_;                       // of the cell that is being looked at
-    std::vector<std::vector<Plane>> refused_;         // by cell
+    std::pair<int, std::size_t> looked_at_{-1, 0};  // a cell, and how many there were
+    std::vector<Vec3> corners_;                // of that cell
+    std::vector<int> vertices_;                // the same by number
+    std::vector<Reach> reach_;                 // of its densities' half-spaces, leaf by leaf
+    std::vector<std::vector<Plane>> refused_;  // by cell
     int current_ = 0;
-    mutable std::vector<Range> ranges_;
+    std::vector<Range> ranges_;
+    std::vector<Side> sides_;           // of open leaves
+    std::vector<std::size_t> varying_;  // half-spaces of theirs that vary and are not along
 };
 
 }  // namespace deburr

@@ -13,6 +13,9 @@
 // The surface itself is read off later, between cells inside and cells outside (surface.hpp). So it
 // is closed even where a sign was wrong or a disc ill-shaped.
 #pragma once
+#include <optional>
+
+#include "polygonizer/disc.hpp"
 #include "polygonizer/subdivision.hpp"
 
 namespace deburr {
@@ -23,10 +26,12 @@ constexpr double on_level = 1e-10;
 
 class Subspace {
 public:
-    explicit Subspace(Subdivision& subdivision);
+    /// Keeps a reference to the subdivision, and cuts a copy of its cells.
+    explicit Subspace(const Subdivision& subdivision);
     /// Cuts by the isosurfaces of all leaves.
     void polygonize();
 
+    const CellComplex& complex() const { return complex_; }
     /// Whether the cell is inside the solid; right after polygonize().
     bool inside(int cell) const;
     /// The leaf whose isosurface the face is a part of; -1 for faces on planes.
@@ -35,37 +40,82 @@ public:
     Side side(int cell, int leaf) const;
     /// The undivided cell of the subdivision that the cell was cut from.
     int origin(int cell) const { return origin_[std::size_t(cell)]; }
+    /// The leaf where the cell was cut from, if it was undecided there.
+    const OpenLeaf* open(int cell, int leaf) const { return subdivision_.open(origin(cell), leaf); }
 
 private:
     using Step = CellComplex::Step;
     enum class Sign : signed char { below = -1, none = 0, above = 1, unknown = 2 };
+    struct Border {  // where a face outside and one inside meet
+        Step step;
+        int outer, inner;
+        bool used;
+    };
     struct Loop {
-        std::vector<Step> steps;
+        CellComplex::List<12> steps;
         int seed;  // a face on the inner side
     };
+    struct Resolved {
+        int leaf;
+        Side side;
+    };
+    // Signs with respect to leaf_: forgotten all at once when the next leaf's turn comes.
+    class Signs {
+    public:
+        Sign at(int i) const {
+            const std::size_t k = std::size_t(i);
+            return k < known_.size() && known_[k].turn == turn_ ? known_[k].sign : Sign::unknown;
+        }
+        void set(int i, Sign sign) {
+            if (std::size_t(i) >= known_.size()) known_.resize(std::size_t(i) + 1 + known_.size() / 2);
+            known_[std::size_t(i)] = {turn_, sign};
+        }
+        void forget() { ++turn_; }
 
-    void cut_by(int leaf);
+    private:
+        struct Known {
+            int turn = 0;
+            Sign sign = Sign::unknown;
+        };
+        std::vector<Known> known_;
+        int turn_ = 1;
+    };
+
+    void cut_by(int leaf, const std::vector<int>& open);
+    Side side_now(int cell);
     Sign vertex_sign(int vertex, const LocalDensity& density);
     Sign edge_sign(int edge, const LocalDensity& density);
     Sign point_sign(Vec3 x, const LocalDensity& density) const;
     void split_edges(int face, const LocalDensity& density);
     void split_face(int face, const LocalDensity& density);
-    bool refine(int face, int a, int b, const LocalDensity& density, std::vector<Vec3>& between);
+    std::optional<Vec3> refine(int face, int a, int b, const LocalDensity& density) const;
     bool search(int face, Vec3 middle, Vec3 line, Vec3 normal, double length, const LocalDensity& density,
                 Vec3& root) const;
-    Vec3 on_seam(const std::vector<int>& faces, Vec3 start, double reach, const LocalDensity& density) const;
-    std::vector<Loop> loops(int cell);
+    Vec3 on_seam(std::span<const int> faces, Vec3 start, double reach, const LocalDensity& density) const;
+    void find_loops(int cell);
     void span(int cell, const LocalDensity& density);
-    int owner(int face, const std::vector<int>& family) const;
-    void label(int face, Sign sign);
-    Sign label_of(int face) const { return face_label_[std::size_t(face)]; }
+    int owner(int face, std::span<const int> family) const;
 
-    Subdivision& subdivision_;
-    CellComplex& complex_;
+    const Subdivision& subdivision_;
+    CellComplex complex_;
     int leaf_ = 0;
     std::vector<int> leaf_of_face_, origin_;
-    std::vector<std::vector<std::pair<int, Side>>> resolved_;  // by cell
-    std::vector<Sign> vertex_sign_, edge_sign_, face_label_;   // with respect to leaf_
+    std::vector<int> next_of_origin_;  // of a cell: another that was cut from the same, or −1
+    std::vector<ShortList<Resolved, 2>> resolved_;  // by cell
+    Signs vertex_signs_, edge_signs_, face_labels_;
+    Signs sides_;  // of cells: above, below, none for straddling
+
+    // Of the cell or face that is being looked at.
+    std::vector<Border> borders_;
+    std::vector<Border*> path_;
+    std::vector<Loop> loops_;
+    std::vector<Wall> walls_;
+    std::vector<int> rim_;
+    std::vector<Vec3> points_;
+    Disc disc_;
+    std::vector<Sign> rim_signs_, after_;
+    std::vector<int> changes_;
+    mutable std::vector<char> in_;
 };
 
 /// Where φ = ρ − ½ changes its sign on the way from a to b; it must.

@@ -10,19 +10,22 @@ namespace deburr {
 void Subspace::split_face(int face, const LocalDensity& density) {
     const auto& loop = complex_.faces[std::size_t(face)].loop;
     const std::size_t n = loop.size();
-    std::vector<Sign> signs;
-    for (const Step s : loop) signs.push_back(edge_sign_[std::size_t(s >> 1)]);
+    auto& signs = rim_signs_;
+    signs.clear();
+    for (const Step s : loop) signs.push_back(edge_signs_.at(s >> 1));
     // An edge along the surface takes the sign before it.
     const auto first = std::find_if(signs.begin(), signs.end(), [](Sign s) { return s != Sign::none; });
     if (first == signs.end()) {
         Vec3 centroid(0.0);
         for (const Step s : loop) centroid += complex_.vertices[std::size_t(complex_.start(s))];
         const Sign sign = point_sign(centroid / double(n), density);
-        return label(face, sign == Sign::above ? sign : Sign::below);
+        return face_labels_.set(face, sign == Sign::above ? sign : Sign::below);
     }
     const std::size_t offset = std::size_t(first - signs.begin());
-    std::vector<int> changes;  // vertices
-    std::vector<Sign> after;   // of each change
+    auto& changes = changes_;  // vertices
+    auto& after = after_;      // of each change
+    changes.clear();
+    after.clear();
     Sign current = *first;
     for (std::size_t k = 1; k <= n; ++k) {
         const std::size_t at = (offset + k) % n;
@@ -31,7 +34,7 @@ void Subspace::split_face(int face, const LocalDensity& density) {
         current = signs[at];
         after.push_back(current);
     }
-    if (changes.empty()) return label(face, current);
+    if (changes.empty()) return face_labels_.set(face, current);
 
     Sign middle = Sign::unknown;
     if (changes.size() > 2) {
@@ -42,15 +45,14 @@ void Subspace::split_face(int face, const LocalDensity& density) {
     } else {
         middle = after[1];
     }
-    label(face, middle);
+    face_labels_.set(face, middle);
     int rest = face;
     for (std::size_t k = 0; k < changes.size(); ++k) {
         if (after[k] == middle) continue;
         const int a = changes[k], b = changes[(k + 1) % changes.size()];
         if (a == b) continue;
-        std::vector<Vec3> between;
-        const bool bent = refine(rest, a, b, density, between);
-        if (!bent) {
+        const std::optional<Vec3> between = refine(rest, a, b, density);
+        if (!between) {
             // An arc of the rim that is as straight as the segment would leave a face of no area.
             const auto& l = complex_.faces[std::size_t(rest)].loop;
             const Vec3 xa = complex_.vertices[std::size_t(a)], d = complex_.vertices[std::size_t(b)] - xa;
@@ -63,25 +65,26 @@ void Subspace::split_face(int face, const LocalDensity& density) {
             }
             if (straight) continue;
         }
-        const int cut_off = complex_.split_face(rest, a, b, between);
+        const std::size_t edges = complex_.edges.size(), vertices = complex_.vertices.size();
+        const int cut_off = between ? complex_.split_face(rest, a, b, {&*between, 1}) : complex_.split_face(rest, a, b);
         leaf_of_face_.resize(complex_.faces.size(), leaf_of_face_[std::size_t(rest)]);
-        label(cut_off, after[k]);
-        edge_sign_.resize(complex_.edges.size(), Sign::none);
-        vertex_sign_.resize(complex_.vertices.size(), Sign::none);
+        face_labels_.set(cut_off, after[k]);
+        for (std::size_t e = edges; e < complex_.edges.size(); ++e) edge_signs_.set(int(e), Sign::none);
+        for (std::size_t v = vertices; v < complex_.vertices.size(); ++v) vertex_signs_.set(int(v), Sign::none);
     }
 }
 
-// A point of the surface near the segment's middle, in the face [Triage §4.4.3]; false if the
-// segment is straight, or none is found.
-bool Subspace::refine(int face, int a, int b, const LocalDensity& density, std::vector<Vec3>& between) {
+// A point of the surface near the segment's middle, in the face [Triage §4.4.3]; none if the segment
+// is straight, or none is found.
+std::optional<Vec3> Subspace::refine(int face, int a, int b, const LocalDensity& density) const {
     const Vec3 xa = complex_.vertices[std::size_t(a)], xb = complex_.vertices[std::size_t(b)];
     const Vec3 middle = 0.5 * (xa + xb);
     const double length = glm::length(xb - xa);
     const ValueGradient here = density.gradient_at(middle);
     const double f = here.value - 0.5;
-    if (std::abs(f) <= on_level + 1e-7 * length * glm::length(here.gradient)) return false;
+    if (std::abs(f) <= on_level + 1e-7 * length * glm::length(here.gradient)) return {};
     const Vec3 area = complex_.area_vector(face);
-    if (glm::length(area) <= 0) return false;
+    if (glm::length(area) <= 0) return {};
     const Vec3 normal = glm::normalize(area);
     // Along the gradient; in a swept surface up to a slide along it, so that every face that
     // crosses the sweep has its point at the same place of the profile.
@@ -95,16 +98,19 @@ bool Subspace::refine(int face, int a, int b, const LocalDensity& density, std::
         Vec3 root;
         if (!search(face, middle, glm::normalize(direction) * (f > 0 ? -1.0 : 1.0), normal, length, density, root))
             continue;
-        between.push_back(on_seam({face}, root, length, density));
-        return true;
+        return on_seam({&face, 1}, root, length, density);
     }
-    return false;
+    return {};
 }
 
 // A point of this leaf's surface on faces that belong to the surfaces of leaves before it, moved to
 // where the surfaces meet: the faces are flat, and near theirs only. Faces on planes keep it in
 // their plane. The point stays where it is if that leads farther than `reach`.
-Vec3 Subspace::on_seam(const std::vector<int>& faces, Vec3 start, double reach, const LocalDensity& density) const {
+Vec3 Subspace::on_seam(std::span<const int> faces, Vec3 start, double reach, const LocalDensity& density) const {
+    const bool seam = std::any_of(faces.begin(), faces.end(), [&](int f) {
+        return leaf_of_face_[std::size_t(f)] >= 0 && leaf_of_face_[std::size_t(f)] != leaf_;
+    });
+    if (!seam) return start;
     std::vector<const LocalDensity*> surfaces{&density};
     std::vector<Vec3> planes;
     for (const int f : faces) {
@@ -121,7 +127,7 @@ Vec3 Subspace::on_seam(const std::vector<int>& faces, Vec3 start, double reach, 
             continue;
         }
         const int cell = complex_.faces[std::size_t(f)].back;
-        const OpenLeaf* open = leaf == leaf_ ? nullptr : subdivision_.open(cell, leaf);
+        const OpenLeaf* open = leaf == leaf_ ? nullptr : this->open(cell, leaf);
         if (open && std::find(surfaces.begin(), surfaces.end(), open->density.get()) == surfaces.end())
             surfaces.push_back(open->density.get());
     }

@@ -1,9 +1,8 @@
 #include "polygonizer/surface.hpp"
 
 #include <algorithm>
-#include <map>
+#include <cstdint>
 #include <numeric>
-#include <set>
 
 #include "polygonizer/boundary_polygons.hpp"
 #include "polygonizer/polygon_triangles.hpp"
@@ -11,10 +10,46 @@
 namespace deburr {
 namespace {
 
+// Pairs of vertices, hashed.
+class EdgeSet {
+public:
+    using Ends = std::pair<int, int>;
+
+    bool has(Ends ends) const { return !slots_.empty() && slots_[place(ends)] == ends; }
+    /// False if they are there already.
+    bool add(Ends ends) {
+        if (2 * (count_ + 1) > slots_.size()) grow();
+        Ends& slot = slots_[place(ends)];
+        if (slot == ends) return false;
+        slot = ends;
+        ++count_;
+        return true;
+    }
+
+private:
+    static constexpr Ends empty{-1, -1};
+
+    std::size_t place(Ends ends) const {
+        const std::uint64_t key = std::uint64_t(ends.first) << 32 | std::uint32_t(ends.second);
+        constexpr std::uint64_t golden = 0x9e3779b97f4a7c15;  // 2⁶⁴ by the golden ratio: spreads neighbours
+        std::size_t at = std::size_t((key * golden) >> 32) & (slots_.size() - 1);
+        while (slots_[at] != empty && slots_[at] != ends) at = (at + 1) & (slots_.size() - 1);
+        return at;
+    }
+    void grow() {
+        std::vector<Ends> old(std::max<std::size_t>(64, 2 * slots_.size()), empty);
+        old.swap(slots_);
+        for (const Ends& ends : old)
+            if (ends != empty) slots_[place(ends)] = ends;
+    }
+
+    std::vector<Ends> slots_;  // a power of two of them
+    std::size_t count_ = 0;
+};
+
 class Extraction : BoundaryPolygons {
 public:
-    Extraction(const Subspace& subspace, const Subdivision& subdivision, const SolidTree& solid)
-        : BoundaryPolygons(subspace, subdivision, solid) {}
+    Extraction(const Subspace& subspace, const SolidTree& solid) : BoundaryPolygons(subspace, solid) {}
 
     Mesh run(std::vector<Origin>* origins) {
         join_flat();
@@ -72,15 +107,21 @@ private:
     static std::pair<int, int> ends(int a, int b) { return std::minmax(a, b); }
     int head(int h) const { return vertex_[std::size_t(next_[std::size_t(h)])]; }
 
+    // Whether a half-edge leads from where h starts to the vertex.
+    bool is_joined(int h, int vertex) const {
+        int at = h;
+        do {
+            if (head(at) == vertex) return true;
+            at = next_[std::size_t(twin_[std::size_t(at)])];
+        } while (at != h);
+        return false;
+    }
+
     // Takes out vertices on a straight line between two groups.
     void straighten() {
-        std::map<std::pair<int, int>, int> known;
         std::vector<int> degree(positions_.size(), 0);
-        for (std::size_t h = 0; h < steps_.size(); ++h) {
-            if (next_[h] < 0) continue;
-            ++degree[std::size_t(vertex_[h])];
-            ++known[ends(vertex_[h], head(int(h)))];
-        }
+        for (std::size_t h = 0; h < steps_.size(); ++h)
+            if (next_[h] >= 0) ++degree[std::size_t(vertex_[h])];
         for (std::size_t h = 0; h < steps_.size(); ++h) {
             // h runs from a to v, n from v to b; their twins back.
             if (next_[h] < 0) continue;
@@ -96,10 +137,7 @@ private:
                 const double along = glm::dot(x, line), length2 = glm::dot(line, line);
                 if (along <= 0 || along >= length2) break;
                 if (glm::length(x - line * (along / length2)) > flat_slack()) break;
-                if (known.count(ends(a, b)) && known[ends(a, b)] > 0) break;
-                known[ends(a, v)] -= 2;
-                known[ends(v, b)] -= 2;
-                known[ends(a, b)] += 2;
+                if (is_joined(int(h), b)) break;
                 // h and nb stay, and become each other's twins: a to b, and b to a.
                 next_[h] = next_[std::size_t(n)];
                 before_[std::size_t(next_[h])] = int(h);
@@ -113,22 +151,23 @@ private:
         }
     }
 
-    // Two edges between the same vertices: one gets a vertex in the middle.
+    // Two edges between the same vertices: all but the first get a vertex in the middle.
     void separate_double_edges() {
-        std::map<std::pair<int, int>, int> seen;
-        const std::size_t n = steps_.size();
-        for (std::size_t h = 0; h < n; ++h) {
+        std::vector<int> doubles;
+        for (std::size_t h = 0; h < steps_.size(); ++h) {
             if (next_[h] < 0 || int(h) > twin_[h]) continue;
-            const int a = vertex_[h], b = head(int(h));
-            if (++seen[ends(a, b)] == 1) continue;
-            const int middle = int(positions_.size());
-            const int t = twin_[h];
-            positions_.push_back(middle_of(a, b, owner_[h], owner_[std::size_t(t)]));
-            const int second = insert_after(int(h), middle), back = insert_after(t, middle);
-            twin_[h] = back;
-            twin_[std::size_t(back)] = int(h);
+            if (!borders_.add(ends(vertex_[h], head(int(h))))) doubles.push_back(int(h));
+        }
+        for (const int h : doubles) {
+            const int t = twin_[std::size_t(h)], middle = int(positions_.size());
+            positions_.push_back(middle_of(vertex_[std::size_t(h)], head(h), owner_[std::size_t(h)], owner_[std::size_t(t)]));
+            const int second = insert_after(h, middle), back = insert_after(t, middle);
+            twin_[std::size_t(h)] = back;
+            twin_[std::size_t(back)] = h;
             twin_[std::size_t(t)] = second;
             twin_[std::size_t(second)] = t;
+            borders_.add(ends(vertex_[std::size_t(h)], middle));
+            borders_.add(ends(vertex_[std::size_t(t)], middle));
         }
     }
 
@@ -152,8 +191,8 @@ private:
 
     const LocalDensity* density_of(const Polygon& p) const {
         if (p.leaf < 0) return nullptr;
-        const OpenLeaf* open = subdivision_.open(p.inner, p.leaf);
-        if (!open) open = subdivision_.open(p.outer, p.leaf);
+        const OpenLeaf* open = subspace_.open(p.inner, p.leaf);
+        if (!open) open = subspace_.open(p.outer, p.leaf);
         return open ? open->density.get() : nullptr;
     }
 
@@ -171,18 +210,25 @@ private:
     }
 
     // A diagonal between two vertices that have an edge already gets a vertex in the middle.
-    void separate_double_diagonals(std::vector<std::array<int, 3>>& triangles, std::map<int, int>& polygon_at) {
-        std::map<std::pair<int, int>, int> uses;
+    void separate_double_diagonals(std::vector<std::array<int, 3>>& triangles) {
+        if (triangles.size() < 2) return;
+        auto& uses = uses_;
+        uses.clear();
         for (const auto& t : triangles)
-            for (std::size_t k = 0; k < 3; ++k) ++uses[ends(t[k], t[(k + 1) % 3])];
+            for (std::size_t k = 0; k < 3; ++k) uses.push_back({ends(t[k], t[(k + 1) % 3]), 1});
+        std::sort(uses.begin(), uses.end());
+        std::size_t kept = 0;
+        for (std::size_t k = 0; k < uses.size(); ++k)
+            if (kept > 0 && uses[kept - 1].first == uses[k].first) ++uses[kept - 1].second;
+            else uses[kept++] = uses[k];
+        uses.resize(kept);
         for (std::size_t i = 0; i < triangles.size(); ++i)
             for (std::size_t k = 0; k < 3; ++k) {
                 const int a = triangles[i][k], b = triangles[i][(k + 1) % 3], c = triangles[i][(k + 2) % 3];
                 const auto key = ends(a, b);
-                const bool on_border = borders_.count(key) > 0;
-                const int count = uses[key];
-                if (count < 2) continue;  // the border itself
-                if (!on_border && count == 2 && (diagonals_.count(key) == 0)) continue;
+                const auto use = std::lower_bound(uses.begin(), uses.end(), std::pair{key, 0});
+                if (use == uses.end() || use->first != key || use->second < 2) continue;  // the border itself
+                if (use->second == 2 && !borders_.has(key) && !diagonals_.has(key)) continue;
                 // The other triangle of this diagonal: it runs the other way.
                 for (std::size_t j = i + 1; j < triangles.size(); ++j) {
                     auto& t = triangles[j];
@@ -190,82 +236,116 @@ private:
                     while (m < 3 && !(t[m] == b && t[(m + 1) % 3] == a)) ++m;
                     if (m == 3) continue;
                     const int d = t[(m + 2) % 3], middle = int(positions_.size());
-                    positions_.push_back(middle_of(a, b, polygon_at.at(a), polygon_at.at(b)));
-                    polygon_at[middle] = polygon_at.at(a);
+                    positions_.push_back(middle_of(a, b, corner(a).polygon, corner(b).polygon));
+                    set_corner(middle, corner(a).polygon);
                     t = {b, middle, d};
                     triangles[i] = {a, middle, c};
                     triangles.push_back({middle, b, c});
                     triangles.push_back({middle, a, d});
-                    uses[key] -= 2;
+                    use->second -= 2;
                     break;
                 }
             }
         for (const auto& [key, count] : uses)
-            if (count >= 2) diagonals_.insert(key);
+            if (count >= 2) diagonals_.add(key);
     }
 
-    Vec3 outward(const Polygon& p, Vec3 x) const {
-        if (p.leaf < 0) return p.normal;
+    // Of a vertex in the group that is being built.
+    struct Corner {
+        int group = -1;
+        int polygon = -1;  // whose corner it is
+        int normal = -1;   // in the mesh
+    };
+    const Corner& corner(int v) const { return corners_[std::size_t(v)]; }
+    void set_corner(int v, int polygon) {
+        if (std::size_t(v) >= corners_.size()) corners_.resize(positions_.size());
+        if (corners_[std::size_t(v)].group != building_) corners_[std::size_t(v)] = {building_, polygon, -1};
+    }
+
+    // Of a vertex in the mesh. Its normals are a list.
+    struct MeshVertex {
+        int number = -1, first_normal = -1;
+        // What a normal was made of last.
+        const LocalDensity* density = nullptr;
+        bool subtracted = false;
+        int normal = -1;
+    };
+
+    int corner_normal(int v, Mesh& mesh) {
+        Corner& c = corners_[std::size_t(v)];
+        if (c.normal >= 0) return c.normal;
+        const Polygon& p = polygons_[std::size_t(c.polygon)];
+        if (p.leaf < 0) return c.normal = normal_number(v, p.normal, mesh);
+        MeshVertex& at = mesh_vertices_[std::size_t(v)];
         const LocalDensity* density = density_of(p);
-        const Vec3 g = density ? density->gradient_at(x).gradient : Vec3(0.0);
-        const double length = glm::length(g);
-        if (!(length > 1e-12)) return p.normal;
-        // The gradient points into the solid, or out of it where the leaf is subtracted.
         const bool subtracted = subspace_.side(p.inner, p.leaf) == Side::outside;
-        return g * ((subtracted ? 1.0 : -1.0) / length);
+        if (density && density == at.density && subtracted == at.subtracted) return c.normal = at.normal;
+        const Vec3 g = density ? density->gradient_at(positions_[std::size_t(v)]).gradient : Vec3(0.0);
+        const double length = glm::length(g);
+        if (!(length > 1e-12)) return c.normal = normal_number(v, p.normal, mesh);
+        // The gradient points into the solid, or out of it where the leaf is subtracted.
+        c.normal = normal_number(v, g * ((subtracted ? 1.0 : -1.0) / length), mesh);
+        at.density = density;
+        at.subtracted = subtracted;
+        return at.normal = c.normal;
+    }
+
+    int normal_number(int v, Vec3 n, Mesh& mesh) {
+        constexpr double same_normal = 1e-6;
+        int* known = &mesh_vertices_[std::size_t(v)].first_normal;
+        for (; *known >= 0; known = &next_normal_[std::size_t(*known)])
+            if (glm::length(mesh.normals[std::size_t(*known)] - n) < same_normal) return *known;
+        const int fresh = *known = int(mesh.normals.size());
+        mesh.normals.push_back(n);
+        next_normal_.push_back(-1);
+        return fresh;
     }
 
     Mesh build(std::vector<Origin>* origins) {
-        for (std::size_t h = 0; h < steps_.size(); ++h)
-            if (next_[h] >= 0) borders_.insert(ends(vertex_[h], head(int(h))));
-        std::map<int, std::vector<std::vector<int>>> loops;  // by group: half-edges
+        std::vector<std::pair<int, int>> rings;  // group, and a half-edge
         std::vector<char> done(steps_.size(), false);
         for (std::size_t h = 0; h < steps_.size(); ++h) {
             if (next_[h] < 0 || done[h]) continue;
-            auto& loop = loops[group(owner_[h])].emplace_back();
-            for (int at = int(h); !done[std::size_t(at)]; at = next_[std::size_t(at)]) {
-                done[std::size_t(at)] = true;
-                loop.push_back(at);
-            }
+            rings.push_back({group(owner_[h]), int(h)});
+            for (int at = int(h); !done[std::size_t(at)]; at = next_[std::size_t(at)]) done[std::size_t(at)] = true;
         }
+        std::sort(rings.begin(), rings.end());
         Mesh mesh;
-        std::vector<int> number;
-        std::vector<std::vector<int>> normals_at;
-        for (const auto& [g, rings] : loops) {
-            const Polygon& plane = polygons_[std::size_t(g)];
-            std::map<int, int> polygon_at;  // of a corner
-            std::vector<std::vector<int>> corners;
-            for (const auto& ring : rings) {
-                corners.emplace_back();
-                for (const int h : ring) {
-                    corners.back().push_back(vertex_[std::size_t(h)]);
-                    polygon_at.emplace(vertex_[std::size_t(h)], owner_[std::size_t(h)]);
-                }
+        std::vector<std::vector<int>> loops, spare;
+        for (auto ring = rings.begin(); ring != rings.end();) {
+            building_ = ring->first;
+            const Polygon& plane = polygons_[std::size_t(building_)];
+            while (!loops.empty()) {
+                spare.push_back(std::move(loops.back()));
+                loops.pop_back();
+            }
+            for (; ring != rings.end() && ring->first == building_; ++ring) {
+                if (spare.empty()) spare.emplace_back();
+                loops.push_back(std::move(spare.back()));
+                spare.pop_back();
+                loops.back().clear();
+                int h = ring->second;
+                do {
+                    loops.back().push_back(vertex_[std::size_t(h)]);
+                    set_corner(vertex_[std::size_t(h)], owner_[std::size_t(h)]);
+                    h = next_[std::size_t(h)];
+                } while (h != ring->second);
             }
             ++mesh.polygons;
-            const auto corner_normal = [&](int v) {
-                const Vec3 n = outward(polygons_[std::size_t(polygon_at.at(v))], positions_[std::size_t(v)]);
-                for (const int known : normals_at[std::size_t(v)])
-                    if (glm::length(mesh.normals[std::size_t(known)] - n) < 1e-6) return known;
-                normals_at[std::size_t(v)].push_back(int(mesh.normals.size()));
-                mesh.normals.push_back(n);
-                return int(mesh.normals.size()) - 1;
-            };
-            std::vector<std::array<int, 3>> triangles = triangles_of(corners, positions_, plane.normal);
-            separate_double_diagonals(triangles, polygon_at);
-            number.resize(positions_.size(), -1);
-            normals_at.resize(positions_.size());
+            std::vector<std::array<int, 3>> triangles = triangles_of(loops, positions_, plane.normal);
+            separate_double_diagonals(triangles);
+            mesh_vertices_.resize(positions_.size());
             for (const auto& t : triangles) {
                 Triangle triangle{};
                 triangle.material = plane.material;
                 for (std::size_t k = 0; k < 3; ++k) {
-                    int& v = number[std::size_t(t[k])];
+                    int& v = mesh_vertices_[std::size_t(t[k])].number;
                     if (v < 0) {
                         v = int(mesh.positions.size());
                         mesh.positions.push_back(positions_[std::size_t(t[k])]);
                     }
                     triangle.vertex[k] = v;
-                    triangle.normal[k] = corner_normal(t[k]);
+                    triangle.normal[k] = corner_normal(t[k], mesh);
                 }
                 mesh.triangles.push_back(triangle);
                 if (origins)
@@ -275,16 +355,20 @@ private:
         return mesh;
     }
 
-    std::vector<int> group_;                 // union-find over polygons
-    std::vector<int> next_, before_;         // around a group; −1: within it
-    std::set<std::pair<int, int>> borders_, diagonals_;  // edges of polygons; of triangles within
+    std::vector<int> group_;           // union-find over polygons
+    std::vector<int> next_, before_;   // around a group; −1: within it
+    EdgeSet borders_, diagonals_;      // edges of polygons; of triangles within
+    int building_ = -1;                // a group
+    std::vector<std::pair<std::pair<int, int>, int>> uses_;  // of edges, in its triangles
+    std::vector<Corner> corners_;
+    std::vector<MeshVertex> mesh_vertices_;
+    std::vector<int> next_normal_;     // at the same vertex
 };
 
 }  // namespace
 
-Mesh surface(const Subspace& subspace, const Subdivision& subdivision, const SolidTree& solid,
-             std::vector<Origin>* origins) {
-    return Extraction(subspace, subdivision, solid).run(origins);
+Mesh surface(const Subspace& subspace, const SolidTree& solid, std::vector<Origin>* origins) {
+    return Extraction(subspace, solid).run(origins);
 }
 
 }  // namespace deburr

@@ -12,7 +12,6 @@
 namespace deburr {
 
 /// `origins`, if given, gets one for each triangle.
-Mesh surface(const Subspace& subspace, const Subdivision& subdivision, const SolidTree& solid,
-             std::vector<Origin>* origins = nullptr);
+Mesh surface(const Subspace& subspace, const SolidTree& solid, std::vector<Origin>* origins = nullptr);
 
 }  // namespace deburr

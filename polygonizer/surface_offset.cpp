@@ -48,15 +48,44 @@ SurfaceOffset::SurfaceOffset(const SolidTree& solid) : solid_(separate_sharp(sol
     densities_.resize(solid_.leaves.size());
 }
 
+const LocalDensity& SurfaceOffset::density(std::size_t leaf) const {
+    auto& density = densities_[leaf];
+    if (!density) density = std::make_unique<LocalDensity>(solid_.leaves[leaf].density);
+    return *density;
+}
+
+// Of the sign that leaf_at(x).distance has.
+double SurfaceOffset::leaf_value(std::size_t leaf, Vec3 x) const {
+    if (sharp_[leaf]) return sharp_at(solid_.leaves[leaf].density, x).distance;
+    if (const Field* field = solid_.leaves[leaf].field.get()) return field->at(x).value;
+    return density(leaf).at(x) - 0.5;
+}
+
+bool SurfaceOffset::inside(Vec3 x) const {
+    if (solid_.nodes.size() == 1 && solid_.nodes[0].op == SolidOp::leaf) return leaf_value(std::size_t(solid_.nodes[0].a), x) > 0;
+    thread_local std::vector<double> done;  // of the sign that at(x).distance has there
+    done.clear();
+    for (const SolidTreeNode& n : solid_.nodes) {
+        const auto of = [&](int child) { return done[std::size_t(child)]; };
+        switch (n.op) {
+            case SolidOp::nothing: done.push_back(-1); break;
+            case SolidOp::everything: done.push_back(1); break;
+            case SolidOp::leaf: done.push_back(leaf_value(std::size_t(n.a), x)); break;
+            case SolidOp::unite: done.push_back(std::max(of(n.a), of(n.b))); break;
+            case SolidOp::intersect: done.push_back(std::min(of(n.a), of(n.b))); break;
+            case SolidOp::subtract: done.push_back(std::min(of(n.a), -of(n.b))); break;
+        }
+    }
+    return done.back() > 0;
+}
+
 Offset SurfaceOffset::leaf_at(std::size_t leaf, Vec3 x) const {
     Offset o;
     const Field* field = solid_.leaves[leaf].field.get();
     if (sharp_[leaf]) {
         o = sharp_at(solid_.leaves[leaf].density, x);
     } else {
-        auto& density = densities_[leaf];
-        if (!density && !field) density = std::make_unique<LocalDensity>(solid_.leaves[leaf].density);
-        const ValueGradient v = field ? field->at(x) : density->gradient_at(x);
+        const ValueGradient v = field ? field->at(x) : density(leaf).gradient_at(x);
         const double slope = glm::length(v.gradient), f = field ? v.value : v.value - 0.5;
         if (slope > 0) o = {f / slope, -v.gradient / slope};
         else o.distance = f > 0 ? infinity : f < 0 ? -infinity : 0;

@@ -31,7 +31,8 @@ public:
     explicit SurfaceOffset(const SolidTree& solid);
 
     Offset at(Vec3 x) const;
-    bool inside(Vec3 x) const { return at(x).distance > 0; }
+    /// Whether at(x).distance > 0, at less cost.
+    bool inside(Vec3 x) const;
     /// All pieces that the surface is made of.
     std::vector<SmoothPiece> pieces() const;
     /// The same of one piece alone, as it would be if the solid ended there.
@@ -52,6 +53,8 @@ public:
 
 private:
     Offset leaf_at(std::size_t leaf, Vec3 x) const;
+    double leaf_value(std::size_t leaf, Vec3 x) const;
+    const LocalDensity& density(std::size_t leaf) const;
 
     SolidTree solid_;
     // Of rounded leaves, made when first asked: of a whole solid they may be huge.
@@ -64,11 +67,11 @@ private:
 class OffsetField {
 public:
     /// Surfaces that are nearer to a point than `margin` matter there, whether or not it is beyond
-    /// them: what is asked at the middle of a triangle has to see the surface that this stands for.
+    /// them: farther ones may be missing.
     OffsetField(const SolidTree& solid, const Box& box, double margin = 0);
 
     Offset at(Vec3 x) const { return near(x).at(x); }
-    bool inside(Vec3 x) const { return at(x).distance > 0; }
+    bool inside(Vec3 x) const { return near(x).inside(x); }
     /// As SurfaceOffset's.
     double distance_along_normal(Vec3 x, double reach) const;
     /// What to evaluate at x, and around it as far as its box reaches.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <optional>
 
 #include "bounds/bounding_box.hpp"
 #include "polygonizer/parallel_family.hpp"
@@ -9,6 +10,7 @@
 #include "polygonizer/separate.hpp"
 #include "polygonizer/sharp_parts.hpp"
 #include "polygonizer/surface.hpp"
+#include "polygonizer/thin_borders.hpp"
 
 namespace deburr {
 
@@ -145,17 +147,18 @@ Mesh triage(const SolidTree& mixed, const Box& box, const TriageOptions& options
     Mesh mesh, best;
     std::vector<Origin> origins, best_origins;
     std::size_t least_left = std::numeric_limits<std::size_t>::max();
+    double farthest = 0;
+    std::optional<FacetJudge> judge;
     // Each round halves the cells that need it. Halving quarters the distance, so a tolerance is met,
     // or cells have become negligible, long before the last.
     const std::size_t most_rounds = std::isfinite(options.tolerance) ? 24 : 5;
     constexpr std::size_t most_mending_rounds = 8;
     std::size_t mending = 0;
     for (std::size_t round = 0; mending < most_mending_rounds; ++round) {
-        Subdivision work = subdivision;
-        Subspace subspace(work);
+        Subspace subspace(subdivision);
         subspace.polygonize();
         origins.clear();
-        mesh = surface(subspace, work, solid, &origins);
+        mesh = surface(subspace, solid, &origins);
         if (statistics) statistics->rounds = round + 1;
         bool changed = false;
         if (round + 1 < most_rounds)
@@ -164,10 +167,11 @@ Mesh triage(const SolidTree& mixed, const Box& box, const TriageOptions& options
         if (changed) continue;
         // What repair cannot help needs smaller cells around it.
         ++mending;
-        const RepairStatistics repaired = repair(mesh, origins, solid);
-        const bool better = repaired.left.size() < least_left;
-        if (better) {
+        if (!judge) judge.emplace(solid, mesh);
+        const RepairStatistics repaired = repair(mesh, origins, *judge);
+        if (repaired.left.size() < least_left) {
             least_left = repaired.left.size();
+            farthest = repaired.farthest;
             best = mesh;
             best_origins = origins;
         }
@@ -178,7 +182,7 @@ Mesh triage(const SolidTree& mixed, const Box& box, const TriageOptions& options
     }
     mesh = std::move(best);
     origins = std::move(best_origins);
-    thin_borders(mesh, origins, solid);
+    thin_borders(mesh, origins, *judge, farthest);
     merge_close(mesh);
     if (statistics) {
         statistics->cells = subdivision.complex.cells.size();

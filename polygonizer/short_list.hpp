@@ -1,0 +1,90 @@
+// A list of numbers that is short as a rule: it needs no memory of its own until it has more than
+// `usual`. A subdivision is thousands of them.
+#pragma once
+#include <algorithm>
+#include <cstdint>
+#include <initializer_list>
+#include <memory>
+#include <type_traits>
+#include <utility>
+
+namespace deburr {
+
+template <class T, std::uint32_t usual>
+class ShortList {
+    static_assert(std::is_trivially_copyable_v<T>);
+
+public:
+    ShortList() = default;
+    ShortList(std::initializer_list<T> values) { append(values.begin(), values.end()); }
+    ShortList(const T* first, const T* last) { append(first, last); }
+    ShortList(const ShortList& other) { append(other.begin(), other.end()); }
+    ShortList(ShortList&& other) noexcept { take(other); }
+    ShortList& operator=(const ShortList& other) {
+        if (this == &other) return *this;
+        clear();
+        append(other.begin(), other.end());
+        return *this;
+    }
+    ShortList& operator=(ShortList&& other) noexcept {
+        if (this != &other) take(other);
+        return *this;
+    }
+
+    T* begin() { return more_ ? more_.get() : few_; }
+    T* end() { return begin() + size_; }
+    const T* begin() const { return more_ ? more_.get() : few_; }
+    const T* end() const { return begin() + size_; }
+    T* data() { return begin(); }
+    const T* data() const { return begin(); }
+    std::size_t size() const { return size_; }
+    bool empty() const { return size_ == 0; }
+    T& operator[](std::size_t k) { return begin()[k]; }
+    const T& operator[](std::size_t k) const { return begin()[k]; }
+    T& front() { return *begin(); }
+    T& back() { return end()[-1]; }
+    const T& front() const { return *begin(); }
+    const T& back() const { return end()[-1]; }
+
+    void clear() { size_ = 0; }
+    void push_back(T value) {
+        reserve(size_ + 1);
+        begin()[size_++] = value;
+    }
+    void append(const T* first, const T* last) {
+        const std::uint32_t count = std::uint32_t(last - first);
+        reserve(size_ + count);
+        std::copy(first, last, end());
+        size_ += count;
+    }
+    void insert(T* at, T value) {
+        const std::ptrdiff_t place = at - begin();
+        push_back(value);
+        std::rotate(begin() + place, end() - 1, end());
+    }
+    void erase(T* first, T* last) {
+        std::copy(last, end(), first);
+        size_ -= std::uint32_t(last - first);
+    }
+
+private:
+    void reserve(std::uint32_t wanted) {
+        if (wanted <= room_) return;
+        room_ = std::max(2 * room_, wanted);
+        auto more = std::make_unique<T[]>(room_);
+        std::copy(begin(), end(), more.get());
+        more_ = std::move(more);
+    }
+    void take(ShortList& other) {
+        more_ = std::move(other.more_);
+        if (!more_) std::copy(other.few_, other.few_ + other.size_, few_);
+        size_ = std::exchange(other.size_, 0);
+        room_ = std::exchange(other.room_, usual);
+    }
+
+    std::unique_ptr<T[]> more_;
+    std::uint32_t size_ = 0, room_ = usual;
+    T few_[usual];
+};
+
+}  // namespace deburr
