@@ -27,6 +27,7 @@ const Section sections[] = {
     {"f", "growth of triage with half-spaces", growth_of_triage},
     {"g", "one thread and two", one_thread_and_two},
     {"h", "work per pixel, the same on every machine", work_per_pixel},
+    {"i", "every voxel's test against the octree's", octree_against_every_voxel},
 };
 
 int refuse(const std::string& what) {
@@ -46,7 +47,7 @@ int main(int argc, char** argv) {
             continue;
         }
         const bool known = std::any_of(std::begin(sections), std::end(sections), [&](const Section& s) { return word == s.letter; });
-        if (!known) return refuse("expected sections from a to h, got '" + word + "'");
+        if (!known) return refuse("expected sections from a to i, got '" + word + "'");
         letters += word;
     }
     try {

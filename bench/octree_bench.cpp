@@ -1,12 +1,14 @@
 // What the octree costs: with the surface, not with the volume [Vyatkin §5].
-#include <benchmark/benchmark.h>
+#include <fmt/format.h>
 
-#include "bench/ratio.hpp"
+#include <cmath>
+
+#include "bench/sections.hpp"
 #include "polygonizer/octree.hpp"
 #include "polygonizer/octree_cells.hpp"
 #include "polygonizer/triage.hpp"
 
-using namespace deburr;
+namespace deburr::bench {
 
 namespace {
 
@@ -30,28 +32,29 @@ std::size_t every_voxel(const SolidTree& solid, const Box& box, double edge) {
     return open;
 }
 
-// 2^level cells along the box. tests_times: range tests against the level below, which is 4 for a
-// surface and 8 for a volume; cells_ratio: CPU time of every voxel's test to that of the octree's.
-void levels(benchmark::State& state) {
+}  // namespace
+
+// 2^level cells along the box: tests grow by 4 a level for a surface, by 8 for a volume.
+void octree_against_every_voxel(Report& report) {
     const SolidTree solid = obj4();
     const Box box = polygonization_box(solid);
-    const double edge = std::ldexp(box.hi.x - box.lo.x, -int(state.range(0)));
-    const std::size_t below = CellTree(solid, box, 2 * edge, 0).range_tests;
-    std::size_t tests = 0, voxels = 0, triangles = 0;
-    double mesh_seconds = 0;
-    for (auto _ : state) {
-        const Ratio ratio = ratio_of([&] { voxels = every_voxel(solid, box, edge); },
-                                     [&] { tests = CellTree(solid, box, edge, 0).range_tests; }, 3);
-        mesh_seconds = cpu_seconds_of([&] { triangles = octree(solid, box, {edge}).triangles.size(); });
-        state.counters["cells_ratio"] = ratio.value();
-        state.counters["cells_ms"] = 1e3 * ratio.b;
+    std::size_t below = 0;
+    for (const int level : {3, 4, 5, 6, 7}) {
+        const double edge = std::ldexp(box.hi.x - box.lo.x, -level);
+        std::size_t tests = 0, voxels = 0;
+        const auto by_octree = [&] { tests = CellTree(solid, box, edge, 0).range_tests; };
+        if (level > 3) {
+            const std::string name = fmt::format("obj4, {} cells along a side", 1 << level);
+            report.ratio(name + ": every voxel's test / the octree's",
+                         ratio_of([&] { voxels = every_voxel(solid, box, edge); }, by_octree, 3));
+            report.figure(name + ": tests, of those one level above", double(tests) / double(below), "times");
+            report.figure(name + ": mesh", 1e3 * cpu_seconds_of([&] { octree(solid, box, {edge}); }), "ms");
+            report.figure(name + ": voxels that the surface may pass", double(voxels), "");
+        } else {
+            by_octree();
+        }
+        below = tests;
     }
-    state.counters["mesh_ms"] = 1e3 * mesh_seconds;
-    state.counters["tests"] = double(tests);
-    state.counters["tests_times"] = double(tests) / double(below);
-    state.counters["open_voxels"] = double(voxels);
-    state.counters["triangles"] = double(triangles);
 }
-BENCHMARK(levels)->DenseRange(4, 7)->Iterations(1)->Unit(benchmark::kMillisecond);
 
-}  // namespace
+}  // namespace deburr::bench

@@ -12,5 +12,6 @@ void triage_against_flying_edges(Report& report);  // e
 void growth_of_triage(Report& report);           // f
 void one_thread_and_two(Report& report);         // g
 void work_per_pixel(Report& report);             // h
+void octree_against_every_voxel(Report& report);  // i
 
 }  // namespace deburr::bench

@@ -5,35 +5,6 @@
 namespace deburr {
 namespace {
 
-// The box's image under an affine map, in a box. Corners at infinity are taken axis by axis.
-Box image(const Affine& map, const Box& box) {
-    Box to{map.shift, map.shift};
-    for (int row = 0; row < 3; ++row)
-        for (int k = 0; k < 3; ++k) {
-            const double m = map.linear[k][row];
-            if (m == 0) continue;  // 0·∞ is no number
-            to.lo[row] += m * (m > 0 ? box.lo[k] : box.hi[k]);
-            to.hi[row] += m * (m > 0 ? box.hi[k] : box.lo[k]);
-        }
-    return to;
-}
-
-// Rounding moves an image by no more than this share of what was added up.
-constexpr double image_slack = 16 * epsilon;
-
-Box outward(const Affine& map, const Box& box) {
-    Box to = image(map, box);
-    for (int row = 0; row < 3; ++row) {
-        double sum = std::abs(map.shift[row]);
-        for (int k = 0; k < 3; ++k)
-            for (const double side : {box.lo[k], box.hi[k]})
-                if (std::isfinite(side)) sum += std::abs(map.linear[k][row] * side);
-        to.lo[row] -= image_slack * sum;
-        to.hi[row] += image_slack * sum;
-    }
-    return to;
-}
-
 // Any field, carried along by an affine map.
 class PlacedField final : public Field {
 public:
@@ -45,21 +16,21 @@ public:
         v.gradient = glm::transpose(inverse_.linear) * v.gradient;
         return v;
     }
-    Range range(const Box& box) const override { return inner_->range(outward(inverse_, box)); }
+    Range range(const Box& box) const override { return inner_->range(image(inverse_, box)); }
     Box bounding_box() const override {
         const Box box = inner_->bounding_box();
-        return box.empty() ? box : outward(map_, box);
+        return box.empty() ? box : image(map_, box);
     }
     Box extent() const override {
         const Box box = inner_->extent();
-        return box.empty() ? box : outward(map_, box);
+        return box.empty() ? box : image(map_, box);
     }
     FieldPtr prune(const Box& box) const override {
-        FieldPtr left = inner_->prune(outward(inverse_, box));
+        FieldPtr left = inner_->prune(image(inverse_, box));
         return left ? std::make_shared<PlacedField>(std::move(left), map_, inverse_) : nullptr;
     }
     int size() const override { return inner_->size(); }
-    LocalSize local_size(const Box& box) const override { return inner_->local_size(outward(inverse_, box)); }
+    LocalSize local_size(const Box& box) const override { return inner_->local_size(image(inverse_, box)); }
     FieldPtr carried(const Affine& map) const override { return transformed(inner_, compose(map, map_)); }
 
     double settled(Vec3 origin, Vec3 direction) const override {
@@ -91,8 +62,7 @@ bool finite(const Affine& map) {
 }  // namespace
 
 FieldPtr transformed(const FieldPtr& field, const Affine& map) {
-    const Mat3 inverse = glm::inverse(map.linear);
-    const Affine back{inverse, -(inverse * map.shift)};
+    const Affine back = inverse(map);
     if (!finite(map) || !finite(back)) return nullptr;
     if (map.linear == Mat3(1.0) && map.shift == Vec3(0.0)) return field;
     if (FieldPtr own = field->carried(map)) return own;

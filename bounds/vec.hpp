@@ -1,5 +1,6 @@
 // Vectors, affine maps and boxes, all in double precision (GLM).
 #pragma once
+#include <algorithm>
 #include <cmath>
 #include <glm/glm.hpp>
 #include <limits>
@@ -12,6 +13,9 @@ using Mat3 = glm::dmat3;
 constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double epsilon = std::numeric_limits<double>::epsilon();
 
+/// The largest absolute coordinate.
+inline double largest(Vec3 v) { return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)}); }
+
 /// x ↦ linear·x + shift.
 struct Affine {
     Mat3 linear{1.0};
@@ -23,6 +27,12 @@ struct Affine {
 /// The map that does `first`, then `then`.
 inline Affine compose(const Affine& then, const Affine& first) {
     return {then.linear * first.linear, then(first.shift)};
+}
+
+/// Holds no number where `map` is singular to a double.
+inline Affine inverse(const Affine& map) {
+    const Mat3 linear = glm::inverse(map.linear);
+    return {linear, -(linear * map.shift)};
 }
 
 /// Axis-parallel box; sides may lie at ±infinity. Empty where lo > hi on some axis.
@@ -46,5 +56,14 @@ inline Box intersection(const Box& a, const Box& b) {
     return {glm::max(a.lo, b.lo), glm::min(a.hi, b.hi)};
 }
 inline Box inflated(const Box& b, double by) { return {b.lo - Vec3(by), b.hi + Vec3(by)}; }
+
+/// Half the area of its surface; 0 if it is empty.
+inline double half_area(const Box& b) {
+    const Vec3 d = glm::max(b.hi - b.lo, Vec3(0.0));
+    return d.x * d.y + d.y * d.z + d.z * d.x;
+}
+
+/// A box around the image of a box that is not empty, rounded outward.
+Box image(const Affine& map, const Box& box);
 
 }  // namespace deburr

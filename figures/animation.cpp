@@ -14,8 +14,8 @@ namespace {
 std::string png_of(const Film& film) {
     ImageRaster image{film.width, film.height, film.window, {}, {}};
     for (int k = 0; k < 3; ++k)
-        image.channels.push_back({std::string(1, "RGB"[k]), ChannelType::byte,
-                                  [&film, k](std::size_t i) { return double(srgb_byte(film.pixels[i].color[k])); }});
+        image.channels.push_back(image_channel(std::string(1, "RGB"[k]), ChannelType::byte,
+                                               [&film, k](std::size_t i) { return srgb_byte(film.pixels[i].color[k]); }));
     return encode_png(image, {});
 }
 

@@ -6,29 +6,12 @@
 namespace deburr {
 namespace {
 
-double area(const Box& b) {
-    const Vec3 d = b.hi - b.lo;
-    return d.x * d.y + d.y * d.z + d.z * d.x;
-}
-
 // How far off a ray in single precision can be, where coordinates are at most 1: its origin and the
 // boxes are rounded by 2⁻²⁵, differences of the two by 2⁻²⁴; reciprocal, direction and product each
 // stretch a distance of at most 2√3 by 2⁻²⁴. That is 12·2⁻²⁴ at most.
 constexpr double slack = 0x1p-19;
 
 }  // namespace
-
-int BoxTree::Builder::item(std::uint32_t number, const Box& box) {
-    parts_.push_back({box, int(number), -1});
-    return int(parts_.size()) - 1;
-}
-
-int BoxTree::Builder::join(int a, int b) {
-    if (a == nothing) return b;
-    if (b == nothing) return a;
-    parts_.push_back({hull(parts_[std::size_t(a)].box, parts_[std::size_t(b)].box), a, b});
-    return int(parts_.size()) - 1;
-}
 
 BoxTree::BoxTree(const Builder& from, int root) {
     if (root == Builder::nothing) return;
@@ -47,13 +30,13 @@ BoxTree::BoxTree(const Builder& from, int root) {
 std::int32_t BoxTree::collapse(const Builder& from, int root, int depth) {
     const auto part = [&](int i) -> const Builder::Part& { return from.parts_[std::size_t(i)]; };
     if (part(root).b < 0) return ~part(root).a;
-    if (depth >= deepest) throw std::length_error("expected a BSP of at most 100 levels");
+    if (depth >= deepest) throw std::length_error("expected a tree of at most 150 levels");
     std::vector<int> children{part(root).a, part(root).b};
     while (children.size() < 4) {
         int largest = -1;
         for (std::size_t i = 0; i < children.size(); ++i)
             if (part(children[i]).b >= 0 &&
-                (largest < 0 || area(part(children[i]).box) > area(part(children[std::size_t(largest)]).box)))
+                (largest < 0 || half_area(part(children[i]).box) > half_area(part(children[std::size_t(largest)]).box)))
                 largest = int(i);
         if (largest < 0) break;
         const int open = children[std::size_t(largest)];

@@ -21,6 +21,9 @@ public:
         static constexpr int nothing = -1;
         int item(std::uint32_t number, const Box& box);
         int join(int a, int b);  // of any two, also of nothing
+        /// All of these, so that few rays meet many: by the surface-area heuristic.
+        int join_by_area(std::vector<int> parts);
+        const Box& box(int part) const { return parts_[std::size_t(part)].box; }
 
     private:
         friend class BoxTree;
@@ -28,6 +31,7 @@ public:
             Box box;
             int a, b;  // b < 0: an item, its number in a
         };
+        int split(std::vector<int>& order, std::size_t first, std::size_t end, int place, int depth);
         std::vector<Part> parts_;
     };
 
@@ -37,15 +41,20 @@ public:
     const Box& box() const { return box_; }
     bool empty() const { return nodes_.empty(); }
 
-    /// The ray is within box() in [t0, t1], or nearly. Calls visit(number of an item) for those whose boxes the ray may meet in [t0, t1], the
-    /// nearest first but where boxes overlap. It returns the distance up to which it goes on; a
-    /// negative one ends it.
+    /// The ray is within box() in [t0, t1], or nearly. Calls visit(number of an item) for those whose
+    /// boxes the ray may meet in [t0, t1], the nearest first but where boxes overlap. It returns the
+    /// distance up to which it goes on; a negative one ends it.
     template <class Visit>
     void visit(Vec3 origin, Vec3 direction, double t0, double t1, Visit visit) const;
 
+    /// Calls visit(number of an item) for those whose boxes may meet this one.
+    template <class Visit>
+    void meeting(const Box& box, Visit visit) const;
+
 private:
-    // Three entries a level; a BSP is at most some 70 deep, lists in its cells some 20.
-    static constexpr int most_entries = 320, deepest = most_entries / 3 - 1;
+    // Three entries a level; what is joined by area is at most some 60 deep, a BSP some 70, lists in its
+    // cells some 20.
+    static constexpr int most_entries = 480, deepest = most_entries / 3 - 1;
 
     // side[axis]: the four lower, then the four upper bounds. An empty slot: lower above upper.
     struct alignas(64) Node {
@@ -143,6 +152,24 @@ void BoxTree::visit(Vec3 origin, Vec3 direction, double t0, double t1, Visit vis
             --top;
         } while (stack[top].t > end);
         now = stack[top].child;
+    }
+}
+
+template <class Visit>
+void BoxTree::meeting(const Box& box, Visit visit) const {
+    if (empty()) return;
+    const Vec3 lo = (box.lo - middle_) * per_unit_, hi = (box.hi - middle_) * per_unit_;
+    std::vector<std::int32_t> open{0};
+    while (!open.empty()) {
+        const Node& n = nodes_[std::size_t(open.back())];
+        open.pop_back();
+        for (int i = 0; i < 4; ++i) {
+            bool meets = true;
+            for (int k = 0; k < 3; ++k) meets &= double(n.side[k][i]) <= hi[k] && double(n.side[k][i + 4]) >= lo[k];
+            if (!meets) continue;
+            if (n.child[i] < 0) visit(std::uint32_t(~n.child[i]));
+            else open.push_back(n.child[i]);
+        }
     }
 }
 

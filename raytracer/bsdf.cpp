@@ -1,6 +1,7 @@
 #include "raytracer/bsdf.hpp"
 
 #include <numbers>
+#include <vector>
 
 namespace deburr {
 namespace {
@@ -80,16 +81,28 @@ double Ggx::density(double cos_out, double cos_half) const {
 
 // The visible normals of a hemisphere are halfway between `to_eye` and a spherical cap that is
 // uniform; those of GGX are a stretched hemisphere's.
-Vec3 Ggx::facet(Vec3 to_eye, Vec3 normal, Vec2 u) const {
+Vec3 Ggx::facet(Vec3 to_eye, Vec3 normal, double u, Vec2 turn) const {
     const Frame frame(normal);
     const Vec3 local = frame.to_local(to_eye);
     const Vec3 eye = glm::normalize(Vec3(alpha * local.x, alpha * local.y, local.z));
-    const double phi = 2 * pi * u.y, z = (1 - u.x) * (1 + eye.z) - eye.z;
+    const double z = (1 - u) * (1 + eye.z) - eye.z;
     const double r = std::sqrt(glm::clamp(1 - z * z, 0.0, 1.0));
-    const Vec3 half = Vec3(r * std::cos(phi), r * std::sin(phi), z) + eye;
+    const Vec3 half = Vec3(r * turn.x, r * turn.y, z) + eye;
     const Vec3 facet(alpha * half.x, alpha * half.y, std::max(0.0, half.z));
     const double length = glm::length(facet);
     return length > 0 ? frame.to_world(facet / length) : normal;
+}
+
+namespace {
+
+Vec2 turn_by(double u) { return {std::cos(2 * pi * u), std::sin(2 * pi * u)}; }
+
+}  // namespace
+
+Vec3 Ggx::facet(Vec3 to_eye, Vec3 normal, Vec2 u) const { return facet(to_eye, normal, u.x, turn_by(u.y)); }
+
+bool SurfaceLayer::same(const Material& a, const Material& b) {
+    return a.kind == b.kind && a.roughness == b.roughness && a.ior == b.ior;
 }
 
 SurfaceLayer::SurfaceLayer(const Material& material)
@@ -116,11 +129,15 @@ double SurfaceLayer::integrate(double cosine) const {
     const double c = std::max(cosine, least_cosine);
     if (smooth_) return fresnel(Vec3(1.0), c).x;
     constexpr int points = 1024;
+    static const std::vector<Vec2> turns = [] {
+        std::vector<Vec2> all;
+        for (int i = 0; i < points; ++i) all.push_back(turn_by(glm::fract((i + 0.5) / std::numbers::phi)));
+        return all;
+    }();
     const Vec3 normal(0, 0, 1), to_eye(std::sqrt(std::max(0.0, 1 - c * c)), 0, c);
     double sum = 0;
     for (int i = 0; i < points; ++i) {
-        const Vec2 u((i + 0.5) / points, glm::fract((i + 0.5) / std::numbers::phi));
-        const Vec3 facet = ggx_.facet(to_eye, normal, u);
+        const Vec3 facet = ggx_.facet(to_eye, normal, (i + 0.5) / points, turns[std::size_t(i)]);
         const double out = reflected(to_eye, facet).z;
         if (out > 0) sum += fresnel(Vec3(1.0), glm::dot(to_eye, facet)).x * ggx_.shadowing(out, c);
     }

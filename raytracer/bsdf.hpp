@@ -51,12 +51,16 @@ struct Ggx {
     double density(double cos_out, double cos_half) const;
     /// A facet's normal, as often as `to_eye` sees it.
     Vec3 facet(Vec3 to_eye, Vec3 normal, Vec2 u) const;
+    /// The same, for the cosine and sine of 2π u.y.
+    Vec3 facet(Vec3 to_eye, Vec3 normal, double u, Vec2 turn) const;
 };
 
 /// What all points of a material have in common.
 class SurfaceLayer {
 public:
     explicit SurfaceLayer(const Material& material);
+    /// Whether both materials' layers are the same: a material's is dear to make.
+    static bool same(const Material& a, const Material& b);
 
     Material::Kind kind() const { return kind_; }
     bool smooth() const { return smooth_; }

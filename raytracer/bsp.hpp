@@ -15,8 +15,8 @@ namespace deburr {
 struct BspStatistics {
     std::size_t cells = 0, empty_cells = 0, flat_cells = 0;
     std::size_t half_spaces = 0;  // that the cells were made of
-    std::size_t spaces = 0;       // each with a BSP of its own
-    std::size_t placements = 0;   // of spaces in others
+    std::size_t spaces = 0;       // BSPs, each of a space or of a part of one
+    std::size_t placements = 0;   // of these in others
     double mean_local_half_spaces = 0;  // in the cells that hold a surface
     int depth = 0;
 };

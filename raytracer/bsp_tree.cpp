@@ -80,7 +80,7 @@ std::shared_ptr<const SolidTree> without_tiny_radii(std::shared_ptr<const SolidT
 
 class Builder {
 public:
-    explicit Builder(Search search) : search_(search) {}
+    Builder(Search search, double least_scale) : search_(search), least_scale_(least_scale) {}
 
     BspTree run(const std::vector<Solid>& solids) {
         std::vector<Item> items;
@@ -102,9 +102,7 @@ public:
             items.push_back({int(i), tree, box, {}});
         }
         if (bounds.empty()) bounds = {Vec3(-reach - 1), Vec3(reach + 1)};
-        double scale = 0;
-        for (int k = 0; k < 3; ++k)
-            scale = std::max({scale, std::abs(bounds.lo[k]), std::abs(bounds.hi[k])});
+        const double scale = std::max({least_scale_, largest(bounds.lo), largest(bounds.hi)});
         bsp_.tolerances.scale = scale > 0 ? scale : 1;
         margin_ = bsp_.tolerances.margin();
         const Vec3 sides = bounds.hi - bounds.lo;
@@ -116,6 +114,8 @@ public:
             item.tree = without_tiny_radii(std::move(item.tree), bsp_.tolerances.least_radius());
             item.size = local_size(*item.tree, Box::everything());
         }
+        bsp_.boxes.assign(solids.size(), Box::everything());
+        for (const Item& item : items) bsp_.boxes[std::size_t(item.solid)] = inflated(item.box, margin_);
         // A floor in every cell would leave none of them empty.
         std::erase_if(items, [&](const Item& item) {
             if (item.size.half_spaces != 1) return false;
@@ -132,11 +132,7 @@ public:
 
 private:
     // Area of the part of a cell that the scene can be seen through.
-    double area(const Box& cell) const {
-        const Box b = intersection(cell, world_);
-        const Vec3 d = glm::max(b.hi - b.lo, Vec3(0.0));
-        return d.x * d.y + d.y * d.z + d.z * d.x;
-    }
+    double area(const Box& cell) const { return half_area(intersection(cell, world_)); }
 
     Box side(const Box& cell, int axis, double position, bool upper) const {
         Box b = cell;
@@ -331,6 +327,7 @@ private:
     }
 
     Search search_;
+    double least_scale_;
     BspTree bsp_;
     Box world_;
     double margin_ = 0, smallest_ = 0;
@@ -339,6 +336,8 @@ private:
 
 }  // namespace
 
-BspTree build_bsp(const std::vector<Solid>& solids, Search search) { return Builder(search).run(solids); }
+BspTree build_bsp(const std::vector<Solid>& solids, Search search, double least_scale) {
+    return Builder(search, least_scale).run(solids);
+}
 
 }  // namespace deburr

@@ -28,10 +28,12 @@ struct BspTree {
     std::vector<BspCell> cells;
     std::vector<LocalSolid> locals;
     std::vector<LocalSolid> planes;  // solids that are one half-space: not in the cells
+    std::vector<Box> boxes;          // around each solid's surface, for the solids in the cells
     std::size_t half_spaces = 0;  // of all solids
     int depth = 0;
 };
 
-BspTree build_bsp(const std::vector<Solid>& solids, Search search = Search::where_needed);
+/// `least_scale`: of its tolerances, where rays come with larger coordinates than the solids have.
+BspTree build_bsp(const std::vector<Solid>& solids, Search search = Search::where_needed, double least_scale = 0);
 
 }  // namespace deburr

@@ -85,13 +85,15 @@ std::string encode_exr(const ImageRaster& image, int threads, const ShareDone& d
     Memory memory;
     {
         Imf::OutputFile file(memory, header, threads > 1 ? threads : 0);
-        std::vector<char> bytes(pixel_size * std::size_t(w.width) * std::size_t(std::min(rows_at_once, w.height)));
+        std::vector<double> values(std::size_t(w.width) * std::size_t(std::min(rows_at_once, w.height)));
+        std::vector<char> bytes(pixel_size * values.size());
         by_rows(image, done, [&](int row, int end) {
             Imf::FrameBuffer frame;
             std::size_t at = 0;
             const std::size_t first = std::size_t(row) * std::size_t(w.width), count = std::size_t(end - row) * std::size_t(w.width);
             for (const ImageChannel& c : image.channels) {
-                for (std::size_t i = 0; i < count; ++i) store(&bytes[i * pixel_size + at], c.type, c.value(first + i));
+                c.values(first, count, values.data());
+                for (std::size_t i = 0; i < count; ++i) store(&bytes[i * pixel_size + at], c.type, values[i]);
                 frame.insert(c.name, Imf::Slice::Make(pixel_type(c.type), &bytes[at], box(w.x, w.y + row, w.width, end - row),
                                                       pixel_size, pixel_size * std::size_t(w.width)));
                 at += size_of(c.type);

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "raytracer/camera_matrix.hpp"
@@ -13,15 +14,14 @@
 namespace deburr {
 namespace {
 
-// How a channel is got from a pixel; exact for every id: they have 32 bits.
-using PixelValue = std::function<double(const Pixel&)>;
-
 class Channels {
 public:
     explicit Channels(const Film& film) : film_(film) {}
 
+    // value(pixel) is exact for every id: they have 32 bits.
+    template <class PixelValue>
     void add(const std::string& name, ChannelType type, PixelValue value) {
-        list.push_back({name, type, [&film = film_, value = std::move(value)](std::size_t i) { return value(film.pixels[i]); }});
+        list.push_back(image_channel(name, type, [&film = film_, value](std::size_t i) { return double(value(film.pixels[i])); }));
     }
 
     void add_vector(const std::string& layer, const char* components, ChannelType type, Vec3 Pixel::*member) {
@@ -85,12 +85,38 @@ std::vector<ImageAttribute> attributes(const Film& film, const ImageNotes& notes
 
 }  // namespace
 
+namespace {
+
+// The linear value whose place on the transfer curve is v.
+double linear_of_srgb(double v) { return v <= 0.04045 ? v / 12.92 : std::pow((v + 0.055) / 1.055, 2.4); }
+
+// Where bytes begin, and, for even steps of the linear value, the byte that a step begins with. The curve
+// rises by 12.92 at most, so that a step has room for the beginning of one byte more.
+struct SrgbBytes {
+    static constexpr int steps = 4096;
+    static_assert(steps > 12.92 * 255);
+    std::array<double, 257> begin{};
+    std::array<unsigned char, steps> byte{};
+
+    SrgbBytes() {
+        for (int k = 1; k < 256; ++k) begin[std::size_t(k)] = linear_of_srgb((k - 0.5) / 255);
+        begin[256] = infinity;
+        int now = 0;
+        for (int i = 0; i < steps; ++i) {
+            while (begin[std::size_t(now) + 1] <= double(i) / steps) ++now;
+            byte[std::size_t(i)] = static_cast<unsigned char>(now);
+        }
+    }
+};
+
+}  // namespace
+
 unsigned char srgb_byte(double linear) {
+    static const SrgbBytes bytes;
     if (!(linear > 0)) return 0;
     if (linear >= 1) return 255;
-    const double v =
-        linear <= 0.0031308 ? 12.92 * linear : 1.055 * std::pow(linear, 1 / 2.4) - 0.055;
-    return static_cast<unsigned char>(std::lround(255 * v));
+    const unsigned char byte = bytes.byte[std::size_t(linear * SrgbBytes::steps)];
+    return byte + (linear >= bytes.begin[std::size_t(byte) + 1]);
 }
 
 void write_raster(const std::string& path, const ImageRaster& image, int threads, const ShareDone& done) {

@@ -22,8 +22,17 @@ enum class ChannelType {
 struct ImageChannel {
     std::string name;
     ChannelType type;
-    std::function<double(std::size_t pixel)> value;  // pixels of the window, row by row
+    /// The values of `count` pixels from `first` on, of the window's, row by row.
+    std::function<void(std::size_t first, std::size_t count, double* to)> values;
 };
+
+/// Whose value at pixel i is value(i).
+template <class Value>
+ImageChannel image_channel(std::string name, ChannelType type, Value value) {
+    return {std::move(name), type, [value](std::size_t first, std::size_t count, double* to) {
+                for (std::size_t i = 0; i < count; ++i) to[i] = value(first + i);
+            }};
+}
 
 using ImageAttribute = std::pair<std::string, std::variant<int, float, std::string, Matrix44>>;
 

@@ -83,8 +83,12 @@ Integrator::Integrator(const Scene& scene, const RayTracer& tracer, RenderSettin
       settings_(settings),
       camera_(scene.camera, settings.width, settings.height),
       sky_(scene.background) {
+    layers_.reserve(scene.materials.size());
     for (const Material& m : scene.materials) {
-        layers_.emplace_back(m);
+        std::size_t first = 0;  // with this layer
+        while (first < layers_.size() && !SurfaceLayer::same(scene.materials[first], m)) ++first;
+        if (first < layers_.size()) layers_.push_back(layers_[first]);
+        else layers_.emplace_back(m);
         glass_ = glass_ || m.kind == Material::Kind::glass;
     }
     for (const Light& light : scene.lights) lights_.emplace_back(light);

@@ -81,13 +81,17 @@ namespace {
 // projected disk: sin²θ and φ uniform.
 double mean_zenith_share(double c) {
     constexpr int rings = 48, sectors = 48;
+    static const auto cosines = [] {
+        std::array<double, sectors> all;
+        for (int j = 0; j < sectors; ++j) all[std::size_t(j)] = std::cos(pi * (j + 0.5) / sectors);
+        return all;
+    }();
     const double s = std::sqrt(std::max(0.0, 1 - c * c));
     double sum = 0;
     for (int i = 0; i < rings; ++i) {
         const double sine2 = (i + 0.5) / rings;
         const double a = c * std::sqrt(1 - sine2), b = s * std::sqrt(sine2);
-        for (int j = 0; j < sectors; ++j)
-            sum += std::sqrt(std::max(0.0, a + b * std::cos(pi * (j + 0.5) / sectors)));
+        for (const double cosine : cosines) sum += std::sqrt(std::max(0.0, a + b * cosine));
     }
     return sum / (rings * sectors);
 }

@@ -22,8 +22,6 @@ constexpr double lift = 64 * double(std::numeric_limits<float>::epsilon());
 // what is seen.
 constexpr double least_tilt = 1e-6;
 
-double largest(Vec3 v) { return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)}); }
-
 RTCRay ray_of(const Ray& ray, double t_max) {
     RTCRay r{};
     r.org_x = float(ray.origin.x);

@@ -89,8 +89,8 @@ void write_difference(const std::string& path, const Picture& a, const Picture& 
     const auto& second = b.film.pixels;
     ImageRaster image{a.film.width, a.film.height, a.film.window, {}, {}};
     const auto add = [&](const char* name, auto value) {
-        image.channels.push_back({name, bytes ? ChannelType::byte : ChannelType::single_float,
-                                  [&, value](std::size_t i) { return value(first[i], second[i]); }});
+        image.channels.push_back(image_channel(name, bytes ? ChannelType::byte : ChannelType::single_float,
+                                               [&, value](std::size_t i) { return value(first[i], second[i]); }));
     };
     const auto add_color = [&](const char* name, int k) {
         add(name, [k, bytes](const Pixel& p, const Pixel& q) {

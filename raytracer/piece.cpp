@@ -12,10 +12,10 @@ CrossingScratch& scratch() {
 
 }  // namespace
 
-void Pieces::add(LocalSolid&& local, const Box& box) {
+void Pieces::add(LocalSolid&& local, const Box& box, int solid) {
     Piece p;
     p.box = box;
-    p.solid = local.solid();
+    p.solid = solid;
     const auto convex = local.convex();
     if (!convex || convex->density.planes.empty()) {
         p.kind = Piece::Kind::general;
@@ -131,7 +131,7 @@ void cut_within(Box& box, ConvexView d) {
 
 }  // namespace
 
-Box Pieces::surface_box(std::size_t i) const {
+Box Pieces::surface_box(std::size_t i, double margin) const {
     const Piece& p = pieces_[i];
     Box box = p.box;
     if (p.kind == Piece::Kind::plane) {
@@ -145,7 +145,7 @@ Box Pieces::surface_box(std::size_t i) const {
         }
     }
     // The cell, where nothing was left but for rounding.
-    return box.empty() ? p.box : intersection(inflated(box, margin_), p.box);
+    return box.empty() ? p.box : intersection(inflated(box, margin), p.box);
 }
 
 }  // namespace deburr

@@ -37,10 +37,10 @@ class Pieces {
 public:
     Pieces() = default;
     Pieces(const Tolerances& tolerances, Criterion criterion)
-        : scale_(tolerances.scale), margin_(tolerances.margin()), criterion_(criterion) {}
+        : scale_(tolerances.scale), criterion_(criterion) {}
 
-    /// `box`: the cell.
-    void add(LocalSolid&& local, const Box& box);
+    /// `box`: the cell; `solid`: the number of its solid here.
+    void add(LocalSolid&& local, const Box& box, int solid);
 
     std::size_t size() const { return pieces_.size(); }
     const Piece& operator[](std::size_t i) const { return pieces_[i]; }
@@ -52,8 +52,8 @@ public:
     /// Unit normal, out of the solid.
     Vec3 normal(std::size_t i, const PieceCrossing& crossing, Vec3 origin, Vec3 direction) const;
 
-    /// A box around what can be crossed of piece i, within its cell.
-    Box surface_box(std::size_t i) const;
+    /// A box around what can be crossed of piece i, within its cell, with this much to spare.
+    Box surface_box(std::size_t i, double margin) const;
 
 private:
     ConvexView view(const Piece& p) const { return {&planes_[p.first], p.soft, p.sharp, p.complement}; }
@@ -63,7 +63,7 @@ private:
     std::vector<Piece> pieces_;
     std::vector<AlphaPlane> planes_;
     std::vector<LocalSolid> locals_;
-    double scale_ = 1, margin_ = 0;
+    double scale_ = 1;
     Criterion criterion_ = Criterion::exact;
 };
 

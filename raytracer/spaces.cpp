@@ -19,27 +19,14 @@ constexpr int deepest_space = 8;
 constexpr double largest_condition = 64;
 // A form further from its origin, in its own sizes, is moved there.
 constexpr double farthest = 16;
-
-double largest(Vec3 v) { return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)}); }
+// What is smaller than this, of the space that it is in, is found by a tree of boxes of its own, whose single
+// precision is finer.
+constexpr double least_size = 0x1p-10;
+// Tolerances of a solid among larger ones are at least these ones' times this: cells must know their solids
+// further beyond their walls, by 2⁻³⁸, than a ray's place is off by, of the larger scale and a few times 2⁻⁵⁰.
+constexpr double least_share_of_scale = 0x1p-8;
 
 double norm(const Mat3& m) { return std::sqrt(glm::dot(m[0], m[0]) + glm::dot(m[1], m[1]) + glm::dot(m[2], m[2])); }
-
-Affine inverse(const Affine& map) {
-    const Mat3 linear = glm::inverse(map.linear);
-    return {linear, -(linear * map.shift)};
-}
-
-Box image(const Affine& map, const Box& box) {
-    Box to{map.shift, map.shift};
-    for (int i = 0; i < 3; ++i)
-        for (int k = 0; k < 3; ++k) {
-            const double a = map.linear[i][k] * box.lo[i], b = map.linear[i][k] * box.hi[i];
-            to.lo[k] += std::min(a, b);
-            to.hi[k] += std::max(a, b);
-        }
-    const double slack = 16 * epsilon * std::max({largest(to.lo), largest(to.hi), largest(map.shift)});
-    return inflated(to, slack);
-}
 
 struct Part {
     PlacedForm placed;
@@ -47,16 +34,31 @@ struct Part {
     Box box;
 };
 
+bool is_turned(const Mat3& m) {
+    return m[0][1] != 0 || m[0][2] != 0 || m[1][0] != 0 || m[1][2] != 0 || m[2][0] != 0 || m[2][1] != 0;
+}
+
+// What is in one BSP.
+struct Group {
+    std::vector<Solid> solids;
+    std::vector<int> numbers;  // in the world
+};
+
+struct PlannedSpace {
+    std::vector<Group> groups{1};  // the first is of what is unbounded, or squeezed, or all there is
+    double reach = 0;              // of the others
+    std::vector<Placement> placements;
+    std::vector<Box> boxes;        // of the placements
+};
+
 class Plan {
 public:
     explicit Plan(const std::vector<Solid>& solids) {
         spaces.emplace_back();
-        in_bsp.emplace_back();
         fill(0, solids, 0);
     }
 
-    std::vector<Space> spaces;
-    std::vector<std::vector<Solid>> in_bsp;  // of each space
+    std::vector<PlannedSpace> spaces;
 
 private:
     bool is_union(int form) const { return forms_.solid(form).node().kind == SolidNode::Kind::unite; }
@@ -138,12 +140,18 @@ private:
             while (group[std::size_t(i)] != i) i = group[std::size_t(i)] = group[std::size_t(group[std::size_t(i)])];
             return i;
         };
-        const BoxHierarchy hierarchy(boxes);
-        for (std::size_t i = 0; i < all.size(); ++i)
-            hierarchy.meeting(inflated(boxes[i], clear), [&](int j) {
-                const int a = find(int(i)), b = find(j);
+        BoxTree::Builder builder;
+        std::vector<int> items;
+        for (std::size_t i = 0; i < all.size(); ++i) items.push_back(builder.item(std::uint32_t(i), boxes[i]));
+        const BoxTree tree(builder, builder.join_by_area(std::move(items)));
+        for (std::size_t i = 0; i < all.size(); ++i) {
+            const Box near = inflated(boxes[i], clear);
+            tree.meeting(near, [&](std::uint32_t j) {
+                if (intersection(near, boxes[j]).empty()) return;
+                const int a = find(int(i)), b = find(int(j));
                 group[std::size_t(std::max(a, b))] = std::min(a, b);
             });
+        }
         std::map<int, std::vector<std::size_t>> together;
         for (std::size_t i = 0; i < all.size(); ++i) together[find(int(i))].push_back(i);
         for (const auto& [first, members] : together) {
@@ -162,15 +170,15 @@ private:
         return sums_.back();
     }
 
-    void put(int space, const Solid& solid, int number) {
+    void put(int space, Group& group, const Solid& solid, int number) {
         // Below the world, materials that are not named stay so.
-        in_bsp[std::size_t(space)].push_back(space == 0 ? solid : solid.material(-1));
-        spaces[std::size_t(space)].solids.push_back(number);
+        group.solids.push_back(space == 0 ? solid : solid.material(-1));
+        group.numbers.push_back(number);
     }
 
     void fill(int space, const std::vector<Solid>& solids, int depth) {
         if (depth == deepest_space) {
-            for (std::size_t i = 0; i < solids.size(); ++i) put(space, solids[i], int(i));
+            for (std::size_t i = 0; i < solids.size(); ++i) put(space, spaces[std::size_t(space)].groups[0], solids[i], int(i));
             return;
         }
         std::vector<PlacedForm> roots;
@@ -178,17 +186,30 @@ private:
         const std::map<int, double> count = occurrences(roots);
         std::vector<Part> parts;
         for (std::size_t i = 0; i < roots.size(); ++i) take_apart(roots[i], int(i), count, parts);
-        std::vector<Box> boxes;
+        std::map<int, int> uses;
+        Box around;
+        for (const Part& part : parts) {
+            ++uses[part.placed.form];
+            if (part.box.finite()) around = hull(around, part.box);
+        }
+        const double whole = largest(around.hi - around.lo);
         for (const Part& part : parts) {
             const Mat3& linear = part.placed.map.linear;
+            PlannedSpace& here = spaces[std::size_t(space)];
             if (parts.size() == 1 || !part.box.finite() || !(norm(linear) * norm(glm::inverse(linear)) < largest_condition)) {
-                put(space, solid_of(part.placed), part.solid);
+                put(space, here.groups[0], solid_of(part.placed), part.solid);
+                continue;
+            }
+            const double size = largest(part.box.hi - part.box.lo), reach = std::max(largest(part.box.lo), largest(part.box.hi));
+            const bool fits = reach <= farthest * size && size >= least_size * whole;
+            if (fits && uses.at(part.placed.form) == 1 && !is_turned(linear) && !space_of_.count(part.placed.form)) {
+                put(space, here.groups.emplace_back(), solid_of(part.placed), part.solid);
+                here.reach = std::max(here.reach, reach);
                 continue;
             }
             place(space, part, depth);
-            boxes.push_back(part.box);
+            spaces[std::size_t(space)].boxes.push_back(part.box);
         }
-        spaces[std::size_t(space)].hierarchy = BoxHierarchy(boxes);
     }
 
     void place(int space, const Part& part, int depth) {
@@ -201,8 +222,6 @@ private:
         const int number = at->second;
         if (fresh) {
             spaces.emplace_back();
-            in_bsp.emplace_back();
-            spaces.back().box = {own.lo - centred.shift, own.hi - centred.shift};
             const Solid solid = forms_.solid(form);
             fill(number, {centred.shift == Vec3(0.0) ? solid : solid.transformed({Mat3(1.0), -centred.shift})}, depth + 1);
         }
@@ -220,19 +239,40 @@ private:
 
 }  // namespace
 
-std::vector<Space> build_spaces(const std::vector<Solid>& solids, Criterion criterion, Search search) {
-    Plan plan(solids);
-    std::vector<std::exception_ptr> errors(plan.spaces.size());
-    tbb::parallel_for(std::size_t(0), plan.spaces.size(), [&](std::size_t i) {
+namespace {
+
+// What has failed is thrown at the end: the first, whichever thread was quicker.
+template <class Work>
+void in_parallel(std::size_t count, Work work) {
+    std::vector<std::exception_ptr> errors(count);
+    tbb::parallel_for(std::size_t(0), count, [&](std::size_t i) {
         try {
-            plan.spaces[i].bsp = BspTracer(build_bsp(plan.in_bsp[i], search), criterion);
+            work(i);
         } catch (...) {
             errors[i] = std::current_exception();
         }
     });
     for (const std::exception_ptr& error : errors)
-        if (error) std::rethrow_exception(error);  // the first, whichever thread was quicker
-    return std::move(plan.spaces);
+        if (error) std::rethrow_exception(error);
+}
+
+}  // namespace
+
+std::vector<Space> build_spaces(const std::vector<Solid>& solids, Criterion criterion, Search search) {
+    Plan plan(solids);
+    std::vector<Space> spaces(plan.spaces.size());
+    in_parallel(spaces.size(), [&](std::size_t i) {
+        PlannedSpace& planned = plan.spaces[i];
+        std::vector<NamedBsp> bsps(planned.groups.size());
+        const auto build = [&](std::size_t k, double least_scale) {
+            bsps[k] = {build_bsp(planned.groups[k].solids, search, least_scale), std::move(planned.groups[k].numbers)};
+        };
+        build(0, 0);
+        const double scale = std::max(bsps[0].tree.tolerances.scale, planned.reach);
+        in_parallel(bsps.size() - 1, [&](std::size_t k) { build(k + 1, least_share_of_scale * scale); });
+        spaces[i] = {BspTracer(std::move(bsps), planned.boxes, criterion), std::move(planned.placements)};
+    });
+    return spaces;
 }
 
 }  // namespace deburr

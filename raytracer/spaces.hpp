@@ -1,13 +1,13 @@
-// Every bounded solid has a space of its own, with its BSP; equal ones share it, so that a block that
-// is placed 100,000 times costs one block and 100,000 maps.
+// Every bounded solid has a BSP of its own; equal solids share it, in a space of their own, so that a
+// block that is placed 100,000 times costs one block and 100,000 maps.
 //
-// The first space is the world. What is placed in a space is found by a hierarchy over the placements'
-// boxes; what is unbounded, or placed by a map that squeezes much, is in the space's own BSP. A union
-// is taken apart where its operands' boxes keep clear of each other, for there its surface is theirs.
+// The first space is the world. What is placed in a space is found by the tree of boxes of the space's
+// own surfaces; what occurs once and is not turned is such a surface itself. What is unbounded, or placed
+// by a map that squeezes much, shares one BSP. A union is taken apart where its operands' boxes keep clear
+// of each other, for there its surface is theirs.
 #pragma once
 #include <vector>
 
-#include "raytracer/box_hierarchy.hpp"
 #include "raytracer/bsp_trace.hpp"
 
 namespace deburr {
@@ -22,11 +22,8 @@ struct Placement {
 };
 
 struct Space {
-    BspTracer bsp;
-    std::vector<int> solids;  // in the world's numbers, by the BSP's
+    BspTracer bsp;  // its others are the placements
     std::vector<Placement> placements;
-    BoxHierarchy hierarchy;  // over the placements
-    Box box;                 // of what is in it, where it is placed
 };
 
 /// Materials that are still to be named are −1. The result does not depend on the number of threads.

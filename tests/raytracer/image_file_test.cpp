@@ -208,6 +208,29 @@ TEST_CASE("the sRGB curve") {
     }
 }
 
+TEST_CASE("the sRGB curve in bytes is its formula, at its steps too") {
+    const auto formula = [](double x) { return x <= 0.0031308 ? 12.92 * x : 1.055 * std::pow(x, 1 / 2.4) - 0.055; };
+    constexpr double rounding = 1e-12;  // the formula's and its inverse's, of 255 steps
+    int near_a_step = 0;
+    const auto check = [&](double x) {
+        const double exact = 255 * formula(x);
+        if (std::abs(exact - std::floor(exact) - 0.5) < rounding * 255) return ++near_a_step, void();
+        CAPTURE(x);
+        REQUIRE(int(srgb_byte(x)) == int(std::lround(exact)));
+    };
+    for (int i = 0; i <= 300'000; ++i) check(i / 300'000.0);
+    for (int i = 0; i < 4096; ++i) {
+        check(std::nextafter(i / 4096.0, 0));
+        check(i / 4096.0);
+    }
+    for (int byte = 1; byte < 256; ++byte) {
+        const double v = (byte - 0.5) / 255, step = v <= 0.04045 ? v / 12.92 : std::pow((v + 0.055) / 1.055, 2.4);
+        check(step * (1 - 1e-9));
+        check(step * (1 + 1e-9));
+    }
+    CHECK(near_a_step < 10);
+}
+
 TEST_CASE("a PNG is opaque 8 bit sRGB and says so") {
     const Folder folder;
     const Film original = film();

@@ -165,6 +165,29 @@ TEST_CASE("random solids, each placed several times, overlapping at random") {
     CHECK(hits > 4000);
 }
 
+TEST_CASE("what occurs once, moved, scaled or turned, large or tiny, near or far, alone or over a floor") {
+    int hits = 0;
+    for (const auto seed : seeds(60)) {
+        CAPTURE(seed);
+        Gen g(seed);
+        std::vector<Solid> solids;
+        if (g.chance(0.5)) solids.push_back(Solid::sharp(Density::half_space({0, 1, 0}, -1)));
+        const int count = 2 + g.below(6);
+        for (int i = 0; i < count; ++i) {
+            Solid form = Solid::rounded(g.radius() * (1 + 0.1 * i), g.boolean(1) & Density::box(Vec3(-2), Vec3(2))).material(i);
+            if (g.chance(0.3)) form = form - Solid::rounded(g.radius(), g.boolean(1));
+            const double size = g.chance(0.2) ? std::pow(10.0, g.between(-5, 0)) : 1;
+            Affine map = compose(shift(g.between(-3, 3), g.number(), g.between(-3, 3)), scale(size, size * (g.chance(0.5) ? -1 : 0.7), size));
+            if (g.chance(0.3)) map = compose(map, turn(g.between(0, 6)));
+            if (g.chance(0.1)) map.shift.x += 1e4;
+            solids.push_back(form.transformed(map));
+            if (g.chance(0.2)) solids.push_back(form.transformed(compose(shift(0.31, 2, -0.17), map)));
+        }
+        hits += same_as_one_bsp(solids, {-4, -2, -4}, {4, 4, 4}, 300).hits;
+    }
+    CHECK(hits > 4000);
+}
+
 TEST_CASE("what a map squeezes too much, or nothing bounds, is in the world's own BSP") {
     std::vector<Solid> solids{Solid::sharp(Density::half_space({0, 1, 0}, 0)), block().transformed(scale(1, 1e-4, 1)),
                               block().transformed(shift(3, 0, 0)),
