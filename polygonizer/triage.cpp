@@ -165,6 +165,7 @@ Mesh triage(const SolidTree& mixed, const Box& box, const TriageOptions& options
             for (const Cut& cut : cells_to_halve(mesh, origins, subdivision, at_middles * options.tolerance))
                 changed |= subdivision.halve(cut.cell, cut.plane);
         if (changed) continue;
+        drop_sheets(mesh, origins, 10 * subdivision.complex.tolerance);
         // What repair cannot help needs smaller cells around it.
         ++mending;
         if (!judge) judge.emplace(solid, mesh);
