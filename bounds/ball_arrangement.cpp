@@ -25,11 +25,12 @@
 #include "bounds/ball_arrangement.hpp"
 
 #include <algorithm>
+#include <numbers>
 
 namespace deburr {
 namespace {
 
-constexpr double pi = 3.14159265358979323846;
+constexpr double pi = std::numbers::pi;
 
 // Where the pole may be: the antipole should keep clear of every plane, for ψ turns fast near it.
 constexpr double clear_enough = 0.1;

@@ -1,13 +1,14 @@
 #include "bounds/ball_share.hpp"
 
 #include <cassert>
+#include <numbers>
 
 #include "bounds/ball_arrangement.hpp"
 
 namespace deburr {
 namespace {
 
-constexpr double pi = 3.14159265358979323846;
+constexpr double pi = std::numbers::pi;
 
 // Planes are gone through for equal ones in densities that are as small as those of cells are.
 constexpr std::size_t most_compared = 64;

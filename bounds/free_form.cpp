@@ -23,7 +23,6 @@ constexpr int cost_base = 2, cost_perturbation = 2;
 double cube(double x) { return x * x * x; }
 double positive_cube(double x) { return x > 0 ? cube(x) : 0; }
 
-Vec3 absolute(Vec3 v) { return {std::abs(v.x), std::abs(v.y), std::abs(v.z)}; }
 
 Range times(double f, Range r) { return f >= 0 ? Range{f * r.lo, f * r.hi} : Range{f * r.hi, f * r.lo}; }
 
@@ -132,7 +131,7 @@ Range FreeForm::range(const Box& box) const {
         return sum.lo <= sum.hi ? sum : Range{-infinity, infinity};
     }
     const Vec3 half = 0.5 * (box.hi - box.lo), middle = box.lo + half;
-    const auto reach = [&](const Quadric& q) { return absolute(middle - q.centre) + half; };
+    const auto reach = [&](const Quadric& q) { return glm::abs(middle - q.centre) + half; };
     Taylor sum;
     add_base(sum, base_, middle, half);
     double off = base_.magnitude(reach(base_));

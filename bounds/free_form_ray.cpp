@@ -31,7 +31,6 @@ constexpr std::size_t first_perturbation = 4, stride = 4;
 Quadratic quadratic(const double* n) { return {n[0], n[1], n[2]}; }
 
 double cube(double x) { return x * x * x; }
-Vec3 absolute(Vec3 v) { return {std::abs(v.x), std::abs(v.y), std::abs(v.z)}; }
 
 // Greatest absolute Bernstein coefficient over [0, 1] of Σ c[k] s^k.
 template <std::size_t count>
@@ -94,8 +93,8 @@ double FreeForm::settled(Vec3 origin, Vec3 direction) const {
 
 void FreeForm::prepare(FieldRay& ray) const {
     const double middle = 0.5 * (ray.t0 + ray.t1), half = 0.5 * (ray.t1 - ray.t0);
-    const Vec3 x = ray.origin + ray.direction * middle, reach = absolute(ray.direction) * half;
-    const auto magnitude = [&](const Quadric& q) { return q.magnitude(absolute(x - q.centre) + reach); };
+    const Vec3 x = ray.origin + ray.direction * middle, reach = glm::abs(ray.direction) * half;
+    const auto magnitude = [&](const Quadric& q) { return q.magnitude(glm::abs(x - q.centre) + reach); };
     auto& n = ray.numbers;
     n.clear();
     const Quadratic base = along(base_, x, ray.direction);

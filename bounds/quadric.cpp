@@ -8,7 +8,6 @@ namespace {
 // A sum of some ten products is off by less than this share of the magnitude.
 constexpr double slack = 16 * epsilon;
 
-Vec3 absolute(Vec3 v) { return {std::abs(v.x), std::abs(v.y), std::abs(v.z)}; }
 
 Range product(Range a, Range b) {
     const auto times = [](double x, double y) { return x == 0 || y == 0 ? 0.0 : x * y; };
@@ -87,7 +86,7 @@ Range Quadric::range(const Box& box) const {
             sum = {sum.lo - both, sum.hi + both};
         }
     }
-    const double off = slack * magnitude(absolute(y) + half);
+    const double off = slack * magnitude(glm::abs(y) + half);
     return {sum.lo - off, sum.hi + off};
 }
 
@@ -127,7 +126,7 @@ Box Quadric::bounding_box() const {
         (b[straight] > 0 ? box.lo : box.hi)[straight] = end - slack * (std::abs(end) + std::abs(centre[straight]));
         return box;
     }
-    const double off = slack * (std::abs(k) + glm::dot(absolute(linear), absolute(middle)));
+    const double off = slack * (std::abs(k) + glm::dot(glm::abs(linear), glm::abs(middle)));
     if (top < -off) return {};
     const double wider = 1 + 4 * slack * diagonal / determinant;
     for (int i = 0; i < 3; ++i) {

@@ -1,6 +1,7 @@
 #include "polygonizer/subspace.hpp"
 
 #include <algorithm>
+#include <numeric>
 
 #include "polygonizer/disc.hpp"
 
@@ -39,10 +40,16 @@ Subspace::Subspace(const Subdivision& subdivision)
 }
 
 void Subspace::polygonize() {
+    std::vector<int> all(complex_.cells.size());
+    std::iota(all.begin(), all.end(), 0);
+    polygonize(all);
+}
+
+void Subspace::polygonize(std::span<const int> undivided) {
     std::vector<std::pair<int, int>> open;  // leaf, and undivided cell
-    for (std::size_t c = 0; c < subdivision_.complex.cells.size(); ++c)
-        for (const OpenLeaf& o : subdivision_.places[std::size_t(subdivision_.place_of[c])].open)
-            open.push_back({o.leaf, int(c)});
+    for (const int c : undivided)
+        for (const OpenLeaf& o : subdivision_.places[std::size_t(subdivision_.place_of[std::size_t(c)])].open)
+            open.push_back({o.leaf, c});
     std::sort(open.begin(), open.end());
     std::vector<int> cells;
     for (std::size_t k = 0; k < open.size();) {

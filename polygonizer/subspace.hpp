@@ -30,6 +30,9 @@ public:
     explicit Subspace(const Subdivision& subdivision);
     /// Cuts by the isosurfaces of all leaves.
     void polygonize();
+    /// The same in some of the subdivision's cells only: what comes of these is right where all around them
+    /// are among them, but it is no closed surface.
+    void polygonize(std::span<const int> cells);
 
     const CellComplex& complex() const { return complex_; }
     /// Whether the cell is inside the solid; right after polygonize().

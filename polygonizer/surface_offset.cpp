@@ -2,6 +2,7 @@
 
 #include "bounds/solid_range.hpp"
 #include "polygonizer/sharp_parts.hpp"
+#include "polygonizer/sharp_set.hpp"
 
 namespace deburr {
 namespace {
@@ -10,7 +11,16 @@ Offset negated(Offset o) { return {-o.distance, -o.normal, o.leaf, o.plane}; }
 Offset least(const Offset& a, const Offset& b) { return b.distance < a.distance ? b : a; }
 Offset greatest(const Offset& a, const Offset& b) { return b.distance > a.distance ? b : a; }
 
-// A sharp density is a polyhedron: + and ∨ are unions, * and ∧ intersections.
+// ρ − ½, where rounding lets a point be told from the level: where ρ is flat as well, on the ridge between
+// two surfaces that touch, its share in the slope would make it a distance.
+double above_level(double rho) {
+    constexpr double rounding = 8 * epsilon;
+    const double f = rho - 0.5;
+    return std::abs(f) <= rounding ? 0 : f;
+}
+
+// A sharp density is a polyhedron: ∨ is a union, ∧ an intersection; + - * are what is left of legal ones
+// that were too large to be converted.
 Offset sharp_at(const DensityTree& tree, Vec3 x) {
     thread_local std::vector<Offset> done;
     done.clear();
@@ -40,10 +50,11 @@ Offset sharp_at(const DensityTree& tree, Vec3 x) {
 }  // namespace
 
 SurfaceOffset::SurfaceOffset(const SolidTree& solid) : solid_(separate_sharp(solid)) {
-    for (const SolidLeaf& leaf : solid_.leaves) {
+    for (SolidLeaf& leaf : solid_.leaves) {
         bool sharp = !leaf.field;
         for (const HalfSpace& h : leaf.density.half_spaces) sharp &= h.radius == 0;
         sharp_.push_back(sharp);
+        if (sharp) leaf.density = sharp_set(std::move(leaf.density));
     }
     densities_.resize(solid_.leaves.size());
 }
@@ -58,7 +69,7 @@ const LocalDensity& SurfaceOffset::density(std::size_t leaf) const {
 double SurfaceOffset::leaf_value(std::size_t leaf, Vec3 x) const {
     if (sharp_[leaf]) return sharp_at(solid_.leaves[leaf].density, x).distance;
     if (const Field* field = solid_.leaves[leaf].field.get()) return field->at(x).value;
-    return density(leaf).at(x) - 0.5;
+    return above_level(density(leaf).at(x));
 }
 
 bool SurfaceOffset::inside(Vec3 x) const {
@@ -86,7 +97,7 @@ Offset SurfaceOffset::leaf_at(std::size_t leaf, Vec3 x) const {
         o = sharp_at(solid_.leaves[leaf].density, x);
     } else {
         const ValueGradient v = field ? field->at(x) : density(leaf).gradient_at(x);
-        const double slope = glm::length(v.gradient), f = field ? v.value : v.value - 0.5;
+        const double slope = glm::length(v.gradient), f = field ? v.value : above_level(v.value);
         if (slope > 0) o = {f / slope, -v.gradient / slope};
         else o.distance = f > 0 ? infinity : f < 0 ? -infinity : 0;
     }

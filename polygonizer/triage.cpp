@@ -5,7 +5,7 @@
 #include <optional>
 
 #include "bounds/bounding_box.hpp"
-#include "polygonizer/parallel_family.hpp"
+#include "polygonizer/refinement.hpp"
 #include "polygonizer/repair.hpp"
 #include "polygonizer/separate.hpp"
 #include "polygonizer/sharp_parts.hpp"
@@ -42,100 +42,13 @@ namespace {
 // distances being of first order.
 constexpr double at_middles = 0.85;
 
-struct Cut {
-    int cell;
-    double error;  // how much it is needed
-    Plane plane;
-};
-
-// Of each cell the most needed.
-void worst_of_each(std::vector<Cut>& cuts) {
-    std::sort(cuts.begin(), cuts.end(), [](const Cut& a, const Cut& b) {
-        return a.cell != b.cell ? a.cell < b.cell : a.error > b.error;
-    });
-    cuts.erase(std::unique(cuts.begin(), cuts.end(), [](const Cut& a, const Cut& b) { return a.cell == b.cell; }),
-               cuts.end());
-}
-
-// Halves the edge of the triangle along which the surface's normal turns most; along a sweep it
-// does not turn.
-Plane halving(const Mesh& mesh, const Triangle& t, const LocalDensity& density) {
-    double most = -1;
-    Plane plane{};
-    Vec3 sweep(0.0);
-    const bool swept = is_swept(density, sweep);
-    for (std::size_t k = 0; k < 3; ++k) {
-        const std::size_t l = (k + 1) % 3;
-        const Vec3 a = mesh.positions[std::size_t(t.vertex[k])], b = mesh.positions[std::size_t(t.vertex[l])];
-        const double turn = glm::length(mesh.normals[std::size_t(t.normal[k])] - mesh.normals[std::size_t(t.normal[l])]);
-        Vec3 along = b - a;
-        if (swept) along -= sweep * glm::dot(sweep, along);
-        if (turn <= most || glm::length(along) == 0) continue;
-        most = turn;
-        plane.normal = glm::normalize(along);
-        plane.offset = glm::dot(plane.normal, 0.5 * (a + b));
-    }
-    return plane;
-}
-
-// Cells whose part of the mesh leans too far from the surface's normal, or is too far from it.
-std::vector<Cut> cells_to_halve(const Mesh& mesh, const std::vector<Origin>& origins,
-                                const Subdivision& subdivision, double tolerance) {
-    // Cosine between a triangle and the surface below which its cell is halved: 75°.
-    constexpr double least_cosine = 0.25;
-    // A sliver leans for other reasons, which halving does not help: repair.hpp.
-    constexpr double sliver = 0.005;  // height over longest side
-    std::vector<Cut> cuts;
-    for (std::size_t k = 0; k < origins.size(); ++k) {
-        if (origins[k].cell < 0) continue;
-        const Triangle& t = mesh.triangles[k];
-        const Vec3 area = mesh.area_vector(t);
-        Vec3 normal(0.0), centre(0.0);
-        double longest2 = 0;
-        for (std::size_t j = 0; j < 3; ++j) {
-            const Vec3 x = mesh.positions[std::size_t(t.vertex[j])];
-            const Vec3 d = x - mesh.positions[std::size_t(t.vertex[(j + 1) % 3])];
-            normal += mesh.normals[std::size_t(t.normal[j])];
-            centre += x / 3.0;
-            longest2 = std::max(longest2, glm::dot(d, d));
-        }
-        const LocalDensity& density = *subdivision.open(origins[k].cell, origins[k].leaf)->density;
-        const ValueGradient here = density.gradient_at(centre);
-        const double slope = glm::length(here.gradient), size = glm::length(area);
-        const double side = glm::dot(here.gradient, normal) > 0 ? 1 : -1;
-        const bool leans = size > sliver * longest2 && side * glm::dot(area, here.gradient) < least_cosine * size * slope;
-        double distance = slope > 0 ? std::abs(here.value - 0.5) / slope : 0;
-        if (std::isfinite(tolerance))
-            for (std::size_t j = 0; j < 3; ++j) {
-                const Vec3 x = 0.5 * (mesh.positions[std::size_t(t.vertex[j])] + mesh.positions[std::size_t(t.vertex[(j + 1) % 3])]);
-                const ValueGradient middle = density.gradient_at(x);
-                const double steep = glm::length(middle.gradient);
-                if (steep > 0) distance = std::max(distance, std::abs(middle.value - 0.5) / steep);
-            }
-        if (!leans && distance <= tolerance) continue;
-        cuts.push_back({origins[k].cell, distance, halving(mesh, t, density)});
-    }
-    worst_of_each(cuts);
-    return cuts;
-}
-
-// The cells that triangles came from, and those of their neighbours.
-std::vector<Cut> cells_around(const Mesh& mesh, const std::vector<Origin>& origins, const std::vector<int>& triangles,
-                              const Subdivision& subdivision) {
-    std::vector<char> near(mesh.positions.size(), false);
-    for (const int t : triangles)
-        for (const int v : mesh.triangles[std::size_t(t)].vertex) near[std::size_t(v)] = true;
-    std::vector<Cut> cuts;
-    for (std::size_t k = 0; k < origins.size(); ++k) {
-        if (origins[k].cell < 0) continue;
-        const Triangle& t = mesh.triangles[k];
-        const auto count = std::count_if(t.vertex.begin(), t.vertex.end(), [&](int v) { return near[std::size_t(v)]; });
-        if (count < 2) continue;
-        const Plane plane = halving(mesh, t, *subdivision.open(origins[k].cell, origins[k].leaf)->density);
-        if (plane.normal != Vec3(0.0)) cuts.push_back({origins[k].cell, glm::length(mesh.area_vector(t)), plane});
-    }
-    worst_of_each(cuts);
-    return cuts;
+// Makes the cuts; the cells on both sides of those that could be made.
+std::vector<int> halve(Subdivision& subdivision, const std::vector<Cut>& cuts) {
+    std::vector<int> halves;
+    for (const Cut& cut : cuts)
+        if (subdivision.halve(cut.cell, cut.plane))
+            halves.insert(halves.end(), {cut.cell, int(subdivision.complex.cells.size()) - 1});
+    return halves;
 }
 
 }  // namespace
@@ -154,17 +67,30 @@ Mesh triage(const SolidTree& mixed, const Box& box, const TriageOptions& options
     const std::size_t most_rounds = std::isfinite(options.tolerance) ? 24 : 5;
     constexpr std::size_t most_mending_rounds = 8;
     std::size_t mending = 0;
+    const auto look_up = [&] {
+        if (options.stop && options.stop->load(std::memory_order_relaxed)) throw Stopped();
+    };
     for (std::size_t round = 0; mending < most_mending_rounds; ++round) {
+        look_up();
         Subspace subspace(subdivision);
         subspace.polygonize();
         origins.clear();
         mesh = surface(subspace, solid, &origins);
         if (statistics) statistics->rounds = round + 1;
-        bool changed = false;
-        if (round + 1 < most_rounds)
-            for (const Cut& cut : cells_to_halve(mesh, origins, subdivision, at_middles * options.tolerance))
-                changed |= subdivision.halve(cut.cell, cut.plane);
-        if (changed) continue;
+        if (round + 1 < most_rounds) {
+            const double tolerance = at_middles * options.tolerance;
+            std::vector<int> halves = halve(subdivision, cells_to_halve(mesh, origins, subdivision, tolerance));
+            const bool changed = !halves.empty();
+            // What has been halved is looked at again without the rest, until it seems to be enough.
+            for (std::size_t k = 1; k < most_rounds && std::isfinite(tolerance) && !halves.empty(); ++k) {
+                look_up();
+                Subspace part(subdivision);
+                part.polygonize(with_neighbours(subdivision.complex, halves));
+                halves = halve(subdivision, cells_to_halve(part, tolerance));
+            }
+            if (changed) continue;
+        }
+        drop_sheets(mesh, origins, 10 * subdivision.complex.tolerance);
         // What repair cannot help needs smaller cells around it.
         ++mending;
         if (!judge) judge.emplace(solid, mesh);
@@ -176,9 +102,7 @@ Mesh triage(const SolidTree& mixed, const Box& box, const TriageOptions& options
             best_origins = origins;
         }
         if (least_left == 0) break;
-        for (const Cut& cut : cells_around(mesh, origins, repaired.left, subdivision))
-            changed |= subdivision.halve(cut.cell, cut.plane);
-        if (!changed) break;
+        if (halve(subdivision, cells_around(mesh, origins, repaired.left, subdivision)).empty()) break;
     }
     mesh = std::move(best);
     origins = std::move(best_origins);

@@ -1,14 +1,21 @@
 // Triage polygonization of a solid [Triage].
 #pragma once
+#include <atomic>
+
 #include "bounds/solid_tree.hpp"
 #include "polygonizer/mesh.hpp"
 
 namespace deburr {
 
+/// Thrown where a flag asks for an end.
+struct Stopped {};
+
 struct TriageOptions {
     /// Largest distance between mesh and surface that is accepted; infinity: the paper's one
     /// refinement of each edge.
     double tolerance = infinity;
+    /// Looked at between the rounds of refinement; null: never.
+    const std::atomic<bool>* stop = nullptr;
 };
 
 struct TriageStatistics {
@@ -16,7 +23,7 @@ struct TriageStatistics {
     std::size_t rounds = 1;                 // of refinement
 };
 
-/// A closed, oriented 2-manifold mesh of the solid. What leaves `box` is cut off by it.
+/// A closed, oriented 2-manifold mesh of the solid. What leaves `box` is cut off by it. Throws Stopped.
 Mesh triage(const SolidTree& solid, const Box& box, const TriageOptions& options = {},
             TriageStatistics* statistics = nullptr);
 

@@ -10,7 +10,10 @@
 #include "polygonizer/metrics.hpp"
 #include "raytracer/commands.hpp"
 #include "raytracer/errors.hpp"
+#include "raytracer/interrupt.hpp"
+#include "raytracer/message.hpp"
 #include "raytracer/options.hpp"
+#include "raytracer/progress.hpp"
 #include "raytracer/scene_mesh.hpp"
 #include "raytracer/statistics.hpp"
 #include "raytracer/whole_file.hpp"
@@ -107,8 +110,25 @@ int run_mesh(const MeshCommandOptions& o) {
     const Scene scene = load_scene(o);
     for (const std::string& path : files) check_writable(path);
     clock.begin("polygonize");
-    const SceneMesh mesh = faces ? mesh_scene(scene, method, faces) : mesh_scene(scene, method);
+    const std::atomic<bool>& stop = catch_interrupts(!o.quiet);
+    // How many meshes --faces takes is not known before.
+    Progress progress(1, Progress::standard_error(o.quiet || faces));
+    SceneMesh mesh;
+    try {
+        mesh = faces ? mesh_scene(scene, method, faces, &stop)
+                     : mesh_scene(scene, method, {&stop, [&](double share) { progress.advance(share); }});
+    } catch (const Stopped&) {
+        progress.stop();
+        message("interrupted: nothing is written");
+        return interrupted_exit_code;
+    } catch (...) {
+        progress.stop();
+        throw;
+    }
     clock.end();
+    constexpr double worth_a_line = 1;  // second
+    if (clock.wall("polygonize") < worth_a_line) progress.stop();
+    else progress.finish();
     for (const std::string& warning : mesh.warnings)
         if (!o.quiet) fmt::print(stderr, "deburr: {}\n", warning);
     if (o.verbose && !o.quiet)

@@ -1,10 +1,12 @@
 #include "raytracer/scene_mesh.hpp"
 
 #include <fmt/format.h>
+#include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <exception>
 
 #include "bounds/bounding_box.hpp"
 #include "polygonizer/marching_cubes.hpp"
@@ -106,7 +108,7 @@ void need_densities(const SolidTree& solid, std::size_t id) {
 }
 
 Mesh by_octree(const SolidTree& tree, const Box& box, bool cut_off, const MeshSettings& settings, std::size_t id,
-               OctreeStatistics& sum) {
+               OctreeStatistics& statistics) {
     const Vec3 size = box.hi - box.lo;
     const double longest = std::max({size.x, size.y, size.z}), own = octree_edge(tree, box);
     OctreeOptions options;
@@ -118,25 +120,22 @@ Mesh by_octree(const SolidTree& tree, const Box& box, bool cut_off, const MeshSe
     const double radius = least_radius(tree);
     const double relative = radius > 0 ? settings.tolerance_in_radii * radius : settings.tolerance_in_sizes * longest;
     options.tolerance = std::min(settings.tolerance, has_field(tree) || radius > 0 ? relative : infinity);
-    OctreeStatistics statistics;
-    Mesh mesh;
     try {
-        mesh = octree(tree, box, options, &statistics);
+        return octree(tree, box, options, &statistics);
     } catch (const OpenMeshError& error) {
         throw WorkError(fmt::format("solid {}: {}", id, error.what()));
     } catch (const std::length_error&) {
         throw UnsupportedError(fmt::format("--edge: cells of {:g} would be more than {} for solid {}", options.edge,
                                            CellTree::most_cells, id));
     }
-    sum.level = std::max(sum.level, statistics.level);
-    sum.edge = sum.edge > 0 ? std::min(sum.edge, statistics.edge) : statistics.edge;
-    sum.range_tests += statistics.range_tests;
-    sum.cells += statistics.cells;
-    sum.open_cells += statistics.open_cells;
-    sum.hard_points += statistics.hard_points;
-    sum.partitions += statistics.partitions;
-    sum.rounds = std::max(sum.rounds, statistics.rounds);
-    return mesh;
+}
+
+// Of polygonizing the solid, relative to others.
+double work_of(const SolidTree& solid) {
+    std::size_t half_spaces = 1;
+    for (const SolidLeaf& leaf : solid.leaves)
+        half_spaces += leaf.field ? std::size_t(leaf.field->size()) : leaf.density.half_spaces.size();
+    return double(half_spaces);
 }
 
 }  // namespace
@@ -147,7 +146,64 @@ std::string SceneMesh::method_names() const {
     return names;
 }
 
-SceneMesh mesh_scene(const Scene& scene, const MeshSettings& settings) {
+namespace {
+
+struct SolidMesh {
+    Mesh mesh;
+    std::optional<MeshMethod> method;
+    TriageStatistics triage;
+    OctreeStatistics octree;
+    std::exception_ptr error;
+};
+
+// `id` is for messages. Where the solid has been cut off, its box is not its own.
+SolidMesh polygonize(const SolidTree& tree, bool cut_off, const MeshSettings& settings, std::size_t id,
+                     const std::atomic<bool>* stop) {
+    SolidMesh result;
+    const Box box = polygonization_box(tree);
+    if (box.empty()) return result;
+    result.method = settings.method.value_or(has_field(tree) ? MeshMethod::octree : MeshMethod::triage);
+    if (result.method == MeshMethod::octree) {
+        result.mesh = by_octree(tree, box, cut_off, settings, id, result.octree);
+    } else if (result.method == MeshMethod::triage) {
+        need_densities(tree, id);
+        const double radius = least_radius(tree);
+        const double relative = radius > 0 ? settings.tolerance_in_radii * radius : infinity;
+        result.mesh = triage(tree, box, {settings.coarseness * std::min(settings.tolerance, relative), stop}, &result.triage);
+    } else {
+        const double grid = settings.coarseness * (settings.grid > 0 ? settings.grid : marching_cubes_grid(tree, box));
+        if (marching_cubes_count(box, grid) > most_cubes)
+            throw UnsupportedError(fmt::format(
+                "--grid: a grid of {:g} would have more than {:g} cubes for solid {}", grid, most_cubes, id));
+        result.mesh = marching_cubes(tree, box, grid);
+    }
+    return result;
+}
+
+void add_statistics(SceneMesh& to, const SolidMesh& from) {
+    if (from.method && std::find(to.methods.begin(), to.methods.end(), *from.method) == to.methods.end())
+        to.methods.push_back(*from.method);
+    if (from.method == MeshMethod::triage) {
+        to.triage.cells += from.triage.cells;
+        to.triage.open_cells += from.triage.open_cells;
+        to.triage.rounds = std::max(to.triage.rounds, from.triage.rounds);
+    } else if (from.method == MeshMethod::octree) {
+        OctreeStatistics& sum = to.octree;
+        const OctreeStatistics& one = from.octree;
+        sum.level = std::max(sum.level, one.level);
+        sum.edge = sum.edge > 0 ? std::min(sum.edge, one.edge) : one.edge;
+        sum.range_tests += one.range_tests;
+        sum.cells += one.cells;
+        sum.open_cells += one.open_cells;
+        sum.hard_points += one.hard_points;
+        sum.partitions += one.partitions;
+        sum.rounds = std::max(sum.rounds, one.rounds);
+    }
+}
+
+}  // namespace
+
+SceneMesh mesh_scene(const Scene& scene, const MeshSettings& settings, const MeshWatch& watch) {
     SceneMesh result;
     std::vector<Box> boxes;
     for (const Solid& solid : scene.solids) {
@@ -157,49 +213,38 @@ SceneMesh mesh_scene(const Scene& scene, const MeshSettings& settings) {
     result.near = finite_part(scene, boxes);
     const Vec3 size = result.near.hi - result.near.lo;
     const Box limit = inflated(result.near, settings.reach * std::max({size.x, size.y, size.z, 1e-6}));
-    for (std::size_t i = 0; i < scene.solids.size(); ++i) {
-        SolidTree& tree = result.trees[i];
-        Mesh part;
-        Box box = boxes[i];
-        const bool unbounded = !finite(box);
-        if (unbounded) {
-            // Cut off on infinite sides only; the others keep their margin.
-            Box margin = inflated(box, 0.05 * std::max({size.x, size.y, size.z}));
-            for (int k = 0; k < 3; ++k) {
-                margin.lo[k] = std::isfinite(margin.lo[k]) ? margin.lo[k] : limit.lo[k];
-                margin.hi[k] = std::isfinite(margin.hi[k]) ? margin.hi[k] : limit.hi[k];
-            }
-            tree = flatten(scene.solids[i] & Solid::sharp(Density::box(margin.lo, margin.hi)));
-            result.warnings.push_back(fmt::format("solid {} is unbounded: its mesh is cut off", i + 1));
+    const std::size_t count = scene.solids.size();
+    for (std::size_t i = 0; i < count; ++i) {
+        if (finite(boxes[i])) continue;
+        // Cut off on infinite sides only; the others keep their margin.
+        Box margin = inflated(boxes[i], 0.05 * std::max({size.x, size.y, size.z}));
+        for (int k = 0; k < 3; ++k) {
+            margin.lo[k] = std::isfinite(margin.lo[k]) ? margin.lo[k] : limit.lo[k];
+            margin.hi[k] = std::isfinite(margin.hi[k]) ? margin.hi[k] : limit.hi[k];
         }
-        box = polygonization_box(tree);
-        if (box.empty()) {
-            result.parts.emplace_back();
-            continue;
+        result.trees[i] = flatten(scene.solids[i] & Solid::sharp(Density::box(margin.lo, margin.hi)));
+        result.warnings.push_back(fmt::format("solid {} is unbounded: its mesh is cut off", i + 1));
+    }
+    double work = 0;
+    for (const SolidTree& tree : result.trees) work += work_of(tree);
+    std::vector<SolidMesh> parts(count);
+    const auto stopped = [&] { return watch.stop && watch.stop->load(std::memory_order_relaxed); };
+    tbb::parallel_for(std::size_t(0), count, [&](std::size_t i) {
+        if (stopped()) return;
+        try {
+            parts[i] = polygonize(result.trees[i], !finite(boxes[i]), settings, i + 1, watch.stop);
+        } catch (...) {
+            parts[i].error = std::current_exception();
         }
-        const MeshMethod method = settings.method.value_or(has_field(tree) ? MeshMethod::octree : MeshMethod::triage);
-        if (std::find(result.methods.begin(), result.methods.end(), method) == result.methods.end())
-            result.methods.push_back(method);
-        if (method == MeshMethod::octree) {
-            part = by_octree(tree, box, unbounded, settings, i + 1, result.octree);
-        } else if (method == MeshMethod::triage) {
-            need_densities(tree, i + 1);
-            TriageStatistics statistics;
-            const double radius = least_radius(tree);
-            const double relative = radius > 0 ? settings.tolerance_in_radii * radius : infinity;
-            part = triage(tree, box, {settings.coarseness * std::min(settings.tolerance, relative)}, &statistics);
-            result.triage.cells += statistics.cells;
-            result.triage.open_cells += statistics.open_cells;
-            result.triage.rounds = std::max(result.triage.rounds, statistics.rounds);
-        } else {
-            const double grid = settings.coarseness * (settings.grid > 0 ? settings.grid : marching_cubes_grid(tree, box));
-            if (marching_cubes_count(box, grid) > most_cubes)
-                throw UnsupportedError(fmt::format(
-                    "--grid: a grid of {:g} would have more than {:g} cubes for solid {}", grid, most_cubes, i + 1));
-            part = marching_cubes(tree, box, grid);
-        }
-        result.mesh.append(part, int(i));
-        result.parts.push_back(std::move(part));
+        if (watch.done) watch.done(work_of(result.trees[i]) / work);
+    });
+    if (stopped()) throw Stopped();
+    for (std::size_t i = 0; i < count; ++i) {
+        // Of several errors the first, whichever thread was quicker.
+        if (parts[i].error) std::rethrow_exception(parts[i].error);
+        add_statistics(result, parts[i]);
+        result.mesh.append(parts[i].mesh, int(i));
+        result.parts.push_back(std::move(parts[i].mesh));
     }
     separate_touching(result.mesh);
     auto moved = result.mesh.positions.begin();
@@ -208,7 +253,7 @@ SceneMesh mesh_scene(const Scene& scene, const MeshSettings& settings) {
     return result;
 }
 
-SceneMesh mesh_scene(const Scene& scene, MeshSettings settings, std::size_t faces) {
+SceneMesh mesh_scene(const Scene& scene, MeshSettings settings, std::size_t faces, const std::atomic<bool>* stop) {
     // Triangles go with the inverse square of lengths, and triage's with the inverse of its tolerance;
     // near the wanted number the last two meshes tell better.
     constexpr int most_rounds = 12;
@@ -220,7 +265,7 @@ SceneMesh mesh_scene(const Scene& scene, MeshSettings settings, std::size_t face
     double slope = settings.method == MeshMethod::triage || !settings.method ? 1 : 2, error = infinity;
     double last_coarseness = 0, last_count = 0;
     for (int round = 0; round < most_rounds && error > near_enough; ++round) {
-        SceneMesh mesh = mesh_scene(scene, settings);
+        SceneMesh mesh = mesh_scene(scene, settings, {stop, {}});
         const double count = double(std::max<std::size_t>(mesh.mesh.triangles.size(), 1));
         if (last_count > 0 && count != last_count && settings.coarseness != last_coarseness)
             slope = std::clamp(-std::log(count / last_count) / std::log(settings.coarseness / last_coarseness), least_slope,

@@ -1,5 +1,7 @@
 // A scene's solids as meshes, by whichever method.
 #pragma once
+#include <atomic>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -60,13 +62,21 @@ struct SceneMesh {
     std::string method_names() const;  // "octree, triage"
 };
 
-/// Solids that reach to infinity are cut off, at a distance that leaves the others in sight, and a
-/// warning says so. Throws UnsupportedError if a grid would be too fine.
-SceneMesh mesh_scene(const Scene& scene, const MeshSettings& settings);
+/// How the making of a mesh is watched.
+struct MeshWatch {
+    const std::atomic<bool>* stop = nullptr;  // once it is true, Stopped is thrown soon
+    std::function<void(double)> done = {};    // the share of the work that is done since the last call; any thread
+};
+
+/// Solids are polygonized in parallel; the mesh does not depend on that. Those that reach to infinity are
+/// cut off, at a distance that leaves the others in sight, and a warning says so. Throws UnsupportedError
+/// if a grid would be too fine.
+SceneMesh mesh_scene(const Scene& scene, const MeshSettings& settings, const MeshWatch& watch = {});
 
 /// As near to `faces` triangles as the method comes, found by search over its coarseness; a warning
 /// says so if that is not within 1 %.
-SceneMesh mesh_scene(const Scene& scene, MeshSettings settings, std::size_t faces);
+SceneMesh mesh_scene(const Scene& scene, MeshSettings settings, std::size_t faces,
+                     const std::atomic<bool>* stop = nullptr);
 
 std::vector<MeshMetrics> measure_parts(const SceneMesh& mesh);
 

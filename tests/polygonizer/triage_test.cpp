@@ -1,11 +1,13 @@
 #include "polygonizer/triage.hpp"
 
+#include <algorithm>
 #include <cstdlib>
 #include <string>
 
 #include "catch.hpp"
 #include "polygonizer/cell_complex.hpp"
 #include "polygonizer/metrics.hpp"
+#include "polygonizer/refinement.hpp"
 #include "polygonizer/separate.hpp"
 #include "polygonizer/subspace.hpp"
 #include "random_solid.hpp"
@@ -159,6 +161,29 @@ TEST_CASE("Where a filter reaches all over many half-spaces a tolerance is met t
     const Measured m = measured(Solid::rounded(1.2, columns), 0.01);
     CHECK(topology(m.mesh).manifold());
     CHECK(m.metrics.vertex_distance < 1e-6);
+}
+
+TEST_CASE("Cells and their neighbours polygonized alone are judged as in the whole") {
+    const double r = 0.1, tolerance = 0.003;
+    for (const Solid& solid : {obj4(r), obj4(r) - Solid::rounded(0.05, Density::box(Vec3(-0.5), Vec3(0.5)))}) {
+        const SolidTree tree = flatten(solid);
+        Subdivision subdivision(tree, polygonization_box(tree));
+        for (int round = 0; round < 3; ++round) {
+            Subspace whole(subdivision);
+            whole.polygonize();
+            const std::vector<Cut> wanted = cells_to_halve(whole, tolerance);
+            REQUIRE(wanted.size() > 20);
+            for (std::size_t k = 0; k < wanted.size(); k += 7) {
+                Subspace part(subdivision);
+                part.polygonize(with_neighbours(subdivision.complex, {wanted[k].cell}));
+                const std::vector<Cut> found = cells_to_halve(part, tolerance);
+                const auto same = std::find_if(found.begin(), found.end(), [&](const Cut& c) { return c.cell == wanted[k].cell; });
+                REQUIRE(same != found.end());
+                CHECK(same->error == Approx(wanted[k].error));
+            }
+            for (const Cut& cut : wanted) subdivision.halve(cut.cell, cut.plane);
+        }
+    }
 }
 
 TEST_CASE("Primary CSG of rounded solids is closed and sharp where the tree is") {

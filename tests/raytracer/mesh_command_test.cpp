@@ -1,4 +1,6 @@
 // deburr mesh and deburr compare, as a user calls them.
+#include <signal.h>
+
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
@@ -148,4 +150,31 @@ TEST_CASE("compare says how two files differ, and its limits are exit codes") {
     CHECK(run({"compare", a, a, "--max-rmse", "1e-9"}).code == 0);
     CHECK(run({"compare", a, b, "--max-rmse", "1e-9"}).code == 1);
     CHECK(run({"compare", a, folder / "none.exr"}).code == 2);
+}
+
+TEST_CASE("a mesh does not depend on the number of threads") {
+    const Folder folder;
+    write_file(folder / "s.lua",
+               "local all = {}\nfor k = 1, 12 do all[k] = (rounded(0.02 * k, cube()) - sharp(box({0.5,0.5,0.5},{2,2,2}))"
+               "):translate(2 * k, 0, 0) end\nall[13] = sharp(halfspace({0,1,0}, -1))\nreturn { solids = all }");
+    for (const char* threads : {"1", "4"}) {
+        const Outcome outcome = run({"mesh", folder / "s.lua", "-o", folder / (std::string(threads) + ".ply"), "--threads", threads});
+        REQUIRE(outcome.code == 0);
+        CHECK(outcome.err == "deburr: solid 13 is unbounded: its mesh is cut off\n");
+    }
+    CHECK(read_file(folder / "1.ply") == read_file(folder / "4.ply"));
+}
+
+TEST_CASE("the first interrupt of a mesh ends it and writes nothing") {
+    const Folder folder;
+    // One solid is done soon, all of them are not.
+    write_file(folder / "s.lua", "local all = {}\nfor k = 1, 20000 do all[k] = rounded(0.1, cube()):translate(2 * k, 0, 0) end\n"
+                                 "return { solids = all }");
+    Call call({"mesh", folder / "s.lua", "-o", folder / "a.ply", "--tolerance", "0.0001"});
+    REQUIRE(call.says(" left"));
+    call.send(SIGINT);
+    const Outcome outcome = call.wait();
+    CHECK(outcome.code == 130);
+    CHECK(outcome.err.find("interrupted: nothing is written") != std::string::npos);
+    CHECK_FALSE(fs::exists(folder / "a.ply"));
 }
