@@ -10,6 +10,7 @@
 
 #include "bounds/vec.hpp"
 #include "raytracer/float4.hpp"
+#include "raytracer/large_pages.hpp"
 
 namespace deburr {
 
@@ -64,7 +65,7 @@ private:
     std::int32_t collapse(const Builder& from, int root, int depth);
     Node node_of(const Builder& from, const std::vector<int>& children) const;
 
-    std::vector<Node> nodes_;  // the root first
+    std::vector<Node, LargePages<Node>> nodes_;  // the root first
     Box box_;
     Vec3 middle_{0.0};
     double per_unit_ = 1;
