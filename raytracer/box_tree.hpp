@@ -138,6 +138,8 @@ void BoxTree::visit(Vec3 origin, Vec3 direction, Vec3 reciprocal, double t0, dou
                     int place = top++;
                     for (; place > first && stack[place - 1].t < t[k]; --place) stack[place] = stack[place - 1];
                     stack[place] = {n.child[k], t[k]};
+                    // It is looked at soon, if not next.
+                    if (n.child[k] >= 0) __builtin_prefetch(&nodes_[std::size_t(n.child[k])]);
                 } while (met != 0);
                 now = stack[--top].child;
                 continue;
