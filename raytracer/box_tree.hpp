@@ -10,6 +10,7 @@
 
 #include "bounds/vec.hpp"
 #include "raytracer/float4.hpp"
+#include "raytracer/large_pages.hpp"
 
 namespace deburr {
 
@@ -41,11 +42,11 @@ public:
     const Box& box() const { return box_; }
     bool empty() const { return nodes_.empty(); }
 
-    /// The ray is within box() in [t0, t1], or nearly. Calls visit(number of an item) for those whose
+    /// The ray is within box() in [t0, t1], or nearly; `inverse`: reciprocal(direction). Calls visit(number of an item) for those whose
     /// boxes the ray may meet in [t0, t1], the nearest first but where boxes overlap. It returns the
     /// distance up to which it goes on; a negative one ends it.
     template <class Visit>
-    void visit(Vec3 origin, Vec3 direction, double t0, double t1, Visit visit) const;
+    void visit(Vec3 origin, Vec3 direction, Vec3 inverse, double t0, double t1, Visit visit) const;
 
     /// Calls visit(number of an item) for those whose boxes may meet this one.
     template <class Visit>
@@ -64,7 +65,7 @@ private:
     std::int32_t collapse(const Builder& from, int root, int depth);
     Node node_of(const Builder& from, const std::vector<int>& children) const;
 
-    std::vector<Node> nodes_;  // the root first
+    std::vector<Node, LargePages<Node>> nodes_;  // the root first
     Box box_;
     Vec3 middle_{0.0};
     double per_unit_ = 1;
@@ -92,7 +93,7 @@ inline BoxSpan span_in(const Box& box, Vec3 origin, Vec3 inverse, double t0, dou
 }
 
 template <class Visit>
-void BoxTree::visit(Vec3 origin, Vec3 direction, double t0, double t1, Visit visit) const {
+void BoxTree::visit(Vec3 origin, Vec3 direction, Vec3 reciprocal, double t0, double t1, Visit visit) const {
     struct Entry {
         std::int32_t child;
         float t;
@@ -104,10 +105,9 @@ void BoxTree::visit(Vec3 origin, Vec3 direction, double t0, double t1, Visit vis
     float begin[3], inverse[3];
     int near[3];
     for (int k = 0; k < 3; ++k) {
-        constexpr float least = 1e-30f;  // below it a direction does not leave its place
-        const float d = float(direction[k]);
+        constexpr double most = 1e30;  // beyond it a direction does not leave its place
         begin[k] = float(start[k]);
-        inverse[k] = std::abs(d) > least ? 1 / d : std::copysign(1 / least, d);
+        inverse[k] = float(std::clamp(reciprocal[k], -most, most));
         near[k] = inverse[k] < 0 ? 4 : 0;
     }
     const Float4 ox(begin[0]), oy(begin[1]), oz(begin[2]), ix(inverse[0]), iy(inverse[1]), iz(inverse[2]);
@@ -138,6 +138,8 @@ void BoxTree::visit(Vec3 origin, Vec3 direction, double t0, double t1, Visit vis
                     int place = top++;
                     for (; place > first && stack[place - 1].t < t[k]; --place) stack[place] = stack[place - 1];
                     stack[place] = {n.child[k], t[k]};
+                    // It is looked at soon, if not next.
+                    if (n.child[k] >= 0) __builtin_prefetch(&nodes_[std::size_t(n.child[k])]);
                 } while (met != 0);
                 now = stack[--top].child;
                 continue;

@@ -40,14 +40,6 @@ bool traverse(const BspTree& tree, const Ray& ray, double t0, double t1, OnCell 
     }
 }
 
-// First crossing along the ray, as yet without its normal.
-struct Found {
-    PieceCrossing crossing;
-    int solid = -1;
-    const Pieces* pieces = nullptr;  // null: of another
-    std::size_t piece = 0;
-};
-
 }  // namespace
 
 // Where a ray begins among the numbers: a distance along it is rounded by this much.
@@ -55,97 +47,125 @@ double BspTracer::rounding(const Ray& ray, double t) const {
     return 4 * epsilon * (scale_ + largest(ray.origin) + t);
 }
 
+// `Any`: that there is a crossing is all that is asked.
+template <bool Any>
 class BspTracer::Finder {
 public:
-    Finder(const BspTracer& bsp, const Ray& ray, double t_max, bool any, TraceCounters& counters, const Others* others)
-        : bsp_(bsp), ray_(ray), inverse_(reciprocal(ray.direction)), t_max_(t_max), any_(any), counters_(counters), others_(others) {}
+    Finder(const BspTracer& bsp, const Ray& ray, double t_max, TraceCounters& counters, const Others* others)
+        : bsp_(bsp), ray_(ray), inverse_(reciprocal(ray.direction)), end_(t_max), counters_(counters), others_(others) {}
 
-    FoundSurface run() {
-        search();
-        const double t = best_.crossing.t;
-        if (!(t < infinity)) return {};
-        if (!best_.pieces) return of_other_;
-        FoundSurface to{{t, Vec3(0.0), best_.crossing.material}, best_.solid, 0};
-        if (any_) return to;
-        to.crossing.normal = best_.pieces->normal(best_.piece, best_.crossing, ray_.origin, ray_.direction);
-        to.error = bsp_.rounding(ray_, t) + best_.crossing.error;
-        return to;
+    bool search() {
+        for (std::size_t i = 0; i < bsp_.planes_.size(); ++i) look(bsp_.planes_, i, 0, end_);
+        if (enough()) return true;
+        const BoxSpan span = span_in(bsp_.boxes_.box(), ray_.origin, inverse_, 0, end_);
+        const bool meets = span.lo <= span.hi;
+        if (!bsp_.bounded_) {
+            walk(0, meets ? span.lo : end_);
+            if (!meets || enough() || (found_ && end_ <= span.lo)) return found_;
+        }
+        if (!meets) return found_;
+        bsp_.boxes_.visit(ray_.origin, ray_.direction, inverse_, span.lo, span.hi, [&](std::uint32_t i) {
+            if (i < bsp_.pieces_.size()) look_in_cell(i);
+            else look_at_other(i - std::uint32_t(bsp_.pieces_.size()));
+            return enough() ? -1.0 : end_;
+        });
+        if (!bsp_.bounded_ && !enough() && end_ > span.hi) walk(span.hi, end_);
+        return found_;
+    }
+
+    /// What was found.
+    FoundSurface surface() const {
+        if (!pieces_) return of_other_;
+        return {{end_, pieces_->normal(piece_, crossing_, ray_.origin, ray_.direction), crossing_.material},
+                solid_,
+                bsp_.rounding(ray_, end_) + crossing_.error};
     }
 
 private:
-    bool enough() const { return any_ && best_.crossing.t < infinity; }
-    double end() const { return std::min(t_max_, best_.crossing.t); }
-
-    void search() {
-        for (std::size_t i = 0; i < bsp_.planes_.size(); ++i) look(bsp_.planes_, i, 0, end());
-        if (enough()) return;
-        const BoxSpan span = span_in(bsp_.boxes_.box(), ray_.origin, inverse_, 0, end());
-        const bool meets = span.lo <= span.hi;
-        if (!bsp_.bounded_) {
-            walk(0, meets ? span.lo : end());
-            if (!meets || enough() || best_.crossing.t <= span.lo) return;
-        }
-        if (!meets) return;
-        bsp_.boxes_.visit(ray_.origin, ray_.direction, span.lo, span.hi, [&](std::uint32_t i) {
-            if (i < bsp_.pieces_.size()) look_in_cell(i);
-            else look_at_other(i - std::uint32_t(bsp_.pieces_.size()));
-            return enough() ? -1.0 : best_.crossing.t;
-        });
-        if (!bsp_.bounded_ && !enough() && best_.crossing.t > span.hi) walk(span.hi, end());
-    }
+    bool enough() const { return Any && found_; }
 
     void walk(double t0, double t1) {
-        const double known = best_.crossing.t;
+        const double known = end_;
         const BspTree& tree = bsp_.trees_[0];  // whose pieces are the first
         traverse(tree, ray_, t0, t1, [&](std::size_t number) {
             const BspCell& cell = tree.cells[number];
             for (std::uint32_t i = cell.first; i < cell.first + cell.count; ++i) look_in_cell(i);
-            return best_.crossing.t < known;
+            return end_ < known || enough();
         });
     }
 
     void look_in_cell(std::uint32_t i) {
-        const BoxSpan span = span_in(bsp_.pieces_[i].box, ray_.origin, inverse_, 0, end());
+        const BoxSpan span = span_in(bsp_.pieces_[i].box, ray_.origin, inverse_, 0, end_);
         // Cells overlap by what their walls are rounded by: a surface in a wall belongs to both.
         const double pad = bsp_.rounding(ray_, std::min(span.lo, span.hi));
-        const double from = std::max(0.0, span.lo - pad), to = std::min(end(), span.hi + pad);
+        const double from = std::max(0.0, span.lo - pad), to = std::min(end_, span.hi + pad);
         if (from <= to) look(bsp_.pieces_, i, from, to);
     }
 
     // Of crossings at the same place, the solid with the lower number has it.
-    bool is_better(double t, int solid) const {
-        return t < best_.crossing.t || (t == best_.crossing.t && t < infinity && solid < best_.solid);
-    }
+    bool is_better(double t, int solid) const { return t < end_ || (t == end_ && (!found_ || solid < solid_)); }
 
     void look(const Pieces& pieces, std::size_t i, double from, double to) {
         ++counters_.cells;
-        const PieceCrossing c = pieces.crossing(i, ray_.origin, ray_.direction, from, to, any_, counters_);
-        const int solid = pieces[i].solid;
-        if (is_better(c.t, solid)) best_ = {c, solid, &pieces, i};
+        const Piece& p = pieces[i];
+        if (p.kind == Piece::Kind::plane) {
+            const double t = pieces.plane_crossing(p, ray_.origin, ray_.direction);
+            if (!(t >= from && t <= to && t < infinity)) return;
+            ++counters_.flat_hits;
+            if (Any || is_better(t, p.solid)) take(t, p.solid, &pieces, i, p.material);
+        } else {
+            const PieceCrossing c = pieces.crossing(i, ray_.origin, ray_.direction, from, to, Any, counters_);
+            if (!(c.t < infinity) || !(Any || is_better(c.t, p.solid))) return;
+            take(c.t, p.solid, &pieces, i, c.material);
+            crossing_ = c;
+        }
+    }
+
+    void take(double t, int solid, const Pieces* pieces, std::size_t piece, int material) {
+        found_ = true;
+        end_ = t;
+        solid_ = solid;
+        pieces_ = pieces;
+        piece_ = piece;
+        crossing_.t = t;
+        crossing_.material = material;
+        crossing_.error = 0;
     }
 
     void look_at_other(std::uint32_t i) {
-        const FoundSurface found = others_->find(i, ray_, end(), any_, counters_);
-        if (!is_better(found.crossing.t, found.solid)) return;
-        best_ = {};
-        best_.crossing.t = found.crossing.t;
-        best_.solid = found.solid;
-        of_other_ = found;
+        if constexpr (Any) {
+            found_ = others_->any(i, ray_, end_, counters_);
+        } else {
+            const FoundSurface found = others_->find(i, ray_, end_, counters_);
+            const double t = found.crossing.t;
+            if (!(t < infinity) || !is_better(t, found.solid)) return;
+            take(t, found.solid, nullptr, 0, 0);
+            of_other_ = found;
+        }
     }
 
     const BspTracer& bsp_;
     const Ray& ray_;
     Vec3 inverse_;
-    double t_max_;
-    bool any_;
+    double end_;  // nothing counts beyond
     TraceCounters& counters_;
     const Others* others_;
-    Found best_;
+    // What was found, as yet without its normal.
+    bool found_ = false;
+    int solid_ = -1;
+    const Pieces* pieces_ = nullptr;  // null: it is another's
+    std::size_t piece_ = 0;
+    PieceCrossing crossing_;
     FoundSurface of_other_;
 };
 
-FoundSurface BspTracer::find(const Ray& ray, double t_max, bool any, TraceCounters& counters, const Others* others) const {
-    return Finder(*this, ray, t_max, any, counters, others).run();
+FoundSurface BspTracer::find(const Ray& ray, double t_max, TraceCounters& counters, const Others* others) const {
+    Finder<false> finder(*this, ray, t_max, counters, others);
+    return finder.search() ? finder.surface() : FoundSurface{};
+}
+
+bool BspTracer::any(const Ray& ray, double t_max, TraceCounters& counters, const Others* others) const {
+    return Finder<true>(*this, ray, t_max, counters, others).search();
 }
 
 // ---- construction --------------------------------------------------------------------------------

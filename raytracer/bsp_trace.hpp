@@ -26,8 +26,10 @@ struct NamedBsp {
 /// What is in a space besides: found by its box, asked for by its number.
 class Others {
 public:
-    virtual FoundSurface find(std::uint32_t other, const Ray& ray, double t_max, bool any,
-                              TraceCounters& counters) const = 0;
+    /// First crossing along the ray in [0, t_max].
+    virtual FoundSurface find(std::uint32_t other, const Ray& ray, double t_max, TraceCounters& counters) const = 0;
+    /// Whether there is one.
+    virtual bool any(std::uint32_t other, const Ray& ray, double t_max, TraceCounters& counters) const = 0;
 
 protected:
     ~Others() = default;
@@ -41,15 +43,16 @@ public:
     /// Of several, of which but the first must be bounded, and of others' boxes.
     BspTracer(std::vector<NamedBsp> bsps, const std::vector<Box>& others, Criterion criterion);
 
-    /// First crossing along the ray in [0, t_max]; with `any`, of some solid, and only that there is
-    /// one counts. `others` are asked by the number of their box.
-    FoundSurface find(const Ray& ray, double t_max, bool any, TraceCounters& counters,
-                      const Others* others = nullptr) const;
+    /// First crossing along the ray in [0, t_max]. `others` are asked by the number of their box.
+    FoundSurface find(const Ray& ray, double t_max, TraceCounters& counters, const Others* others = nullptr) const;
+    /// Whether there is one.
+    bool any(const Ray& ray, double t_max, TraceCounters& counters, const Others* others = nullptr) const;
 
     const std::vector<BspTree>& trees() const { return trees_; }  // without their LocalSolids
     const Pieces& pieces() const { return pieces_; }  // what these were, one tree's after the other's
 
 private:
+    template <bool Any>
     class Finder;
     double rounding(const Ray& ray, double t) const;
 

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "bounds/vec.hpp"
+#include "raytracer/large_pages.hpp"
 
 namespace deburr {
 
@@ -32,7 +33,7 @@ struct Film {
     int width = 0, height = 0;  // the whole picture (display window)
     Window window;              // the part that is held (data window)
     bool complete = true;       // false: interrupted, some pixels are still empty
-    std::vector<Pixel> pixels;  // window.width * window.height, row by row
+    std::vector<Pixel, LargePages<Pixel>> pixels;  // window.width * window.height, row by row
 
     Film() = default;
     Film(int width, int height, Window window)

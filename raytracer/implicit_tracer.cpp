@@ -7,52 +7,55 @@ namespace deburr {
 
 namespace {
 
-FoundSurface find(const std::vector<Space>& all, const Space& space, const Ray& ray, double t_max, bool any, TraceCounters& counters);
-
 // What is placed in a space. It sees the ray with a unit direction of its own, so that tolerances mean
 // there what they mean here; distances along it are longer by `rate`.
 class Placed final : public Others {
 public:
     Placed(const std::vector<Space>& all, const Space& space) : all_(all), space_(space) {}
 
-    FoundSurface find(std::uint32_t number, const Ray& ray, double t_max, bool any, TraceCounters& counters) const override {
+    FoundSurface find(std::uint32_t number, const Ray& ray, double t_max, TraceCounters& counters) const override {
         ++counters.placements;
         const Placement& p = space_.placements[number];
-        Ray there{ray.origin + p.into.shift, ray.direction};
         double rate = 1;
-        if (!p.only_moved) {
-            there = {p.into(ray.origin), p.into.linear * ray.direction};
-            rate = glm::length(there.direction);
-            there.direction /= rate;
-        }
-        FoundSurface found = deburr::find(all_, all_[std::size_t(p.space)], there, t_max * rate, any, counters);
+        const Ray there = into(p, ray, rate);
+        const Space& space = all_[std::size_t(p.space)];
+        const Placed placed(all_, space);
+        FoundSurface found = space.bsp.find(there, t_max * rate, counters, &placed);
         if (!(found.crossing.t < infinity)) return {};
         found.crossing.t /= rate;
-        if (!any && !p.only_moved) found.crossing.normal = glm::normalize(found.crossing.normal * p.into.linear);  // by the transpose
+        if (!p.only_moved) found.crossing.normal = glm::normalize(found.crossing.normal * p.into.linear);  // by the transpose
         if (found.crossing.material < 0) found.crossing.material = p.material;
         found.solid = p.solid;
         found.error = found.error * p.stretch + 4 * epsilon * (largest(ray.origin) + found.crossing.t);
         return found;
     }
 
+    bool any(std::uint32_t number, const Ray& ray, double t_max, TraceCounters& counters) const override {
+        ++counters.placements;
+        const Placement& p = space_.placements[number];
+        double rate = 1;
+        const Ray there = into(p, ray, rate);
+        const Space& space = all_[std::size_t(p.space)];
+        const Placed placed(all_, space);
+        return space.bsp.any(there, t_max * rate, counters, &placed);
+    }
+
 private:
+    static Ray into(const Placement& p, const Ray& ray, double& rate) {
+        if (p.only_moved) return {ray.origin + p.into.shift, ray.direction};
+        const Vec3 direction = p.into.linear * ray.direction;
+        rate = glm::length(direction);
+        return {p.into(ray.origin), direction / rate};
+    }
+
     const std::vector<Space>& all_;
     const Space& space_;
 };
-
-FoundSurface find(const std::vector<Space>& all, const Space& space, const Ray& ray, double t_max, bool any, TraceCounters& counters) {
-    const Placed placed(all, space);
-    return space.bsp.find(ray, t_max, any, counters, &placed);
-}
 
 }  // namespace
 
 struct ImplicitTracer::Spaces {
     std::vector<Space> all;
-
-    FoundSurface find(const Ray& ray, double t_max, bool any, TraceCounters& counters) const {
-        return deburr::find(all, all[0], ray, t_max, any, counters);
-    }
 };
 
 ImplicitTracer::ImplicitTracer(const std::vector<Solid>& solids, Criterion criterion, Search search)
@@ -62,7 +65,8 @@ ImplicitTracer::~ImplicitTracer() = default;
 
 Hit ImplicitTracer::first_hit(const Ray& ray, double t_max, TraceCounters& counters) const {
     ++counters.rays;
-    const FoundSurface found = spaces_->find(ray, t_max, false, counters);
+    const Placed placed(spaces_->all, spaces_->all[0]);
+    const FoundSurface found = spaces_->all[0].bsp.find(ray, t_max, counters, &placed);
     if (!(found.crossing.t < infinity)) return {};
     Hit hit;
     hit.t = found.crossing.t;
@@ -77,7 +81,8 @@ Hit ImplicitTracer::first_hit(const Ray& ray, double t_max, TraceCounters& count
 
 bool ImplicitTracer::occluded(const Ray& ray, double t_max, TraceCounters& counters) const {
     ++counters.shadow_rays;
-    return spaces_->find(ray, t_max, true, counters).crossing.t < infinity;
+    const Placed placed(spaces_->all, spaces_->all[0]);
+    return spaces_->all[0].bsp.any(ray, t_max, counters, &placed);
 }
 
 BspStatistics ImplicitTracer::statistics() const {

@@ -107,28 +107,31 @@ Pixel Integrator::pixel(int x, int y, TraceCounters& counters) const {
     }
 
     const int spp = std::max(1, settings_.spp);
-    for (int s = 0; s < spp; ++s) {
-        const Sampler sampler(settings_.seed, x, y, s);
+    const auto add = [&](const Ray& ray, const Hit& hit, const Sampler& sampler) {
+        if (!hit) {
+            pixel.color += finite_or_zero(sky_.towards(ray.direction));
+            return;
+        }
         Path path{.sampler = sampler, .counters = counters};
         path.without_noise = spp == 1;
-        Ray ray = center;
-        Hit hit = first;
-        if (spp > 1) {
+        const Vec3 albedo = texture_color(hit);
+        pixel.color += finite_or_zero(color_from(hit, albedo, ray.direction, path));
+        pixel.albedo += finite_or_zero(albedo);
+        pixel.alpha += 1.0;
+    };
+    if (spp == 1) {
+        add(center, first, Sampler(settings_.seed, x, y, 0));
+    } else {
+        for (int s = 0; s < spp; ++s) {
+            const Sampler sampler(settings_.seed, x, y, s);
             const Vec2 offset = filter_offset(sampler.square(lens));
-            ray = camera_.ray(x + 0.5 + offset.x, y + 0.5 + offset.y);
-            hit = tracer_.first_hit(ray, infinity, counters);
+            const Ray ray = camera_.ray(x + 0.5 + offset.x, y + 0.5 + offset.y);
+            add(ray, tracer_.first_hit(ray, infinity, counters), sampler);
         }
-        if (hit) {
-            pixel.color += finite_or_zero(color_from(hit, ray.direction, path));
-            pixel.albedo += finite_or_zero(texture_color(hit));
-            pixel.alpha += 1.0;
-        } else {
-            pixel.color += finite_or_zero(sky_.towards(ray.direction));
-        }
+        pixel.color /= spp;
+        pixel.albedo /= spp;
+        pixel.alpha /= spp;
     }
-    pixel.color /= spp;
-    pixel.albedo /= spp;
-    pixel.alpha /= spp;
     pixel.cost = double(counters.evaluations - evaluations);
     return pixel;
 }
@@ -143,7 +146,7 @@ Vec3 Integrator::texture_color(const Hit& hit) const {
 
 Vec3 Integrator::color_along(const Ray& ray, const Path& path) const {
     const Hit hit = tracer_.first_hit(ray, infinity, path.counters);
-    const Vec3 color = hit ? color_from(hit, ray.direction, path) : sky_.towards(ray.direction);
+    const Vec3 color = hit ? color_from(hit, texture_color(hit), ray.direction, path) : sky_.towards(ray.direction);
     return path.sees_lights ? color + lights_seen(ray, hit.t, path) : color;
 }
 
@@ -205,10 +208,10 @@ Vec3 Integrator::transmittance(const Hit& hit, const Incident& light, const Path
     return Vec3(0.0);
 }
 
-Vec3 Integrator::color_from(const Hit& hit, Vec3 direction, const Path& path) const {
-    if (material(hit).kind == Material::Kind::glass) return color_of_glass(hit, direction, path);
+Vec3 Integrator::color_from(const Hit& hit, Vec3 color_here, Vec3 direction, const Path& path) const {
+    if (material(hit).kind == Material::Kind::glass) return color_of_glass(hit, color_here, direction, path);
     const SurfaceLayer& layer = layers_[std::size_t(hit.material)];
-    const Bsdf bsdf = Bsdf(layer, texture_color(hit), towards_ray(hit.normal, direction), -direction).blurred(path.blur);
+    const Bsdf bsdf = Bsdf(layer, color_here, towards_ray(hit.normal, direction), -direction).blurred(path.blur);
     const Vec3 ambient = bsdf.base_albedo() * scene_.ambient;
     if (path.without_noise || path.scattered || path.depth >= scene_.bounces)
         return ambient + lit(bsdf, hit, path, 0.0) +
@@ -262,9 +265,9 @@ Vec3 Integrator::reflected_without_noise(const Bsdf& bsdf, const Hit& hit, const
 // found by one sample in 25 is noise. For the same reason deeper ones show no area lights.
 // The radiance in a denser medium is not scaled by its squared index: light seen from outside has
 // left it again.
-Vec3 Integrator::color_of_glass(const Hit& hit, Vec3 direction, const Path& path) const {
+Vec3 Integrator::color_of_glass(const Hit& hit, Vec3 tint, Vec3 direction, const Path& path) const {
     const SurfaceLayer& layer = layers_[std::size_t(hit.material)];
-    const Vec3 tint = texture_color(hit), to_eye = -direction;
+    const Vec3 to_eye = -direction;
     const bool inside = glm::dot(hit.normal, direction) > 0;
     const Vec3 normal = inside ? -hit.normal : hit.normal;
     const double ior = inside ? 1 / layer.ior() : layer.ior();

@@ -71,8 +71,9 @@ private:
     struct Path;
     Vec3 color_along(const Ray& ray, const Path& path) const;
     Vec3 lights_seen(const Ray& ray, double t_max, const Path& path) const;
-    Vec3 color_from(const Hit& hit, Vec3 direction, const Path& path) const;
-    Vec3 color_of_glass(const Hit& hit, Vec3 direction, const Path& path) const;
+    // `color_here`, `tint`: the material's at the hit.
+    Vec3 color_from(const Hit& hit, Vec3 color_here, Vec3 direction, const Path& path) const;
+    Vec3 color_of_glass(const Hit& hit, Vec3 tint, Vec3 direction, const Path& path) const;
     Vec3 lit(const Bsdf& bsdf, const Hit& hit, const Path& path, double layer_share) const;
     Vec3 reflected_without_noise(const Bsdf& bsdf, const Hit& hit, const Path& path) const;
     Vec3 transmittance(const Hit& hit, const Incident& light, const Path& path) const;

@@ -46,7 +46,12 @@ public:
     const Piece& operator[](std::size_t i) const { return pieces_[i]; }
     std::size_t half_spaces(std::size_t i) const;
 
-    /// First crossing of piece i in [t0, t1]; `any`: some crossing will do, and its t means nothing.
+    /// Where the line of a ray meets the plane that piece p is; no number, or infinite, if it does not.
+    double plane_crossing(const Piece& p, Vec3 origin, Vec3 direction) const {
+        const AlphaPlane& plane = planes_[p.first];
+        return -(glm::dot(plane.slope, origin) + plane.base) / glm::dot(plane.slope, direction);
+    }
+    /// First crossing of piece i, which is no plane, in [t0, t1]; `any`: some crossing will do, and its t means nothing.
     PieceCrossing crossing(std::size_t i, Vec3 origin, Vec3 direction, double t0, double t1, bool any,
                            TraceCounters& counters) const;
     /// Unit normal, out of the solid.
@@ -70,23 +75,14 @@ private:
 inline PieceCrossing Pieces::crossing(std::size_t i, Vec3 origin, Vec3 direction, double t0, double t1,
                                       bool any, TraceCounters& counters) const {
     const Piece& p = pieces_[i];
-    if (p.kind == Piece::Kind::plane) {
-        const AlphaPlane& plane = planes_[p.first];
-        const double t = -(glm::dot(plane.slope, origin) + plane.base) / glm::dot(plane.slope, direction);
-        if (!(t >= t0 && t <= t1)) return {};
-        ++counters.flat_hits;
-        return {t, {}, {}, p.material};
+    if (p.kind == Piece::Kind::general) return general_crossing(p, origin, direction, t0, t1, counters);
+    const double negligible = 8 * epsilon * (scale_ + t0);
+    if (any) {
+        if (!any_crossing(view(p), origin, direction, t0, t1, negligible, counters.evaluations)) return {};
+        return {t0, {}, {}, p.material};
     }
-    if (p.kind == Piece::Kind::convex) {
-        const double negligible = 8 * epsilon * (scale_ + t0);
-        if (any) {
-            if (!any_crossing(view(p), origin, direction, t0, t1, negligible, counters.evaluations)) return {};
-            return {t0, {}, {}, p.material};
-        }
-        const ConvexCrossing c = first_crossing(view(p), origin, direction, t0, t1, negligible, counters.evaluations);
-        return {c.t, c, {}, p.material};
-    }
-    return general_crossing(p, origin, direction, t0, t1, counters);
+    const ConvexCrossing c = first_crossing(view(p), origin, direction, t0, t1, negligible, counters.evaluations);
+    return {c.t, c, {}, p.material};
 }
 
 }  // namespace deburr

@@ -47,7 +47,7 @@ struct Group {
 struct PlannedSpace {
     std::vector<Group> groups{1};  // the first is of what is unbounded, or squeezed, or all there is
     double reach = 0;              // of the others
-    std::vector<Placement> placements;
+    Placements placements;
     std::vector<Box> boxes;        // of the placements
 };
 

@@ -9,10 +9,11 @@
 #include <vector>
 
 #include "raytracer/bsp_trace.hpp"
+#include "raytracer/large_pages.hpp"
 
 namespace deburr {
 
-struct Placement {
+struct alignas(64) Placement {  // two cache lines
     Affine into;         // from the space around to the placed one
     double stretch = 1;  // a distance there is at most this many times longer here
     int space = 0;       // that is placed
@@ -21,9 +22,12 @@ struct Placement {
     bool only_moved = false;  // neither turned nor scaled
 };
 
+static_assert(sizeof(Placement) == 128);
+using Placements = std::vector<Placement, LargePages<Placement>>;
+
 struct Space {
     BspTracer bsp;  // its others are the placements
-    std::vector<Placement> placements;
+    Placements placements;
 };
 
 /// Materials that are still to be named are −1. The result does not depend on the number of threads.

@@ -89,7 +89,7 @@ double noise(Vec3 x) {
                     s.z);
 }
 
-Vec3 color_at(const Texture& texture, Vec3 position, Vec3 normal) {
+Vec3 pattern_color(const Texture& texture, Vec3 position, Vec3 normal) {
     switch (texture.kind) {
         case Texture::Kind::checker: {
             const Vec3 x = (position - texture.origin) / texture.scale - normal * depth_of_lookup;

@@ -44,7 +44,7 @@ TEST_CASE("every box that a ray touches is visited, wherever the boxes are and h
             const BoxSpan whole = span_in(tree.box(), o, reciprocal(d), 0, infinity);
             if (whole.lo > whole.hi) continue;
             std::set<std::uint32_t> seen;
-            tree.visit(o, d, whole.lo, whole.hi, [&](std::uint32_t i) {
+            tree.visit(o, d, reciprocal(d), whole.lo, whole.hi, [&](std::uint32_t i) {
                 REQUIRE(seen.insert(i).second);
                 return infinity;
             });
@@ -80,7 +80,7 @@ TEST_CASE("boxes come nearest first, and none beyond the distance that is asked 
     for (const bool forward : {true, false}) {
         const Vec3 d = glm::normalize(Vec3(forward ? 1 : -1, 1e-5, 0)), o(forward ? -1 : 2'000, 0.5, 0.5);
         std::vector<std::uint32_t> order;
-        tree.visit(o, d, 1, 2'000, [&](std::uint32_t i) {
+        tree.visit(o, d, reciprocal(d), 1, 2'000, [&](std::uint32_t i) {
             order.push_back(i);
             return order.size() < 5 ? infinity : 20.0;
         });

@@ -49,7 +49,7 @@ Same same_as_one_bsp(const std::vector<Solid>& solids, Vec3 lo, Vec3 hi, int ray
         const double t_max = g.chance(0.2) ? glm::length(hi - lo) * g.number() : infinity;
         TraceCounters counters;
         const Hit hit = tracer.first_hit(ray, t_max, counters);
-        const FoundSurface want = plain.find(ray, t_max, false, counters);
+        const FoundSurface want = plain.find(ray, t_max, counters);
         const double t = want.crossing.t;
         bool same = (hit.t < infinity) == (t < infinity) && tracer.occluded(ray, t_max, counters) == (t < infinity);
         if (same && hit) {
