@@ -23,7 +23,6 @@ constexpr int cost_base = 2, cost_perturbation = 2;
 double cube(double x) { return x * x * x; }
 double positive_cube(double x) { return x > 0 ? cube(x) : 0; }
 
-
 Range times(double f, Range r) { return f >= 0 ? Range{f * r.lo, f * r.hi} : Range{f * r.hi, f * r.lo}; }
 
 // The quadric over a box that may reach beyond what supports it: only where it is positive counts.

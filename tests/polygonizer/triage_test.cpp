@@ -223,15 +223,15 @@ TEST_CASE("Random CSG objects: no abort, no hole, no non-manifold edge, no facet
         CHECK(topology(welded(mesh)).closed());
     }
     CHECK(triangles > 100 * std::size_t(cases));
-    // What is left, in a few of 1,000 meshes: surfaces that touch along a line, and illegal sharp sums.
+    // What is left of 10,000 meshes, in two of them: surfaces of two solids that nearly touch.
     const std::size_t thousands = std::size_t(cases) / 1000;
-    CHECK(inverted <= 10 * thousands);
-    CHECK(beside <= 2 * thousands);
-    CHECK(degenerate <= thousands);
+    CHECK(inverted <= (thousands + 4) / 5);
+    CHECK(beside <= (thousands + 9) / 10);
+    CHECK(degenerate == 0);
 }
 
 TEST_CASE("Facets that leaned inward face outward: folds, slivers, walls thinner than the mesh is fine") {
-    for (const int seed : {47, 78, 211, 285, 332, 354, 413, 448, 455, 544, 552, 584, 618, 659, 730, 904, 925, 962, 1162, 2356, 4446}) {
+    for (const int seed : {47, 78, 211, 285, 332, 354, 413, 448, 455, 544, 552, 584, 618, 659, 730, 904, 925, 962, 1162, 2356, 4446, 5342, 6502, 6714}) {
         CAPTURE(seed);
         const SolidTree tree = flatten(RandomSolid(seed).solid());
         const MeshMetrics m = measure(mesh_of(tree), tree);
