@@ -174,6 +174,7 @@ SceneMesh mesh_scene(const Scene& scene, const MeshSettings& settings) {
         }
         box = polygonization_box(tree);
         if (box.empty()) {
+            result.warnings.push_back(fmt::format("solid {} is not in the mesh: it is empty", i + 1));
             result.parts.emplace_back();
             continue;
         }
@@ -198,6 +199,8 @@ SceneMesh mesh_scene(const Scene& scene, const MeshSettings& settings) {
                     "--grid: a grid of {:g} would have more than {:g} cubes for solid {}", grid, most_cubes, i + 1));
             part = marching_cubes(tree, box, grid);
         }
+        if (part.triangles.empty())
+            result.warnings.push_back(fmt::format("solid {} is not in the mesh: it is empty, or thinner than the mesh is fine", i + 1));
         result.mesh.append(part, int(i));
         result.parts.push_back(std::move(part));
     }
