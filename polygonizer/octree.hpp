@@ -5,11 +5,13 @@
 // neighbours and triangles from these (octree_linking), hard edges divided to the wanted length
 // (octree_hard_edges).
 //
-// Promised: a closed, oriented 2-manifold whose vertices lie on the surface. Not promised: parts
-// that no edge of a cell meets, being thinner than it.
+// Promised: a closed, oriented 2-manifold whose vertices lie on the surface. Not promised: parts of
+// free forms that are thinner than a quarter of a cell (of a form that no cell sees: than a
+// sixteenth), and of polyhedra than a cell.
 //
 // Printed differently: all of the paper's cells are of the smallest size. Here those around a
-// triangle that leans too far from the surface, or is farther from it than asked, are cut further.
+// triangle that leans too far from the surface, or is farther from it than asked, are cut further,
+// and so are those that a free form's surface passes between their corners.
 #pragma once
 #include <stdexcept>
 

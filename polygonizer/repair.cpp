@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <deque>
 #include <optional>
+#include <unordered_set>
 
 namespace deburr {
 namespace {
@@ -19,7 +20,8 @@ constexpr Limits gentle{0.2, 0.25, 2, 1e-3, 0}, last_resort{0.05, 0.06, 5, 2e-2,
 constexpr double same_normal = 1e-6;
 // Where surfaces run closer together than any facet is small, mending one makes two that need it. So
 // there are this many splits, more for every wrong facet, and this many tries for each.
-constexpr std::size_t most_splits = 80, more_splits = 8, most_tries = 100;
+// Where few facets are wrong, three tries for each are enough.
+constexpr std::size_t most_splits = 80, more_splits = 8, splits_at_all = 4000, most_tries = 16;
 
 // How good a set of facets is.
 struct Verdict {
@@ -196,9 +198,10 @@ public:
         std::deque<int> todo;
         for (std::size_t f = 0; f < facets_.size(); ++f)
             if (wrong(int(f))) todo.push_back(int(f));
-        if (!splits_left_) splits_left_ = most_splits + more_splits * todo.size();
+        if (!splits_left_) splits_left_ = std::min(most_splits + more_splits * todo.size(), splits_at_all);
         std::size_t& splits_left = *splits_left_;
         std::size_t tries_left = most_tries * todo.size();
+        std::unordered_set<int> waiting(todo.begin(), todo.end());
         // Facets that nothing helped are asked again after others have changed.
         std::vector<int> stuck;
         constexpr int most_rounds = 6;
@@ -209,6 +212,7 @@ public:
                 --tries_left;
                 const int f = todo.front();
                 todo.pop_front();
+                waiting.erase(f);
                 if (!facets_.alive(f) || !wrong(f)) continue;
                 auto change = straighten(f, splits_left, statistics);
                 if (!change && splits_left > 0 && shape(f).own >= limits_.leaning) {
@@ -221,9 +225,10 @@ public:
                 }
                 changed = true;
                 for (const int g : apply(*change))
-                    if (wrong(g)) todo.push_back(g);
+                    if (wrong(g) && waiting.insert(g).second) todo.push_back(g);
             }
-            todo.assign(stuck.begin(), stuck.end());
+            for (const int f : stuck)
+                if (waiting.insert(f).second) todo.push_back(f);
             stuck.clear();
         }
     }

@@ -243,6 +243,9 @@ SceneMesh mesh_scene(const Scene& scene, const MeshSettings& settings, const Mes
         // Of several errors the first, whichever thread was quicker.
         if (parts[i].error) std::rethrow_exception(parts[i].error);
         add_statistics(result, parts[i]);
+        if (parts[i].mesh.triangles.empty())
+            result.warnings.push_back(fmt::format("solid {} is not in the mesh: it is empty{}", i + 1,
+                                                  parts[i].method ? ", or thinner than the mesh is fine" : ""));
         result.mesh.append(parts[i].mesh, int(i));
         result.parts.push_back(std::move(parts[i].mesh));
     }

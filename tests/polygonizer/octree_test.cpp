@@ -236,3 +236,27 @@ TEST_CASE("Random CSG objects by octree: closed 2-manifolds, outward, on the sur
     CHECK(inverted < triangles / 2000);
     CHECK(degenerate < triangles / 10000);
 }
+
+TEST_CASE("Free forms thinner than a cell come out whole") {
+    const auto ellipsoid = [](Vec3 radii) {
+        Quadric q;
+        q.k = 1;
+        for (int k = 0; k < 3; ++k) q.A[k][k] = -1 / (radii[k] * radii[k]);
+        return Solid::of_field(std::make_shared<FreeForm>(q, std::vector<Perturbation>{}));
+    };
+    // No corner of a cell is in the needle, few are in the disc, and of the ball's wall some are.
+    const Measured needle = measured(ellipsoid({1, 0.01, 0.01}), {});
+    CHECK(needle.metrics.topology.manifold());
+    CHECK(needle.metrics.topology.euler == 2);
+    CHECK(needle.metrics.inverted == 0);
+    const double pi = 3.141592653589793;
+    CHECK(needle.metrics.volume == Approx(4 * pi / 3 * 1e-4).epsilon(0.3));
+    const Measured disc = measured(ellipsoid({1, 0.03, 1}), {0.06});
+    CHECK(disc.metrics.topology.manifold());
+    CHECK(disc.metrics.topology.euler == 2);
+    const Measured wall = measured(ellipsoid(Vec3(1.0)) - ellipsoid(Vec3(0.97)), {0.1});
+    CHECK(wall.metrics.topology.manifold());
+    CHECK(wall.metrics.topology.euler == 4);
+    CHECK(wall.metrics.topology.shells == 2);
+    CHECK(wall.metrics.inverted == 0);
+}
