@@ -65,7 +65,7 @@ int run_compare(const CompareOptions& o) {
     if (o.scene.empty()) throw UsageError("compare: expected a scene file, or two pictures");
     check_image_names("-o", o.outputs);
     const auto limit_of = [](const char* name, const std::string& text) {
-        return text.empty() ? infinity : parse_positive(name, text);
+        return text.empty() ? infinity : parse_limit(name, text);
     };
     const double most_missed = limit_of("--max-missed", o.most_missed);
     const double most_distance = limit_of("--max-distance", o.most_distance);

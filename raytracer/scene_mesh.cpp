@@ -62,11 +62,27 @@ std::string mesh_method_name(MeshMethod method) {
     return method == MeshMethod::triage ? "triage" : method == MeshMethod::octree ? "octree" : "marching-cubes";
 }
 
-double parse_positive(const std::string& what, const std::string& text) {
+namespace {
+
+// NaN if the text is no finite number.
+double number_of(const std::string& text) {
     double x = 0;
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), x);
-    if (error != std::errc() || end != text.data() + text.size() || !(x > 0) || !std::isfinite(x))
-        throw UsageError(fmt::format("{}: expected a number > 0, got '{}'", what, text));
+    const bool whole = error == std::errc() && end == text.data() + text.size();
+    return whole && std::isfinite(x) ? x : std::nan("");
+}
+
+}  // namespace
+
+double parse_positive(const std::string& what, const std::string& text) {
+    const double x = number_of(text);
+    if (!(x > 0)) throw UsageError(fmt::format("{}: expected a number > 0, got '{}'", what, text));
+    return x;
+}
+
+double parse_limit(const std::string& what, const std::string& text) {
+    const double x = number_of(text);
+    if (!(x >= 0)) throw UsageError(fmt::format("{}: expected a number >= 0, got '{}'", what, text));
     return x;
 }
 

@@ -19,8 +19,9 @@ enum class MeshMethod { triage, marching_cubes, octree };
 MeshMethod parse_mesh_method(const std::string& what, const std::string& name);
 std::string mesh_method_names();
 std::string mesh_method_name(MeshMethod method);
-/// A number > 0, or UsageError.
+/// A number > 0, or >= 0, or UsageError.
 double parse_positive(const std::string& what, const std::string& text);
+double parse_limit(const std::string& what, const std::string& text);
 
 /// For pictures: the horizon of a floor that ends so many sizes away is the true one to a pixel.
 inline constexpr double rendering_reach = 1e4;

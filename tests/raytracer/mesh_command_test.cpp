@@ -148,7 +148,9 @@ TEST_CASE("compare says how two files differ, and its limits are exit codes") {
                      folder / (std::string(r) + ".exr")}).code == 0);
     const std::string a = folder / "r=0.05.exr", b = folder / "r=0.2.exr";
     CHECK(run({"compare", a, a, "--max-rmse", "1e-9"}).code == 0);
+    CHECK(run({"compare", a, a, "--max-missed", "0", "--max-distance", "0", "--max-rmse", "0"}).code == 0);
     CHECK(run({"compare", a, b, "--max-rmse", "1e-9"}).code == 1);
+    CHECK(run({"compare", a, a, "--max-rmse", "-1"}).code == 2);
     CHECK(run({"compare", a, folder / "none.exr"}).code == 2);
 }
 
