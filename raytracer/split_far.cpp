@@ -24,30 +24,38 @@ public:
 
     bool round() {
         middles_.clear();
+        for (const Triangle& t : mesh_.triangles)
+            if (!along_axes(t))
+                for (std::size_t k = 0; k < 3; ++k) split_if_long(t.vertex[k], t.vertex[(k + 1) % 3]);
+        if (middles_.empty()) return false;
         std::vector<Triangle> out;
-        bool split = false;
         for (const Triangle& t : mesh_.triangles) {
             std::array<int, 3> m;
-            for (std::size_t k = 0; k < 3; ++k) m[k] = middle(t.vertex[k], t.vertex[(k + 1) % 3]);
-            split |= m[0] >= 0 || m[1] >= 0 || m[2] >= 0;
+            for (std::size_t k = 0; k < 3; ++k) {
+                const auto at = middles_.find(std::minmax(t.vertex[k], t.vertex[(k + 1) % 3]));
+                m[k] = at == middles_.end() ? -1 : at->second;
+            }
             halve(t, m, out);
         }
         mesh_.triangles = std::move(out);
-        return split;
+        return true;
     }
 
 private:
     static constexpr double least_share = 1e-7;  // of the mesh's size: where single precision ends
 
-    // The edge's middle vertex; -1 if the edge is short enough.
-    int middle(int a, int b) {
-        if (a > b) std::swap(a, b);  // both sides decide and compute alike
+    bool along_axes(const Triangle& t) const {
+        const auto at = [&](std::size_t i) { return mesh_.positions[std::size_t(t.vertex[i])]; };
+        for (int k = 0; k < 3; ++k)
+            if (at(0)[k] == at(1)[k] && at(0)[k] == at(2)[k]) return true;
+        return false;
+    }
+
+    void split_if_long(int a, int b) {
         const Vec3 xa = mesh_.positions[std::size_t(a)], xb = mesh_.positions[std::size_t(b)];
-        const double length = glm::distance(xa, xb);
-        if (length <= size_ + distance_to_segment(middle_, xa, xb)) return -1;
-        const auto [at, fresh] = middles_.try_emplace({a, b}, int(mesh_.positions.size()));
-        if (fresh) mesh_.positions.push_back(0.5 * (xa + xb));
-        return at->second;
+        if (glm::distance(xa, xb) <= size_ + distance_to_segment(middle_, xa, xb)) return;
+        if (middles_.try_emplace(std::minmax(a, b), int(mesh_.positions.size())).second)
+            mesh_.positions.push_back(0.5 * (xa + xb));
     }
 
     int middle_normal(int a, int b) {
