@@ -91,7 +91,7 @@ int run_compare(const CompareOptions& o) {
         const Scene scene = load_scene(o);
         const Size size = picture_size(o, scene);
         const int spp = o.spp.value_or(1);
-        const SceneMesh mesh = mesh_scene(scene, settings);
+        const SceneMesh mesh = mesh_scene(scene, settings, {&stop});
         units = radii(mesh);
         a = trace(scene, ImplicitTracer(scene.solids), size, spp, o.seed, stop);
         b = trace(scene, MeshTracer(mesh.mesh, mesh.near), size, spp, o.seed, stop);

@@ -11,8 +11,10 @@
 #include <vector>
 
 #include "bounds/decision_diagram.hpp"
+#include "polygonizer/triage.hpp"
 #include "raytracer/commands.hpp"
 #include "raytracer/errors.hpp"
+#include "raytracer/interrupt.hpp"
 #include "raytracer/message.hpp"
 #include "raytracer/scene_reader.hpp"
 
@@ -94,6 +96,8 @@ int run_program(int argc, char** argv, const std::vector<Command (*)(CLI::App&)>
         if (std::fflush(stdout) != 0 || std::ferror(stdout))
             return fail(1, "cannot write to the standard output");
         return code;
+    } catch (const Stopped&) {
+        return fail(interrupted_exit_code, "interrupted: nothing is written");
     } catch (const UsageError& error) {
         return fail(2, error.what());
     } catch (const SceneError& error) {

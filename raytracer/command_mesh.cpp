@@ -117,10 +117,6 @@ int run_mesh(const MeshCommandOptions& o) {
     try {
         mesh = faces ? mesh_scene(scene, method, faces, &stop)
                      : mesh_scene(scene, method, {&stop, [&](double share) { progress.advance(share); }});
-    } catch (const Stopped&) {
-        progress.stop();
-        message("interrupted: nothing is written");
-        return interrupted_exit_code;
     } catch (...) {
         progress.stop();
         throw;

@@ -160,7 +160,7 @@ int run_render(const RenderOptions& o) {
         tracer = std::move(implicit);
         say(fmt::format("{} cells of {} half-spaces", bsp->cells, bsp->half_spaces));
     } else {
-        SceneMesh mesh = mesh_scene(scene, picture_mesh_settings(o.via, o.tolerance));
+        SceneMesh mesh = mesh_scene(scene, picture_mesh_settings(o.via, o.tolerance), {&stop});
         say(fmt::format("{} triangles, {} vertices", mesh.mesh.triangles.size(), mesh.mesh.positions.size()));
         if (o.edges || !o.wire.empty()) lines = mesh.mesh;
         tracer = std::make_unique<MeshTracer>(o.flat ? flat_shaded(std::move(mesh.mesh)) : std::move(mesh.mesh), mesh.near);
