@@ -33,11 +33,19 @@ double size_of(const Scene& scene) {
     return std::max({size.x, size.y, size.z});
 }
 
-// About as many triangles as asked: their number goes with the edge to the power −2.
+// Nearly as many triangles as asked: their number goes with the edge to the power −2, nearly.
 Mesh mesh_of(const Scene& scene, std::size_t triangles) {
-    const double coarse = size_of(scene) / 40;
-    const std::size_t few = octree_of(scene, coarse, 15).mesh.triangles.size();
-    return octree_of(scene, coarse * std::sqrt(double(few) / double(triangles)), 15).mesh;
+    constexpr double near_enough = 0.01;
+    constexpr int most_rounds = 4;
+    double edge = size_of(scene) / 40;
+    Mesh mesh;
+    for (int round = 0; round < most_rounds; ++round) {
+        mesh = octree_of(scene, edge, 15).mesh;
+        const double share = double(mesh.triangles.size()) / double(triangles);
+        if (std::abs(share - 1) <= near_enough) break;
+        edge *= std::sqrt(share);
+    }
+    return mesh;
 }
 
 std::string count(const Mesh& mesh) {

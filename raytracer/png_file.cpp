@@ -46,6 +46,14 @@ struct Writer {
     ~Writer() { png_destroy_write_struct(&png, &info); }
 };
 
+// Where neighbours are often equal, rows as they are make files as small in a third of the time; of
+// what is noisy or graded filters save up to 40 %.
+int filter_of(const std::vector<png_byte>& row, std::size_t channels) {
+    std::size_t equal = 0;
+    for (std::size_t i = channels; i < row.size(); ++i) equal += row[i] == row[i - channels];
+    return 2 * equal > row.size() ? PNG_FILTER_NONE : PNG_ALL_FILTERS;
+}
+
 }  // namespace
 
 std::string encode_png(const ImageRaster& image, const ShareDone& done) {
@@ -53,9 +61,7 @@ std::string encode_png(const ImageRaster& image, const ShareDone& done) {
     Writer writer;
     png_set_IHDR(writer.png, writer.info, png_uint_32(w.width), png_uint_32(w.height), 8, PNG_COLOR_TYPE_RGB,
                  PNG_INTERLACE_NONE, PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
-    // Of pictures like ours, in which neighbours are often equal, rows as they are make files as small (−11 %
-    // of csg_examples, +6 % of melting_robot with 16 samples) in a third of the time.
-    png_set_filter(writer.png, PNG_FILTER_TYPE_BASE, PNG_FILTER_NONE);
+    png_set_filter(writer.png, PNG_FILTER_TYPE_BASE, PNG_ALL_FILTERS);  // all that filter_of may choose
     png_set_sRGB_gAMA_and_cHRM(writer.png, writer.info, PNG_sRGB_INTENT_PERCEPTUAL);
     for (const auto& [name, value] : image.attributes) {
         std::string text = std::visit(AsText(), value), key = name;
@@ -81,6 +87,7 @@ std::string encode_png(const ImageRaster& image, const ShareDone& done) {
                 image.channels[c].values(std::size_t(y) * width, width, values.data());
                 for (std::size_t x = 0; x < width; ++x) row_bytes[x * channels + c] = png_byte(values[x]);
             }
+            png_set_filter(writer.png, PNG_FILTER_TYPE_BASE, filter_of(row_bytes, channels));
             png_write_row(writer.png, row_bytes.data());
         }
     });
