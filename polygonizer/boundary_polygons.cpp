@@ -1,7 +1,6 @@
 #include "polygonizer/boundary_polygons.hpp"
 
 #include <algorithm>
-#include <ranges>
 
 namespace deburr {
 
@@ -43,7 +42,7 @@ void BoundaryPolygons::collect() {
         p.count = int(face.loop.size());
         if (back) steps_.insert(steps_.end(), face.loop.begin(), face.loop.end());
         else
-            for (const auto s : face.loop | std::views::reverse) steps_.push_back(s ^ 1);
+            for (auto s = face.loop.end(); s != face.loop.begin();) steps_.push_back(*--s ^ 1);
         const Vec3 area = complex_.area_vector(int(f)) * (back ? 1.0 : -1.0);
         if (glm::length(area) > 0) p.normal = glm::normalize(area);
         p.offset = glm::dot(p.normal, complex_.vertices[std::size_t(complex_.start(steps_[std::size_t(p.first)]))]);

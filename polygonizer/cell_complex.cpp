@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cassert>
 #include <map>
-#include <ranges>
 
 namespace deburr {
 
@@ -133,7 +132,7 @@ int CellComplex::split_face(int face, int a, int b, std::span<const Vec3> betwee
         auto& around = edges[s >> 1].faces;
         *std::find(around.begin(), around.end(), face) = fresh;
     }
-    for (const Step s : chain | std::views::reverse) half.loop.push_back(s ^ 1);
+    for (auto s = chain.end(); s != chain.begin();) half.loop.push_back(*--s ^ 1);
     old = std::move(kept);
     if (half.back != outside) cells[half.back].push_back(fresh);
     if (half.front != outside) cells[half.front].push_back(fresh);
@@ -175,9 +174,10 @@ int CellComplex::split_cell(int cell, std::span<const Step> loop, int seed, std:
     ShortList<Known, 24> known;
     for (Step s : loop) known.push_back({start(s), end(s), s});
     const auto step_between = [&](int a, int b) -> Step {
-        for (const Known& k : known | std::views::reverse) {
-            if (k.from == a && k.to == b) return k.step;
-            if (k.from == b && k.to == a) return k.step ^ 1;
+        for (auto k = known.end(); k != known.begin();) {
+            --k;
+            if (k->from == a && k->to == b) return k->step;
+            if (k->from == b && k->to == a) return k->step ^ 1;
         }
         known.push_back({a, b, 2 * int(edges.size())});
         edges.push_back({a, b, {}});
