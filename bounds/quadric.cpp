@@ -8,7 +8,6 @@ namespace {
 // A sum of some ten products is off by less than this share of the magnitude.
 constexpr double slack = 16 * epsilon;
 
-
 Range product(Range a, Range b) {
     const auto times = [](double x, double y) { return x == 0 || y == 0 ? 0.0 : x * y; };
     const auto [lo, hi] = std::minmax({times(a.lo, b.lo), times(a.lo, b.hi), times(a.hi, b.lo), times(a.hi, b.hi)});
@@ -88,6 +87,21 @@ Range Quadric::range(const Box& box) const {
     }
     const double off = slack * magnitude(glm::abs(y) + half);
     return {sum.lo - off, sum.hi + off};
+}
+
+// Along the eigenvectors of A the variables part.
+Range Quadric::range_everywhere() const {
+    const auto [axes, squares] = eigensystem(A);
+    const auto rounded = [](double value, double size) { return std::abs(value) <= slack * size ? 0.0 : value; };
+    Range sum{k, k};
+    double size = std::abs(k);
+    for (int i = 0; i < 3; ++i) {
+        const double square = rounded(squares[i], deburr::largest(squares)), linear = rounded(glm::dot(axes[i], b), deburr::largest(b));
+        const Range own = parabola_range(linear, square, -infinity, infinity);
+        sum = {sum.lo + own.lo, sum.hi + own.hi};
+        if (square != 0) size += std::abs(linear * linear / (4 * square));
+    }
+    return {rounded(sum.lo, size), rounded(sum.hi, size)};
 }
 
 // Along an axis that A knows nothing of, Q is straight: it bounds the set on one side at most. The

@@ -25,6 +25,8 @@ struct Quadric {
     double magnitude(Vec3 reach) const;
     /// Q over the box, rounding included; sides may be infinite.
     Range range(const Box& box) const;
+    /// Q over all of space, but for rounding exact: what is within rounding of 0 is 0.
+    Range range_everywhere() const;
     /// Holds the set Q > 0; exact for ellipsoids, and for what is infinite along axes. Where a set
     /// is infinite at a slant, all of space.
     Box bounding_box() const;

@@ -2,6 +2,27 @@
 
 namespace deburr {
 
+Eigensystem eigensystem(Mat3 a) {
+    constexpr int sweeps = 12;  // converges quadratically: six do
+    Mat3 v(1.0);
+    for (int sweep = 0; sweep < sweeps; ++sweep)
+        for (int p = 0; p < 2; ++p)
+            for (int q = p + 1; q < 3; ++q) {
+                if (a[p][q] == 0) continue;
+                const double theta = 0.5 * (a[q][q] - a[p][p]) / a[p][q];
+                const double t = (theta >= 0 ? 1 : -1) / (std::abs(theta) + std::sqrt(theta * theta + 1));
+                const double c = 1 / std::sqrt(t * t + 1), s = t * c;
+                Mat3 r(1.0);
+                r[p][p] = r[q][q] = c;
+                r[q][p] = s;
+                r[p][q] = -s;
+                a = glm::transpose(r) * a * r;
+                a[p][q] = a[q][p] = 0;
+                v = v * r;
+            }
+    return {v, {a[0][0], a[1][1], a[2][2]}};
+}
+
 // Rounding moves an image by no more than this share of what was added up.
 constexpr double image_slack = 16 * epsilon;
 

@@ -35,6 +35,14 @@ inline Affine inverse(const Affine& map) {
     return {linear, -(linear * map.shift)};
 }
 
+/// Eigenvectors as columns, unit and at right angles, and their eigenvalues.
+struct Eigensystem {
+    Mat3 vectors;
+    Vec3 values;
+};
+/// Of a symmetric matrix (Jacobi's rotations).
+Eigensystem eigensystem(Mat3 symmetric);
+
 /// Axis-parallel box; sides may lie at ±infinity. Empty where lo > hi on some axis.
 struct Box {
     Vec3 lo{infinity}, hi{-infinity};

@@ -15,7 +15,7 @@ struct DirectedEdge {
 
 struct Union {
     std::vector<int> parent;
-    explicit Union(std::size_t n) : parent(n) { std::iota(parent.begin(), parent.end(), 0); }
+    explicit Union(std::size_t n) : parent(n, 0) { std::iota(parent.begin(), parent.end(), 0); }
     int find(int i) {
         while (parent[std::size_t(i)] != i) i = parent[std::size_t(i)] = parent[std::size_t(parent[std::size_t(i)])];
         return i;

@@ -10,27 +10,6 @@ struct TangentPlane {
     double offset;
 };
 
-// Eigenvectors of a symmetric matrix as columns, eigenvalues in its diagonal (Jacobi).
-Mat3 eigenvectors(Mat3& a) {
-    Mat3 v(1.0);
-    for (int sweep = 0; sweep < 12; ++sweep)
-        for (int p = 0; p < 2; ++p)
-            for (int q = p + 1; q < 3; ++q) {
-                if (a[p][q] == 0) continue;
-                const double theta = 0.5 * (a[q][q] - a[p][p]) / a[p][q];
-                const double t = (theta >= 0 ? 1 : -1) / (std::abs(theta) + std::sqrt(theta * theta + 1));
-                const double c = 1 / std::sqrt(t * t + 1), s = t * c;
-                Mat3 r(1.0);
-                r[p][p] = r[q][q] = c;
-                r[q][p] = s;
-                r[p][q] = -s;
-                a = glm::transpose(r) * a * r;
-                a[p][q] = a[q][p] = 0;
-                v = v * r;
-            }
-    return v;
-}
-
 // The shortest x with the least sum of (n·x − offset)²; directions in which the planes say less than
 // this share of what they say in the clearest are left alone.
 Vec3 nearest_to_all(const std::vector<TangentPlane>& planes, double least_share) {
@@ -40,11 +19,11 @@ Vec3 nearest_to_all(const std::vector<TangentPlane>& planes, double least_share)
         a += glm::outerProduct(p.normal, p.normal);
         b += p.normal * p.offset;
     }
-    const Mat3 v = eigenvectors(a);
-    const double largest = std::max({a[0][0], a[1][1], a[2][2]});
+    const auto [v, value] = eigensystem(a);
+    const double largest = std::max({value[0], value[1], value[2]});
     Vec3 x(0.0);
     for (int k = 0; k < 3; ++k)
-        if (a[k][k] > least_share * largest) x += v[k] * (glm::dot(v[k], b) / a[k][k]);
+        if (value[k] > least_share * largest) x += v[k] * (glm::dot(v[k], b) / value[k]);
     return x;
 }
 

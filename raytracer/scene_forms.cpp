@@ -119,7 +119,10 @@ const Quadric& need_quadric(const SceneCall& call, std::size_t index) {
 SceneResult perturbation(SceneCall& call) {
     call.at_most(2);
     const double factor = coefficient(call.argument(0), call.place("factor"));
-    return call.make(Perturbation{factor, need_quadric(call, 1)});
+    const Quadric& quadric = need_quadric(call, 1);
+    if (quadric.range_everywhere().hi <= 0)
+        throw BadValue(call.name, "expected a quadric that is positive somewhere, got one that is <= 0 everywhere");
+    return call.make(Perturbation{factor, quadric});
 }
 
 SceneResult freeform(SceneCall& call) {
@@ -138,10 +141,20 @@ SceneResult freeform(SceneCall& call) {
     }
     call.builder.spend(perturbations.size());
     call.builder.work += work_per_perturbation * std::int64_t(perturbations.size());
-    return call.make(Solid::of_field(std::make_shared<FreeForm>(base, std::move(perturbations)), call.line));
+    return call.make(solid_of_form(call.name, base, std::move(perturbations), call.line));
 }
 
 }  // namespace
+
+Solid solid_of_form(const std::string& function, const Quadric& base, std::vector<Perturbation> perturbations, int line) {
+    const Range q = base.range_everywhere();
+    const auto some = [&](double sign) {
+        return std::any_of(perturbations.begin(), perturbations.end(), [&](const Perturbation& p) { return sign * p.factor > 0; });
+    };
+    if (q.hi <= 0 && !some(1)) throw BadValue(function, "expected a surface, got a quadric that is <= 0 everywhere");
+    if (q.lo >= 0 && !some(-1)) throw BadValue(function, "expected a surface, got a quadric that is >= 0 everywhere");
+    return Solid::of_field(std::make_shared<FreeForm>(base, std::move(perturbations)), line);
+}
 
 const Quadric& ordinary(const Quadric& quadric, const char* function) {
     bool good = std::isfinite(quadric.k) && quadric.largest() <= largest_coefficient;

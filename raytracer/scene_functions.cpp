@@ -49,7 +49,7 @@ Solid SceneBuilder::solid(const SceneObject& object) {
     if (const auto* solid = std::get_if<Solid>(&object.is)) return *solid;
     spend(2);
     if (const auto* quadric = std::get_if<Quadric>(&object.is))
-        return Solid::of_field(std::make_shared<FreeForm>(*quadric, std::vector<Perturbation>{}), object.line);
+        return solid_of_form("quadric", *quadric, {}, object.line);
     return Solid::sharp(std::get<Density>(object.is), object.line);
 }
 

@@ -107,6 +107,9 @@ const std::vector<SceneFunction>& look_functions();
 /// The quadric itself; throws if its coefficients are too large to be cubed.
 const Quadric& ordinary(const Quadric& quadric, const char* function);
 
+/// Q + Σ fᵢRᵢ as a solid. Throws where Q's sign is everywhere the same, and no perturbation could change it.
+Solid solid_of_form(const std::string& function, const Quadric& base, std::vector<Perturbation> perturbations, int line);
+
 /// Registers all functions; the sandbox's host must be a SceneBuilder. May raise Lua errors.
 void open_scene_functions(lua_State* lua);
 

@@ -53,6 +53,34 @@ TEST_CASE("quadrics: a range holds what is in the box, and is attained but for m
     }
 }
 
+TEST_CASE("quadrics: the range over all of space is that of the squares that they are made of") {
+    int bounded = 0;
+    for (auto seed : seeds(3'000)) {
+        CAPTURE(seed);
+        Gen g(seed);
+        Quadric q;
+        Range want{};
+        want.lo = want.hi = q.k = g.chance(0.3) ? 0 : g.between(-1, 1);
+        for (int k = 0; k < 3; ++k) {  // a (y - p)^2, or b y
+            const int kind = g.below(4);
+            const double a = kind < 2 ? (kind ? 1 : -1) * g.between(0.2, 3) : 0, p = g.between(-1, 1);
+            q.A[k][k] = a;
+            q.b[k] = kind == 3 && g.chance(0.2) ? p : -2 * a * p;
+            q.k += a * p * p;
+            if (a > 0 || (a == 0 && q.b[k] != 0)) want.hi = infinity;
+            if (a < 0 || (a == 0 && q.b[k] != 0)) want.lo = -infinity;
+        }
+        q = transformed(q, g.map());
+        const Range got = q.range_everywhere();
+        for (const auto& [value, truth] : {std::pair{got.lo, want.lo}, {got.hi, want.hi}}) {
+            bounded += std::isfinite(truth);
+            if (truth == 0 || !std::isfinite(truth)) REQUIRE(value == truth);
+            else REQUIRE(value == Approx(truth).margin(1e-9));
+        }
+    }
+    CHECK(bounded > 1'000);
+}
+
 TEST_CASE("quadrics: ranges over infinite boxes hold what is in them") {
     int decided = 0;
     for (auto seed : seeds(3'000)) {
