@@ -1,5 +1,6 @@
 #include "bounds/solid_tree.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "bounds/expression.hpp"
@@ -112,6 +113,18 @@ private:
 SingularPlacement::SingularPlacement(int of_line)
     : std::domain_error("expected placements that leave a volume, got scales that multiply to 0 or infinity"),
       line(of_line) {}
+
+double SolidTree::least_radius() const {
+    double least = infinity;
+    for (const SolidLeaf& leaf : leaves)
+        for (const HalfSpace& h : leaf.density.half_spaces)
+            if (h.radius > 0) least = std::min(least, h.radius);
+    return least < infinity ? least : 0;
+}
+
+bool SolidTree::has_field() const {
+    return std::any_of(leaves.begin(), leaves.end(), [](const SolidLeaf& leaf) { return leaf.field != nullptr; });
+}
 
 bool SolidTree::contains(Vec3 x) const {
     std::vector<char> in;

@@ -28,6 +28,10 @@ struct SolidTree {
     std::vector<SolidTreeNode> nodes;  // children before parents, the root last; never empty
 
     int root() const { return int(nodes.size()) - 1; }
+    /// The least radius > 0; 0 if all is sharp.
+    double least_radius() const;
+    /// Is there a leaf that is no density?
+    bool has_field() const;
     /// The definition: [Lobb figure 4, PointInObject].
     bool contains(Vec3 x) const;
 };

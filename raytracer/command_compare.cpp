@@ -57,7 +57,7 @@ Json json_of(const PictureDifference& d) {
 
 std::vector<double> radii(const SceneMesh& mesh) {
     std::vector<double> all;
-    for (const SolidTree& tree : mesh.trees) all.push_back(least_radius(tree));
+    for (const SolidTree& tree : mesh.trees) all.push_back(tree.least_radius());
     return all;
 }
 

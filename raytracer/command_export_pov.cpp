@@ -7,9 +7,9 @@
 #include "raytracer/errors.hpp"
 #include "raytracer/legality.hpp"
 #include "raytracer/message.hpp"
+#include "raytracer/option_values.hpp"
 #include "raytracer/options.hpp"
 #include "raytracer/pov_scene.hpp"
-#include "raytracer/scene_mesh.hpp"
 #include "raytracer/whole_file.hpp"
 
 namespace deburr {

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <charconv>
+#include <cmath>
 #include <filesystem>
 #include <limits>
 #include <optional>
@@ -33,6 +34,14 @@ std::optional<std::int64_t> whole(std::string_view text, std::int64_t least, std
     return std::int64_t(*value);
 }
 
+// NaN if the text is no finite number.
+double number_of(std::string_view text) {
+    double x = 0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), x);
+    const bool whole = error == std::errc() && end == text.data() + text.size();
+    return whole && std::isfinite(x) ? x : std::nan("");
+}
+
 // "AxB"
 std::optional<Size> sides(std::string_view text) {
     const std::size_t x = text.find('x');
@@ -49,6 +58,18 @@ std::int64_t parse_whole(std::string_view option, std::string_view text, std::in
                          std::int64_t most) {
     if (const auto value = whole(text, least, most)) return *value;
     expected(option, fmt::format("a whole number from {} to {}", least, most), text);
+}
+
+double parse_positive(std::string_view option, std::string_view text) {
+    const double x = number_of(text);
+    if (x > 0) return x;
+    expected(option, "a number > 0", text);
+}
+
+double parse_limit(std::string_view option, std::string_view text) {
+    const double x = number_of(text);
+    if (x >= 0) return x;
+    expected(option, "a number >= 0", text);
 }
 
 std::uint64_t parse_seed(std::string_view option, std::string_view text) {

@@ -24,6 +24,10 @@ constexpr std::int64_t most_pixels = std::int64_t(1) << 28;
 
 std::int64_t parse_whole(std::string_view option, std::string_view text, std::int64_t least,
                          std::int64_t most);
+/// A number > 0.
+double parse_positive(std::string_view option, std::string_view text);
+/// A number >= 0.
+double parse_limit(std::string_view option, std::string_view text);
 std::uint64_t parse_seed(std::string_view option, std::string_view text);
 /// WxH
 Size parse_size(std::string_view option, std::string_view text);

@@ -1,31 +1,22 @@
 #include "raytracer/scene_mesh.hpp"
 
 #include <fmt/format.h>
-#include <tbb/parallel_for.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
-#include <exception>
 
 #include "bounds/bounding_box.hpp"
 #include "polygonizer/marching_cubes.hpp"
 #include "polygonizer/octree_cells.hpp"
 #include "polygonizer/separate.hpp"
 #include "raytracer/errors.hpp"
+#include "raytracer/in_parallel.hpp"
 
 namespace deburr {
 namespace {
 
 // A grid of more cubes than this is refused: it would take tens of gigabytes.
 constexpr double most_cubes = 2e9;
-
-// For pictures: on Figure 12 of Lobb's paper 99 % of the hits are then within 0.03 r of the exact
-// ones, where the paper's one refinement of each edge leaves 0.26 r.
-constexpr double rendering_tolerance = 0.03;
-// The same for free forms, which have no radius, in their sizes: a fifth of a pixel where they fill
-// a picture of 1000.
-constexpr double rendering_tolerance_in_sizes = 2e-4;
 
 bool finite(const Box& box) { return box.empty() || box.finite(); }
 
@@ -47,78 +38,9 @@ Box finite_part(const Scene& scene, const std::vector<Box>& boxes) {
     return all;
 }
 
-}  // namespace
-
-MeshMethod parse_mesh_method(const std::string& what, const std::string& name) {
-    if (name == "triage") return MeshMethod::triage;
-    if (name == "marching-cubes") return MeshMethod::marching_cubes;
-    if (name == "octree") return MeshMethod::octree;
-    throw UsageError(fmt::format("{}: expected {}, got '{}'", what, mesh_method_names(), name));
-}
-
-std::string mesh_method_names() { return "triage, marching-cubes or octree"; }
-
-std::string mesh_method_name(MeshMethod method) {
-    return method == MeshMethod::triage ? "triage" : method == MeshMethod::octree ? "octree" : "marching-cubes";
-}
-
-namespace {
-
-// NaN if the text is no finite number.
-double number_of(const std::string& text) {
-    double x = 0;
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), x);
-    const bool whole = error == std::errc() && end == text.data() + text.size();
-    return whole && std::isfinite(x) ? x : std::nan("");
-}
-
-}  // namespace
-
-double parse_positive(const std::string& what, const std::string& text) {
-    const double x = number_of(text);
-    if (!(x > 0)) throw UsageError(fmt::format("{}: expected a number > 0, got '{}'", what, text));
-    return x;
-}
-
-double parse_limit(const std::string& what, const std::string& text) {
-    const double x = number_of(text);
-    if (!(x >= 0)) throw UsageError(fmt::format("{}: expected a number >= 0, got '{}'", what, text));
-    return x;
-}
-
-double parse_tolerance(const std::string& text) {
-    return text == "inf" ? infinity : parse_positive("--tolerance", text);
-}
-
-MeshSettings picture_mesh_settings(const std::string& via, const std::string& tolerance) {
-    MeshSettings settings;
-    if (!via.empty()) settings.method = parse_mesh_method("--via", via);
-    settings.reach = rendering_reach;
-    if (tolerance.empty()) {
-        settings.tolerance_in_radii = rendering_tolerance;
-        settings.tolerance_in_sizes = rendering_tolerance_in_sizes;
-    }
-    else settings.tolerance = parse_tolerance(tolerance);
-    return settings;
-}
-
-double least_radius(const SolidTree& solid) {
-    double least = infinity;
-    for (const SolidLeaf& leaf : solid.leaves)
-        for (const HalfSpace& h : leaf.density.half_spaces)
-            if (h.radius > 0) least = std::min(least, h.radius);
-    return least < infinity ? least : 0;
-}
-
-namespace {
-
-bool has_field(const SolidTree& solid) {
-    return std::any_of(solid.leaves.begin(), solid.leaves.end(), [](const SolidLeaf& leaf) { return leaf.field != nullptr; });
-}
-
 // Triage follows half-spaces: what has none it cannot see.
 void need_densities(const SolidTree& solid, std::size_t id) {
-    if (has_field(solid))
+    if (solid.has_field())
         throw UnsupportedError(fmt::format(
             "--method triage: expected rounded polyhedra, got a free form in solid {}; use octree or marching-cubes", id));
 }
@@ -126,16 +48,16 @@ void need_densities(const SolidTree& solid, std::size_t id) {
 Mesh by_octree(const SolidTree& tree, const Box& box, bool cut_off, const MeshSettings& settings, std::size_t id,
                OctreeStatistics& statistics) {
     const Vec3 size = box.hi - box.lo;
-    const double longest = std::max({size.x, size.y, size.z}), own = octree_edge(tree, box);
+    const double longest = largest(size), own = octree_edge(tree, box);
     OctreeOptions options;
     options.edge = settings.level > 0 ? std::ldexp(longest, -settings.level) : settings.edge > 0 ? settings.edge : own;
     // What has been cut off is many times as large as it looks.
     if (cut_off && settings.level == 0) options.edge = std::max(options.edge, own);
     options.edge *= settings.coarseness;
     options.hard_angle = settings.hard_angle;
-    const double radius = least_radius(tree);
+    const double radius = tree.least_radius();
     const double relative = radius > 0 ? settings.tolerance_in_radii * radius : settings.tolerance_in_sizes * longest;
-    options.tolerance = std::min(settings.tolerance, has_field(tree) || radius > 0 ? relative : infinity);
+    options.tolerance = std::min(settings.tolerance, tree.has_field() || radius > 0 ? relative : infinity);
     try {
         return octree(tree, box, options, &statistics);
     } catch (const OpenMeshError& error) {
@@ -154,22 +76,11 @@ double work_of(const SolidTree& solid) {
     return double(half_spaces);
 }
 
-}  // namespace
-
-std::string SceneMesh::method_names() const {
-    std::string names;
-    for (const MeshMethod m : methods) names += (names.empty() ? "" : ", ") + mesh_method_name(m);
-    return names;
-}
-
-namespace {
-
 struct SolidMesh {
     Mesh mesh;
     std::optional<MeshMethod> method;
     TriageStatistics triage;
     OctreeStatistics octree;
-    std::exception_ptr error;
 };
 
 // `id` is for messages. Where the solid has been cut off, its box is not its own.
@@ -178,12 +89,12 @@ SolidMesh polygonize(const SolidTree& tree, bool cut_off, const MeshSettings& se
     SolidMesh result;
     const Box box = polygonization_box(tree);
     if (box.empty()) return result;
-    result.method = settings.method.value_or(has_field(tree) ? MeshMethod::octree : MeshMethod::triage);
+    result.method = settings.method.value_or(tree.has_field() ? MeshMethod::octree : MeshMethod::triage);
     if (result.method == MeshMethod::octree) {
         result.mesh = by_octree(tree, box, cut_off, settings, id, result.octree);
     } else if (result.method == MeshMethod::triage) {
         need_densities(tree, id);
-        const double radius = least_radius(tree);
+        const double radius = tree.least_radius();
         const double relative = radius > 0 ? settings.tolerance_in_radii * radius : infinity;
         result.mesh = triage(tree, box, {settings.coarseness * std::min(settings.tolerance, relative), stop}, &result.triage);
     } else {
@@ -219,6 +130,12 @@ void add_statistics(SceneMesh& to, const SolidMesh& from) {
 
 }  // namespace
 
+std::string SceneMesh::method_names() const {
+    std::string names;
+    for (const MeshMethod m : methods) names += (names.empty() ? "" : ", ") + mesh_method_name(m);
+    return names;
+}
+
 SceneMesh mesh_scene(const Scene& scene, const MeshSettings& settings, const MeshWatch& watch) {
     SceneMesh result;
     std::vector<Box> boxes;
@@ -228,12 +145,12 @@ SceneMesh mesh_scene(const Scene& scene, const MeshSettings& settings, const Mes
     }
     result.near = finite_part(scene, boxes);
     const Vec3 size = result.near.hi - result.near.lo;
-    const Box limit = inflated(result.near, settings.reach * std::max({size.x, size.y, size.z, 1e-6}));
+    const Box limit = inflated(result.near, settings.reach * std::max(largest(size), 1e-6));
     const std::size_t count = scene.solids.size();
     for (std::size_t i = 0; i < count; ++i) {
         if (finite(boxes[i])) continue;
         // Cut off on infinite sides only; the others keep their margin.
-        Box margin = inflated(boxes[i], 0.05 * std::max({size.x, size.y, size.z}));
+        Box margin = inflated(boxes[i], 0.05 * largest(size));
         for (int k = 0; k < 3; ++k) {
             margin.lo[k] = std::isfinite(margin.lo[k]) ? margin.lo[k] : limit.lo[k];
             margin.hi[k] = std::isfinite(margin.hi[k]) ? margin.hi[k] : limit.hi[k];
@@ -245,19 +162,12 @@ SceneMesh mesh_scene(const Scene& scene, const MeshSettings& settings, const Mes
     for (const SolidTree& tree : result.trees) work += work_of(tree);
     std::vector<SolidMesh> parts(count);
     const auto stopped = [&] { return watch.stop && watch.stop->load(std::memory_order_relaxed); };
-    tbb::parallel_for(std::size_t(0), count, [&](std::size_t i) {
-        if (stopped()) return;
-        try {
-            parts[i] = polygonize(result.trees[i], !finite(boxes[i]), settings, i + 1, watch.stop);
-        } catch (...) {
-            parts[i].error = std::current_exception();
-        }
+    in_parallel(count, [&](std::size_t i) {
+        if (stopped()) throw Stopped();
+        parts[i] = polygonize(result.trees[i], !finite(boxes[i]), settings, i + 1, watch.stop);
         if (watch.done) watch.done(work_of(result.trees[i]) / work);
     });
-    if (stopped()) throw Stopped();
     for (std::size_t i = 0; i < count; ++i) {
-        // Of several errors the first, whichever thread was quicker.
-        if (parts[i].error) std::rethrow_exception(parts[i].error);
         add_statistics(result, parts[i]);
         if (parts[i].mesh.triangles.empty())
             result.warnings.push_back(fmt::format("solid {} is not in the mesh: it is empty{}", i + 1,

@@ -2,53 +2,15 @@
 #pragma once
 #include <atomic>
 #include <functional>
-#include <optional>
 #include <string>
 #include <vector>
 
 #include "polygonizer/metrics.hpp"
-#include "polygonizer/octree.hpp"
 #include "polygonizer/triage.hpp"
+#include "raytracer/mesh_settings.hpp"
 #include "raytracer/scene.hpp"
 
 namespace deburr {
-
-enum class MeshMethod { triage, marching_cubes, octree };
-
-/// Throws UsageError for a name that is none; `what` is for the message.
-MeshMethod parse_mesh_method(const std::string& what, const std::string& name);
-std::string mesh_method_names();
-std::string mesh_method_name(MeshMethod method);
-/// A number > 0, or >= 0, or UsageError.
-double parse_positive(const std::string& what, const std::string& text);
-double parse_limit(const std::string& what, const std::string& text);
-
-/// For pictures: the horizon of a floor that ends so many sizes away is the true one to a pixel.
-inline constexpr double rendering_reach = 1e4;
-
-struct MeshSettings {
-    /// None: triage, and the octree for solids that hold what triage cannot follow, free forms.
-    std::optional<MeshMethod> method = {};
-    double tolerance = infinity;  // triage, octree
-    double tolerance_in_radii = infinity;  // the same, of each solid's least radius, if less
-    double tolerance_in_sizes = infinity;  // octree, without a radius: of each solid's size, if less
-    double grid = 0;              // marching cubes; 0: half the least radius
-    double edge = 0;              // octree: side of a cell; 0: by the solid's size and radius
-    int level = 0;                // octree: 2^level cells along the solid's longest side, if not 0
-    double hard_angle = OctreeOptions{}.hard_angle;  // octree
-    double coarseness = 1;        // multiplies each solid's grid, edge or tolerance
-    double reach = 8;             // infinite solids end this many sizes of the finite ones away
-};
-
-/// --tolerance: a number > 0, or inf for the paper's one refinement of each edge.
-double parse_tolerance(const std::string& text);
-
-/// For pictures of meshes, from --via and --tolerance (which may be empty): finer than a mesh that is
-/// asked for, and with floors that reach the horizon.
-MeshSettings picture_mesh_settings(const std::string& via, const std::string& tolerance);
-
-/// The least radius > 0 in a solid; 0 if all is sharp.
-double least_radius(const SolidTree& solid);
 
 struct SceneMesh {
     Mesh mesh;                    // of all solids

@@ -1,13 +1,11 @@
 #include "raytracer/spaces.hpp"
 
-#include <tbb/parallel_for.h>
-
 #include <algorithm>
-#include <exception>
 #include <map>
 #include <unordered_map>
 
 #include "bounds/bounding_box.hpp"
+#include "raytracer/in_parallel.hpp"
 #include "raytracer/solid_forms.hpp"
 
 namespace deburr {
@@ -236,25 +234,6 @@ private:
     std::unordered_map<int, Box> boxes_;
     std::unordered_map<int, int> space_of_;
 };
-
-}  // namespace
-
-namespace {
-
-// What has failed is thrown at the end: the first, whichever thread was quicker.
-template <class Work>
-void in_parallel(std::size_t count, Work work) {
-    std::vector<std::exception_ptr> errors(count);
-    tbb::parallel_for(std::size_t(0), count, [&](std::size_t i) {
-        try {
-            work(i);
-        } catch (...) {
-            errors[i] = std::current_exception();
-        }
-    });
-    for (const std::exception_ptr& error : errors)
-        if (error) std::rethrow_exception(error);
-}
 
 }  // namespace
 
