@@ -22,6 +22,8 @@ struct Frame {
     Vec3 to_local(Vec3 v) const { return {glm::dot(v, x), glm::dot(v, y), glm::dot(v, z)}; }
 };
 
+Vec2 turn_by(double u) { return {std::cos(2 * pi * u), std::sin(2 * pi * u)}; }
+
 double power5(double x) { return x * x * x * x * x; }
 
 }  // namespace
@@ -93,12 +95,6 @@ Vec3 Ggx::facet(Vec3 to_eye, Vec3 normal, double u, Vec2 turn) const {
     return length > 0 ? frame.to_world(facet / length) : normal;
 }
 
-namespace {
-
-Vec2 turn_by(double u) { return {std::cos(2 * pi * u), std::sin(2 * pi * u)}; }
-
-}  // namespace
-
 Vec3 Ggx::facet(Vec3 to_eye, Vec3 normal, Vec2 u) const { return facet(to_eye, normal, u.x, turn_by(u.y)); }
 
 bool SurfaceLayer::same(const Material& a, const Material& b) {
@@ -163,7 +159,7 @@ Vec3 SurfaceLayer::fresnel(Vec3 color, double cosine) const {
     }
 }
 
-Bsdf::Bsdf(const SurfaceLayer& layer, Vec3 color, Vec3 normal, Vec3 to_eye)
+Bsdf::Bsdf(const SurfaceLayer& layer, Vec3 color, Vec3 normal, Vec3 to_eye, double least_alpha)
     : layer_(layer),
       color_(color),
       base_(color),
@@ -171,7 +167,7 @@ Bsdf::Bsdf(const SurfaceLayer& layer, Vec3 color, Vec3 normal, Vec3 to_eye)
       to_eye_(to_eye),
       cos_eye_(std::max(glm::dot(normal, to_eye), least_cosine)),
       albedo_eye_(layer.kind() == Material::Kind::matte ? 0.0 : layer.albedo(cos_eye_)),
-      ggx_(layer.ggx()) {
+      ggx_{std::max(least_alpha, layer.ggx().alpha)} {
     if (layer.kind() == Material::Kind::mirror) base_ = Vec3(0.0);
     if (layer.kind() == Material::Kind::metal && layer.smooth()) base_ = Vec3(0.0);
     if (layer.kind() == Material::Kind::metal && !layer.smooth()) {
@@ -180,12 +176,6 @@ Bsdf::Bsdf(const SurfaceLayer& layer, Vec3 color, Vec3 normal, Vec3 to_eye)
         const double e = layer.mean_albedo();
         base_ = f * f * e / (1.0 - f * (1 - e));
     }
-}
-
-Bsdf Bsdf::blurred(double alpha) const {
-    Bsdf b = *this;
-    b.ggx_.alpha = std::max(alpha, b.ggx_.alpha);
-    return b;
 }
 
 Vec3 Bsdf::base_albedo() const { return base_ * (1 - albedo_eye_); }

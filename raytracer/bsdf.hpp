@@ -86,10 +86,8 @@ private:
 /// from the surface.
 class Bsdf {
 public:
-    Bsdf(const SurfaceLayer& layer, Vec3 color, Vec3 normal, Vec3 to_eye);
-
-    /// The same with a layer no sharper than `alpha`, but for its albedo; smooth ones stay smooth.
-    Bsdf blurred(double alpha) const;
+    /// The layer is no sharper than `least_alpha`, but for its albedo; smooth ones stay smooth.
+    Bsdf(const SurfaceLayer& layer, Vec3 color, Vec3 normal, Vec3 to_eye, double least_alpha = 0);
 
     struct Value {
         Vec3 base{0.0}, layer{0.0};

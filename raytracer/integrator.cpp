@@ -211,7 +211,7 @@ Vec3 Integrator::transmittance(const Hit& hit, const Incident& light, const Path
 Vec3 Integrator::color_from(const Hit& hit, Vec3 color_here, Vec3 direction, const Path& path) const {
     if (material(hit).kind == Material::Kind::glass) return color_of_glass(hit, color_here, direction, path);
     const SurfaceLayer& layer = layers_[std::size_t(hit.material)];
-    const Bsdf bsdf = Bsdf(layer, color_here, towards_ray(hit.normal, direction), -direction).blurred(path.blur);
+    const Bsdf bsdf(layer, color_here, towards_ray(hit.normal, direction), -direction, path.blur);
     const Vec3 ambient = bsdf.base_albedo() * scene_.ambient;
     if (path.without_noise || path.scattered || path.depth >= scene_.bounces)
         return ambient + lit(bsdf, hit, path, 0.0) +

@@ -18,11 +18,11 @@
 //   more        Every sample follows one path, two from plastic or glass at its start. A
 //               reflection is sampled and traced for every material, weighed against area lights by
 //               multiple importance sampling. In a rough reflection the highlights of other rough
-//               surfaces are blurred, or they would be noise. Where there is a background, diffuse surfaces send a
-//               ray to find out what they see of it; a surface it meets instead is shaded as with
-//               one sample, so light is scattered diffusely at most twice. In the open, where no
-//               surface sees another, that agrees with one sample; in corners it darkens and
-//               colours.
+//               surfaces are blurred, or they would be noise. Where there is a background,
+//               diffuse surfaces send a ray to find out what they see of it; a surface it meets
+//               instead is shaded as with one sample, so light is scattered diffusely at most
+//               twice. In the open, where no surface sees another, that agrees with one sample;
+//               in corners it darkens and colours.
 //
 // A path has at most Scene::bounces rays after the camera's; beyond, the background stands in for
 // what was not traced. Area lights are seen in reflections only (lights.hpp), and by glass only

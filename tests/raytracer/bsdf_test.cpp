@@ -108,7 +108,7 @@ TEST_CASE("SurfaceLayer samples have the density and the weight that are claimed
         for (double cosine : {0.2, 0.6, 1.0}) {
             CAPTURE(roughness, blur, cosine);
             const SurfaceLayer layer({Material::Kind::metal, plain(1.0), roughness, 1.5});
-            const Bsdf bsdf = Bsdf(layer, Vec3(0.8), up, at_cosine(cosine)).blurred(blur);
+            const Bsdf bsdf(layer, Vec3(0.8), up, at_cosine(cosine), blur);
             auto observable = [](Vec3 w) { return (1 + w.x) * (1.5 + w.y) * w.z; };
             const double hit_exact = over_hemisphere(
                 400, 400, [&](Vec3 w) { return bsdf.layer_density(w) * observable(w); });
