@@ -13,44 +13,53 @@ class Placed final : public Others {
 public:
     Placed(const std::vector<Space>& all, const Space& space) : all_(all), space_(space) {}
 
-    FoundSurface find(std::uint32_t number, const Ray& ray, double t_max, TraceCounters& counters) const override {
-        ++counters.placements;
-        const Placement& p = space_.placements[number];
-        double rate = 1;
-        const Ray there = into(p, ray, rate);
-        const Space& space = all_[std::size_t(p.space)];
-        const Placed placed(all_, space);
-        FoundSurface found = space.bsp.find(there, t_max * rate, counters, &placed);
-        if (!(found.crossing.t < infinity)) return {};
-        found.crossing.t /= rate;
-        if (!p.only_moved) found.crossing.normal = glm::normalize(found.crossing.normal * p.into.linear);  // by the transpose
-        if (found.crossing.material < 0) found.crossing.material = p.material;
-        found.solid = p.solid;
-        found.error = found.error * p.stretch + 4 * epsilon * (largest(ray.origin) + found.crossing.t);
-        return found;
-    }
-
-    bool any(std::uint32_t number, const Ray& ray, double t_max, TraceCounters& counters) const override {
-        ++counters.placements;
-        const Placement& p = space_.placements[number];
-        double rate = 1;
-        const Ray there = into(p, ray, rate);
-        const Space& space = all_[std::size_t(p.space)];
-        const Placed placed(all_, space);
-        return space.bsp.any(there, t_max * rate, counters, &placed);
-    }
+    FoundSurface find(std::uint32_t number, const Ray& ray, double t_max, TraceCounters& counters) const override;
+    bool any(std::uint32_t number, const Ray& ray, double t_max, TraceCounters& counters) const override;
 
 private:
-    static Ray into(const Placement& p, const Ray& ray, double& rate) {
-        if (p.only_moved) return {ray.origin + p.into.shift, ray.direction};
-        const Vec3 direction = p.into.linear * ray.direction;
-        rate = glm::length(direction);
-        return {p.into(ray.origin), direction / rate};
-    }
+    struct Inside;
 
     const std::vector<Space>& all_;
     const Space& space_;
 };
+
+// A placement's own space, and what a ray is there.
+struct Placed::Inside {
+    Inside(const std::vector<Space>& all, const Placement& p, const Ray& from, TraceCounters& counters)
+        : space(all[std::size_t(p.space)]), placed(all, space) {
+        ++counters.placements;
+        if (p.only_moved) {
+            ray = {from.origin + p.into.shift, from.direction};
+            return;
+        }
+        const Vec3 direction = p.into.linear * from.direction;
+        rate = glm::length(direction);
+        ray = {p.into(from.origin), direction / rate};
+    }
+
+    const Space& space;
+    Placed placed;
+    Ray ray;
+    double rate = 1;
+};
+
+FoundSurface Placed::find(std::uint32_t number, const Ray& ray, double t_max, TraceCounters& counters) const {
+    const Placement& p = space_.placements[number];
+    const Inside in(all_, p, ray, counters);
+    FoundSurface found = in.space.bsp.find(in.ray, t_max * in.rate, counters, &in.placed);
+    if (!(found.crossing.t < infinity)) return {};
+    found.crossing.t /= in.rate;
+    if (!p.only_moved) found.crossing.normal = glm::normalize(found.crossing.normal * p.into.linear);  // by the transpose
+    if (found.crossing.material < 0) found.crossing.material = p.material;
+    found.solid = p.solid;
+    found.error = found.error * p.stretch + 4 * epsilon * (largest(ray.origin) + found.crossing.t);
+    return found;
+}
+
+bool Placed::any(std::uint32_t number, const Ray& ray, double t_max, TraceCounters& counters) const {
+    const Inside in(all_, space_.placements[number], ray, counters);
+    return in.space.bsp.any(in.ray, t_max * in.rate, counters, &in.placed);
+}
 
 }  // namespace
 
