@@ -12,12 +12,6 @@ Density wedge(double angle) {
     return Density::half_space({c, s, 0}, 0) * Density::half_space({-c, s, 0}, 0);
 }
 
-double distance_to_segment(Vec2 x, Vec2 a, Vec2 b) {
-    const Vec2 d = b - a;
-    const double t = std::clamp(glm::dot(x - a, d) / glm::dot(d, d), 0.0, 1.0);
-    return glm::length(x - a - t * d);
-}
-
 // From the points of one polyline with x up to `width` to the other.
 double one_way(const std::vector<Vec2>& from, const std::vector<Vec2>& to, double width) {
     double most = 0;

@@ -16,6 +16,15 @@ constexpr double epsilon = std::numeric_limits<double>::epsilon();
 /// The largest absolute coordinate.
 inline double largest(Vec3 v) { return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)}); }
 
+/// Of x from the segment, or the point, between a and b.
+template <glm::length_t N>
+double distance_to_segment(const glm::vec<N, double>& x, const glm::vec<N, double>& a, const glm::vec<N, double>& b) {
+    const glm::vec<N, double> d = b - a;
+    const double square = glm::dot(d, d);
+    const double s = square > 0 ? std::clamp(glm::dot(x - a, d) / square, 0.0, 1.0) : 0.0;
+    return glm::distance(x, a + s * d);
+}
+
 /// x ↦ linear·x + shift.
 struct Affine {
     Mat3 linear{1.0};

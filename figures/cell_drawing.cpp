@@ -29,17 +29,12 @@ std::vector<std::vector<Vec3>> walls_of(const CellComplex& complex, int cell) {
     return walls;
 }
 
-double distance_to_line(Vec3 x, Vec3 a, Vec3 b) {
-    const double t = std::clamp(glm::dot(x - a, b - a) / glm::dot(b - a, b - a), 0.0, 1.0);
-    return glm::length(x - glm::mix(a, b, t));
-}
-
 CellDrawing::Point::On place_of(Vec3 x, const std::vector<std::vector<Vec3>>& walls) {
     constexpr double near = 1e-7;
     bool on_face = false;
     for (const auto& wall : walls) {
         for (std::size_t k = 0; k < wall.size(); ++k)
-            if (distance_to_line(x, wall[k], wall[(k + 1) % wall.size()]) < near) return CellDrawing::Point::On::edge;
+            if (distance_to_segment(x, wall[k], wall[(k + 1) % wall.size()]) < near) return CellDrawing::Point::On::edge;
         const Vec3 normal = glm::normalize(glm::cross(wall[1] - wall[0], wall[2] - wall[0]));
         on_face |= std::abs(glm::dot(normal, x - wall[0])) < near;
     }

@@ -7,13 +7,6 @@
 namespace deburr {
 namespace {
 
-double distance_to_segment(Vec3 x, Vec3 a, Vec3 b) {
-    const Vec3 d = b - a;
-    const double square = glm::dot(d, d);
-    const double s = square > 0 ? std::clamp(glm::dot(x - a, d) / square, 0.0, 1.0) : 0.0;
-    return glm::distance(x, a + s * d);
-}
-
 class Splitter {
 public:
     Splitter(Mesh& mesh, const Box& near)

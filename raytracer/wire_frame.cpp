@@ -124,13 +124,6 @@ std::vector<Stroke> strokes_of(std::size_t lines, LineOf line_of, const RayTrace
     return all;
 }
 
-double distance_to(Vec2 x, const Stroke& s) {
-    const Vec2 d = s.to - s.from;
-    const double length2 = glm::dot(d, d);
-    const double t = length2 > 0 ? std::clamp(glm::dot(x - s.from, d) / length2, 0.0, 1.0) : 0;
-    return glm::length(x - (s.from + t * d));
-}
-
 }  // namespace
 
 std::vector<MeshEdge> mesh_edges(const Mesh& mesh, EdgeChoice choice) {
@@ -209,7 +202,7 @@ void draw_strokes(Film& film, const std::vector<Stroke>& strokes, Vec3 color, do
             const double left = std::min(xa, xb), right = std::max(xa, xb);
             const int x1 = std::min(w.x + w.width - 1, int(std::floor(right + reach)));
             for (int x = std::max(w.x, int(std::floor(left - reach))); x <= x1; ++x) {
-                const double share = std::clamp(reach - distance_to({x + 0.5, y + 0.5}, s), 0.0, std::min(1.0, line_width));
+                const double share = std::clamp(reach - distance_to_segment({x + 0.5, y + 0.5}, s.from, s.to), 0.0, std::min(1.0, line_width));
                 float& c = covered[std::size_t(y - w.y) * std::size_t(w.width) + std::size_t(x - w.x)];
                 c = std::max(c, float(share));
             }
