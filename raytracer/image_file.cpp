@@ -83,10 +83,6 @@ std::vector<ImageAttribute> attributes(const Film& film, const ImageNotes& notes
     return all;
 }
 
-}  // namespace
-
-namespace {
-
 // The linear value whose place on the transfer curve is v.
 double linear_of_srgb(double v) { return v <= 0.04045 ? v / 12.92 : std::pow((v + 0.055) / 1.055, 2.4); }
 
