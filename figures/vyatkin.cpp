@@ -8,44 +8,15 @@
 namespace deburr {
 namespace {
 
-struct Meshed {
-    Mesh mesh;
-    Box box;
-};
-
-// The scene's finite solids, one after the other.
-Meshed octree_of(const Scene& scene, double edge, double hard_angle) {
-    Meshed all;
-    const Scene objects = bounded_part(scene);
-    for (std::size_t i = 0; i < objects.solids.size(); ++i) {
-        const SolidTree tree = flatten(objects.solids[i]);
-        const Box box = polygonization_box(tree);
-        all.mesh.append(octree(tree, box, {.edge = edge, .hard_angle = hard_angle}), int(i));
-        all.box = hull(all.box, box);
-    }
-    return all;
-}
-
 double size_of(const Scene& scene) {
     Box box;
     for (const Solid& solid : bounded_part(scene).solids) box = hull(box, bounding_box(flatten(solid)));
-    const Vec3 size = box.hi - box.lo;
-    return std::max({size.x, size.y, size.z});
+    return largest(box.hi - box.lo);
 }
 
-// Nearly as many triangles as asked: their number goes with the edge to the power −2, nearly.
+// As near to as many triangles as the octree comes.
 Mesh mesh_of(const Scene& scene, std::size_t triangles) {
-    constexpr double near_enough = 0.01;
-    constexpr int most_rounds = 4;
-    double edge = size_of(scene) / 40;
-    Mesh mesh;
-    for (int round = 0; round < most_rounds; ++round) {
-        mesh = octree_of(scene, edge, 15).mesh;
-        const double share = double(mesh.triangles.size()) / double(triangles);
-        if (std::abs(share - 1) <= near_enough) break;
-        edge *= std::sqrt(share);
-    }
-    return mesh;
+    return mesh_scene(bounded_part(scene), {.method = MeshMethod::octree}, triangles).mesh;
 }
 
 std::string count(const Mesh& mesh) {
@@ -121,7 +92,8 @@ void grid(FigureContext& context) {
 void cone(FigureContext& context, bool keep) {
     const Scene scene = context.scene("cone.lua");
     context.columns(2);
-    const Mesh mesh = octree_of(scene, size_of(scene) / 18, keep ? OctreeOptions{}.hard_angle : 180).mesh;
+    const MeshSettings settings{.method = MeshMethod::octree, .edge = size_of(scene) / 18, .hard_angle = keep ? OctreeOptions{}.hard_angle : 180};
+    const Mesh mesh = mesh_scene(bounded_part(scene), settings).mesh;
     const FigurePictureSettings size{.width = 480, .height = 480 * scene.height / scene.width, .spp = 24};
     context.picture(wire_picture(context, scene, mesh, {.width = size.width, .height = size.height, .edges = EdgeChoice::triangles}), "the mesh");
     context.picture(shaded(context, scene, flat_shaded(mesh), size), "flat shaded");
