@@ -1,10 +1,12 @@
 // deburr mesh and deburr compare, as a user calls them.
 #include <signal.h>
 
+#include <chrono>
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
 #include <nlohmann/json.hpp>
+#include <thread>
 
 #include "catch.hpp"
 #include "polygonizer/welded.hpp"
@@ -172,11 +174,17 @@ TEST_CASE("the first interrupt of a mesh ends it and writes nothing") {
     // One solid is done soon, all of them are not.
     write_file(folder / "s.lua", "local all = {}\nfor k = 1, 20000 do all[k] = rounded(0.1, cube()):translate(2 * k, 0, 0) end\n"
                                  "return { solids = all }");
-    Call call({"mesh", folder / "s.lua", "-o", folder / "a.ply", "--tolerance", "0.0001"});
-    REQUIRE(call.says(" left"));
+    const std::string out = GENERATE("mesh a.ply", "render a.png", "compare a.png");
+    const std::string command = out.substr(0, out.find(' ')), file = folder / out.substr(out.find(' ') + 1);
+    std::vector<std::string> words{command, folder / "s.lua", "-o", file, "--tolerance", "0.0001"};
+    if (command == "render") words.insert(words.end(), {"--via", "triage", "-v"});
+    Call call(words);
+    if (command == "compare") std::this_thread::sleep_for(std::chrono::seconds(2));
+    else REQUIRE(call.says(command == "mesh" ? " left" : " 20000 solids"));
     call.send(SIGINT);
     const Outcome outcome = call.wait();
+    CAPTURE(out, outcome.err);
     CHECK(outcome.code == 130);
     CHECK(outcome.err.find("interrupted: nothing is written") != std::string::npos);
-    CHECK_FALSE(fs::exists(folder / "a.ply"));
+    CHECK_FALSE(fs::exists(file));
 }
