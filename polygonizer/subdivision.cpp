@@ -29,11 +29,17 @@ double snapped(double distance, double radius, double tolerance) {
     return distance;
 }
 
-Range rho_between(const HalfSpace& h, double lo, double hi, double tolerance) {
-    lo = snapped(lo, h.radius, tolerance);
+// ρ between two distances: the least is at the greater of them. A sharp one is constant on either closed side.
+double least_rho(const HalfSpace& h, double hi, double tolerance) {
     hi = snapped(hi, h.radius, tolerance);
-    if (h.radius > 0) return {profile(hi / h.radius), profile(lo / h.radius)};
-    return {hi > 0 ? 0.0 : 1.0, lo >= 0 ? 0.0 : 1.0};  // sharp: constant on either closed side
+    return h.radius > 0 ? profile(hi / h.radius) : hi > 0 ? 0.0 : 1.0;
+}
+double greatest_rho(const HalfSpace& h, double lo, double tolerance) {
+    lo = snapped(lo, h.radius, tolerance);
+    return h.radius > 0 ? profile(lo / h.radius) : lo >= 0 ? 0.0 : 1.0;
+}
+Range rho_between(const HalfSpace& h, double lo, double hi, double tolerance) {
+    return {least_rho(h, hi, tolerance), greatest_rho(h, lo, tolerance)};
 }
 
 bool varies(Range rho) { return rho.hi != 0 && rho.lo != 1; }
@@ -159,10 +165,9 @@ void Subdivision::look_at(int cell) {
     const std::pair now{cell, complex.cells.size()};
     if (looked_at_ == now) return;
     looked_at_ = now;
-    complex.vertices_of(cell, vertices_);
     corners_.clear();
     extents_.clear();
-    for (int v : vertices_) corners_.push_back(complex.vertices[std::size_t(v)]);
+    for (int v : complex.vertices_of(cell)) corners_.push_back(complex.vertices[std::size_t(v)]);
 }
 
 int Subdivision::new_place(int parent, int cell) {
@@ -252,11 +257,14 @@ double Subdivision::cost(const Place& place, double offset, bool above) {
         for (std::size_t i = first; i < first + count; ++i) {
             const Reach& reach = reach_[i];
             if (reach.along == 0) continue;
-            Range d = reach.distance;
-            const double at = offset * reach.along - reach.half_space->offset;
-            if ((reach.along > 0) == above) d.lo = std::max(d.lo, at);
-            else d.hi = std::min(d.hi, at);
-            ranges_[i] = rho_between(*reach.half_space, d.lo, d.hi, complex.tolerance);
+            const HalfSpace& h = *reach.half_space;
+            const double at = offset * reach.along - h.offset;
+            ranges_[i] = reach.rho;
+            if ((reach.along > 0) != above) {
+                if (at < reach.distance.hi) ranges_[i].lo = least_rho(h, at, complex.tolerance);
+            } else if (at > reach.distance.lo) {
+                ranges_[i].hi = greatest_rho(h, at, complex.tolerance);
+            }
             varying += varies(ranges_[i]);
         }
         sides_[k] = decide(density.range(std::span(ranges_).subspan(first, count)));

@@ -77,7 +77,6 @@ private:
 
     std::pair<int, std::size_t> looked_at_{-1, 0};  // a cell, and how many there were
     std::vector<Vec3> corners_;                // of that cell
-    std::vector<int> vertices_;                // the same by number
     std::vector<Extent> extents_;              // of them, along normals that were asked for
     std::vector<Reach> reach_;                 // of its densities' half-spaces, leaf by leaf
     std::vector<std::vector<Plane>> refused_;  // by cell
