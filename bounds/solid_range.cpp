@@ -57,7 +57,7 @@ SolidTree prune(const SolidTree& tree, const Box& box) {
     mark_needed(tree, sides, needed);
 
     SolidTree to;
-    std::vector<int> place(tree.nodes.size(), -1);
+    std::vector<int> place(tree.nodes.size(), -1), leaf_place(tree.leaves.size(), -1);
     const auto add = [&](SolidTreeNode node) {
         to.nodes.push_back(node);
         return int(to.nodes.size()) - 1;
@@ -72,13 +72,17 @@ SolidTree prune(const SolidTree& tree, const Box& box) {
             place[i] = add({SolidOp::everything});
         } else if (n.op == SolidOp::leaf) {
             const SolidLeaf& leaf = tree.leaves[std::size_t(n.a)];
-            if (leaf.field) {
-                to.leaves.push_back(leaf);
-                if (FieldPtr left = leaf.field->prune(box)) to.leaves.back().field = std::move(left);
-            } else {
-                to.leaves.push_back({std::move(local[std::size_t(n.a)].tree), leaf.material, leaf.line});
+            int& to_leaf = leaf_place[std::size_t(n.a)];
+            if (to_leaf < 0) {
+                to_leaf = int(to.leaves.size());
+                if (leaf.field) {
+                    to.leaves.push_back(leaf);
+                    if (FieldPtr left = leaf.field->prune(box)) to.leaves.back().field = std::move(left);
+                } else {
+                    to.leaves.push_back({std::move(local[std::size_t(n.a)].tree), leaf.material, leaf.line});
+                }
             }
-            place[i] = add({SolidOp::leaf, int(to.leaves.size()) - 1});
+            place[i] = add({SolidOp::leaf, to_leaf});
         } else if (side(n.b) != Side::straddling) {  // and does not decide it: a is left
             place[i] = place[std::size_t(n.a)];
         } else if (side(n.a) != Side::straddling && n.op != SolidOp::subtract) {

@@ -36,8 +36,11 @@ int CellComplex::across(int edge, int face, int cell) const {
     return face;
 }
 
-void CellComplex::vertices_of(int cell, std::vector<int>& out) const {
-    out.clear();
+const std::vector<int>& CellComplex::vertices_of(int cell) const {
+    const std::array now{std::size_t(cell), vertices.size(), edges.size(), faces.size()};
+    if (listed_ == now) return list_;
+    listed_ = now;
+    list_.clear();
     seen_.resize(vertices.size(), 0);
     ++stamp_;
     for (int f : cells[cell])
@@ -45,8 +48,9 @@ void CellComplex::vertices_of(int cell, std::vector<int>& out) const {
             const int v = start(s);
             if (seen_[v] == stamp_) continue;
             seen_[v] = stamp_;
-            out.push_back(v);
+            list_.push_back(v);
         }
+    return list_;
 }
 
 std::vector<int> CellComplex::corners(int face) const {
@@ -81,9 +85,7 @@ bool CellComplex::is_sound() const {
                 uses[s >> 1] += 1 + ((s & 1) == (faces[f].front == int(c)) ? 100 : -100);
         for (const auto& [edge, sum] : uses)
             if (sum != 2) return false;
-        std::vector<int> of_cell;
-        vertices_of(int(c), of_cell);
-        if (of_cell.size() + cells[c].size() != uses.size() + 2) return false;
+        if (vertices_of(int(c)).size() + cells[c].size() != uses.size() + 2) return false;
     }
     return true;
 }
@@ -199,10 +201,9 @@ int CellComplex::split_cell(int cell, std::span<const Step> loop, int seed, std:
 }
 
 bool CellComplex::classify(int cell, const Plane& plane) {
-    vertices_of(cell, scratch_);
     side_.resize(vertices.size());
     bool above = false, below = false;
-    for (int v : scratch_) {
+    for (int v : vertices_of(cell)) {
         const double d = plane.distance(vertices[v]);
         side_[v] = d > tolerance ? 1 : d < -tolerance ? -1 : 0;
         above |= side_[v] > 0;

@@ -13,6 +13,7 @@
 // signs of a cell's vertices contradict convexity, the cut is refused and nothing is changed;
 // the cell then stays whole, and is left to the isosurface.
 #pragma once
+#include <array>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -62,8 +63,8 @@ public:
     }
     /// The other face of `cell` at this edge.
     int across(int edge, int face, int cell) const;
-    /// Each vertex of the cell once.
-    void vertices_of(int cell, std::vector<int>& out) const;
+    /// Each vertex of the cell once; until the next call, or change.
+    const std::vector<int>& vertices_of(int cell) const;
     std::vector<int> corners(int face) const;
     /// Area vector of the face: twice its area, towards the front cell.
     Vec3 area_vector(int face) const;
@@ -96,9 +97,10 @@ private:
         bool above, below;  // whether it has vertices there
     };
     std::vector<signed char> side_;  // of a vertex, while a plane is cutting
-    std::vector<int> scratch_;
     std::vector<Join> joins_;
     std::vector<Reach> reach_;
+    mutable std::vector<int> list_;           // what vertices_of was asked for last,
+    mutable std::array<std::size_t, 4> listed_{};  // and when: the cell and how many there were of everything
     mutable std::vector<std::uint32_t> seen_;
     mutable std::uint32_t stamp_ = 0;
     std::vector<std::uint32_t> rim_;  // by edge: when it was last on the rim of a disc

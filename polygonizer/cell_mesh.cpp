@@ -9,8 +9,7 @@
 namespace deburr {
 
 Vec3 cell_middle(const CellComplex& complex, int cell) {
-    std::vector<int> corners;
-    complex.vertices_of(cell, corners);
+    const std::vector<int>& corners = complex.vertices_of(cell);
     Vec3 middle(0.0);
     for (const int v : corners) middle += complex.vertices[std::size_t(v)] / double(corners.size());
     return middle;
@@ -47,8 +46,7 @@ Mesh cell_mesh(const CellComplex& complex, int cell, double scale, Vec3 offset) 
 DensityClass cell_class(const Subdivision& subdivision, int cell, int leaf, const DensityTree& density) {
     const Side side = subdivision.side(cell, leaf);
     if (side == Side::straddling) return DensityClass::unclassified;
-    std::vector<int> corners;
-    subdivision.complex.vertices_of(cell, corners);
+    const std::vector<int>& corners = subdivision.complex.vertices_of(cell);
     std::vector<Range> ranges;
     for (const HalfSpace& h : density.half_spaces) {
         Range range{1, 0};

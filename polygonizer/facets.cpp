@@ -48,14 +48,14 @@ bool Facets::same_surface(const Facet& f, const Facet& g) const {
 
 bool Facets::no_surface(const Facet& f) const { return f.origin.leaf < 0 && normal(f.triangle.normal[0]) == Vec3(0.0); }
 
-std::optional<Change> Facets::flip(int f, std::size_t k) const {
+std::optional<Change> Facets::flip(int f, std::size_t k, bool give) const {
     const Facet& old = at(f);
     const Triangle& t = old.triangle;
     const int a = t.vertex[k], b = t.vertex[(k + 1) % 3], c = t.vertex[(k + 2) % 3];
     const int other = across(a, b);
     if (other < 0 || other == f) return {};
-    const bool empty = no_surface(old);
-    if (!empty && !same_surface(old, at(other))) return {};
+    const bool same = same_surface(old, at(other)), empty = no_surface(old) || (give && !same);
+    if (!empty && !same) return {};
     const Triangle& beyond = at(other).triangle;
     std::size_t j = 0;
     while (beyond.vertex[j] != b) ++j;  // beyond runs b, a, d

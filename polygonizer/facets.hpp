@@ -52,8 +52,8 @@ public:
     bool no_surface(const Facet& f) const;
 
     /// Edge k of facet f is replaced by the other diagonal of its two facets; none where that is no
-    /// manifold, or where the edge parts two surfaces.
-    std::optional<Change> flip(int f, std::size_t k) const;
+    /// manifold, or where the edge parts two surfaces, unless f may be given to the surface beyond.
+    std::optional<Change> flip(int f, std::size_t k, bool give = false) const;
     /// Vertex u moves onto its neighbour v; none where that is no manifold.
     std::optional<Change> collapse(int u, int v) const;
     /// Edge k of facet f gets a vertex, with the normals it has there in f and beyond.

@@ -123,8 +123,11 @@ std::vector<std::array<int, 3>> triangles_of(const std::vector<std::vector<int>>
     std::vector<std::array<int, 3>> out;
     out.reserve(ring.size() - 2);
     constexpr std::size_t large = 400;  // corners beyond which the first good ear is taken
-    // An ear holds no other corner. Where the polygon touches itself, corners lie on the sides of
-    // every ear: then none within has to do.
+    // An ear holds no other corner, and none is on its sides, to rounding. Where the polygon touches itself,
+    // corners lie on the sides of every ear: then none within has to do.
+    double widest = 0;
+    for (const Point& p : ring) widest = std::max({widest, std::abs(p.x - ring[0].x), std::abs(p.y - ring[0].y)});
+    const double on_side = 1e-14 * widest * widest;
     const auto best_ear = [&](bool sides_too) {
         const std::size_t n = ring.size();
         std::size_t best = n;
@@ -139,7 +142,7 @@ std::vector<std::array<int, 3>> triangles_of(const std::vector<std::vector<int>>
                 const Point& p = ring[j];
                 if (p.vertex == a.vertex || p.vertex == b.vertex || p.vertex == c.vertex) continue;
                 const double inner = std::min({cross(a, b, p), cross(b, c, p), cross(c, a, p)});
-                empty = sides_too ? inner < 0 : inner <= 0;
+                empty = sides_too ? inner < -on_side : inner <= 0;
             }
             if (!empty) continue;
             best = k;

@@ -14,9 +14,10 @@ namespace {
 struct Limits {
     double leaning, better, farther, of_longest;
     double near;  // of a surface, in lengths of the longest side
+    bool unfold;  // by collapses that may leave more wrong facets, if less of their area faces inward
 };
 // First all that lean are helped, then those that face inward at any price.
-constexpr Limits gentle{0.2, 0.25, 2, 1e-3, 0}, last_resort{0.05, 0.06, 5, 2e-2, 2e-2};
+constexpr Limits gentle{0.2, 0.25, 2, 1e-3, 0, false}, last_resort{0.05, 0.06, 5, 2e-2, 2e-2, true};
 constexpr double same_normal = 1e-6;
 // Where surfaces run closer together than any facet is small, mending one makes two that need it. So
 // there are this many splits, more for every wrong facet, and this many tries for each.
@@ -98,7 +99,7 @@ public:
         const Vec3 xa = facets_.position(a), xb = facets_.position(b);
         const double length = glm::length(xb - xa);
         Vec3 x = xa + (xb - xa) * share;
-        if (!surfaces_.project(x, pieces, 0.5 * length)) return {};
+        if (!surfaces_.project(x, pieces, length)) return {};
         if (!on_surface(x)) return {};
         const int vertex = facets_.add_vertex(x);
         const auto normal_on = [&](const Facet& g) {
@@ -124,6 +125,15 @@ public:
         return facets_.star(f, vertex, facets_.add_normal(n));
     }
 
+    // Whether the facet is no farther than `near` from the surface of the one beyond its edge k.
+    bool lies_beyond(int f, std::size_t k, double near) const {
+        const Triangle& t = facets_.at(f).triangle;
+        const int other = facets_.across(t.vertex[k], t.vertex[(k + 1) % 3]);
+        if (other < 0) return false;
+        const Offset o = surfaces_.at(piece(facets_.at(other)), facets_.position(t.vertex[(k + 2) % 3]));
+        return std::abs(o.distance) <= std::max(surfaces_.slack(), near);
+    }
+
     double length(int f, std::size_t k) const {
         const Triangle& t = facets_.at(f).triangle;
         return glm::length(facets_.position(t.vertex[k]) - facets_.position(t.vertex[(k + 1) % 3]));
@@ -139,10 +149,12 @@ public:
         const auto offer = [&](std::optional<Change> change, std::size_t& count) {
             if (!change) return;
             const Verdict was = before(*change), is = after(*change);
-            // A fold may have to be unrolled flip by flip.
-            constexpr double less = 0.999;
-            const bool unrolls = is.wrong == was.wrong && &count == &statistics.flips && is.inverted < less * was.inverted;
+            // A fold may have to be unrolled step by step. What has no area may not become a fold.
+            constexpr double less = 0.999, least_fold = 0.01;
+            const bool may_add = limits_.unfold && &count == &statistics.collapses;
+            const bool unrolls = (is.wrong == was.wrong || may_add) && &count != &statistics.splits && is.inverted < less * was.inverted;
             if (is.wrong >= was.wrong && !unrolls) return;
+            if (is.inverted > was.inverted + least_fold * longest * longest) return;
             if (is.distance > std::max(limits_.farther * was.distance, limits_.of_longest * longest)) return;
             const int gain = was.wrong - is.wrong;
             if (best && (gain < best_gain || (gain == best_gain && is.worst <= best_worst))) return;
@@ -152,7 +164,7 @@ public:
             best_count = &count;
         };
         for (std::size_t k = 0; k < 3; ++k) {
-            offer(facets_.flip(f, k), statistics.flips);
+            offer(facets_.flip(f, k, lies_beyond(f, k, limits_.near * longest)), statistics.flips);
             const Triangle& t = facets_.at(f).triangle;
             const int u = t.vertex[k], v = t.vertex[(k + 1) % 3];
             if (!made(u)) offer(collapse(u, v, limits_.near * longest), statistics.collapses);
@@ -193,6 +205,7 @@ public:
     }
 
     void limit(const Limits& limits) { limits_ = limits; }
+    void forbid_splits() { splits_left_ = 0; }
 
     void mend_facets(RepairStatistics& statistics) {
         std::deque<int> todo;
@@ -278,8 +291,10 @@ public:
             const bool on_seam = surfaces_.project(x, pieces, shortest) && on_surface(x);
             if (!on_seam) {
                 x = facets_.position(v);
-                beside_[std::size_t(v)] = !onto_solid(x, shortest);
-                if (beside_[std::size_t(v)]) continue;
+                if (!onto_solid(x, shortest)) {
+                    beside_[std::size_t(v)] = !(std::abs(solid_.at(facets_.position(v)).distance) <= nearly_on_surface());
+                    continue;
+                }
             }
             facets_.move(v, x);
             turn_normals(v);
@@ -310,6 +325,7 @@ private:
     // Vertices that were put in to mend are on the surface.
     bool is_beside(int v) const { return std::size_t(v) < beside_.size() && beside_[std::size_t(v)]; }
 
+    double nearly_on_surface() const { return std::min(1e-7 * judge_.size(), 5e-7); }
     double shortest() const { return 1e-5 * judge_.size(); }
     double least_sag() const { return 1e-7 * judge_.size(); }
     // Not again what was there before: a vertex that was put in to mend stays.
@@ -333,10 +349,11 @@ private:
 
 }  // namespace
 
-RepairStatistics repair(Mesh& mesh, std::vector<Origin>& origins, const FacetJudge& judge) {
+RepairStatistics repair(Mesh& mesh, std::vector<Origin>& origins, const FacetJudge& judge, bool may_split) {
     RepairStatistics statistics;
     if (mesh.triangles.empty()) return statistics;
     Repair work(mesh, origins, judge);
+    if (!may_split) work.forbid_splits();
     work.mend_vertices(statistics);
     for (const Limits& limits : {gentle, last_resort}) {
         work.limit(limits);

@@ -16,6 +16,8 @@ struct RepairStatistics {
     double farthest = 0;    // distance of a triangle's middle from the surface, in the end
 };
 
-RepairStatistics repair(Mesh& mesh, std::vector<Origin>& origins, const FacetJudge& judge);
+/// Without splits the mesh stays as fine as it is: where surfaces cross at almost no angle, halves of what is
+/// wrong are wrong again.
+RepairStatistics repair(Mesh& mesh, std::vector<Origin>& origins, const FacetJudge& judge, bool may_split = true);
 
 }  // namespace deburr

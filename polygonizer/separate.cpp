@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <limits>
-#include <numeric>
 #include <vector>
 
 #include "polygonizer/facets.hpp"
@@ -103,46 +102,6 @@ std::size_t merge_close(Mesh& mesh) {
     }
     facets.finish();
     return gone;
-}
-
-std::size_t drop_sheets(Mesh& mesh, std::vector<Origin>& origins, double thickness) {
-    std::vector<int> shell(mesh.positions.size());  // union-find over vertices
-    std::iota(shell.begin(), shell.end(), 0);
-    const auto find = [&](int v) {
-        while (shell[std::size_t(v)] != v) v = shell[std::size_t(v)] = shell[std::size_t(shell[std::size_t(v)])];
-        return v;
-    };
-    for (const Triangle& t : mesh.triangles) {
-        shell[std::size_t(find(t.vertex[0]))] = find(t.vertex[1]);
-        shell[std::size_t(find(t.vertex[1]))] = find(t.vertex[2]);
-    }
-    struct Size {
-        double area = 0, volume = 0;
-        bool sheet = false;
-    };
-    std::vector<Size> sizes(mesh.positions.size());
-    bool any = false;
-    for (const Triangle& t : mesh.triangles) {
-        const int of = find(t.vertex[0]);
-        const Vec3 area = mesh.area_vector(t), from = mesh.positions[std::size_t(of)];
-        sizes[std::size_t(of)].area += 0.5 * glm::length(area);
-        sizes[std::size_t(of)].volume += glm::dot(mesh.positions[std::size_t(t.vertex[0])] - from, area) / 6;
-    }
-    for (std::size_t v = 0; v < sizes.size(); ++v) {
-        sizes[v].sheet = std::abs(sizes[v].volume) <= thickness * sizes[v].area;
-        any |= sizes[v].sheet && shell[v] == int(v);
-    }
-    if (!any) return 0;
-    std::size_t kept = 0;
-    const std::size_t before = mesh.triangles.size();
-    for (std::size_t t = 0; t < before; ++t) {
-        if (sizes[std::size_t(find(mesh.triangles[t].vertex[0]))].sheet) continue;
-        mesh.triangles[kept] = mesh.triangles[t];
-        origins[kept++] = origins[t];
-    }
-    mesh.triangles.resize(kept);
-    origins.resize(kept);
-    return before - kept;
 }
 
 std::size_t separate_touching(Mesh& mesh, double step) {

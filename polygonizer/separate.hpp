@@ -1,7 +1,7 @@
 // Parts of a mesh that touch have separate vertices in one place. A reader that joins vertices by
 // their positions, as readers of STL have to, would make edges of four triangles of them. So each is
 // moved by a hair into its own part. Vertices of one part that are too near to each other to be told
-// apart become one; and parts without thickness are dropped.
+// apart become one.
 #pragma once
 #include "polygonizer/facets.hpp"
 
@@ -16,10 +16,6 @@ double single_precision_step(const Mesh& mesh);
 /// Collapses edges whose ends have one position in single precision, where that leaves a 2-manifold.
 /// Returns how many went.
 std::size_t merge_close(Mesh& mesh);
-
-/// Drops shells that enclose less than `thickness` times their area: what is left of parts that only touch.
-/// `origins`, one for each triangle, goes along. Returns how many triangles went.
-std::size_t drop_sheets(Mesh& mesh, std::vector<Origin>& origins, double thickness);
 
 /// Moves vertices whose positions are the same in single precision inward by `step`, or by less
 /// where their triangles are small, until they differ. Returns how many are left that do not.

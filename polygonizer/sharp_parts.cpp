@@ -1,5 +1,7 @@
 #include "polygonizer/sharp_parts.hpp"
 
+#include <algorithm>
+
 #include "bounds/box_range.hpp"
 
 namespace deburr {
@@ -48,6 +50,17 @@ Kinds kinds(const DensityTree& tree) {
     return k;
 }
 
+bool same(const DensityTree& a, const DensityTree& b) {
+    const auto same_plane = [](const HalfSpace& g, const HalfSpace& h) {
+        return g.normal == h.normal && g.offset == h.offset && g.radius == h.radius;
+    };
+    const auto same_node = [](const TreeNode& m, const TreeNode& n) {
+        return m.op == n.op && m.a == n.a && m.b == n.b && m.value == n.value;
+    };
+    return a.ball == b.ball && std::ranges::equal(a.half_spaces, b.half_spaces, same_plane) &&
+           std::ranges::equal(a.nodes, b.nodes, same_node);
+}
+
 class Separation {
 public:
     explicit Separation(SolidTree& to) : to_(to), leaves_before_(to.leaves.size()) {}
@@ -56,16 +69,10 @@ public:
     int run(const SolidLeaf& leaf) {
         const Kinds k = kinds(leaf.density);
         if (to_.leaves.size() - leaves_before_ > most_leaves) return -1;
-        if (leaf.field) {
-            to_.leaves.push_back(leaf);
-            return add({SolidOp::leaf, int(to_.leaves.size()) - 1});
-        }
+        if (leaf.field) return add(leaf);
         if (leaf.density.nodes.back().op == Op::constant)
             return add({leaf.density.nodes.back().value > 0.5 ? SolidOp::everything : SolidOp::nothing});
-        if (!k.sharp || !k.rounded) {
-            to_.leaves.push_back(leaf);
-            return add({SolidOp::leaf, int(to_.leaves.size()) - 1});
-        }
+        if (!k.sharp || !k.rounded) return add(leaf);
         const TreeNode& root = leaf.density.nodes.back();
         if (root.op == Op::complement) return join(SolidOp::subtract, add({SolidOp::everything}), part(leaf, root.a));
         const DensityTree a = subtree(leaf.density, root.a), b = subtree(leaf.density, root.b);
@@ -100,8 +107,7 @@ private:
         };
         const int inside = with(1), outside = with(0);
         if (inside < 0 || outside < 0) return -1;
-        to_.leaves.push_back({DensityTree{{plane}, {{Op::half_space, 0, -1, 0, leaf.line}}}, leaf.material, leaf.line});
-        const int s = add({SolidOp::leaf, int(to_.leaves.size()) - 1});
+        const int s = add({DensityTree{{plane}, {{Op::half_space, 0, -1, 0, leaf.line}}}, leaf.material, leaf.line});
         return join(SolidOp::unite, join(SolidOp::intersect, inside, s), join(SolidOp::subtract, outside, s));
     }
 
@@ -120,6 +126,13 @@ private:
         return add({op, a, b});
     }
 
+    // What remains on both sides of a sharp plane is one leaf, whose surface goes on from one to the other.
+    int add(const SolidLeaf& leaf) {
+        std::size_t k = leaves_before_;
+        while (k < to_.leaves.size() && (leaf.field || !same(to_.leaves[k].density, leaf.density))) ++k;
+        if (k == to_.leaves.size()) to_.leaves.push_back(leaf);
+        return add({SolidOp::leaf, int(k)});
+    }
     int add(SolidTreeNode node) {
         to_.nodes.push_back(node);
         return int(to_.nodes.size()) - 1;

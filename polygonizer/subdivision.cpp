@@ -29,32 +29,20 @@ double snapped(double distance, double radius, double tolerance) {
     return distance;
 }
 
-Range rho_between(const HalfSpace& h, double lo, double hi, double tolerance) {
-    lo = snapped(lo, h.radius, tolerance);
+// ρ between two distances: the least is at the greater of them. A sharp one is constant on either closed side.
+double least_rho(const HalfSpace& h, double hi, double tolerance) {
     hi = snapped(hi, h.radius, tolerance);
-    if (h.radius > 0) return {profile(hi / h.radius), profile(lo / h.radius)};
-    return {hi > 0 ? 0.0 : 1.0, lo >= 0 ? 0.0 : 1.0};  // sharp: constant on either closed side
+    return h.radius > 0 ? profile(hi / h.radius) : hi > 0 ? 0.0 : 1.0;
+}
+double greatest_rho(const HalfSpace& h, double lo, double tolerance) {
+    lo = snapped(lo, h.radius, tolerance);
+    return h.radius > 0 ? profile(lo / h.radius) : lo >= 0 ? 0.0 : 1.0;
+}
+Range rho_between(const HalfSpace& h, double lo, double hi, double tolerance) {
+    return {least_rho(h, hi, tolerance), greatest_rho(h, lo, tolerance)};
 }
 
 bool varies(Range rho) { return rho.hi != 0 && rho.lo != 1; }
-
-Range distances(const HalfSpace& h, const std::vector<Vec3>& corners) {
-    Range d{infinity, -infinity};
-    for (const Vec3& x : corners) {
-        const double s = h.distance(x);
-        d = {std::min(d.lo, s), std::max(d.hi, s)};
-    }
-    return d;
-}
-
-void ranges_over(const std::vector<HalfSpace>& half_spaces, const std::vector<Vec3>& corners,
-                 double tolerance, std::vector<Range>& out) {
-    out.clear();
-    for (const HalfSpace& h : half_spaces) {
-        const Range d = distances(h, corners);
-        out.push_back(rho_between(h, d.lo, d.hi, tolerance));
-    }
-}
 
 // Folds decided leaves away; `solid` keeps children before parents, the root last.
 template <class SideOfLeaf>
@@ -120,9 +108,36 @@ Subdivision::Subdivision(const SolidTree& solid, const Box& box)
     subdivide(0);
 }
 
+// Of corners_, along a normal.
+Range Subdivision::extent(Vec3 normal) {
+    for (const Extent& e : extents_) {
+        if (e.normal == normal) return e.along;
+        if (e.normal == -normal) return {-e.along.hi, -e.along.lo};
+    }
+    const Range along = extent_along(normal, corners_);
+    constexpr std::size_t usual = 8;  // normals; what has more would look for them too long
+    if (extents_.size() < usual) extents_.push_back({normal, along});
+    return along;
+}
+
+// Rounding is monotone: the least of differences is the difference from the least.
+Range Subdivision::distances(const HalfSpace& h) {
+    const Range s = extent(h.normal);
+    return {s.lo - h.offset, s.hi - h.offset};
+}
+
+// ρ of the half-spaces over corners_, to ranges_.
+void Subdivision::range_over_cell(const std::vector<HalfSpace>& half_spaces) {
+    ranges_.clear();
+    for (const HalfSpace& h : half_spaces) {
+        const Range d = distances(h);
+        ranges_.push_back(rho_between(h, d.lo, d.hi, complex.tolerance));
+    }
+}
+
 // The leaf within corners_.
 OpenLeaf Subdivision::localize(const OpenLeaf& leaf, Side& side) {
-    ranges_over(leaf.tree->half_spaces, corners_, complex.tolerance, ranges_);
+    range_over_cell(leaf.tree->half_spaces);
     Pruned pruned = prune_further(*leaf.tree, ranges_);
     side = decide(pruned.range);
     if (side != Side::straddling) return leaf;
@@ -135,10 +150,10 @@ OpenLeaf Subdivision::localize(const OpenLeaf& leaf, Side& side) {
     if (!local.density && (leaf.density || local.tree->half_spaces.size() <= 2 * many))
         local.density = std::make_shared<LocalDensity>(*local.tree);
     if (local.density) {
-        ranges_over(local.density->half_spaces(), corners_, complex.tolerance, ranges_);
+        range_over_cell(local.density->half_spaces());
         side = decide(local.density->range(ranges_));
         if (side == Side::straddling && is_parallel_family(*local.density)) {
-            const Range s = extent_along(local.density->half_spaces()[0].normal, corners_);
+            const Range s = extent(local.density->half_spaces()[0].normal);
             const auto roots = level_planes(*local.density, s, complex.tolerance);
             if (roots.planes.empty()) side = roots.inside ? Side::inside : Side::outside;
         }
@@ -150,9 +165,9 @@ void Subdivision::look_at(int cell) {
     const std::pair now{cell, complex.cells.size()};
     if (looked_at_ == now) return;
     looked_at_ = now;
-    complex.vertices_of(cell, vertices_);
     corners_.clear();
-    for (int v : vertices_) corners_.push_back(complex.vertices[std::size_t(v)]);
+    extents_.clear();
+    for (int v : complex.vertices_of(cell)) corners_.push_back(complex.vertices[std::size_t(v)]);
 }
 
 int Subdivision::new_place(int parent, int cell) {
@@ -242,11 +257,14 @@ double Subdivision::cost(const Place& place, double offset, bool above) {
         for (std::size_t i = first; i < first + count; ++i) {
             const Reach& reach = reach_[i];
             if (reach.along == 0) continue;
-            Range d = reach.distance;
-            const double at = offset * reach.along - reach.half_space->offset;
-            if ((reach.along > 0) == above) d.lo = std::max(d.lo, at);
-            else d.hi = std::min(d.hi, at);
-            ranges_[i] = rho_between(*reach.half_space, d.lo, d.hi, complex.tolerance);
+            const HalfSpace& h = *reach.half_space;
+            const double at = offset * reach.along - h.offset;
+            ranges_[i] = reach.rho;
+            if ((reach.along > 0) != above) {
+                if (at < reach.distance.hi) ranges_[i].lo = least_rho(h, at, complex.tolerance);
+            } else if (at > reach.distance.lo) {
+                ranges_[i].hi = greatest_rho(h, at, complex.tolerance);
+            }
             varying += varies(ranges_[i]);
         }
         sides_[k] = decide(density.range(std::span(ranges_).subspan(first, count)));
@@ -279,7 +297,7 @@ Range Subdivision::turn(const Place& place, Vec3 normal) {
             ranges_.push_back(reach->rho);
             if (reach->along == 0) varying_[k] += varies(reach->rho);
         }
-    return extent_along(normal, corners_);
+    return extent(normal);
 }
 
 bool Subdivision::is_refused(const Plane& plane) const {
@@ -301,7 +319,7 @@ bool Subdivision::choose(const Place& place, Plane& plane) {
     reach_.clear();
     for (const OpenLeaf& leaf : place.open)
         for (const HalfSpace& h : leaf.density->half_spaces()) {
-            const Range d = distances(h, corners_);
+            const Range d = distances(h);
             reach_.push_back({&h, d, rho_between(h, d.lo, d.hi, complex.tolerance), 0});
         }
     double best = infinity;

@@ -58,6 +58,14 @@ private:
         int along;  // 1 or −1 where its normal is the plane's that is being considered, or against it; else 0
     };
 
+    struct Extent {
+        Vec3 normal;
+        Range along;
+    };
+
+    Range extent(Vec3 normal);
+    Range distances(const HalfSpace& h);
+    void range_over_cell(const std::vector<HalfSpace>& half_spaces);
     int new_place(int parent, int cell);
     OpenLeaf localize(const OpenLeaf& leaf, Side& side);
     bool choose(const Place& place, Plane& plane);
@@ -69,7 +77,7 @@ private:
 
     std::pair<int, std::size_t> looked_at_{-1, 0};  // a cell, and how many there were
     std::vector<Vec3> corners_;                // of that cell
-    std::vector<int> vertices_;                // the same by number
+    std::vector<Extent> extents_;              // of them, along normals that were asked for
     std::vector<Reach> reach_;                 // of its densities' half-spaces, leaf by leaf
     std::vector<std::vector<Plane>> refused_;  // by cell
     int current_ = 0;

@@ -145,6 +145,7 @@ Offset SurfaceOffset::piece_at(const SmoothPiece& piece, Vec3 x) const {
 }
 
 Offset SurfaceOffset::at(Vec3 x) const {
+    if (solid_.nodes.size() == 1 && solid_.nodes[0].op == SolidOp::leaf) return leaf_at(std::size_t(solid_.nodes[0].a), x);
     thread_local std::vector<Offset> done;
     done.clear();
     for (const SolidTreeNode& n : solid_.nodes) {
@@ -200,7 +201,7 @@ std::size_t SurfaceOffset::half_spaces() const {
 
 // A surface in the wall between two boxes must be seen from both.
 OffsetField::OffsetField(const SolidTree& solid, const Box& box, double margin)
-    : root_(std::make_unique<Node>(Node{box, SurfaceOffset(solid), 0, {}})),
+    : root_(std::make_unique<Node>(box, SurfaceOffset(solid), 0)),
       margin_(std::max(margin, 1e-6 * glm::length(box.hi - box.lo))) {}
 
 double OffsetField::distance_along_normal(Vec3 x, double reach) const {
@@ -213,7 +214,7 @@ const SurfaceOffset& OffsetField::near(Vec3 x) const {
     constexpr int deepest = 40;
     Node* node = root_.get();
     if (!node->box.contains(x)) return node->solid;
-    while (node->depth < deepest && node->solid.half_spaces() > few) {
+    while (node->depth < deepest && node->half_spaces > few) {
         const Vec3 size = node->box.hi - node->box.lo;
         const int axis = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
         if (size[axis] < 2 * margin_) break;
@@ -222,7 +223,7 @@ const SurfaceOffset& OffsetField::near(Vec3 x) const {
         if (!child) {
             Box half = node->box;
             (x[axis] > middle ? half.lo : half.hi)[axis] = middle;
-            child = std::make_unique<Node>(Node{half, node->solid.within(inflated(half, margin_)), node->depth + 1, {}});
+            child = std::make_unique<Node>(half, node->solid.within(inflated(half, margin_)), node->depth + 1);
         }
         node = child.get();
     }

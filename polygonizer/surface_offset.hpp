@@ -79,9 +79,12 @@ public:
 
 private:
     struct Node {
+        Node(const Box& box, SurfaceOffset of_it, int depth)
+            : box(box), solid(std::move(of_it)), half_spaces(solid.half_spaces()), depth(depth) {}
         Box box;
         SurfaceOffset solid;
-        int depth = 0;
+        std::size_t half_spaces;
+        int depth;
         std::unique_ptr<Node> children[2];
     };
     std::unique_ptr<Node> root_;

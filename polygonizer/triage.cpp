@@ -9,6 +9,7 @@
 #include "polygonizer/repair.hpp"
 #include "polygonizer/separate.hpp"
 #include "polygonizer/sharp_parts.hpp"
+#include "polygonizer/sheets.hpp"
 #include "polygonizer/surface.hpp"
 #include "polygonizer/thin_borders.hpp"
 
@@ -90,19 +91,26 @@ Mesh triage(const SolidTree& mixed, const Box& box, const TriageOptions& options
             }
             if (changed) continue;
         }
-        drop_sheets(mesh, origins, 10 * subdivision.complex.tolerance);
+        if (!judge) judge.emplace(solid, mesh);
+        drop_sheets(mesh, origins, 10 * subdivision.complex.tolerance, judge->solid());
         // What repair cannot help needs smaller cells around it.
         ++mending;
-        if (!judge) judge.emplace(solid, mesh);
-        const RepairStatistics repaired = repair(mesh, origins, *judge);
-        if (repaired.left.size() < least_left) {
-            least_left = repaired.left.size();
-            farthest = repaired.farthest;
-            best = mesh;
-            best_origins = origins;
+        std::vector<Cut> cuts[2];
+        for (const bool may_split : {true, false}) {
+            Mesh mended = mesh;
+            std::vector<Origin> mended_origins = origins;
+            RepairStatistics repaired = repair(mended, mended_origins, *judge, may_split);
+            drop_wrong_sheets(mended, mended_origins, repaired.left);
+            cuts[may_split] = cells_around(mended, mended_origins, repaired.left, subdivision);
+            if (repaired.left.size() < least_left) {
+                least_left = repaired.left.size();
+                farthest = repaired.farthest;
+                best = std::move(mended);
+                best_origins = std::move(mended_origins);
+            }
+            if (least_left == 0) break;
         }
-        if (least_left == 0) break;
-        if (halve(subdivision, cells_around(mesh, origins, repaired.left, subdivision)).empty()) break;
+        if (least_left == 0 || (halve(subdivision, cuts[0]).empty() && halve(subdivision, cuts[1]).empty())) break;
     }
     mesh = std::move(best);
     origins = std::move(best_origins);
