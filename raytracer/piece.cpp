@@ -51,11 +51,11 @@ std::size_t Pieces::half_spaces(std::size_t i) const {
 }
 
 PieceCrossing Pieces::general_crossing(const Piece& p, Vec3 origin, Vec3 direction, double t0, double t1,
-                                       TraceCounters& counters) const {
+                                       bool any, TraceCounters& counters) const {
     CrossingScratch& memory = scratch();
     memory.criterion = criterion_;
     memory.counters = {};
-    const SurfaceCrossing c = locals_[p.first].first_crossing(origin, direction, t0, t1, memory);
+    const SurfaceCrossing c = locals_[p.first].first_crossing(origin, direction, t0, t1, any, memory);
     counters.flat_hits += memory.counters.flat;
     counters.segments += memory.counters.roots.segments;
     counters.splits += memory.counters.roots.splits;

@@ -62,7 +62,7 @@ public:
 
 private:
     ConvexView view(const Piece& p) const { return {&planes_[p.first], p.soft, p.sharp, p.complement}; }
-    PieceCrossing general_crossing(const Piece& p, Vec3 origin, Vec3 direction, double t0, double t1,
+    PieceCrossing general_crossing(const Piece& p, Vec3 origin, Vec3 direction, double t0, double t1, bool any,
                                    TraceCounters& counters) const;
 
     std::vector<Piece> pieces_;
@@ -75,7 +75,7 @@ private:
 inline PieceCrossing Pieces::crossing(std::size_t i, Vec3 origin, Vec3 direction, double t0, double t1,
                                       bool any, TraceCounters& counters) const {
     const Piece& p = pieces_[i];
-    if (p.kind == Piece::Kind::general) return general_crossing(p, origin, direction, t0, t1, counters);
+    if (p.kind == Piece::Kind::general) return general_crossing(p, origin, direction, t0, t1, any, counters);
     const double negligible = 8 * epsilon * (scale_ + t0);
     if (any) {
         if (!any_crossing(view(p), origin, direction, t0, t1, negligible, counters.evaluations)) return {};
