@@ -53,7 +53,7 @@ private:
 /// A ray's view of it. Keeps its memory; to be used again and again.
 class ProductSumRay {
 public:
-    void set(const ProductSum& sum, Vec3 origin, Vec3 direction);
+    void set(const ProductSum& sum, const Vec3& origin, const Vec3& direction);
 
     /// ρ > ½?
     bool inside(double t) const;

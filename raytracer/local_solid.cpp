@@ -243,7 +243,7 @@ Vec3 unit(Vec3 v) {
 }  // namespace
 
 // Cuts [t0, t1] down to where the ray is in the box; false if nothing is left.
-bool clip(const Box& box, Vec3 origin, Vec3 direction, double& t0, double& t1) {
+bool clip(const Box& box, const Vec3& origin, const Vec3& direction, double& t0, double& t1) {
     for (int k = 0; k < 3; ++k) {
         const double o = origin[k], d = direction[k];
         if (d == 0) {
@@ -258,7 +258,7 @@ bool clip(const Box& box, Vec3 origin, Vec3 direction, double& t0, double& t1) {
 
 // visit(t, entering, normal) → go on?
 template <class Visit>
-void LocalSolid::field_crossings(const Field& field, Vec3 origin, Vec3 direction, double t0, double t1,
+void LocalSolid::field_crossings(const Field& field, const Vec3& origin, const Vec3& direction, double t0, double t1,
                                  CrossingScratch& scratch, bool* start_inside, Visit visit) const {
     // What is passed over as a mere touch; f is in the ray's unit, of which rounding is all the noise.
     constexpr double faint = 2 * RootFinder::rounding;
@@ -302,7 +302,7 @@ void LocalSolid::field_crossings(const Field& field, Vec3 origin, Vec3 direction
 
 // visit(t, entering, normal; 0 where t is `coarse`) → go on?
 template <class Visit>
-void LocalSolid::sum_crossings(const ProductSum& sum, Vec3 origin, Vec3 direction, double t0, double t1, bool coarse,
+void LocalSolid::sum_crossings(const ProductSum& sum, const Vec3& origin, const Vec3& direction, double t0, double t1, bool coarse,
                                CrossingScratch& scratch, bool* start_inside, Visit visit) const {
     ProductSumRay& ray = scratch.sum;
     ray.set(sum, origin, direction);
@@ -314,7 +314,7 @@ void LocalSolid::sum_crossings(const ProductSum& sum, Vec3 origin, Vec3 directio
 
 // visit(t, entering, normal or 0: not known yet) → go on?
 template <class Visit>
-void LocalSolid::soft_crossings(const Soft& soft, Vec3 origin, Vec3 direction, double t0, double t1,
+void LocalSolid::soft_crossings(const Soft& soft, const Vec3& origin, const Vec3& direction, double t0, double t1,
                                 CrossingScratch& scratch, bool* start_inside, Visit visit) const {
     if (soft.field) return field_crossings(*soft.field, origin, direction, t0, t1, scratch, start_inside, visit);
     if (soft.convex) {
@@ -399,7 +399,7 @@ void LocalSolid::soft_crossings(const Soft& soft, Vec3 origin, Vec3 direction, d
     }
 }
 
-SurfaceCrossing LocalSolid::first_crossing(Vec3 origin, Vec3 direction, double t0, double t1, bool any,
+SurfaceCrossing LocalSolid::first_crossing(const Vec3& origin, const Vec3& direction, double t0, double t1, bool any,
                                            CrossingScratch& scratch) const {
     SurfaceCrossing result;
     // A normal that is known up to its sign: it leaves the solid, so it is against a ray that enters.

@@ -86,7 +86,7 @@ public:
 
     /// First crossing of the solid's surface in [t0, t1]; `any`: that there is one will do, t and normal
     /// mean nothing.
-    SurfaceCrossing first_crossing(Vec3 origin, Vec3 direction, double t0, double t1, bool any,
+    SurfaceCrossing first_crossing(const Vec3& origin, const Vec3& direction, double t0, double t1, bool any,
                                    CrossingScratch& scratch) const;
 
 private:
@@ -112,13 +112,13 @@ private:
     std::optional<ConvexDensity> intersection_of_leaves(unsigned positive) const;
     bool evaluate(std::vector<char>& state, const std::vector<char>& inside) const;
     template <class Visit>
-    void field_crossings(const Field& field, Vec3 origin, Vec3 direction, double t0, double t1,
+    void field_crossings(const Field& field, const Vec3& origin, const Vec3& direction, double t0, double t1,
                          CrossingScratch& scratch, bool* start_inside, Visit visit) const;
     template <class Visit>
-    void sum_crossings(const ProductSum& sum, Vec3 origin, Vec3 direction, double t0, double t1, bool coarse,
+    void sum_crossings(const ProductSum& sum, const Vec3& origin, const Vec3& direction, double t0, double t1, bool coarse,
                        CrossingScratch& scratch, bool* start_inside, Visit visit) const;
     template <class Visit>
-    void soft_crossings(const Soft& soft, Vec3 origin, Vec3 direction, double t0, double t1,
+    void soft_crossings(const Soft& soft, const Vec3& origin, const Vec3& direction, double t0, double t1,
                         CrossingScratch& scratch, bool* start_inside, Visit visit) const;
 
     int solid_;
