@@ -24,6 +24,7 @@ struct AlphaPlane {
     Vec3 slope;
     double base;
 };
+AlphaPlane alpha_plane(const HalfSpace& h, bool flipped);
 
 struct ConvexDensity {
     std::vector<AlphaPlane> planes;  // the factors of P; the sharp ones last
@@ -52,15 +53,15 @@ constexpr int most_factors = 255;
 struct ConvexCrossing {
     double t = infinity;
     bool entering = false;  // ρ > ½ beyond it
-    int sharp = -1;         // the sharp factor that is crossed; −1: P itself crosses ½
+    int plane = -1;         // the factor that is crossed alone: sharp, or all others are 1; −1: none
 };
 
 /// First crossing of ρ = ½ in [t0, t1] (not infinite), to within `negligible`.
-ConvexCrossing first_crossing(ConvexView density, Vec3 origin, Vec3 direction, double t0, double t1,
+ConvexCrossing first_crossing(const ConvexView& density, const Vec3& origin, const Vec3& direction, double t0, double t1,
                               double negligible, std::uint64_t& evaluations);
 
 /// Whether there is a crossing in [t0, t1].
-bool any_crossing(ConvexView density, Vec3 origin, Vec3 direction, double t0, double t1,
+bool any_crossing(const ConvexView& density, const Vec3& origin, const Vec3& direction, double t0, double t1,
                   double negligible, std::uint64_t& evaluations);
 
 struct ConvexCrossings {
@@ -70,10 +71,10 @@ struct ConvexCrossings {
 };
 
 /// All crossings in [t0, t1], in order.
-ConvexCrossings all_crossings(ConvexView density, Vec3 origin, Vec3 direction, double t0, double t1,
+ConvexCrossings all_crossings(const ConvexView& density, const Vec3& origin, const Vec3& direction, double t0, double t1,
                               double negligible, std::uint64_t& evaluations);
 
 /// Unit normal of the surface at x, either way round; 0 where ρ is flat.
-Vec3 surface_normal(ConvexView density, const ConvexCrossing& crossing, Vec3 x);
+Vec3 surface_normal(const ConvexView& density, const ConvexCrossing& crossing, const Vec3& x);
 
 }  // namespace deburr

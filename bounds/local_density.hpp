@@ -1,6 +1,6 @@
 // A density made ready for fast evaluation: the papers' arithmetic as it stands, Boolean parts as
-// decision diagrams, a true convolution as the share of a ball. Meant for the little that is left of a tree in a cell (box_range.hpp), right
-// for any.
+// decision diagrams, a true convolution as the share of a ball. Meant for the little that is left of a
+// tree in a cell (box_range.hpp), right for any.
 //
 // Along a ray every α is linear in t, so a ray is a small table of them: RayDensity.
 #pragma once
@@ -24,16 +24,27 @@ public:
     const std::vector<HalfSpace>& half_spaces() const { return half_spaces_; }
     bool has_sharp() const { return has_sharp_; }
 
+    struct Factor {
+        int half_space;
+        bool flipped;  // 1 − F
+    };
     struct Product {
-        struct Factor {
-            int half_space;
-            bool flipped;  // 1 − F
-        };
         std::vector<Factor> factors;
         bool complement = false;  // one minus the product
     };
     /// The density written as a product of half-spaces, if it can be read off the expression.
     std::optional<Product> as_product() const;
+    struct Sum {
+        struct Term {
+            double weight;
+            std::vector<Factor> factors;
+        };
+        double constant = 0;
+        std::vector<Term> terms;
+    };
+    /// The density multiplied out: a constant and weighted products of half-spaces, if they are no more
+    /// than `most_terms`.
+    std::optional<Sum> as_sum(std::size_t most_terms) const;
     /// Whether ρ is a polynomial of degree 1 in each of several variables, of which variable_of[i] is
     /// the one that half-space i is a linear function of.
     bool is_affine_in_each(const std::vector<int>& variable_of) const;

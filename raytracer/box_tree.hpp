@@ -46,7 +46,7 @@ public:
     /// boxes the ray may meet in [t0, t1], the nearest first but where boxes overlap. It returns the
     /// distance up to which it goes on; a negative one ends it.
     template <class Visit>
-    void visit(Vec3 origin, Vec3 direction, Vec3 inverse, double t0, double t1, Visit visit) const;
+    void visit(const Vec3& origin, const Vec3& direction, const Vec3& inverse, double t0, double t1, Visit visit) const;
 
     /// Calls visit(number of an item) for those whose boxes may meet this one.
     template <class Visit>
@@ -82,7 +82,7 @@ inline Vec3 reciprocal(Vec3 d) {
     return {of(d.x), of(d.y), of(d.z)};
 }
 
-inline BoxSpan span_in(const Box& box, Vec3 origin, Vec3 inverse, double t0, double t1) {
+inline BoxSpan span_in(const Box& box, const Vec3& origin, const Vec3& inverse, double t0, double t1) {
     for (int k = 0; k < 3; ++k) {
         const double a = (box.lo[k] - origin[k]) * inverse[k], b = (box.hi[k] - origin[k]) * inverse[k];
         const double lo = inverse[k] < 0 ? b : a, hi = inverse[k] < 0 ? a : b;
@@ -93,7 +93,7 @@ inline BoxSpan span_in(const Box& box, Vec3 origin, Vec3 inverse, double t0, dou
 }
 
 template <class Visit>
-void BoxTree::visit(Vec3 origin, Vec3 direction, Vec3 reciprocal, double t0, double t1, Visit visit) const {
+void BoxTree::visit(const Vec3& origin, const Vec3& direction, const Vec3& reciprocal, double t0, double t1, Visit visit) const {
     struct Entry {
         std::int32_t child;
         float t;

@@ -66,7 +66,7 @@ void LocalSolid::add_leaf(const SolidLeaf& leaf, const Box& box, const Tolerance
                           Search search, std::optional<bool>& constant) {
     if (leaf.field) {  // pruned to where it straddles
         leaves_.push_back({Vec3(0.0), 0, int(softs_.size()), leaf.material});
-        softs_.push_back({LocalDensity(leaf.density), std::nullopt, {}, {}, false, false, leaf.field});
+        softs_.push_back({LocalDensity(leaf.density), {}, {}, {}, {}, false, false, leaf.field});
         return;
     }
     const auto prepared = [&] {
@@ -99,14 +99,17 @@ void LocalSolid::add_leaf(const SolidLeaf& leaf, const Box& box, const Tolerance
             to.offset = -p.base / length;
         } else {
             to.soft = int(softs_.size());
-            softs_.push_back({std::move(density), std::move(convex), {}, {}, false, false});
+            softs_.push_back({std::move(density), std::move(convex), {}, {}, {}, false, false});
         }
+    } else if (auto sum = search == Search::always ? std::nullopt : ProductSum::of(density, tolerances.clear())) {
+        to.soft = int(softs_.size());
+        softs_.push_back({std::move(density), {}, std::move(sum), {}, {}, false, false});
     } else {
         to.soft = int(softs_.size());
         const double clear = tolerances.clear();
         const auto is_sharp = [](const HalfSpace& h) { return h.radius == 0; };
         const bool all_sharp = std::all_of(density.half_spaces().begin(), density.half_spaces().end(), is_sharp);
-        softs_.push_back({std::move(density), std::nullopt, outer_bound(leaf.density, 0.5, clear),
+        softs_.push_back({std::move(density), {}, {}, outer_bound(leaf.density, 0.5, clear),
                           inner_bound(leaf.density, 0.5, clear), bounds_hold(leaf.density, box), all_sharp});
     }
     leaves_.push_back(to);
@@ -240,7 +243,7 @@ Vec3 unit(Vec3 v) {
 }  // namespace
 
 // Cuts [t0, t1] down to where the ray is in the box; false if nothing is left.
-bool clip(const Box& box, Vec3 origin, Vec3 direction, double& t0, double& t1) {
+bool clip(const Box& box, const Vec3& origin, const Vec3& direction, double& t0, double& t1) {
     for (int k = 0; k < 3; ++k) {
         const double o = origin[k], d = direction[k];
         if (d == 0) {
@@ -255,7 +258,7 @@ bool clip(const Box& box, Vec3 origin, Vec3 direction, double& t0, double& t1) {
 
 // visit(t, entering, normal) → go on?
 template <class Visit>
-void LocalSolid::field_crossings(const Field& field, Vec3 origin, Vec3 direction, double t0, double t1,
+void LocalSolid::field_crossings(const Field& field, const Vec3& origin, const Vec3& direction, double t0, double t1,
                                  CrossingScratch& scratch, bool* start_inside, Visit visit) const {
     // What is passed over as a mere touch; f is in the ray's unit, of which rounding is all the noise.
     constexpr double faint = 2 * RootFinder::rounding;
@@ -297,9 +300,21 @@ void LocalSolid::field_crossings(const Field& field, Vec3 origin, Vec3 direction
     }
 }
 
+// visit(t, entering, normal; 0 where t is `coarse`) → go on?
+template <class Visit>
+void LocalSolid::sum_crossings(const ProductSum& sum, const Vec3& origin, const Vec3& direction, double t0, double t1, bool coarse,
+                               CrossingScratch& scratch, bool* start_inside, Visit visit) const {
+    ProductSumRay& ray = scratch.sum;
+    ray.set(sum, origin, direction);
+    if (start_inside) *start_inside = ray.inside(t0);
+    ray.crossings(t0, t1, 8 * epsilon * (scale_ + t0), coarse, scratch.counters.roots, [&](Crossing c) {
+        return visit(c.t, c.entering, coarse ? Vec3(0.0) : unit(ray.gradient(c.t)));
+    });
+}
+
 // visit(t, entering, normal or 0: not known yet) → go on?
 template <class Visit>
-void LocalSolid::soft_crossings(const Soft& soft, Vec3 origin, Vec3 direction, double t0, double t1,
+void LocalSolid::soft_crossings(const Soft& soft, const Vec3& origin, const Vec3& direction, double t0, double t1,
                                 CrossingScratch& scratch, bool* start_inside, Visit visit) const {
     if (soft.field) return field_crossings(*soft.field, origin, direction, t0, t1, scratch, start_inside, visit);
     if (soft.convex) {
@@ -313,6 +328,7 @@ void LocalSolid::soft_crossings(const Soft& soft, Vec3 origin, Vec3 direction, d
         }
         return;
     }
+    if (soft.sum) return sum_crossings(*soft.sum, origin, direction, t0, t1, false, scratch, start_inside, visit);
     const Span whole[1] = {{t0, t1}};
     const Span *first = whole, *last = whole + 1;
     if (soft.bounded) {
@@ -383,7 +399,7 @@ void LocalSolid::soft_crossings(const Soft& soft, Vec3 origin, Vec3 direction, d
     }
 }
 
-SurfaceCrossing LocalSolid::first_crossing(Vec3 origin, Vec3 direction, double t0, double t1,
+SurfaceCrossing LocalSolid::first_crossing(const Vec3& origin, const Vec3& direction, double t0, double t1, bool any,
                                            CrossingScratch& scratch) const {
     SurfaceCrossing result;
     // A normal that is known up to its sign: it leaves the solid, so it is against a ray that enters.
@@ -401,7 +417,16 @@ SurfaceCrossing LocalSolid::first_crossing(Vec3 origin, Vec3 direction, double t
             ++scratch.counters.flat;
             return {t, leaf.normal, leaf.material};
         }
-        soft_crossings(softs_[std::size_t(leaf.soft)], origin, direction, t0, t1, scratch, nullptr,
+        const Soft& soft = softs_[std::size_t(leaf.soft)];
+        if (soft.sum) {
+            sum_crossings(*soft.sum, origin, direction, t0, t1, any, scratch, nullptr,
+                          [&](double t, bool entering, Vec3 normal) {
+                              found(t, entering, normal, leaf.material, 0);
+                              return false;
+                          });
+            return result;
+        }
+        soft_crossings(soft, origin, direction, t0, t1, scratch, nullptr,
                        [&](double t, bool entering, Vec3 normal) {
                            if (normal == Vec3(0.0)) normal = unit(scratch.density.gradient(t));
                            found(t, entering, normal, leaf.material, scratch.error);

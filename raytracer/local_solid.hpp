@@ -1,9 +1,10 @@
 // What is left of a solid in a cell, and where a ray crosses its surface there.
 //
 // A leaf whose local density is one half-space is a plane: it is intersected and done; a product of
-// half-spaces needs no search either (convex_density.hpp). For the others the ray is first cut by
-// inner and outer bound [Lobb §3.2, figure 7]; in a stretch where a single half-space varies the
-// crossing is a plane's too, and only what remains needs the root finder. A field goes straight to it.
+// half-spaces needs no search either (convex_density.hpp), and a sum of few products little
+// (product_sum.hpp). For the others the ray is first cut by inner and outer bound [Lobb §3.2,
+// figure 7]; in a stretch where a single half-space varies the crossing is a plane's too, and only what
+// remains needs the root finder. A field goes straight to it.
 #pragma once
 #include <optional>
 #include <vector>
@@ -11,6 +12,7 @@
 #include "bounds/convex_density.hpp"
 #include "bounds/csg_bounds.hpp"
 #include "bounds/local_density.hpp"
+#include "bounds/product_sum.hpp"
 #include "bounds/root_finder.hpp"
 #include "bounds/solid_range.hpp"
 #include "raytracer/search.hpp"
@@ -53,6 +55,7 @@ struct CrossingScratch {
     Criterion criterion = Criterion::exact;
     CrossingCounters counters;
     RayDensity density;
+    ProductSumRay sum;
     FieldRay field;
     SearchSpans spans;
     std::vector<double> sharp;
@@ -81,8 +84,9 @@ public:
     /// it: what they were rounded by no longer matters. Empty after Search::always, but for planes.
     std::optional<Convex> convex() const;
 
-    /// First crossing of the solid's surface in [t0, t1].
-    SurfaceCrossing first_crossing(Vec3 origin, Vec3 direction, double t0, double t1,
+    /// First crossing of the solid's surface in [t0, t1]; `any`: that there is one will do, t and normal
+    /// mean nothing.
+    SurfaceCrossing first_crossing(const Vec3& origin, const Vec3& direction, double t0, double t1, bool any,
                                    CrossingScratch& scratch) const;
 
 private:
@@ -94,7 +98,8 @@ private:
     };
     struct Soft {
         LocalDensity density;
-        std::optional<ConvexDensity> convex;  // then the bounds below are empty
+        std::optional<ConvexDensity> convex;  // then, and with a sum, the bounds below are empty
+        std::optional<ProductSum> sum;
         BoundCsg outer, inner;
         bool bounded;  // the bounds hold
         bool all_sharp;
@@ -107,10 +112,13 @@ private:
     std::optional<ConvexDensity> intersection_of_leaves(unsigned positive) const;
     bool evaluate(std::vector<char>& state, const std::vector<char>& inside) const;
     template <class Visit>
-    void field_crossings(const Field& field, Vec3 origin, Vec3 direction, double t0, double t1,
+    void field_crossings(const Field& field, const Vec3& origin, const Vec3& direction, double t0, double t1,
                          CrossingScratch& scratch, bool* start_inside, Visit visit) const;
     template <class Visit>
-    void soft_crossings(const Soft& soft, Vec3 origin, Vec3 direction, double t0, double t1,
+    void sum_crossings(const ProductSum& sum, const Vec3& origin, const Vec3& direction, double t0, double t1, bool coarse,
+                       CrossingScratch& scratch, bool* start_inside, Visit visit) const;
+    template <class Visit>
+    void soft_crossings(const Soft& soft, const Vec3& origin, const Vec3& direction, double t0, double t1,
                         CrossingScratch& scratch, bool* start_inside, Visit visit) const;
 
     int solid_;

@@ -50,12 +50,12 @@ std::size_t Pieces::half_spaces(std::size_t i) const {
     }
 }
 
-PieceCrossing Pieces::general_crossing(const Piece& p, Vec3 origin, Vec3 direction, double t0, double t1,
-                                       TraceCounters& counters) const {
+PieceCrossing Pieces::general_crossing(const Piece& p, const Vec3& origin, const Vec3& direction, double t0, double t1,
+                                       bool any, TraceCounters& counters) const {
     CrossingScratch& memory = scratch();
     memory.criterion = criterion_;
     memory.counters = {};
-    const SurfaceCrossing c = locals_[p.first].first_crossing(origin, direction, t0, t1, memory);
+    const SurfaceCrossing c = locals_[p.first].first_crossing(origin, direction, t0, t1, any, memory);
     counters.flat_hits += memory.counters.flat;
     counters.segments += memory.counters.roots.segments;
     counters.splits += memory.counters.roots.splits;
@@ -63,7 +63,7 @@ PieceCrossing Pieces::general_crossing(const Piece& p, Vec3 origin, Vec3 directi
     return {c.t, {}, c.normal, c.material, c.error};
 }
 
-Vec3 Pieces::normal(std::size_t i, const PieceCrossing& crossing, Vec3 origin, Vec3 direction) const {
+Vec3 Pieces::normal(std::size_t i, const PieceCrossing& crossing, const Vec3& origin, const Vec3& direction) const {
     const Piece& p = pieces_[i];
     if (p.kind == Piece::Kind::plane) return planes_[p.first].slope;
     if (p.kind == Piece::Kind::general) return crossing.normal;

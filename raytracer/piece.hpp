@@ -47,22 +47,22 @@ public:
     std::size_t half_spaces(std::size_t i) const;
 
     /// Where the line of a ray meets the plane that piece p is; no number, or infinite, if it does not.
-    double plane_crossing(const Piece& p, Vec3 origin, Vec3 direction) const {
+    double plane_crossing(const Piece& p, const Vec3& origin, const Vec3& direction) const {
         const AlphaPlane& plane = planes_[p.first];
         return -(glm::dot(plane.slope, origin) + plane.base) / glm::dot(plane.slope, direction);
     }
     /// First crossing of piece i, which is no plane, in [t0, t1]; `any`: some crossing will do, and its t means nothing.
-    PieceCrossing crossing(std::size_t i, Vec3 origin, Vec3 direction, double t0, double t1, bool any,
+    PieceCrossing crossing(std::size_t i, const Vec3& origin, const Vec3& direction, double t0, double t1, bool any,
                            TraceCounters& counters) const;
     /// Unit normal, out of the solid.
-    Vec3 normal(std::size_t i, const PieceCrossing& crossing, Vec3 origin, Vec3 direction) const;
+    Vec3 normal(std::size_t i, const PieceCrossing& crossing, const Vec3& origin, const Vec3& direction) const;
 
     /// A box around what can be crossed of piece i, within its cell, with this much to spare.
     Box surface_box(std::size_t i, double margin) const;
 
 private:
     ConvexView view(const Piece& p) const { return {&planes_[p.first], p.soft, p.sharp, p.complement}; }
-    PieceCrossing general_crossing(const Piece& p, Vec3 origin, Vec3 direction, double t0, double t1,
+    PieceCrossing general_crossing(const Piece& p, const Vec3& origin, const Vec3& direction, double t0, double t1, bool any,
                                    TraceCounters& counters) const;
 
     std::vector<Piece> pieces_;
@@ -72,10 +72,10 @@ private:
     Criterion criterion_ = Criterion::exact;
 };
 
-inline PieceCrossing Pieces::crossing(std::size_t i, Vec3 origin, Vec3 direction, double t0, double t1,
+inline PieceCrossing Pieces::crossing(std::size_t i, const Vec3& origin, const Vec3& direction, double t0, double t1,
                                       bool any, TraceCounters& counters) const {
     const Piece& p = pieces_[i];
-    if (p.kind == Piece::Kind::general) return general_crossing(p, origin, direction, t0, t1, counters);
+    if (p.kind == Piece::Kind::general) return general_crossing(p, origin, direction, t0, t1, any, counters);
     const double negligible = 8 * epsilon * (scale_ + t0);
     if (any) {
         if (!any_crossing(view(p), origin, direction, t0, t1, negligible, counters.evaluations)) return {};

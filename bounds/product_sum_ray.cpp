@@ -1,0 +1,261 @@
+#include <algorithm>
+#include <cmath>
+
+#include "bounds/product_sum.hpp"
+
+namespace deburr {
+
+void ProductSumRay::set(const ProductSum& sum, const Vec3& origin, const Vec3& direction) {
+    sum_ = &sum;
+    const int n = sum.even_planes();
+    const double *x = sum.coefficients(0), *y = sum.coefficients(1), *z = sum.coefficients(2),
+                 *base = sum.coefficients(3);
+    for (int i = 0; i < n; ++i) {
+        a_[i] = x[i] * origin.x + y[i] * origin.y + z[i] * origin.z + base[i];
+        b_[i] = x[i] * direction.x + y[i] * direction.y + z[i] * direction.z;
+    }
+}
+
+bool ProductSumRay::inside(double t) const {
+    double rho = sum_->constant();
+    for (const ProductSum::Term& term : sum_->terms()) {
+        double P = term.weight;
+        for (const int i : term.factors) P *= profile(a_[i] + b_[i] * t);
+        rho += P;
+    }
+    return rho > 0.5;
+}
+
+Vec3 ProductSumRay::gradient(double t) const {
+    double share[most_planes] = {};  // of every plane's: dρ/dα
+    for (const ProductSum::Term& term : sum_->terms()) {
+        double before[most_planes];  // the product of the factors before
+        double P = term.weight;
+        for (std::size_t k = 0; k < term.factors.size(); ++k) {
+            const int i = term.factors[k];
+            before[k] = P;
+            P *= profile(a_[i] + b_[i] * t);
+        }
+        double after = 1;
+        for (std::size_t k = term.factors.size(); k-- > 0;) {
+            const int i = term.factors[k];
+            const double alpha = a_[i] + b_[i] * t;
+            share[i] += before[k] * after * profile_slope(alpha);
+            after *= profile(alpha);
+        }
+    }
+    Vec3 sum(0.0);
+    for (int i = 0; i < sum_->planes(); ++i)
+        sum += share[i] * Vec3(sum_->coefficients(0)[i], sum_->coefficients(1)[i], sum_->coefficients(2)[i]);
+    return sum;
+}
+
+bool ProductSumRay::narrow(double& t0, double& t1) {
+    // To where a term that can supply the surface reaches.
+    double begin = sum_->anywhere() ? t0 : infinity, end = sum_->anywhere() ? t1 : -infinity;
+    for (const ProductSum::Term& term : sum_->terms()) {
+        if (term.reach == infinity) continue;
+        double lo = t0, hi = t1;
+        for (const int i : term.factors) {
+            const double room = term.reach - a_[i];
+            if (b_[i] > 0) hi = std::min(hi, room / b_[i]);
+            else if (b_[i] < 0) lo = std::max(lo, room / b_[i]);
+            else if (room < 0) hi = -infinity;
+        }
+        if (lo > hi) continue;
+        begin = std::min(begin, lo);
+        end = std::max(end, hi);
+    }
+    t0 = begin;
+    t1 = end;
+    if (!(t0 <= t1)) return false;
+    if (t1 == infinity) {  // nothing varies beyond the last plane that saturates
+        t1 = t0;
+        for (int i = 0; i < sum_->planes(); ++i)
+            if (b_[i] != 0) t1 = std::max(t1, (std::abs(a_[i]) + 2) / std::abs(b_[i]));
+        t1 = std::min(t1, 1e300);
+    }
+
+    constexpr int one = -1, zero = -2;
+    int place[most_planes];
+    varying_ = 0;
+    for (int i = 0; i < sum_->planes(); ++i) {
+        const double from = a_[i] + b_[i] * t0, to = a_[i] + b_[i] * t1;
+        if (from <= -1 && to <= -1) {
+            place[i] = one;
+        } else if (from >= 1 && to >= 1) {
+            place[i] = zero;
+        } else {
+            varying_a_[varying_] = a_[i];
+            varying_b_[varying_] = b_[i];
+            place[i] = varying_++;
+        }
+    }
+    varying_a_[varying_] = varying_b_[varying_] = 0;  // evaluated with the last, if their number is odd
+    terms_ = 0;
+    constant_ = sum_->constant() - 0.5;
+    curvature_ = 0;
+    for (const ProductSum::Term& term : sum_->terms()) {
+        Term& to = term_[terms_];
+        to.weight = term.weight;
+        to.count = 0;
+        bool vanishes = false;
+        double rates = 0, squares = 0;
+        for (const int i : term.factors) {
+            vanishes |= place[i] == zero;
+            if (place[i] < 0) continue;
+            to.factors[to.count++] = std::uint8_t(place[i]);
+            rates += std::abs(b_[i]);
+            squares += b_[i] * b_[i];
+        }
+        if (vanishes) continue;
+        if (to.count == 0) {
+            constant_ += term.weight;
+            continue;
+        }
+        // |F′| ≤ ¾ |b|, |F″| ≤ 3/2 b².
+        curvature_ += std::abs(term.weight) * (1.5 * squares + 0.5625 * (rates * rates - squares));
+        ++terms_;
+    }
+    return terms_ > 0;
+}
+
+ProductSumRay::Point ProductSumRay::evaluate(double t, RootCounters& counters) const {
+    ++counters.evaluations;
+    alignas(16) double F[most_planes + 1], slope[most_planes + 1];
+    const int even = varying_ + (varying_ & 1);
+    for (int i = 0; i < even; ++i) {
+        const double alpha = varying_a_[i] + varying_b_[i] * t;
+        const double least = alpha < 1 ? alpha : 1, c = least > -1 ? least : -1, u = 1 - c;
+        F[i] = u * u * (2 + c) * 0.25;
+        slope[i] = -0.75 * u * (1 + c) * varying_b_[i];
+    }
+    Point p;
+    p.t = t;
+    p.f = constant_;
+    p.slope = 0;
+    for (int k = 0; k < terms_; ++k) {
+        const Term& term = term_[k];
+        double P = 1, rate = 0;
+        for (int j = 0; j < term.count; ++j) {
+            const int i = term.factors[j];
+            rate = rate * F[i] + P * slope[i];
+            P *= F[i];
+        }
+        p.value[k] = P;
+        p.rate[k] = rate;
+        p.f += term.weight * P;
+        p.slope += term.weight * rate;
+    }
+    if (std::abs(p.f) <= RootFinder::rounding) p.f = 0;
+    return p;
+}
+
+namespace {
+
+// Below this a product counts as 0: its logarithm's slope may overflow.
+constexpr double least_product = 1e-200;
+
+// From above: eˣ for x ≥ 0, log x; exact to the square at 0 and 1. The library's need not be the same
+// everywhere.
+double exponential(double x) { return x < 2 ? (2 + x) / (2 - x) : infinity; }
+double logarithm(double x) { return x < 1 ? 2 * (x - 1) / (x + 1) : 0.5 * (x - 1 / x); }
+
+}  // namespace
+
+ProductSumRay::SlopeRange ProductSumRay::slopes(const Point& a, const Point& b) const {
+    const double length = b.t - a.t;
+    SlopeRange sum{0, 0};
+    for (int k = 0; k < terms_; ++k) {
+        const double Pa = a.value[k], Pb = b.value[k];
+        SlopeRange r;
+        if (Pa > least_product && Pb > least_product) {
+            // Its logarithm's slope falls.
+            const double la = a.rate[k] / Pa, lb = b.rate[k] / Pb;
+            const double least = std::min(Pa, Pb);
+            double most = std::max(Pa, Pb);
+            if (la > 0 && lb < 0) {
+                // No higher than where the tangents of log P meet is from either end.
+                const double meet = (logarithm(Pb / Pa) - lb * length) / (la - lb);
+                most = std::min(1.0, Pa * exponential(la * std::clamp(meet, 0.0, length)));
+            }
+            r = {lb < 0 ? most * lb : least * lb, la > 0 ? most * la : least * la};
+        } else {
+            r = slopes_near_zero(k, a, b);
+        }
+        const double w = term_[k].weight;
+        sum.lo += w * (w > 0 ? r.lo : r.hi);
+        sum.hi += w * (w > 0 ? r.hi : r.lo);
+    }
+    return sum;
+}
+
+// One of the ends is outside of the stretch in which every factor is above 0, or nearly.
+ProductSumRay::SlopeRange ProductSumRay::slopes_near_zero(int k, const Point& a, const Point& b) const {
+    RayBounds all{1, 0, 0};
+    for (int j = 0; j < term_[k].count; ++j) {
+        const int i = term_[k].factors[j];
+        const double rate = varying_b_[i];
+        all = product_bounds(all, half_space_bounds(varying_a_[i] + rate * a.t, varying_a_[i] + rate * b.t, std::abs(rate)));
+    }
+    // A logarithm that rises still has risen before.
+    return {b.rate[k] > 0 ? 0 : -all.L, a.rate[k] < 0 ? 0 : all.L};
+}
+
+bool at_most_one_root(const ProductSumRay::Point& a, const ProductSumRay::Point& b,
+                      ProductSumRay::SlopeRange slopes, double faint) {
+    if (slopes.lo >= 0 || slopes.hi <= 0) return true;
+    const double length = b.t - a.t;
+    const bool faint_ends = std::abs(a.f) <= faint && std::abs(b.f) <= faint;
+    if (faint_ends && std::max(slopes.hi, -slopes.lo) * length <= faint) return true;
+    if ((a.f > 0) != (b.f > 0)) return false;
+    // Least |f|: falling from either end as fast as can be.
+    const double sign = a.f > 0 ? 1 : -1;
+    const double falling = a.f > 0 ? slopes.lo : -slopes.hi, rising = a.f > 0 ? slopes.hi : -slopes.lo;
+    const double fa = sign * a.f, fb = sign * b.f;
+    const double least = fa + falling * ((fa - fb + rising * length) / (rising - falling));
+    return least > 0 || (faint_ends && least > -2 * faint);
+}
+
+// Newton's method within the bracket. With |f″| ≤ G and step = f/f′, h = G |step/f′| ≤ ½ leaves an error of
+// 2h |step| at most [Kantorovich].
+double ProductSumRay::root(Point a, Point b, double negligible, RootCounters& counters) const {
+    const double sign = b.f > 0 ? 1 : -1;  // f·sign rises through 0 from a to b
+    Point p = std::abs(a.f) < std::abs(b.f) ? a : b;
+    double last = b.t - a.t;  // step
+    constexpr int most_steps = 2000;  // halving doubles ends before
+    for (int k = 0; k < most_steps && b.t - a.t > negligible; ++k) {
+        if (p.f == 0) return p.t;
+        const double step = -p.f / p.slope;
+        double t = p.t + step;
+        const double speed = std::abs(p.slope), h = curvature_ * std::abs(step);
+        if (2 * h <= speed && 2 * h * std::abs(step) <= speed * negligible) return std::clamp(t, a.t, b.t);
+        if (k == 0 || !(t > a.t && t < b.t) || std::abs(step) > 0.5 * last) {
+            const double length = b.t - a.t;
+            if (k == 0) {
+                // The cubic through both ends, by two of Newton's steps from the chord.
+                const double ca = a.slope * length, cb = b.slope * length, rise = b.f - a.f;
+                const double c2 = 3 * rise - 2 * ca - cb, c3 = ca + cb - 2 * rise;
+                double x = -a.f / rise;
+                for (int n = 0; n < 2; ++n) {
+                    const double value = a.f + x * (ca + x * (c2 + x * c3)), d = ca + x * (2 * c2 + 3 * x * c3);
+                    const double next = x - value / d;
+                    if (next > 0 && next < 1) x = next;
+                }
+                t = a.t + x * length;
+            } else {
+                t = a.t + 0.5 * length;
+            }
+            last = length;
+            if (!(t > a.t && t < b.t)) t = a.t + 0.5 * length;
+            if (!(t > a.t && t < b.t)) return b.t;
+        } else {
+            last = std::abs(step);
+        }
+        p = evaluate(t, counters);
+        (p.f * sign > 0 ? b : a) = p;
+    }
+    return a.f == b.f ? b.t : a.t - a.f * ((b.t - a.t) / (b.f - a.f));
+}
+
+}  // namespace deburr

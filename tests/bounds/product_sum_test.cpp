@@ -1,0 +1,167 @@
+#include "bounds/product_sum.hpp"
+
+#include "catch.hpp"
+#include "plain_definition.hpp"
+#include "random_case.hpp"
+
+using namespace deburr;
+
+namespace {
+
+constexpr double negligible = 1e-14;
+
+// What is left of a density in a small box, as in a cell, and its tree.
+struct Case {
+    DensityTree tree;
+    std::optional<LocalDensity> density;
+    std::optional<ProductSum> sum;
+
+    explicit Case(Gen& g) {
+        const Density d = g.chance(0.4) ? g.boolean(2) : g.chance(0.6) ? g.legal(2) : g.arithmetic(2);
+        const DensityTree whole = flatten(d, g.between(0.05, 0.6));
+        const Vec3 lo = g.near(whole);
+        tree = prune(whole, {lo, lo + Vec3(g.between(0.05, 0.6))}).tree;
+        density.emplace(tree);
+        if (density->half_spaces().size() > 1) sum = ProductSum::of(*density, 1e-12);
+    }
+};
+
+Vec3 way_to(Gen& g, const Case& c, Vec3 o) {
+    const Vec3 way = glm::normalize(g.near(c.tree) - o);
+    if (!g.chance(0.3)) return way;
+    // Along a plane, almost.
+    const Vec3 n = c.tree.half_spaces[std::size_t(g.below(int(c.tree.half_spaces.size())))].normal;
+    const Vec3 flat = way - n * glm::dot(way, n);
+    return glm::length(flat) > 1e-3 ? glm::normalize(flat + n * std::pow(10.0, g.between(-9, -1))) : way;
+}
+
+}  // namespace
+
+TEST_CASE("a density multiplied out has the density's values and gradients") {
+    int recognized = 0, with_constant = 0, several = 0;
+    for (auto seed : seeds(8'000)) {
+        CAPTURE(seed);
+        Gen g(seed);
+        const Case c(g);
+        if (!c.sum) continue;
+        ++recognized;
+        with_constant += c.sum->constant() != 0;
+        several += c.sum->terms().size() > 2;
+        const Vec3 o = g.point();
+        ProductSumRay ray;
+        ray.set(*c.sum, o, g.direction());
+        const ValueGradient want = c.density->gradient_at(o);
+        REQUIRE(want.value == Approx(plain::density(c.tree, o)).margin(1e-12));
+        if (std::abs(want.value - 0.5) > 1e-12) REQUIRE(ray.inside(0) == (want.value > 0.5));
+        REQUIRE(glm::length(ray.gradient(0) - want.gradient) < 1e-11 * (1 + glm::length(want.gradient)));
+    }
+    CHECK(recognized > 2'000);
+    CHECK(with_constant > 300);
+    CHECK(several > 300);
+}
+
+TEST_CASE("slopes between two points of a ray are within the range that the points' products allow") {
+    int exercised = 0, close = 0;
+    for (auto seed : seeds(20'000)) {
+        CAPTURE(seed);
+        Gen g(seed);
+        const Case c(g);
+        if (!c.sum) continue;
+        const Vec3 o = g.point(2);
+        const Vec3 way = way_to(g, c, o);
+        ProductSumRay ray;
+        RayDensity plain_ray;
+        ray.set(*c.sum, o, way);
+        plain_ray.set(*c.density, o, way);
+        double t0 = 0, t1 = 6;
+        if (!ray.narrow(t0, t1)) continue;
+        RootCounters counters;
+        const double from = t0 + (t1 - t0) * g.number(), length = (t1 - from) * std::pow(10.0, g.between(-3, 0));
+        const auto a = ray.evaluate(from, counters), b = ray.evaluate(from + length, counters);
+        REQUIRE(a.f == Approx(plain_ray.at(from).value - 0.5).margin(1e-12));
+        const auto [lo, hi] = ray.slopes(a, b);
+        const double slack = 1e-11 * (1 + hi - lo);
+        for (int k = 0; k <= 20; ++k) {
+            const double slope = plain_ray.at(from + length * (k / 20.0)).slope;
+            REQUIRE(slope >= lo - slack);
+            REQUIRE(slope <= hi + slack);
+            exercised += std::abs(slope) > 1e-3;
+            close += std::abs(slope) > 1e-3 && (slope < lo + 0.1 * (hi - lo) || slope > hi - 0.1 * (hi - lo));
+        }
+    }
+    CHECK(exercised > 20'000);
+    CHECK(close > 1'000);
+}
+
+TEST_CASE("a sum's crossings are those of the search by M, L and G, whatever the ray") {
+    int total = 0, several = 0, grazing = 0;
+    RootCounters ours, theirs;
+    for (auto seed : seeds(30'000)) {
+        CAPTURE(seed);
+        Gen g(seed);
+        const Case c(g);
+        if (!c.sum) continue;
+        const Vec3 o = g.chance(0.3) ? g.near(c.tree) : g.point(2);
+        const Vec3 way = way_to(g, c, o);
+        const double t0 = g.chance(0.5) ? 0 : g.between(0, 1), t1 = g.chance(0.1) ? infinity : t0 + g.between(0, 6);
+        RayDensity plain_ray;
+        plain_ray.set(*c.density, o, way);
+        std::vector<Crossing> want, got, coarse;
+        const auto into = [](std::vector<Crossing>& all) {
+            return [&all](Crossing x) {
+                all.push_back(x);
+                return true;
+            };
+        };
+        RootFinder({Criterion::exact, negligible}, theirs).crossings(plain_ray, t0, std::min(t1, 1e11), into(want));
+        ProductSumRay ray;
+        ray.set(*c.sum, o, way);
+        ray.crossings(t0, t1, negligible, false, ours, into(got));
+        RootCounters counters;
+        ray.crossings(t0, t1, negligible, true, counters, into(coarse));
+        REQUIRE(coarse.size() == got.size());
+        // Either may overlook a dip of 10⁻⁹; so may whoever starts on the surface.
+        const auto faint = [&](double t) {
+            return std::abs(plain_ray.at(t).slope) < 1e-4 || std::abs(t - t0) < 1e-9 || std::abs(t - t1) < 1e-9;
+        };
+        if (want.size() != got.size()) {
+            bool explained = false;
+            for (const Crossing& x : want) explained |= faint(x.t);
+            for (const Crossing& x : got) explained |= faint(x.t);
+            ++grazing;
+            REQUIRE(explained);
+            continue;
+        }
+        for (std::size_t i = 0; i < want.size(); ++i) {
+            REQUIRE(got[i].entering == want[i].entering);
+            REQUIRE(coarse[i].entering == want[i].entering);
+            const double slope = std::abs(plain_ray.at(want[i].t).slope);
+            if (slope > 1e-6) REQUIRE(std::abs(got[i].t - want[i].t) <= (1 + want[i].t) * (2e-13 + 1e-13 / slope));
+        }
+        total += int(want.size());
+        several += want.size() > 1;
+    }
+    CAPTURE(ours.evaluations, theirs.evaluations);
+    CHECK(2 * ours.evaluations < theirs.evaluations);
+    CHECK(total > 2'000);
+    CHECK(several > 500);
+    CHECK(grazing < 100);
+}
+
+TEST_CASE("a ray in the plane of a sum's flush face is done soon") {
+    const Density sum = Density::box({0, 0, 0}, {1, 1, 1}) + Density::box({1, 0, 0}, {2, 1, 1});
+    for (const double r : {1e-3, 0.1, 0.4})
+        for (const double height : {1.0, 1 + 1e-16, 1 - 1e-12, 1 + 1e-9}) {
+            CAPTURE(r, height);
+            const LocalDensity local(flatten(sum, r));
+            const auto products = ProductSum::of(local, 1e-12);
+            REQUIRE(products);
+            ProductSumRay ray;
+            ray.set(*products, {5, height, 0.5}, {-1, 0, 0});
+            RootCounters counters;
+            int crossings = 0;
+            ray.crossings(0, 8, negligible, false, counters, [&](Crossing) { return ++crossings; });
+            CHECK(counters.evaluations < 1'000'000);
+            if (height >= 1) CHECK(crossings == 0);
+        }
+}
