@@ -17,7 +17,7 @@ constexpr int face_corners[6][4] = {{0, 4, 6, 2}, {1, 3, 7, 5}, {0, 1, 5, 4},
 // matters there.
 class Grid {
 public:
-    Grid(const SurfaceOffset& solid, const Box& box, double side) : side_(side) {
+    Grid(const SurfaceOffset& solid, const Box& box, double side, StopFlag stop) : side_(side) {
         for (int k = 0; k < 3; ++k) {
             // The outermost corners are outside: they lie beyond the box.
             n_[k] = std::max(1, int(std::ceil((box.hi[k] - box.lo[k]) / side))) + 3;
@@ -29,7 +29,10 @@ public:
         blocks_.resize(std::size_t(blocks_x_) * std::size_t(blocks_y_) * std::size_t(blocks_z_));
         for (int z = 0; z < blocks_z_; ++z)
             for (int y = 0; y < blocks_y_; ++y)
-                for (int x = 0; x < blocks_x_; ++x) sample(solid, x, y, z);
+                for (int x = 0; x < blocks_x_; ++x) {
+                    throw_if_stopped(stop);
+                    sample(solid, x, y, z);
+                }
     }
 
     int size(int axis) const { return n_[axis]; }
@@ -90,14 +93,15 @@ private:
 
 class March {
 public:
-    March(const SolidTree& solid, const Box& box, double side)
-        : field_(solid, inflated(box, 2 * side)), box_(box), grid_(SurfaceOffset(solid), box, side), side_(side) {}
+    March(const SolidTree& solid, const Box& box, double side, StopFlag stop)
+        : field_(solid, inflated(box, 2 * side)), box_(box), grid_(SurfaceOffset(solid), box, side, stop), side_(side), stop_(stop) {}
 
     Mesh run() {
         constexpr int n = Grid::block;
         for (int bz = 0; bz < grid_.blocks(2); ++bz)
             for (int by = 0; by < grid_.blocks(1); ++by)
                 for (int bx = 0; bx < grid_.blocks(0); ++bx) {
+                    throw_if_stopped(stop_);
                     if (!grid_.is_open(bx, by, bz)) continue;
                     for (int z = bz * n; z < std::min((bz + 1) * n, grid_.size(2) - 1); ++z)
                         for (int y = by * n; y < std::min((by + 1) * n, grid_.size(1) - 1); ++y)
@@ -235,6 +239,7 @@ private:
     Box box_;
     Grid grid_;
     double side_;
+    StopFlag stop_;
     Mesh mesh_;
     std::vector<int> materials_;
     std::unordered_map<std::size_t, int> on_edge_;
@@ -243,12 +248,8 @@ private:
 }  // namespace
 
 double marching_cubes_grid(const SolidTree& solid, const Box& box) {
-    double least = infinity;
-    for (const SolidLeaf& leaf : solid.leaves)
-        for (const HalfSpace& h : leaf.density.half_spaces)
-            if (h.radius > 0) least = std::min(least, h.radius);
-    const Vec3 size = box.hi - box.lo;
-    return least < infinity ? 0.5 * least : 0.01 * std::max({size.x, size.y, size.z});
+    const double radius = solid.least_radius();
+    return radius > 0 ? 0.5 * radius : 0.01 * largest(box.hi - box.lo);
 }
 
 double marching_cubes_count(const Box& box, double grid) {
@@ -257,9 +258,9 @@ double marching_cubes_count(const Box& box, double grid) {
     return count;
 }
 
-Mesh marching_cubes(const SolidTree& solid, const Box& box, double grid) {
+Mesh marching_cubes(const SolidTree& solid, const Box& box, double grid, StopFlag stop) {
     if (box.empty()) return {};
-    Mesh mesh = March(solid, box, grid).run();
+    Mesh mesh = March(solid, box, grid, stop).run();
     merge_close(mesh);
     return mesh;
 }

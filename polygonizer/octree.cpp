@@ -54,9 +54,8 @@ struct Standing {
 class Polygonization {
 public:
     Polygonization(const SolidTree& solid, const Box& box, const OctreeOptions& options, double edge)
-        : options_(options), hard_cosine_(std::cos(options.hard_angle * radians)), tree_(solid, box, edge, spare_levels),
-          has_forms_(std::any_of(solid.leaves.begin(), solid.leaves.end(), [](const SolidLeaf& l) { return l.field != nullptr; })),
-          looks_for_thin_(has_forms_) {}
+        : options_(options), hard_cosine_(std::cos(options.hard_angle * radians)), tree_(solid, box, edge, spare_levels, options.stop),
+          has_forms_(solid.has_field()), looks_for_thin_(has_forms_) {}
 
     Mesh run(OctreeStatistics& statistics, std::vector<Origin>& origins) {
         // Each halving of cells quarters distances; what leans still is left to repair.
@@ -119,6 +118,7 @@ private:
         known_crossings_.clear();
         crossings_.clear();
         for (const Crossing& x : linking_.crossings) {
+            throw_if_stopped(options_.stop);
             const std::uint64_t key = (std::uint64_t(x.lo[0]) | std::uint64_t(x.lo[1]) << 20 | std::uint64_t(x.lo[2]) << 40) * 4 +
                                       std::uint64_t(x.axis);
             const auto it = known.find(key);
@@ -149,6 +149,7 @@ private:
             return surface_point(tree_.solid(cell), tree_.box(cell), around, hard_cosine_, tip_may_stick_out);
         };
         for (const Loop& loop : linking_.loops) {
+            throw_if_stopped(options_.stop);
             mesh_.points.push_back(place(loop, true));
             if (!tree_.box(tree_.cell(loop.leaf)).contains(mesh_.points.back().position)) tips.push_back(mesh_.points.size() - 1);
         }
@@ -339,13 +340,8 @@ void check(const Mesh& mesh) {
 }  // namespace
 
 double octree_edge(const SolidTree& solid, const Box& box) {
-    const Vec3 size = box.hi - box.lo;
-    const double longest = std::max({size.x, size.y, size.z});
-    double least = infinity;
-    for (const SolidLeaf& leaf : solid.leaves)
-        for (const HalfSpace& h : leaf.density.half_spaces)
-            if (h.radius > 0) least = std::min(least, h.radius);
-    return std::min(longest / 64, std::max(longest / 512, 0.5 * least));
+    const double longest = largest(box.hi - box.lo), radius = solid.least_radius();
+    return radius > 0 ? std::clamp(0.5 * radius, longest / 512, longest / 64) : longest / 64;
 }
 
 Mesh octree(const SolidTree& mixed, const Box& box, const OctreeOptions& options, OctreeStatistics* statistics) {

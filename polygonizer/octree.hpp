@@ -17,6 +17,7 @@
 
 #include "bounds/solid_tree.hpp"
 #include "polygonizer/mesh.hpp"
+#include "polygonizer/stop.hpp"
 
 namespace deburr {
 
@@ -26,6 +27,7 @@ struct OctreeOptions {
     /// edges of an octagon are lost; it costs nothing to keep them.
     double hard_angle = 15;
     double tolerance = infinity;  // largest distance of a triangle's middle from the surface
+    StopFlag stop = nullptr;
 };
 
 struct OctreeStatistics {
@@ -44,8 +46,8 @@ struct OpenMeshError : std::runtime_error {
 /// Side of a cell by default: half the least radius, within 1/64 and 1/512 of the box.
 double octree_edge(const SolidTree& solid, const Box& box);
 
-/// What leaves `box` is cut off by it. Throws OpenMeshError; and std::length_error if `edge` makes
-/// too many cells.
+/// What leaves `box` is cut off by it. Throws OpenMeshError; std::length_error if `edge` makes too
+/// many cells; and Stopped.
 Mesh octree(const SolidTree& solid, const Box& box, const OctreeOptions& options = {},
             OctreeStatistics* statistics = nullptr);
 

@@ -30,10 +30,10 @@ std::uint64_t key_of(const Corner& c) {
 
 }  // namespace
 
-CellTree::CellTree(const SolidTree& solid, const Box& box, double edge, int spare) : edge_(edge) {
-    const Vec3 size = box.hi - box.lo;
+CellTree::CellTree(const SolidTree& solid, const Box& box, double edge, int spare, StopFlag stop)
+    : stop_(stop), edge_(edge) {
     // One cell more on either side, so that the surface is nowhere near the root's walls.
-    const double cells = std::ceil(std::max({size.x, size.y, size.z}) / edge) + 3;
+    const double cells = std::ceil(largest(box.hi - box.lo) / edge) + 3;
     level_ = int(std::min(std::ceil(std::log2(cells)), 1024.0));
     if (level_ + spare > most_levels) throw std::length_error("too many cells");
     const int across = 1 << (level_ + spare);
@@ -47,6 +47,7 @@ CellTree::CellTree(const SolidTree& solid, const Box& box, double edge, int spar
 }
 
 void CellTree::add_children(int parent) {
+    throw_if_stopped(stop_);
     if (cells_.size() + 8 > most_cells) throw std::length_error("too many cells");
     const OctreeCell p = cell(parent);
     cells_[std::size_t(parent)].children = int(cells_.size());

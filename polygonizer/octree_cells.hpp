@@ -14,6 +14,7 @@
 #include <unordered_map>
 #include <vector>
 
+#include "polygonizer/stop.hpp"
 #include "polygonizer/surface_offset.hpp"
 
 namespace deburr {
@@ -31,8 +32,8 @@ struct OctreeCell {
 class CellTree {
 public:
     /// Cells of side `edge`, where the surface is; they may be split `spare` times more.
-    /// Throws std::length_error past most_cells.
-    CellTree(const SolidTree& solid, const Box& box, double edge, int spare);
+    /// Throws std::length_error past most_cells, and Stopped; so does split().
+    CellTree(const SolidTree& solid, const Box& box, double edge, int spare, StopFlag stop = nullptr);
 
     static constexpr std::size_t most_cells = 100'000'000;
 
@@ -65,6 +66,7 @@ public:
 private:
     void add_children(int parent);
 
+    StopFlag stop_;
     Vec3 origin_;
     double edge_, unit_;
     int level_;

@@ -68,11 +68,8 @@ Mesh triage(const SolidTree& mixed, const Box& box, const TriageOptions& options
     const std::size_t most_rounds = std::isfinite(options.tolerance) ? 24 : 5;
     constexpr std::size_t most_mending_rounds = 8;
     std::size_t mending = 0;
-    const auto look_up = [&] {
-        if (options.stop && options.stop->load(std::memory_order_relaxed)) throw Stopped();
-    };
     for (std::size_t round = 0; mending < most_mending_rounds; ++round) {
-        look_up();
+        throw_if_stopped(options.stop);
         Subspace subspace(subdivision);
         subspace.polygonize();
         origins.clear();
@@ -84,7 +81,7 @@ Mesh triage(const SolidTree& mixed, const Box& box, const TriageOptions& options
             const bool changed = !halves.empty();
             // What has been halved is looked at again without the rest, until it seems to be enough.
             for (std::size_t k = 1; k < most_rounds && std::isfinite(tolerance) && !halves.empty(); ++k) {
-                look_up();
+                throw_if_stopped(options.stop);
                 Subspace part(subdivision);
                 part.polygonize(with_neighbours(subdivision.complex, halves));
                 halves = halve(subdivision, cells_to_halve(part, tolerance));

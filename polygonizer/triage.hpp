@@ -1,21 +1,17 @@
 // Triage polygonization of a solid [Triage].
 #pragma once
-#include <atomic>
-
 #include "bounds/solid_tree.hpp"
 #include "polygonizer/mesh.hpp"
+#include "polygonizer/stop.hpp"
 
 namespace deburr {
-
-/// Thrown where a flag asks for an end.
-struct Stopped {};
 
 struct TriageOptions {
     /// Largest distance between mesh and surface that is accepted; infinity: the paper's one
     /// refinement of each edge.
     double tolerance = infinity;
-    /// Looked at between the rounds of refinement; null: never.
-    const std::atomic<bool>* stop = nullptr;
+    /// Looked at between the rounds of refinement.
+    StopFlag stop = nullptr;
 };
 
 struct TriageStatistics {

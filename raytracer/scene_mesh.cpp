@@ -46,7 +46,7 @@ void need_densities(const SolidTree& solid, std::size_t id) {
 }
 
 Mesh by_octree(const SolidTree& tree, const Box& box, bool cut_off, const MeshSettings& settings, std::size_t id,
-               OctreeStatistics& statistics) {
+               StopFlag stop, OctreeStatistics& statistics) {
     const Vec3 size = box.hi - box.lo;
     const double longest = largest(size), own = octree_edge(tree, box);
     OctreeOptions options;
@@ -55,6 +55,7 @@ Mesh by_octree(const SolidTree& tree, const Box& box, bool cut_off, const MeshSe
     if (cut_off && settings.level == 0) options.edge = std::max(options.edge, own);
     options.edge *= settings.coarseness;
     options.hard_angle = settings.hard_angle;
+    options.stop = stop;
     const double radius = tree.least_radius();
     const double relative = radius > 0 ? settings.tolerance_in_radii * radius : settings.tolerance_in_sizes * longest;
     options.tolerance = std::min(settings.tolerance, tree.has_field() || radius > 0 ? relative : infinity);
@@ -85,13 +86,13 @@ struct SolidMesh {
 
 // `id` is for messages. Where the solid has been cut off, its box is not its own.
 SolidMesh polygonize(const SolidTree& tree, bool cut_off, const MeshSettings& settings, std::size_t id,
-                     const std::atomic<bool>* stop) {
+                     StopFlag stop) {
     SolidMesh result;
     const Box box = polygonization_box(tree);
     if (box.empty()) return result;
     result.method = settings.method.value_or(tree.has_field() ? MeshMethod::octree : MeshMethod::triage);
     if (result.method == MeshMethod::octree) {
-        result.mesh = by_octree(tree, box, cut_off, settings, id, result.octree);
+        result.mesh = by_octree(tree, box, cut_off, settings, id, stop, result.octree);
     } else if (result.method == MeshMethod::triage) {
         need_densities(tree, id);
         const double radius = tree.least_radius();
@@ -102,7 +103,7 @@ SolidMesh polygonize(const SolidTree& tree, bool cut_off, const MeshSettings& se
         if (marching_cubes_count(box, grid) > most_cubes)
             throw UnsupportedError(fmt::format(
                 "--grid: a grid of {:g} would have more than {:g} cubes for solid {}", grid, most_cubes, id));
-        result.mesh = marching_cubes(tree, box, grid);
+        result.mesh = marching_cubes(tree, box, grid, stop);
     }
     return result;
 }
@@ -161,9 +162,8 @@ SceneMesh mesh_scene(const Scene& scene, const MeshSettings& settings, const Mes
     double work = 0;
     for (const SolidTree& tree : result.trees) work += work_of(tree);
     std::vector<SolidMesh> parts(count);
-    const auto stopped = [&] { return watch.stop && watch.stop->load(std::memory_order_relaxed); };
     in_parallel(count, [&](std::size_t i) {
-        if (stopped()) throw Stopped();
+        throw_if_stopped(watch.stop);
         parts[i] = polygonize(result.trees[i], !finite(boxes[i]), settings, i + 1, watch.stop);
         if (watch.done) watch.done(work_of(result.trees[i]) / work);
     });
@@ -182,7 +182,7 @@ SceneMesh mesh_scene(const Scene& scene, const MeshSettings& settings, const Mes
     return result;
 }
 
-SceneMesh mesh_scene(const Scene& scene, MeshSettings settings, std::size_t faces, const std::atomic<bool>* stop) {
+SceneMesh mesh_scene(const Scene& scene, MeshSettings settings, std::size_t faces, StopFlag stop) {
     // Triangles go with the inverse square of lengths, and triage's with the inverse of its tolerance;
     // near the wanted number the last two meshes tell better.
     constexpr int most_rounds = 12;

@@ -1,6 +1,5 @@
 // A scene's solids as meshes, by whichever method.
 #pragma once
-#include <atomic>
 #include <functional>
 #include <string>
 #include <vector>
@@ -27,7 +26,7 @@ struct SceneMesh {
 
 /// How the making of a mesh is watched.
 struct MeshWatch {
-    const std::atomic<bool>* stop = nullptr;  // once it is true, Stopped is thrown soon
+    StopFlag stop = nullptr;  // once it is set, Stopped is thrown soon
     std::function<void(double)> done = {};    // the share of the work that is done since the last call; any thread
 };
 
@@ -39,7 +38,7 @@ SceneMesh mesh_scene(const Scene& scene, const MeshSettings& settings, const Mes
 /// As near to `faces` triangles as the method comes, found by search over its coarseness; a warning
 /// says so if that is not within 1 %.
 SceneMesh mesh_scene(const Scene& scene, MeshSettings settings, std::size_t faces,
-                     const std::atomic<bool>* stop = nullptr);
+                     StopFlag stop = nullptr);
 
 std::vector<MeshMetrics> measure_parts(const SceneMesh& mesh);
 

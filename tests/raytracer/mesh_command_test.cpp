@@ -188,3 +188,17 @@ TEST_CASE("the first interrupt of a mesh ends it and writes nothing") {
     CHECK(outcome.err.find("interrupted: nothing is written") != std::string::npos);
     CHECK_FALSE(fs::exists(file));
 }
+
+TEST_CASE("an interrupt ends every method in the middle of a solid") {
+    const Folder folder;
+    write_file(folder / "s.lua", "return { solids = { rounded(0.1, cube()) } }");
+    const std::string method = GENERATE("octree --edge", "marching-cubes --grid");
+    Call call({"mesh", folder / "s.lua", "-o", folder / "a.ply", "--method", method.substr(0, method.find(' ')),
+               method.substr(method.find(' ') + 1), "0.001"});
+    std::this_thread::sleep_for(std::chrono::seconds(1));
+    call.send(SIGINT);
+    const Outcome outcome = call.wait();
+    CAPTURE(method, outcome.err);
+    CHECK(outcome.code == 130);
+    CHECK_FALSE(fs::exists(folder / "a.ply"));
+}
