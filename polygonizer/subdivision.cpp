@@ -22,6 +22,8 @@ Side decide(Range rho) {
     return Side::straddling;
 }
 
+bool is_decided(Range rho) { return decide(rho) != Side::straddling; }
+
 // Distances that a vertex snapped to h or h ± r should have had.
 double snapped(double distance, double radius, double tolerance) {
     for (const double plane : {-radius, 0.0, radius})
@@ -47,6 +49,11 @@ bool varies(Range rho) { return rho.hi != 0 && rho.lo != 1; }
 // Folds decided leaves away; `solid` keeps children before parents, the root last.
 template <class SideOfLeaf>
 Side fold(std::vector<SolidTreeNode>& solid, SideOfLeaf side_of_leaf) {
+    if (solid.size() == 1 && solid[0].op == SolidOp::leaf) {
+        const Side side = side_of_leaf(solid[0].a);
+        if (side != Side::straddling) solid.clear();
+        return side;
+    }
     std::vector<Side> sides;
     for (const SolidTreeNode& n : solid) {
         switch (n.op) {
@@ -138,7 +145,7 @@ void Subdivision::range_over_cell(const std::vector<HalfSpace>& half_spaces) {
 // The leaf within corners_.
 OpenLeaf Subdivision::localize(const OpenLeaf& leaf, Side& side) {
     range_over_cell(leaf.tree->half_spaces);
-    Pruned pruned = prune_further(*leaf.tree, ranges_);
+    Pruned pruned = prune_further(*leaf.tree, ranges_, is_decided);
     side = decide(pruned.range);
     if (side != Side::straddling) return leaf;
     OpenLeaf local = leaf;
@@ -175,11 +182,10 @@ int Subdivision::new_place(int parent, int cell) {
     Place place;
     place.parent = parent;
     place.solid = places[std::size_t(parent)].solid;
-    std::vector<OpenLeaf> open;
     for (const OpenLeaf& leaf : places[std::size_t(parent)].open) {
         Side side;
         OpenLeaf local = localize(leaf, side);
-        if (side == Side::straddling) open.push_back(std::move(local));
+        if (side == Side::straddling) place.open.push_back(std::move(local));
         else place.decided.push_back({leaf.leaf, side});
     }
     place.side = fold(place.solid, [&](int leaf) {
@@ -187,14 +193,10 @@ int Subdivision::new_place(int parent, int cell) {
             if (decided == leaf) return side;
         return Side::straddling;
     });
-    if (place.side == Side::straddling) {
-        std::vector<int> matter;
-        for (const SolidTreeNode& n : place.solid)
-            if (n.op == SolidOp::leaf) matter.push_back(n.a);
-        for (OpenLeaf& leaf : open)
-            if (std::find(matter.begin(), matter.end(), leaf.leaf) != matter.end())
-                place.open.push_back(std::move(leaf));
-    }
+    std::erase_if(place.open, [&](const OpenLeaf& leaf) {
+        return std::none_of(place.solid.begin(), place.solid.end(),
+                            [&](const SolidTreeNode& n) { return n.op == SolidOp::leaf && n.a == leaf.leaf; });
+    });
     places.push_back(std::move(place));
     return int(places.size()) - 1;
 }
