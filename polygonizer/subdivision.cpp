@@ -288,6 +288,11 @@ double Subdivision::cost(const Place& place, double offset, bool above) {
 
 // Makes ready for planes of this normal.
 Range Subdivision::turn(const Place& place, Vec3 normal) {
+    if (normal == -turned_to_)
+        for (Reach& reach : reach_) reach.along = -reach.along;
+    const bool is_along = normal == turned_to_ || normal == -turned_to_;
+    turned_to_ = normal;
+    if (is_along) return extent(normal);
     ranges_.clear();
     varying_.assign(place.open.size(), 0);
     sides_.resize(place.open.size());
@@ -319,6 +324,7 @@ bool Subdivision::choose(const Place& place, Plane& plane) {
     if (!all_small) return false;
 
     reach_.clear();
+    turned_to_ = Vec3(0.0);
     for (const OpenLeaf& leaf : place.open)
         for (const HalfSpace& h : leaf.density->half_spaces()) {
             const Range d = distances(h);

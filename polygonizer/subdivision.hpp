@@ -79,6 +79,7 @@ private:
     std::vector<Vec3> corners_;                // of that cell
     std::vector<Extent> extents_;              // of them, along normals that were asked for
     std::vector<Reach> reach_;                 // of its densities' half-spaces, leaf by leaf
+    Vec3 turned_to_{0.0};                      // the normal of planes that are being considered
     std::vector<std::vector<Plane>> refused_;  // by cell
     int current_ = 0;
     std::vector<Range> ranges_;
