@@ -20,9 +20,8 @@ namespace deburr {
 namespace {
 
 // Which nodes are Boolean functions of half-spaces, and so may be part of a diagram.
-std::vector<char> boolean_nodes(const DensityTree& tree) {
-    std::vector<char> boolean;
-    boolean.reserve(tree.nodes.size());
+void boolean_nodes(const DensityTree& tree, std::vector<char>& boolean) {
+    boolean.clear();
     for (const TreeNode& n : tree.nodes) {
         switch (n.op) {
             case Op::half_space:
@@ -33,12 +32,11 @@ std::vector<char> boolean_nodes(const DensityTree& tree) {
             default: boolean.push_back(false);
         }
     }
-    return boolean;
 }
 
 // Roots of the Boolean parts: used by the papers' arithmetic, or by nobody.
-std::vector<char> roots_of_boolean_parts(const DensityTree& tree, const std::vector<char>& boolean) {
-    std::vector<char> root(tree.nodes.size(), false);
+void roots_of_boolean_parts(const DensityTree& tree, const std::vector<char>& boolean, std::vector<char>& root) {
+    root.assign(tree.nodes.size(), false);
     root.back() = boolean.back();
     for (std::size_t i = 0; i < tree.nodes.size(); ++i) {
         const TreeNode& n = tree.nodes[i];
@@ -46,7 +44,6 @@ std::vector<char> roots_of_boolean_parts(const DensityTree& tree, const std::vec
         for (const int child : {n.a, n.b})
             if (child >= 0 && boolean[std::size_t(child)]) root[std::size_t(child)] = true;
     }
-    return root;
 }
 
 }  // namespace
@@ -59,10 +56,13 @@ LocalDensity::LocalDensity(const DensityTree& tree) {
     }
     nodes_.reserve(tree.nodes.size());
     half_spaces_.reserve(tree.half_spaces.size());
-    const std::vector<char> boolean = boolean_nodes(tree);
-    const std::vector<char> is_root = roots_of_boolean_parts(tree, boolean);
-    std::vector<int> place(tree.nodes.size(), -1);
-    std::vector<char> positive(tree.nodes.size(), true);  // never below 0, as far as the ops can tell
+    // Kept from one to the next of a thread.
+    thread_local std::vector<char> boolean, is_root, positive;  // never below 0, as far as the ops can tell
+    thread_local std::vector<int> place;
+    boolean_nodes(tree, boolean);
+    roots_of_boolean_parts(tree, boolean, is_root);
+    place.assign(tree.nodes.size(), -1);
+    positive.assign(tree.nodes.size(), true);
     for (std::size_t i = 0; i < tree.nodes.size(); ++i) {
         const TreeNode& n = tree.nodes[i];
         const auto at = [&](int child) { return child < 0 ? -1 : place[std::size_t(child)]; };
