@@ -287,12 +287,12 @@ double Subdivision::cost(const Place& place, double offset, bool above) {
 }
 
 // Makes ready for planes of this normal.
-Range Subdivision::turn(const Place& place, Vec3 normal) {
+void Subdivision::turn(const Place& place, Vec3 normal) {
     if (normal == -turned_to_)
         for (Reach& reach : reach_) reach.along = -reach.along;
     const bool is_along = normal == turned_to_ || normal == -turned_to_;
     turned_to_ = normal;
-    if (is_along) return extent(normal);
+    if (is_along) return;
     ranges_.clear();
     varying_.assign(place.open.size(), 0);
     sides_.resize(place.open.size());
@@ -304,7 +304,6 @@ Range Subdivision::turn(const Place& place, Vec3 normal) {
             ranges_.push_back(reach->rho);
             if (reach->along == 0) varying_[k] += varies(reach->rho);
         }
-    return extent(normal);
 }
 
 bool Subdivision::is_refused(const Plane& plane) const {
@@ -323,6 +322,31 @@ bool Subdivision::choose(const Place& place, Plane& plane) {
     if ((half_spaces > many || !all_small) && choose_neutral(place, plane)) return true;
     if (!all_small) return false;
 
+    candidates_.clear();
+    const auto consider = [&](const Plane& p, Range s, double bias) {
+        if (s.hi - p.offset <= complex.tolerance || p.offset - s.lo <= complex.tolerance) return;
+        if (!is_refused(p)) candidates_.push_back({p, s, bias});
+    };
+    for (const OpenLeaf& leaf : place.open) {
+        const auto& planes = leaf.density->half_spaces();
+        if (is_parallel_family(*leaf.density)) {
+            const Range s = extent(planes[0].normal);
+            for (const Plane& p : level_planes(*leaf.density, s, complex.tolerance).planes)
+                consider(p, s, 0);
+            continue;
+        }
+        for (const HalfSpace& h : planes) {
+            const Range s = extent(h.normal);
+            consider({h.normal, h.offset}, s, 0);
+            if (h.radius == 0) continue;
+            consider({h.normal, h.offset + h.radius}, s, 0.5);
+            consider({h.normal, h.offset - h.radius}, s, 0.5);
+        }
+    }
+    if (candidates_.empty()) return false;
+    plane = candidates_[0].plane;
+    if (candidates_.size() == 1) return true;
+
     reach_.clear();
     turned_to_ = Vec3(0.0);
     for (const OpenLeaf& leaf : place.open)
@@ -331,34 +355,17 @@ bool Subdivision::choose(const Place& place, Plane& plane) {
             reach_.push_back({&h, d, rho_between(h, d.lo, d.hi, complex.tolerance), 0});
         }
     double best = infinity;
-    const auto consider = [&](const Plane& p, Range s, double bias) {
-        if (s.hi - p.offset <= complex.tolerance || p.offset - s.lo <= complex.tolerance) return;
-        if (is_refused(p)) return;
+    for (const auto& [p, s, bias] : candidates_) {
+        turn(place, p.normal);
         const double share = (s.hi - p.offset) / (s.hi - s.lo);
         const double above = cost(place, p.offset, true) * std::sqrt(share);
-        if (above + bias >= best) return;
+        if (above + bias >= best) continue;
         const double c = above + cost(place, p.offset, false) * std::sqrt(1 - share) + bias;
-        if (c >= best) return;
+        if (c >= best) continue;
         best = c;
         plane = p;
-    };
-    for (const OpenLeaf& leaf : place.open) {
-        const auto& planes = leaf.density->half_spaces();
-        if (is_parallel_family(*leaf.density)) {
-            const Range s = turn(place, planes[0].normal);
-            for (const Plane& p : level_planes(*leaf.density, s, complex.tolerance).planes)
-                consider(p, s, 0);
-            continue;
-        }
-        for (const HalfSpace& h : planes) {
-            const Range s = turn(place, h.normal);
-            consider({h.normal, h.offset}, s, 0);
-            if (h.radius == 0) continue;
-            consider({h.normal, h.offset + h.radius}, s, 0.5);
-            consider({h.normal, h.offset - h.radius}, s, 0.5);
-        }
     }
-    return best < infinity;
+    return true;
 }
 
 // Across the longest side of the cell, at a half-space's own plane if one is near the middle.
