@@ -1,5 +1,7 @@
 #include "bounds/box_range.hpp"
 
+#include <algorithm>
+
 namespace deburr {
 namespace {
 
@@ -55,7 +57,10 @@ const std::vector<NodeRange>& ranges(const DensityTree& tree, const std::vector<
 // Folds constants while it copies what the root reaches; children first, as in the original.
 class Folding {
 public:
-    Folding(const DensityTree& from, const std::vector<NodeRange>& ranges) : from_(from), ranges_(ranges) { mark(); }
+    Folding(const DensityTree& from, const std::vector<NodeRange>& ranges)
+        : from_(from), ranges_(ranges), needed_(memory().needed), place_(memory().place) {
+        mark();
+    }
 
     int size() {
         int half_spaces = 0;
@@ -66,6 +71,8 @@ public:
 
     DensityTree run() {
         place_.assign(from_.nodes.size(), -1);
+        to_.nodes.reserve(std::size_t(std::count(needed_.begin(), needed_.end(), true)));
+        to_.half_spaces.reserve(std::size_t(size()));
         for (std::size_t i = 0; i < from_.nodes.size(); ++i)
             if (needed_[i]) place_[i] = copy(int(i));
         const int root = place_.back();
@@ -139,10 +146,20 @@ private:
         return int(to_.nodes.size()) - 1;
     }
 
+    // Kept from one to the next of a thread.
+    struct Memory {
+        std::vector<char> needed;
+        std::vector<int> place;
+    };
+    static Memory& memory() {
+        thread_local Memory own;
+        return own;
+    }
+
     const DensityTree& from_;
     const std::vector<NodeRange>& ranges_;
-    std::vector<char> needed_;
-    std::vector<int> place_;
+    std::vector<char>& needed_;
+    std::vector<int>& place_;
     DensityTree to_;
 };
 
@@ -175,8 +192,9 @@ LocalSize local_size(const DensityTree& tree, const Box& box) {
     return {all.back(), Folding(tree, all).size()};
 }
 
-Pruned prune_further(const DensityTree& tree, const std::vector<Range>& half_spaces) {
+Pruned prune_further(const DensityTree& tree, const std::vector<Range>& half_spaces, bool (&is_decided)(Range)) {
     const std::vector<NodeRange>& all = ranges(tree, half_spaces);
+    if (is_decided(all.back())) return {{}, all.back()};
     Folding folding(tree, all);
     if (std::size_t(folding.size()) == tree.half_spaces.size()) return {{}, all.back()};
     return {folding.run(), all.back()};

@@ -20,9 +20,8 @@ namespace deburr {
 namespace {
 
 // Which nodes are Boolean functions of half-spaces, and so may be part of a diagram.
-std::vector<char> boolean_nodes(const DensityTree& tree) {
-    std::vector<char> boolean;
-    boolean.reserve(tree.nodes.size());
+void boolean_nodes(const DensityTree& tree, std::vector<char>& boolean) {
+    boolean.clear();
     for (const TreeNode& n : tree.nodes) {
         switch (n.op) {
             case Op::half_space:
@@ -33,12 +32,11 @@ std::vector<char> boolean_nodes(const DensityTree& tree) {
             default: boolean.push_back(false);
         }
     }
-    return boolean;
 }
 
 // Roots of the Boolean parts: used by the papers' arithmetic, or by nobody.
-std::vector<char> roots_of_boolean_parts(const DensityTree& tree, const std::vector<char>& boolean) {
-    std::vector<char> root(tree.nodes.size(), false);
+void roots_of_boolean_parts(const DensityTree& tree, const std::vector<char>& boolean, std::vector<char>& root) {
+    root.assign(tree.nodes.size(), false);
     root.back() = boolean.back();
     for (std::size_t i = 0; i < tree.nodes.size(); ++i) {
         const TreeNode& n = tree.nodes[i];
@@ -46,7 +44,6 @@ std::vector<char> roots_of_boolean_parts(const DensityTree& tree, const std::vec
         for (const int child : {n.a, n.b})
             if (child >= 0 && boolean[std::size_t(child)]) root[std::size_t(child)] = true;
     }
-    return root;
 }
 
 }  // namespace
@@ -59,10 +56,13 @@ LocalDensity::LocalDensity(const DensityTree& tree) {
     }
     nodes_.reserve(tree.nodes.size());
     half_spaces_.reserve(tree.half_spaces.size());
-    const std::vector<char> boolean = boolean_nodes(tree);
-    const std::vector<char> is_root = roots_of_boolean_parts(tree, boolean);
-    std::vector<int> place(tree.nodes.size(), -1);
-    std::vector<char> positive(tree.nodes.size(), true);  // never below 0, as far as the ops can tell
+    // Kept from one to the next of a thread.
+    thread_local std::vector<char> boolean, is_root, positive;  // never below 0, as far as the ops can tell
+    thread_local std::vector<int> place;
+    boolean_nodes(tree, boolean);
+    roots_of_boolean_parts(tree, boolean, is_root);
+    place.assign(tree.nodes.size(), -1);
+    positive.assign(tree.nodes.size(), true);
     for (std::size_t i = 0; i < tree.nodes.size(); ++i) {
         const TreeNode& n = tree.nodes[i];
         const auto at = [&](int child) { return child < 0 ? -1 : place[std::size_t(child)]; };
@@ -160,12 +160,22 @@ ValueSlope operator*(ValueSlope a, ValueSlope b) {
 
 }  // namespace
 
+// Memory for so many values of a thread's: what is left of a density has few as a rule.
+template <class T>
+static T* memory_for(std::size_t count) {
+    constexpr std::size_t usual = 32;
+    static thread_local constinit T few[usual] = {};
+    if (count <= usual) return few;
+    static thread_local std::vector<T> many;
+    if (many.size() < count) many.resize(count);
+    return many.data();
+}
+
 // One pass over the steps in any arithmetic: values alone, with gradients, or with slopes.
 template <class T, class Node, class Leaf>
-static T run(const std::vector<Node>& nodes, const std::vector<int>& kids, std::vector<T>& memory, Leaf leaf) {
+static T run(const std::vector<Node>& nodes, const std::vector<int>& kids, Leaf leaf) {
     using Step = decltype(Node::step);
-    if (memory.size() < nodes.size()) memory.resize(nodes.size());
-    T* const done = memory.data();
+    T* const done = memory_for<T>(nodes.size());
     for (std::size_t i = 0; i < nodes.size(); ++i) {
         const Node& n = nodes[i];
         const auto at = [&](int child) -> const T& { return done[std::size_t(child)]; };
@@ -192,8 +202,7 @@ static T run(const std::vector<Node>& nodes, const std::vector<int>& kids, std::
 
 double LocalDensity::at(Vec3 x) const {
     if (share_) return gradient_at(x).value;
-    thread_local std::vector<double> done;
-    return run(nodes_, kids_, done, [&](std::size_t i) { return half_spaces_[i].density(x); });
+    return run<double>(nodes_, kids_, [&](std::size_t i) { return half_spaces_[i].density(x); });
 }
 
 ValueGradient LocalDensity::gradient_at(Vec3 x) const {
@@ -206,8 +215,7 @@ ValueGradient LocalDensity::gradient_at(Vec3 x) const {
             v.gradient += half_spaces_[i].normal * (slope[i] / half_spaces_[i].radius);
         return v;
     }
-    thread_local std::vector<ValueGradient> done;
-    return run(nodes_, kids_, done, [&](std::size_t i) -> ValueGradient {
+    return run<ValueGradient>(nodes_, kids_, [&](std::size_t i) -> ValueGradient {
         const HalfSpace& h = half_spaces_[i];
         const double alpha = h.alpha(x);
         if (h.radius == 0) return {profile(alpha), Vec3(0.0)};
@@ -227,9 +235,7 @@ Range LocalDensity::range(std::span<const Range> half_spaces) const {
 
 template <class OfHalfSpace>
 Range LocalDensity::range_from(OfHalfSpace leaf) const {
-    thread_local std::vector<Range> memory;
-    if (memory.size() < nodes_.size()) memory.resize(nodes_.size());
-    Range* const done = memory.data();
+    Range* const done = memory_for<Range>(nodes_.size());
     for (std::size_t i = 0; i < nodes_.size(); ++i) {
         const Node& n = nodes_[i];
         const auto at = [&](int child) { return done[std::size_t(child)]; };
@@ -299,7 +305,7 @@ ValueSlope RayDensity::at(double t) const {
         const double alpha = lines_[i].a + lines_[i].b * t;
         leaf_[i] = {profile(alpha), profile_slope(alpha) * lines_[i].b};
     }
-    return run(density_->nodes_, density_->kids_, done_, [&](std::size_t i) { return leaf_[i]; });
+    return run<ValueSlope>(density_->nodes_, density_->kids_, [&](std::size_t i) { return leaf_[i]; });
 }
 
 Vec3 RayDensity::gradient(double t) const {
@@ -311,8 +317,7 @@ Vec3 RayDensity::gradient(double t) const {
             gradient += density_->half_spaces_[i].normal * (slopes_[i] / density_->half_spaces_[i].radius);
         return gradient;
     }
-    thread_local std::vector<ValueGradient> done;
-    return run(density_->nodes_, density_->kids_, done, [&](std::size_t i) -> ValueGradient {
+    return run<ValueGradient>(density_->nodes_, density_->kids_, [&](std::size_t i) -> ValueGradient {
                const double alpha = lines_[i].a + lines_[i].b * t;
                const HalfSpace& h = density_->half_spaces_[i];
                const double rate = h.radius > 0 ? profile_slope(alpha) / h.radius : 0.0;

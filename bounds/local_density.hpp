@@ -112,7 +112,7 @@ private:
     };
     const LocalDensity* density_ = nullptr;
     std::vector<Line> lines_;
-    mutable std::vector<ValueSlope> leaf_, done_;
+    mutable std::vector<ValueSlope> leaf_;
     mutable std::vector<RayBounds> leaf_bounds_, bounds_;
 
     // Of a true convolution: every α, its rate, and the share's slope by it.

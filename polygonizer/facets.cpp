@@ -79,11 +79,9 @@ std::optional<Change> Facets::flip(int f, std::size_t k, bool give) const {
 
 std::optional<Change> Facets::collapse(int u, int v) const {
     // Link condition: u and v have exactly the two opposite vertices in common.
-    std::vector<int> nu, nv, common;
-    neighbours(u, nu);
-    neighbours(v, nv);
-    std::set_intersection(nu.begin(), nu.end(), nv.begin(), nv.end(), std::back_inserter(common));
-    if (common.size() != 2 || (nu.size() == 3 && nv.size() == 3)) return {};
+    const Fan nu = neighbours(u), nv = neighbours(v);
+    const auto common = std::count_if(nu.begin(), nu.end(), [&](int w) { return std::find(nv.begin(), nv.end(), w) != nv.end(); });
+    if (common != 2 || (nu.size() == 3 && nv.size() == 3)) return {};
     Change change;
     for (const int f : around(u)) {
         change.out.push_back(f);
@@ -194,12 +192,11 @@ void Facets::finish() {
     mesh_.normals = std::move(normals);
 }
 
-void Facets::neighbours(int v, std::vector<int>& out) const {
-    for (const int f : around(v))
-        for (const int w : at(f).triangle.vertex)
-            if (w != v) out.push_back(w);
-    std::sort(out.begin(), out.end());
-    out.erase(std::unique(out.begin(), out.end()), out.end());
+// Each follows v in one of the facets around it.
+Facets::Fan Facets::neighbours(int v) const {
+    Fan out;
+    for (const int f : around(v)) out.push_back(at(f).triangle.vertex[std::size_t((place(f, v) + 1) % 3)]);
+    return out;
 }
 
 // Of the normals at v, the one that suits the facet: of its own leaf, if there is one.

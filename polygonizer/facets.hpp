@@ -72,7 +72,7 @@ public:
     void finish();
 
 private:
-    void neighbours(int v, std::vector<int>& out) const;
+    Fan neighbours(int v) const;
     int nearest_normal(int v, const Facet& f) const;
 
     Mesh& mesh_;

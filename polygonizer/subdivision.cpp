@@ -22,6 +22,8 @@ Side decide(Range rho) {
     return Side::straddling;
 }
 
+bool is_decided(Range rho) { return decide(rho) != Side::straddling; }
+
 // Distances that a vertex snapped to h or h ± r should have had.
 double snapped(double distance, double radius, double tolerance) {
     for (const double plane : {-radius, 0.0, radius})
@@ -47,6 +49,11 @@ bool varies(Range rho) { return rho.hi != 0 && rho.lo != 1; }
 // Folds decided leaves away; `solid` keeps children before parents, the root last.
 template <class SideOfLeaf>
 Side fold(std::vector<SolidTreeNode>& solid, SideOfLeaf side_of_leaf) {
+    if (solid.size() == 1 && solid[0].op == SolidOp::leaf) {
+        const Side side = side_of_leaf(solid[0].a);
+        if (side != Side::straddling) solid.clear();
+        return side;
+    }
     std::vector<Side> sides;
     for (const SolidTreeNode& n : solid) {
         switch (n.op) {
@@ -138,7 +145,7 @@ void Subdivision::range_over_cell(const std::vector<HalfSpace>& half_spaces) {
 // The leaf within corners_.
 OpenLeaf Subdivision::localize(const OpenLeaf& leaf, Side& side) {
     range_over_cell(leaf.tree->half_spaces);
-    Pruned pruned = prune_further(*leaf.tree, ranges_);
+    Pruned pruned = prune_further(*leaf.tree, ranges_, is_decided);
     side = decide(pruned.range);
     if (side != Side::straddling) return leaf;
     OpenLeaf local = leaf;
@@ -175,11 +182,10 @@ int Subdivision::new_place(int parent, int cell) {
     Place place;
     place.parent = parent;
     place.solid = places[std::size_t(parent)].solid;
-    std::vector<OpenLeaf> open;
     for (const OpenLeaf& leaf : places[std::size_t(parent)].open) {
         Side side;
         OpenLeaf local = localize(leaf, side);
-        if (side == Side::straddling) open.push_back(std::move(local));
+        if (side == Side::straddling) place.open.push_back(std::move(local));
         else place.decided.push_back({leaf.leaf, side});
     }
     place.side = fold(place.solid, [&](int leaf) {
@@ -187,14 +193,10 @@ int Subdivision::new_place(int parent, int cell) {
             if (decided == leaf) return side;
         return Side::straddling;
     });
-    if (place.side == Side::straddling) {
-        std::vector<int> matter;
-        for (const SolidTreeNode& n : place.solid)
-            if (n.op == SolidOp::leaf) matter.push_back(n.a);
-        for (OpenLeaf& leaf : open)
-            if (std::find(matter.begin(), matter.end(), leaf.leaf) != matter.end())
-                place.open.push_back(std::move(leaf));
-    }
+    std::erase_if(place.open, [&](const OpenLeaf& leaf) {
+        return std::none_of(place.solid.begin(), place.solid.end(),
+                            [&](const SolidTreeNode& n) { return n.op == SolidOp::leaf && n.a == leaf.leaf; });
+    });
     places.push_back(std::move(place));
     return int(places.size()) - 1;
 }
@@ -285,7 +287,12 @@ double Subdivision::cost(const Place& place, double offset, bool above) {
 }
 
 // Makes ready for planes of this normal.
-Range Subdivision::turn(const Place& place, Vec3 normal) {
+void Subdivision::turn(const Place& place, Vec3 normal) {
+    if (normal == -turned_to_)
+        for (Reach& reach : reach_) reach.along = -reach.along;
+    const bool is_along = normal == turned_to_ || normal == -turned_to_;
+    turned_to_ = normal;
+    if (is_along) return;
     ranges_.clear();
     varying_.assign(place.open.size(), 0);
     sides_.resize(place.open.size());
@@ -297,7 +304,6 @@ Range Subdivision::turn(const Place& place, Vec3 normal) {
             ranges_.push_back(reach->rho);
             if (reach->along == 0) varying_[k] += varies(reach->rho);
         }
-    return extent(normal);
 }
 
 bool Subdivision::is_refused(const Plane& plane) const {
@@ -316,41 +322,50 @@ bool Subdivision::choose(const Place& place, Plane& plane) {
     if ((half_spaces > many || !all_small) && choose_neutral(place, plane)) return true;
     if (!all_small) return false;
 
-    reach_.clear();
-    for (const OpenLeaf& leaf : place.open)
-        for (const HalfSpace& h : leaf.density->half_spaces()) {
-            const Range d = distances(h);
-            reach_.push_back({&h, d, rho_between(h, d.lo, d.hi, complex.tolerance), 0});
-        }
-    double best = infinity;
+    candidates_.clear();
     const auto consider = [&](const Plane& p, Range s, double bias) {
         if (s.hi - p.offset <= complex.tolerance || p.offset - s.lo <= complex.tolerance) return;
-        if (is_refused(p)) return;
-        const double share = (s.hi - p.offset) / (s.hi - s.lo);
-        const double above = cost(place, p.offset, true) * std::sqrt(share);
-        if (above + bias >= best) return;
-        const double c = above + cost(place, p.offset, false) * std::sqrt(1 - share) + bias;
-        if (c >= best) return;
-        best = c;
-        plane = p;
+        if (!is_refused(p)) candidates_.push_back({p, s, bias});
     };
     for (const OpenLeaf& leaf : place.open) {
         const auto& planes = leaf.density->half_spaces();
         if (is_parallel_family(*leaf.density)) {
-            const Range s = turn(place, planes[0].normal);
+            const Range s = extent(planes[0].normal);
             for (const Plane& p : level_planes(*leaf.density, s, complex.tolerance).planes)
                 consider(p, s, 0);
             continue;
         }
         for (const HalfSpace& h : planes) {
-            const Range s = turn(place, h.normal);
+            const Range s = extent(h.normal);
             consider({h.normal, h.offset}, s, 0);
             if (h.radius == 0) continue;
             consider({h.normal, h.offset + h.radius}, s, 0.5);
             consider({h.normal, h.offset - h.radius}, s, 0.5);
         }
     }
-    return best < infinity;
+    if (candidates_.empty()) return false;
+    plane = candidates_[0].plane;
+    if (candidates_.size() == 1) return true;
+
+    reach_.clear();
+    turned_to_ = Vec3(0.0);
+    for (const OpenLeaf& leaf : place.open)
+        for (const HalfSpace& h : leaf.density->half_spaces()) {
+            const Range d = distances(h);
+            reach_.push_back({&h, d, rho_between(h, d.lo, d.hi, complex.tolerance), 0});
+        }
+    double best = infinity;
+    for (const auto& [p, s, bias] : candidates_) {
+        turn(place, p.normal);
+        const double share = (s.hi - p.offset) / (s.hi - s.lo);
+        const double above = cost(place, p.offset, true) * std::sqrt(share);
+        if (above + bias >= best) continue;
+        const double c = above + cost(place, p.offset, false) * std::sqrt(1 - share) + bias;
+        if (c >= best) continue;
+        best = c;
+        plane = p;
+    }
+    return true;
 }
 
 // Across the longest side of the cell, at a half-space's own plane if one is near the middle.

@@ -58,6 +58,11 @@ private:
         int along;  // 1 or −1 where its normal is the plane's that is being considered, or against it; else 0
     };
 
+    struct Candidate {
+        Plane plane;
+        Range along;  // of the cell, along its normal
+        double bias;
+    };
     struct Extent {
         Vec3 normal;
         Range along;
@@ -70,7 +75,7 @@ private:
     OpenLeaf localize(const OpenLeaf& leaf, Side& side);
     bool choose(const Place& place, Plane& plane);
     bool choose_neutral(const Place& place, Plane& plane) const;
-    Range turn(const Place& place, Vec3 normal);
+    void turn(const Place& place, Vec3 normal);
     double cost(const Place& place, double offset, bool above);
     bool is_refused(const Plane& plane) const;
     void look_at(int cell);
@@ -79,6 +84,8 @@ private:
     std::vector<Vec3> corners_;                // of that cell
     std::vector<Extent> extents_;              // of them, along normals that were asked for
     std::vector<Reach> reach_;                 // of its densities' half-spaces, leaf by leaf
+    std::vector<Candidate> candidates_;        // planes that may cut the cell
+    Vec3 turned_to_{0.0};                      // the normal of planes that are being considered
     std::vector<std::vector<Plane>> refused_;  // by cell
     int current_ = 0;
     std::vector<Range> ranges_;
