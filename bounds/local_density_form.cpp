@@ -209,7 +209,8 @@ private:
 }  // namespace
 
 std::optional<LocalDensity::Sum> LocalDensity::as_sum(std::size_t most_terms) const {
-    if (share_) return std::nullopt;
+    constexpr std::size_t most_half_spaces = 64;  // all pairs of them are compared
+    if (share_ || half_spaces_.size() > most_half_spaces) return std::nullopt;
     const Multiplier multiplier(half_spaces_);
     const Polynomial one{{1, {}}};
     std::vector<Polynomial> form;
