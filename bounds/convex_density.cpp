@@ -35,7 +35,7 @@ public:
         }
     }
 
-    ConvexCrossing first(double lo, double hi, double negligible) const {
+    [[gnu::always_inline]] ConvexCrossing first(double lo, double hi, double negligible) const {
         hi = end_of_change(lo, hi);
         if (misses(lo, hi, negligible)) return {};
         if (in_ > lo) return enter(in_, hi, negligible);

@@ -42,8 +42,8 @@ public:
         double constant = 0;
         std::vector<Term> terms;
     };
-    /// The density multiplied out: a constant and weighted products of half-spaces, if they are no more
-    /// than `most_terms`.
+    /// The density multiplied out: a constant and weighted products of half-spaces, if the products are no
+    /// more than `most_terms`; of few half-spaces only.
     std::optional<Sum> as_sum(std::size_t most_terms) const;
     /// Whether ρ is a polynomial of degree 1 in each of several variables, of which variable_of[i] is
     /// the one that half-space i is a linear function of.

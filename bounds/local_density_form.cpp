@@ -87,94 +87,153 @@ struct Monomial {
 };
 using Polynomial = std::vector<Monomial>;
 
-// Where b has one factor more than a, that factor; else −1.
-int one_more(const std::vector<int>& a, const std::vector<int>& b) {
-    if (b.size() != a.size() + 1) return -1;
-    const auto [in_a, in_b] = std::mismatch(a.begin(), a.end(), b.begin());
-    return std::equal(in_a, a.end(), in_b + 1) ? *in_b : -1;
-}
+// Multiplies out, and makes use of parallel planes that do not vary in the same place: of nested F ⊂ G
+// F·G = F and G − F = G·(1 − F), of disjoint ones F·G = 0.
+class Multiplier {
+public:
+    explicit Multiplier(const std::vector<HalfSpace>& half_spaces) {
+        const std::size_t n = half_spaces.size();
+        first_.resize(n);
+        for (std::size_t i = 0; i < n; ++i) {
+            const HalfSpace& h = half_spaces[i];
+            const auto same = [&](const HalfSpace& g) {
+                return g.normal == h.normal && g.offset == h.offset && g.radius == h.radius;
+            };
+            first_[i] = int(std::find_if(half_spaces.begin(), half_spaces.end(), same) - half_spaces.begin());
+        }
+        // Where a factor is above 0, and where it is 1, along the plane's normal.
+        const auto factor = [&](std::size_t f) {
+            const HalfSpace& h = half_spaces[f / 2];
+            const bool above = f % 2 == 1;
+            return above ? Extent{h.normal, {h.offset - h.radius, infinity}, {h.offset + h.radius, infinity}}
+                         : Extent{h.normal, {-infinity, h.offset + h.radius}, {-infinity, h.offset - h.radius}};
+        };
+        relation_.assign(4 * n * n, Relation::none);
+        for (std::size_t f = 0; f < 2 * n; ++f)
+            for (std::size_t g = 0; g < 2 * n; ++g) {
+                const Extent F = factor(f), G = factor(g).along(F.normal);
+                if (G.normal != F.normal) continue;
+                if (F.some.lo >= G.full.lo && F.some.hi <= G.full.hi) relation_[2 * n * f + g] = Relation::within;
+                else if (F.some.lo >= G.some.hi || F.some.hi <= G.some.lo) relation_[2 * n * f + g] = Relation::apart;
+            }
+    }
 
-void insert_sorted(std::vector<int>& all, int value) {
-    all.insert(std::lower_bound(all.begin(), all.end(), value), value);
-}
+    Polynomial leaf(int half_space) const { return {{1, {2 * first_[std::size_t(half_space)]}}}; }
 
-// Puts two terms into the first, if that can be: equal products, M − M·F = M·(1 − F).
-bool join(Monomial& a, const Monomial& b) {
-    if (a.factors == b.factors) {
-        a.weight += b.weight;
+    Polynomial plus(Polynomial a, const Polynomial& b, double sign) const {
+        for (Monomial m : b) {
+            m.weight *= sign;
+            add(a, std::move(m));
+        }
+        return a;
+    }
+
+    Polynomial times(const Polynomial& a, const Polynomial& b) const {
+        Polynomial all;
+        for (const Monomial& x : a)
+            for (const Monomial& y : b) {
+                Monomial m{x.weight * y.weight, x.factors};
+                for (const int f : y.factors) multiply(m, f);
+                add(all, std::move(m));
+            }
+        return all;
+    }
+
+private:
+    enum class Relation : char { none, within, apart };
+    struct Extent {
+        Vec3 normal;
+        struct {
+            double lo, hi;
+        } some, full;
+        Extent along(Vec3 n) const {
+            if (n != -normal) return *this;
+            return {n, {-some.hi, -some.lo}, {-full.hi, -full.lo}};
+        }
+    };
+    Relation relation(int f, int g) const {
+        return relation_[2 * first_.size() * std::size_t(f) + std::size_t(g)];
+    }
+
+    void multiply(Monomial& m, int f) const {
+        for (const int g : m.factors) {
+            if (relation(g, f) == Relation::within) return;
+            if (relation(g, f) == Relation::apart) m.weight = 0;
+        }
+        std::erase_if(m.factors, [&](int g) { return relation(f, g) == Relation::within; });
+        m.factors.insert(std::lower_bound(m.factors.begin(), m.factors.end(), f), f);
+    }
+
+    // Whether b is −a·F, for an F; then a becomes a·(1 − F).
+    bool take_away(Monomial& a, const Monomial& b) const {
+        for (const int f : b.factors) {
+            Monomial m = a;
+            multiply(m, f);
+            if (m.factors != b.factors || m.weight != -b.weight) continue;
+            multiply(a, f ^ 1);
+            return true;
+        }
+        return false;
+    }
+
+    // Puts both into the first, if that can be.
+    bool join(Monomial& a, const Monomial& b) const {
+        if (a.factors == b.factors) {
+            a.weight += b.weight;
+            return true;
+        }
+        if (a.weight != -b.weight) return false;
+        if (take_away(a, b)) return true;
+        Monomial other = b;
+        if (!take_away(other, a)) return false;
+        a = std::move(other);
         return true;
     }
-    if (a.weight != -b.weight) return false;
-    const int more_in_b = one_more(a.factors, b.factors), more_in_a = one_more(b.factors, a.factors);
-    if (more_in_b < 0 && more_in_a < 0) return false;
-    if (more_in_a >= 0) a = b;
-    insert_sorted(a.factors, std::max(more_in_a, more_in_b) ^ 1);
-    return true;
-}
 
-void join_to(Polynomial& sum, Monomial m) {
-    for (std::size_t i = 0; i < sum.size();) {
-        if (!join(m, sum[i])) {
-            ++i;
-            continue;
+    void add(Polynomial& sum, Monomial m) const {
+        for (std::size_t i = 0; i < sum.size();) {
+            if (!join(m, sum[i])) {
+                ++i;
+                continue;
+            }
+            sum.erase(sum.begin() + std::ptrdiff_t(i));
+            i = 0;  // what has become of m may join with others
         }
-        sum.erase(sum.begin() + std::ptrdiff_t(i));
-        i = 0;  // what has become of m may join with others
+        if (m.weight != 0) sum.push_back(std::move(m));
     }
-    if (m.weight != 0) sum.push_back(std::move(m));
-}
 
-Polynomial plus(Polynomial a, const Polynomial& b, double sign) {
-    for (Monomial m : b) {
-        m.weight *= sign;
-        join_to(a, std::move(m));
-    }
-    return a;
-}
-
-Polynomial times(const Polynomial& a, const Polynomial& b) {
-    Polynomial all;
-    for (const Monomial& x : a)
-        for (const Monomial& y : b) {
-            Monomial m{x.weight * y.weight, x.factors};
-            for (const int f : y.factors) insert_sorted(m.factors, f);
-            join_to(all, std::move(m));
-        }
-    return all;
-}
+    std::vector<int> first_;  // of those that coincide with a half-space
+    std::vector<Relation> relation_;
+};
 
 }  // namespace
 
 std::optional<LocalDensity::Sum> LocalDensity::as_sum(std::size_t most_terms) const {
-    if (share_) return std::nullopt;
-    // Coinciding half-spaces are one.
-    std::vector<int> first(half_spaces_.size());
-    for (std::size_t i = 0; i < first.size(); ++i) {
-        const HalfSpace& h = half_spaces_[i];
-        const auto same = [&](const HalfSpace& g) {
-            return g.normal == h.normal && g.offset == h.offset && g.radius == h.radius;
-        };
-        first[i] = int(std::find_if(half_spaces_.begin(), half_spaces_.end(), same) - half_spaces_.begin());
-    }
-    const auto leaf = [&](int half_space) { return Polynomial{{1, {2 * first[std::size_t(half_space)]}}}; };
+    constexpr std::size_t most_half_spaces = 64;  // all pairs of them are compared
+    if (share_ || half_spaces_.size() > most_half_spaces) return std::nullopt;
+    const Multiplier multiplier(half_spaces_);
     const Polynomial one{{1, {}}};
     std::vector<Polynomial> form;
     for (const Node& n : nodes_) {
         const auto at = [&](int child) -> const Polynomial& { return form[std::size_t(child)]; };
         Polynomial p;
         switch (n.step) {
-            case Step::constant: join_to(p, {n.value, {}}); break;
-            case Step::half_space: p = leaf(n.a); break;
-            case Step::sum: p = plus(at(n.a), at(n.b), 1); break;
-            case Step::difference: p = plus(at(n.a), at(n.b), -1); break;
-            case Step::product: p = times(at(n.a), at(n.b)); break;
-            case Step::complement: p = plus(one, at(n.a), -1); break;
+            case Step::constant:
+                if (n.value != 0) p = {{n.value, {}}};
+                break;
+            case Step::half_space: p = multiplier.leaf(n.a); break;
+            case Step::sum: p = multiplier.plus(at(n.a), at(n.b), 1); break;
+            case Step::difference: p = multiplier.plus(at(n.a), at(n.b), -1); break;
+            case Step::product: p = multiplier.times(at(n.a), at(n.b)); break;
+            case Step::complement: p = multiplier.plus(one, at(n.a), -1); break;
             case Step::decide: {
                 const int* thresholds = &kids_[std::size_t(n.a)];
                 const int* children = thresholds + n.b;
                 p = at(children[n.b]);
-                for (int j = 0; j < n.b; ++j)
-                    p = plus(p, times(leaf(thresholds[j]), plus(at(children[j]), at(children[j + 1]), -1)), 1);
+                for (int j = 0; j < n.b; ++j) {
+                    const Polynomial step = multiplier.plus(at(children[j]), at(children[j + 1]), -1);
+                    p = multiplier.plus(p, multiplier.times(multiplier.leaf(thresholds[j]), step), 1);
+                }
                 break;
             }
         }

@@ -82,10 +82,11 @@ inline Vec3 reciprocal(Vec3 d) {
     return {of(d.x), of(d.y), of(d.z)};
 }
 
+/// Of a box that is not empty.
 inline BoxSpan span_in(const Box& box, const Vec3& origin, const Vec3& inverse, double t0, double t1) {
     for (int k = 0; k < 3; ++k) {
         const double a = (box.lo[k] - origin[k]) * inverse[k], b = (box.hi[k] - origin[k]) * inverse[k];
-        const double lo = inverse[k] < 0 ? b : a, hi = inverse[k] < 0 ? a : b;
+        const double lo = a < b ? a : b, hi = a < b ? b : a;
         t0 = lo > t0 ? lo : t0;
         t1 = hi < t1 ? hi : t1;
     }

@@ -42,23 +42,19 @@ bool traverse(const BspTree& tree, const Ray& ray, double t0, double t1, OnCell 
 
 }  // namespace
 
-// Where a ray begins among the numbers: a distance along it is rounded by this much.
-double BspTracer::rounding(const Ray& ray, double t) const {
-    return 4 * epsilon * (scale_ + largest(ray.origin) + t);
-}
-
 // `Any`: that there is a crossing is all that is asked.
 template <bool Any>
 class BspTracer::Finder {
 public:
     Finder(const BspTracer& bsp, const Ray& ray, double t_max, TraceCounters& counters, const Others* others)
-        : bsp_(bsp), ray_(ray), inverse_(reciprocal(ray.direction)), end_(t_max), counters_(counters), others_(others) {}
+        : bsp_(bsp), ray_(ray), inverse_(reciprocal(ray.direction)), reach_(bsp.scale_ + largest(ray.origin)),
+          end_(t_max), counters_(counters), others_(others) {}
 
     bool search() {
         for (std::size_t i = 0; i < bsp_.planes_.size(); ++i) look(bsp_.planes_, i, 0, end_);
         if (enough()) return true;
         const BoxSpan span = span_in(bsp_.boxes_.box(), ray_.origin, inverse_, 0, end_);
-        const bool meets = span.lo <= span.hi;
+        const bool meets = !bsp_.boxes_.empty() && span.lo <= span.hi;
         if (!bsp_.bounded_) {
             walk(0, meets ? span.lo : end_);
             if (!meets || enough() || (found_ && end_ <= span.lo)) return found_;
@@ -78,11 +74,14 @@ public:
         if (!pieces_) return of_other_;
         return {{end_, pieces_->normal(piece_, crossing_, ray_.origin, ray_.direction), crossing_.material},
                 solid_,
-                bsp_.rounding(ray_, end_) + crossing_.error};
+                rounding(end_) + crossing_.error};
     }
 
 private:
     bool enough() const { return Any && found_; }
+
+    // Where a ray begins among the numbers: a distance along it is rounded by this much.
+    double rounding(double t) const { return 4 * epsilon * (reach_ + t); }
 
     void walk(double t0, double t1) {
         const double known = end_;
@@ -97,7 +96,7 @@ private:
     void look_in_cell(std::uint32_t i) {
         const BoxSpan span = span_in(bsp_.pieces_[i].box, ray_.origin, inverse_, 0, end_);
         // Cells overlap by what their walls are rounded by: a surface in a wall belongs to both.
-        const double pad = bsp_.rounding(ray_, std::min(span.lo, span.hi));
+        const double pad = rounding(std::min(span.lo, span.hi));
         const double from = std::max(0.0, span.lo - pad), to = std::min(end_, span.hi + pad);
         if (from <= to) look(bsp_.pieces_, i, from, to);
     }
@@ -113,11 +112,21 @@ private:
             if (!(t >= from && t <= to && t < infinity)) return;
             ++counters_.flat_hits;
             if (Any || is_better(t, p.solid)) take(t, p.solid, &pieces, i, p.material);
+        } else if (p.kind == Piece::Kind::convex) {
+            if constexpr (Any) {
+                found_ = found_ || pieces.crosses_convex(p, ray_.origin, ray_.direction, from, to, counters_);
+            } else {
+                const ConvexCrossing c = pieces.convex_crossing(p, ray_.origin, ray_.direction, from, to, counters_);
+                if (!(c.t < infinity) || !is_better(c.t, p.solid)) return;
+                take(c.t, p.solid, &pieces, i, p.material);
+                crossing_.convex = c;
+            }
         } else {
-            const PieceCrossing c = pieces.crossing(i, ray_.origin, ray_.direction, from, to, Any, counters_);
+            const SurfaceCrossing c = pieces.general_crossing(p, ray_.origin, ray_.direction, from, to, Any, counters_);
             if (!(c.t < infinity) || !(Any || is_better(c.t, p.solid))) return;
             take(c.t, p.solid, &pieces, i, c.material);
-            crossing_ = c;
+            crossing_.normal = c.normal;
+            crossing_.error = c.error;
         }
     }
 
@@ -147,6 +156,7 @@ private:
     const BspTracer& bsp_;
     const Ray& ray_;
     Vec3 inverse_;
+    double reach_;  // of coordinates that are added
     double end_;  // nothing counts beyond
     TraceCounters& counters_;
     const Others* others_;

@@ -54,7 +54,6 @@ public:
 private:
     template <bool Any>
     class Finder;
-    double rounding(const Ray& ray, double t) const;
 
     std::vector<BspTree> trees_;
     double scale_ = 1;     // the largest of theirs

@@ -50,8 +50,8 @@ std::size_t Pieces::half_spaces(std::size_t i) const {
     }
 }
 
-PieceCrossing Pieces::general_crossing(const Piece& p, const Vec3& origin, const Vec3& direction, double t0, double t1,
-                                       bool any, TraceCounters& counters) const {
+SurfaceCrossing Pieces::general_crossing(const Piece& p, const Vec3& origin, const Vec3& direction, double t0, double t1,
+                                         bool any, TraceCounters& counters) const {
     CrossingScratch& memory = scratch();
     memory.criterion = criterion_;
     memory.counters = {};
@@ -60,7 +60,7 @@ PieceCrossing Pieces::general_crossing(const Piece& p, const Vec3& origin, const
     counters.segments += memory.counters.roots.segments;
     counters.splits += memory.counters.roots.splits;
     counters.evaluations += memory.counters.roots.evaluations;
-    return {c.t, {}, c.normal, c.material, c.error};
+    return c;
 }
 
 Vec3 Pieces::normal(std::size_t i, const PieceCrossing& crossing, const Vec3& origin, const Vec3& direction) const {

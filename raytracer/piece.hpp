@@ -30,7 +30,7 @@ struct PieceCrossing {
     ConvexCrossing convex;  // of a convex piece
     Vec3 normal{0.0};       // of a general one
     int material = 0;
-    double error = 0;       // of a general one (SurfaceCrossing)
+    double error = 0;       // of its place (SurfaceCrossing)
 };
 
 class Pieces {
@@ -51,9 +51,18 @@ public:
         const AlphaPlane& plane = planes_[p.first];
         return -(glm::dot(plane.slope, origin) + plane.base) / glm::dot(plane.slope, direction);
     }
-    /// First crossing of piece i, which is no plane, in [t0, t1]; `any`: some crossing will do, and its t means nothing.
-    PieceCrossing crossing(std::size_t i, const Vec3& origin, const Vec3& direction, double t0, double t1, bool any,
-                           TraceCounters& counters) const;
+    /// First crossing of a convex piece in [t0, t1]; whether there is one.
+    ConvexCrossing convex_crossing(const Piece& p, const Vec3& origin, const Vec3& direction, double t0, double t1,
+                                   TraceCounters& counters) const {
+        return first_crossing(view(p), origin, direction, t0, t1, negligible(t0), counters.evaluations);
+    }
+    bool crosses_convex(const Piece& p, const Vec3& origin, const Vec3& direction, double t0, double t1,
+                        TraceCounters& counters) const {
+        return any_crossing(view(p), origin, direction, t0, t1, negligible(t0), counters.evaluations);
+    }
+    /// First crossing of a general one; `any`: that there is one will do, and its t means nothing.
+    SurfaceCrossing general_crossing(const Piece& p, const Vec3& origin, const Vec3& direction, double t0, double t1,
+                                     bool any, TraceCounters& counters) const;
     /// Unit normal, out of the solid.
     Vec3 normal(std::size_t i, const PieceCrossing& crossing, const Vec3& origin, const Vec3& direction) const;
 
@@ -62,8 +71,7 @@ public:
 
 private:
     ConvexView view(const Piece& p) const { return {&planes_[p.first], p.soft, p.sharp, p.complement}; }
-    PieceCrossing general_crossing(const Piece& p, const Vec3& origin, const Vec3& direction, double t0, double t1, bool any,
-                                   TraceCounters& counters) const;
+    double negligible(double t) const { return 8 * epsilon * (scale_ + t); }
 
     std::vector<Piece> pieces_;
     std::vector<AlphaPlane> planes_;
@@ -71,18 +79,5 @@ private:
     double scale_ = 1;
     Criterion criterion_ = Criterion::exact;
 };
-
-inline PieceCrossing Pieces::crossing(std::size_t i, const Vec3& origin, const Vec3& direction, double t0, double t1,
-                                      bool any, TraceCounters& counters) const {
-    const Piece& p = pieces_[i];
-    if (p.kind == Piece::Kind::general) return general_crossing(p, origin, direction, t0, t1, any, counters);
-    const double negligible = 8 * epsilon * (scale_ + t0);
-    if (any) {
-        if (!any_crossing(view(p), origin, direction, t0, t1, negligible, counters.evaluations)) return {};
-        return {t0, {}, {}, p.material};
-    }
-    const ConvexCrossing c = first_crossing(view(p), origin, direction, t0, t1, negligible, counters.evaluations);
-    return {c.t, c, {}, p.material};
-}
 
 }  // namespace deburr

@@ -165,3 +165,19 @@ TEST_CASE("a ray in the plane of a sum's flush face is done soon") {
             if (height >= 1) CHECK(crossings == 0);
         }
 }
+
+TEST_CASE("multiplied out, nested half-spaces that do not vary in the same place are one product") {
+    const auto slab = [](double thickness) {
+        return Density::half_space({1, 0, 0}, thickness) & ~Density::half_space({1, 0, 0}, 0) & Density::half_space({0, 1, 0}, 0);
+    };
+    const auto terms = [](const Density& d, double r) { return LocalDensity(flatten(d, r)).as_sum(8)->terms.size(); };
+    CHECK(terms(slab(0.5), 0.25) == 1);
+    CHECK(terms(slab(0.5), 0.26) == 2);
+    // Of F·G what is nested goes, what is disjoint vanishes; turned round the same.
+    const Density narrow = Density::half_space({1, 0, 0}, 0), wide = Density::half_space({1, 0, 0}, 1);
+    const Density other = Density::half_space({-1, 0, 0}, -1);
+    CHECK(LocalDensity(flatten(narrow * wide, 0.5)).as_sum(1)->terms.at(0).factors.size() == 1);
+    CHECK(LocalDensity(flatten(narrow * wide, 0.6)).as_sum(1)->terms.at(0).factors.size() == 2);
+    CHECK(LocalDensity(flatten(narrow * other, 0.5)).as_sum(1)->terms.empty());
+    CHECK(LocalDensity(flatten(narrow * other, 0.6)).as_sum(1)->terms.size() == 1);
+}
