@@ -14,10 +14,11 @@ namespace deburr {
 namespace {
 
 // In units of one visit of an inner node, some 5 ns: a plane; a density, by its number of half-spaces,
-// of which the first three are mostly a product and the others want a search; each leaf that CSG has
-// to combine. Chosen by the time that csg_examples, variable_rounding and 10,000 blocks took.
-constexpr double cost_node = 1.0, cost_flat = 3.0, cost_soft = 6.0, cost_half_space = 2.0;
-constexpr double cost_further_half_space = 20.0, cost_csg_leaf = 10.0;
+// of which the first three are mostly a product and more a sum of some; each leaf that CSG has to
+// combine. Chosen by the time that csg_examples, variable_rounding, staplers and hole_punch took, to be
+// built and to be traced.
+constexpr double cost_node = 1.0, cost_flat = 3.0, cost_soft = 5.0, cost_half_space = 0.5;
+constexpr double cost_further_half_space = 10.0, cost_csg_leaf = 10.0;
 constexpr int few_factors = 3;
 // Cells with no more half-spaces than this are split by what would be left of the solids on either
 // side; larger ones by the solids' boxes and by a few such looks.
