@@ -1,7 +1,8 @@
 #include "polygonizer/mesh.hpp"
 
 #include <algorithm>
-#include <numeric>
+
+#include "polygonizer/union_find.hpp"
 
 namespace deburr {
 namespace {
@@ -11,16 +12,6 @@ struct DirectedEdge {
     bool forward;  // from lo to hi
     int triangle;
     bool same_edge(const DirectedEdge& o) const { return lo == o.lo && hi == o.hi; }
-};
-
-struct Union {
-    std::vector<int> parent;
-    explicit Union(std::size_t n) : parent(n, 0) { std::iota(parent.begin(), parent.end(), 0); }
-    int find(int i) {
-        while (parent[std::size_t(i)] != i) i = parent[std::size_t(i)] = parent[std::size_t(parent[std::size_t(i)])];
-        return i;
-    }
-    void join(int a, int b) { parent[std::size_t(find(a))] = find(b); }
 };
 
 }  // namespace
@@ -50,7 +41,7 @@ Topology topology(const Mesh& mesh) {
     std::sort(edges.begin(), edges.end(), [](const DirectedEdge& x, const DirectedEdge& y) {
         return std::pair{x.lo, x.hi} < std::pair{y.lo, y.hi};
     });
-    Union shells(mesh.triangles.size()), corners(3 * mesh.triangles.size());
+    UnionFind shells(mesh.triangles.size()), corners(3 * mesh.triangles.size());
     const auto corner = [&](int t, int v) {
         const auto& vertex = mesh.triangles[std::size_t(t)].vertex;
         return 3 * t + (vertex[0] == v ? 0 : vertex[1] == v ? 1 : 2);
@@ -70,7 +61,7 @@ Topology topology(const Mesh& mesh) {
         k = end;
     }
     std::vector<int> fans(mesh.positions.size(), 0);
-    for (std::size_t c = 0; c < corners.parent.size(); ++c)
+    for (std::size_t c = 0; c < corners.size(); ++c)
         if (corners.find(int(c)) == int(c)) ++fans[std::size_t(mesh.triangles[c / 3].vertex[c % 3])];
     for (const int n : fans) {
         top.vertices += n > 0;

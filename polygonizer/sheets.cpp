@@ -1,7 +1,8 @@
 #include "polygonizer/sheets.hpp"
 
 #include <cmath>
-#include <numeric>
+
+#include "polygonizer/union_find.hpp"
 
 namespace deburr {
 namespace {
@@ -17,14 +18,11 @@ struct Shell {
 
 class Shells {
 public:
-    explicit Shells(const Mesh& mesh) : mesh_(mesh), parent_(mesh.positions.size()), shells_(mesh.positions.size()) {
-        std::iota(parent_.begin(), parent_.end(), 0);
+    explicit Shells(const Mesh& mesh) : joined_(mesh.positions.size()), shells_(mesh.positions.size()) {
+        for (const Triangle& t : mesh.triangles)
+            for (const std::size_t k : {1, 2}) joined_.join(t.vertex[0], t.vertex[k]);
         for (const Triangle& t : mesh.triangles) {
-            parent_[std::size_t(find(t.vertex[0]))] = find(t.vertex[1]);
-            parent_[std::size_t(find(t.vertex[1]))] = find(t.vertex[2]);
-        }
-        for (const Triangle& t : mesh.triangles) {
-            const int of = find(t.vertex[0]);
+            const int of = joined_.find(t.vertex[0]);
             const Vec3 area = mesh.area_vector(t), from = mesh.positions[std::size_t(of)];
             Shell& s = shells_[std::size_t(of)];
             s.area += 0.5 * glm::length(area);
@@ -33,18 +31,12 @@ public:
         }
     }
 
-    Shell& of(const Triangle& t) { return shells_[std::size_t(find(t.vertex[0]))]; }
+    Shell& of(const Triangle& t) { return shells_[std::size_t(joined_.find(t.vertex[0]))]; }
     /// Those without triangles too.
     std::vector<Shell>& all() { return shells_; }
 
 private:
-    int find(int v) {
-        while (parent_[std::size_t(v)] != v) v = parent_[std::size_t(v)] = parent_[std::size_t(parent_[std::size_t(v)])];
-        return v;
-    }
-
-    const Mesh& mesh_;
-    std::vector<int> parent_;  // union-find over vertices
+    UnionFind joined_;  // vertices
     std::vector<Shell> shells_;
 };
 

@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <cstdint>
-#include <numeric>
 
 #include "polygonizer/boundary_polygons.hpp"
 #include "polygonizer/polygon_triangles.hpp"
+#include "polygonizer/union_find.hpp"
 
 namespace deburr {
 namespace {
@@ -60,11 +60,6 @@ public:
     }
 
 private:
-    int group(int p) {
-        while (group_[std::size_t(p)] != p) p = group_[std::size_t(p)] = group_[std::size_t(group_[std::size_t(p)])];
-        return p;
-    }
-
     bool in_plane(const Polygon& p, const Polygon& plane) const {
         for (int h = p.first; h < p.first + p.count; ++h)
             if (std::abs(glm::dot(plane.normal, positions_[std::size_t(vertex_[std::size_t(h)])]) - plane.offset) >
@@ -75,21 +70,20 @@ private:
     double flat_slack() const { return 0.1 * complex_.tolerance; }
 
     void join_flat() {
-        group_.resize(polygons_.size());
-        std::iota(group_.begin(), group_.end(), 0);
+        group_ = UnionFind(polygons_.size());
         for (std::size_t h = 0; h < steps_.size(); ++h) {
-            const int a = group(owner_[h]), b = group(owner_[std::size_t(twin_[h])]);
+            const int a = group_.find(owner_[h]), b = group_.find(owner_[std::size_t(twin_[h])]);
             if (a == b) continue;
             const Polygon &p = polygons_[std::size_t(a)], &q = polygons_[std::size_t(b)];
             if (p.leaf != q.leaf || p.material != q.material || p.normal == Vec3(0.0)) continue;
             if (glm::dot(p.normal, q.normal) < 1 - 1e-9) continue;
             const Polygon& other = polygons_[std::size_t(owner_[std::size_t(twin_[h])])];
             if (!in_plane(p, p) || !in_plane(q, p) || !in_plane(other, p)) continue;
-            group_[std::size_t(b)] = a;
+            group_.join(a, b);
         }
     }
 
-    bool is_border(int h) { return group(owner_[std::size_t(h)]) != group(owner_[std::size_t(twin_[std::size_t(h)])]); }
+    bool is_border(int h) { return group_.find(owner_[std::size_t(h)]) != group_.find(owner_[std::size_t(twin_[std::size_t(h)])]); }
 
     // Half-edges between groups, each with the next one around its group.
     void trace() {
@@ -306,7 +300,7 @@ private:
         std::vector<char> done(steps_.size(), false);
         for (std::size_t h = 0; h < steps_.size(); ++h) {
             if (next_[h] < 0 || done[h]) continue;
-            rings.push_back({group(owner_[h]), int(h)});
+            rings.push_back({group_.find(owner_[h]), int(h)});
             for (int at = int(h); !done[std::size_t(at)]; at = next_[std::size_t(at)]) done[std::size_t(at)] = true;
         }
         std::sort(rings.begin(), rings.end());
@@ -355,7 +349,7 @@ private:
         return mesh;
     }
 
-    std::vector<int> group_;           // union-find over polygons
+    UnionFind group_;                  // polygons
     std::vector<int> next_, before_;   // around a group; −1: within it
     EdgeSet borders_, diagonals_;      // edges of polygons; of triangles within
     int building_ = -1;                // a group
