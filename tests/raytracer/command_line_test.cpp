@@ -316,7 +316,7 @@ TEST_CASE("the first interrupt saves what there is, marked incomplete") {
         Call call({"render", place.scene, "-o", place / "a.exr", "-v", "--size", "600x600", "--spp",
                    "1000", "--stats-json", place / "s.json"});
         REQUIRE(call.says(" half-spaces"));
-        std::this_thread::sleep_for(std::chrono::milliseconds(500));
+        std::this_thread::sleep_for(std::chrono::seconds(2));  // to start tracing, however busy the machine is
         call.send(signal);
         const Outcome o = call.wait();
         CAPTURE(o.err);
