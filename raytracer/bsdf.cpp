@@ -83,19 +83,20 @@ double Ggx::density(double cos_out, double cos_half) const {
 
 // The visible normals of a hemisphere are halfway between `to_eye` and a spherical cap that is
 // uniform; those of GGX are a stretched hemisphere's.
-Vec3 Ggx::facet(Vec3 to_eye, Vec3 normal, double u, Vec2 turn) const {
-    const Frame frame(normal);
-    const Vec3 local = frame.to_local(to_eye);
-    const Vec3 eye = glm::normalize(Vec3(alpha * local.x, alpha * local.y, local.z));
+Vec3 Ggx::facet_about_z(Vec3 to_eye, double u, Vec2 turn) const {
+    const Vec3 eye = glm::normalize(Vec3(alpha * to_eye.x, alpha * to_eye.y, to_eye.z));
     const double z = (1 - u) * (1 + eye.z) - eye.z;
     const double r = std::sqrt(glm::clamp(1 - z * z, 0.0, 1.0));
     const Vec3 half = Vec3(r * turn.x, r * turn.y, z) + eye;
     const Vec3 facet(alpha * half.x, alpha * half.y, std::max(0.0, half.z));
     const double length = glm::length(facet);
-    return length > 0 ? frame.to_world(facet / length) : normal;
+    return length > 0 ? facet / length : Vec3(0, 0, 1);
 }
 
-Vec3 Ggx::facet(Vec3 to_eye, Vec3 normal, Vec2 u) const { return facet(to_eye, normal, u.x, turn_by(u.y)); }
+Vec3 Ggx::facet(Vec3 to_eye, Vec3 normal, Vec2 u) const {
+    const Frame frame(normal);
+    return frame.to_world(facet_about_z(frame.to_local(to_eye), u.x, turn_by(u.y)));
+}
 
 bool SurfaceLayer::same(const Material& a, const Material& b) {
     return a.kind == b.kind && a.roughness == b.roughness && a.ior == b.ior;
@@ -130,10 +131,10 @@ double SurfaceLayer::integrate(double cosine) const {
         for (int i = 0; i < points; ++i) all.push_back(turn_by(glm::fract((i + 0.5) / std::numbers::phi)));
         return all;
     }();
-    const Vec3 normal(0, 0, 1), to_eye(std::sqrt(std::max(0.0, 1 - c * c)), 0, c);
+    const Vec3 to_eye(0, -std::sqrt(std::max(0.0, 1 - c * c)), c);
     double sum = 0;
     for (int i = 0; i < points; ++i) {
-        const Vec3 facet = ggx_.facet(to_eye, normal, (i + 0.5) / points, turns[std::size_t(i)]);
+        const Vec3 facet = ggx_.facet_about_z(to_eye, (i + 0.5) / points, turns[std::size_t(i)]);
         const double out = reflected(to_eye, facet).z;
         if (out > 0) sum += fresnel(Vec3(1.0), glm::dot(to_eye, facet)).x * ggx_.shadowing(out, c);
     }

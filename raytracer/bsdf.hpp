@@ -51,8 +51,8 @@ struct Ggx {
     double density(double cos_out, double cos_half) const;
     /// A facet's normal, as often as `to_eye` sees it.
     Vec3 facet(Vec3 to_eye, Vec3 normal, Vec2 u) const;
-    /// The same, for the cosine and sine of 2π u.y.
-    Vec3 facet(Vec3 to_eye, Vec3 normal, double u, Vec2 turn) const;
+    /// The same about z, for the cosine and sine of 2π u.y.
+    Vec3 facet_about_z(Vec3 to_eye, double u, Vec2 turn) const;
 };
 
 /// What all points of a material have in common.

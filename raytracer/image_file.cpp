@@ -14,6 +14,40 @@
 namespace deburr {
 namespace {
 
+// The linear value whose place on the transfer curve is v.
+double linear_of_srgb(double v) { return v <= 0.04045 ? v / 12.92 : std::pow((v + 0.055) / 1.055, 2.4); }
+
+// Where bytes begin, and, for even steps of the linear value, the byte that a step begins with. The curve
+// rises by 12.92 at most, so that a step has room for the beginning of one byte more.
+struct SrgbBytes {
+    static constexpr int steps = 4096;
+    static_assert(steps > 12.92 * 255);
+    std::array<double, 257> begin{};
+    std::array<unsigned char, steps> byte{};
+
+    SrgbBytes() {
+        for (int k = 1; k < 256; ++k) begin[std::size_t(k)] = linear_of_srgb((k - 0.5) / 255);
+        begin[256] = infinity;
+        int now = 0;
+        for (int i = 0; i < steps; ++i) {
+            while (begin[std::size_t(now) + 1] <= double(i) / steps) ++now;
+            byte[std::size_t(i)] = static_cast<unsigned char>(now);
+        }
+    }
+
+    unsigned char operator()(double linear) const {
+        if (!(linear > 0)) return 0;
+        if (linear >= 1) return 255;
+        const unsigned char at = byte[std::size_t(linear * steps)];
+        return at + (linear >= begin[std::size_t(at) + 1]);
+    }
+};
+
+const SrgbBytes& srgb_bytes() {
+    static const SrgbBytes bytes;
+    return bytes;
+}
+
 class Channels {
 public:
     explicit Channels(const Film& film) : film_(film) {}
@@ -58,7 +92,7 @@ std::vector<ImageChannel> channels(const Film& film, ImageKind kind, const Image
         to.add_vector("", "RGB", ChannelType::single_float, &Pixel::color);
     } else {
         for (int k = 0; k < 3; ++k)
-            to.add(std::string(1, "RGB"[k]), ChannelType::byte, [k](const Pixel& p) { return srgb_byte(p.color[k]); });
+            to.add(std::string(1, "RGB"[k]), ChannelType::byte, [k, &byte = srgb_bytes()](const Pixel& p) { return byte(p.color[k]); });
     }
     return to.list;
 }
@@ -83,37 +117,9 @@ std::vector<ImageAttribute> attributes(const Film& film, const ImageNotes& notes
     return all;
 }
 
-// The linear value whose place on the transfer curve is v.
-double linear_of_srgb(double v) { return v <= 0.04045 ? v / 12.92 : std::pow((v + 0.055) / 1.055, 2.4); }
-
-// Where bytes begin, and, for even steps of the linear value, the byte that a step begins with. The curve
-// rises by 12.92 at most, so that a step has room for the beginning of one byte more.
-struct SrgbBytes {
-    static constexpr int steps = 4096;
-    static_assert(steps > 12.92 * 255);
-    std::array<double, 257> begin{};
-    std::array<unsigned char, steps> byte{};
-
-    SrgbBytes() {
-        for (int k = 1; k < 256; ++k) begin[std::size_t(k)] = linear_of_srgb((k - 0.5) / 255);
-        begin[256] = infinity;
-        int now = 0;
-        for (int i = 0; i < steps; ++i) {
-            while (begin[std::size_t(now) + 1] <= double(i) / steps) ++now;
-            byte[std::size_t(i)] = static_cast<unsigned char>(now);
-        }
-    }
-};
-
 }  // namespace
 
-unsigned char srgb_byte(double linear) {
-    static const SrgbBytes bytes;
-    if (!(linear > 0)) return 0;
-    if (linear >= 1) return 255;
-    const unsigned char byte = bytes.byte[std::size_t(linear * SrgbBytes::steps)];
-    return byte + (linear >= bytes.begin[std::size_t(byte) + 1]);
-}
+unsigned char srgb_byte(double linear) { return srgb_bytes()(linear); }
 
 void write_raster(const std::string& path, const ImageRaster& image, int threads, const ShareDone& done) {
     const std::string extension = image_extension(path);
