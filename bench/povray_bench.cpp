@@ -11,7 +11,7 @@
 namespace deburr::bench {
 namespace {
 
-constexpr int rounds = 3;
+constexpr int rounds = 7;
 
 // Lobb's obj4 alone, and how fast camera rays find it: of each that meets it, the exact hit.
 void primary_hits(Report& report) {
