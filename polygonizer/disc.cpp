@@ -87,7 +87,7 @@ bool strips(const std::vector<Vec3>& rim, Vec3 sweep, double tolerance, Disc& di
 // The centroid, moved along the gradient to the surface, within the walls; where the rim lies in a
 // plane that the surface does not follow, across that plane.
 bool displaced_centroid(const std::vector<Vec3>& rim, bool flat, const LocalDensity& density,
-                        const std::function<const std::vector<Wall>&()>& walls, double tolerance, Vec3& centre) {
+                        const std::vector<Wall>& walls, double tolerance, Vec3& centre) {
     const Vec3 c = std::accumulate(rim.begin(), rim.end(), Vec3(0.0)) / double(rim.size());
     const ValueGradient here = density.gradient_at(c);
     const double f = here.value - 0.5;
@@ -103,7 +103,7 @@ bool displaced_centroid(const std::vector<Vec3>& rim, bool flat, const LocalDens
     if (line == Vec3(0.0)) return false;
     if (f > 0) line = -line;
     double ahead = infinity, behind = -infinity;
-    for (const Wall& w : walls()) {
+    for (const Wall& w : walls) {
         const double gap = w.offset - glm::dot(w.normal, c), rate = glm::dot(w.normal, line);
         if (rate > 1e-12) ahead = std::min(ahead, gap / rate);
         else if (rate < -1e-12) behind = std::max(behind, gap / rate);
@@ -158,8 +158,8 @@ void fan_about_corner(const std::vector<Vec3>& rim, const LocalDensity& density,
 
 }  // namespace
 
-void span_loop(const std::vector<Vec3>& rim, const LocalDensity& density,
-               const std::function<const std::vector<Wall>&()>& walls, double tolerance, Disc& disc) {
+void span_loop(const std::vector<Vec3>& rim, const LocalDensity& density, const std::vector<Wall>& walls,
+               double tolerance, Disc& disc) {
     disc.faces.clear();
     disc.has_centre = false;
     const int n = int(rim.size());

@@ -1,6 +1,5 @@
 // Discs that span a loop on the isosurface within one cell [Triage §4.4.4, §4.5.2].
 #pragma once
-#include <functional>
 #include <vector>
 
 #include "bounds/local_density.hpp"
@@ -15,13 +14,12 @@ struct Disc {
 };
 
 /// `rim` lies on the isosurface, counter-clockwise seen from inside (ρ > ½); at least 3 points.
-/// `walls` gives the planes of the cell, (n, d) with n·x ≤ d within: the centre stays between them. It is
-/// asked for them only where there has to be one.
+/// `walls` are the planes of the cell, (n, d) with n·x ≤ d within: the centre stays between them.
 struct Wall {
     Vec3 normal;
     double offset;
 };
-void span_loop(const std::vector<Vec3>& rim, const LocalDensity& density,
-               const std::function<const std::vector<Wall>&()>& walls, double tolerance, Disc& disc);
+void span_loop(const std::vector<Vec3>& rim, const LocalDensity& density, const std::vector<Wall>& walls,
+               double tolerance, Disc& disc);
 
 }  // namespace deburr

@@ -1,9 +1,7 @@
 #include "polygonizer/subspace.hpp"
 
 #include <algorithm>
-#include <functional>
 #include <numeric>
-#include <utility>
 
 #include "polygonizer/disc.hpp"
 
@@ -231,31 +229,18 @@ int Subspace::owner(int face, std::span<const int> family) const {
     return family[0];
 }
 
-void Subspace::find_walls(int cell) {
-    walls_.clear();
-    for (const int f : complex_.cells[std::size_t(cell)]) {
-        if (leaf_of_face_[std::size_t(f)] >= 0) continue;
-        const Vec3 area = complex_.area_vector(f);
-        if (glm::length(area) <= 0) continue;
-        const auto& face = complex_.faces[std::size_t(f)];
-        const Vec3 n = glm::normalize(area) * (face.front == cell ? -1.0 : 1.0);
-        walls_.push_back({n, glm::dot(n, complex_.vertices[std::size_t(complex_.start(face.loop[0]))])});
-    }
-}
-
 void Subspace::span(int cell, const LocalDensity& density) {
     find_loops(cell);
-    if (loops_.empty()) {
-        resolve(cell);
-        return;
-    }
-    // As they are before anything is cut.
-    bool known = loops_.size() > 1 || loops_[0].steps.size() == 2;
-    if (known) find_walls(cell);
-    const auto walls = [&]() -> const std::vector<Wall>& {
-        if (!std::exchange(known, true)) find_walls(cell);
-        return walls_;
-    };
+    walls_.clear();
+    if (!loops_.empty())
+        for (const int f : complex_.cells[std::size_t(cell)]) {
+            if (leaf_of_face_[std::size_t(f)] >= 0) continue;
+            const Vec3 area = complex_.area_vector(f);
+            if (glm::length(area) <= 0) continue;
+            const Vec3 n = glm::normalize(area) * (complex_.faces[std::size_t(f)].front == cell ? -1.0 : 1.0);
+            walls_.push_back({n, glm::dot(n, complex_.vertices[std::size_t(
+                                                 complex_.start(complex_.faces[std::size_t(f)].loop[0]))])});
+        }
     CellComplex::List<4> family{cell};
     for (Loop& loop : loops_) {
         if (loop.steps.size() == 2) {  // two segments over one edge: a third vertex makes it a face
@@ -273,7 +258,7 @@ void Subspace::span(int cell, const LocalDensity& density) {
             rim_.push_back(complex_.start(s));
             points_.push_back(complex_.vertices[std::size_t(rim_.back())]);
         }
-        span_loop(points_, density, std::cref(walls), complex_.tolerance, disc_);
+        span_loop(points_, density, walls_, complex_.tolerance, disc_);
         if (disc_.has_centre) rim_.push_back(complex_.add_vertex(disc_.centre));
         for (auto& face : disc_.faces)
             for (int& corner : face) corner = rim_[std::size_t(corner)];
@@ -286,14 +271,12 @@ void Subspace::span(int cell, const LocalDensity& density) {
         next_of_origin_.push_back(next_of_origin_[std::size_t(origin(cell))]);
         next_of_origin_[std::size_t(origin(cell))] = fresh;
     }
-    for (const int c : family) resolve(c);
-}
-
-void Subspace::resolve(int cell) {
-    Side side = Side::outside;
-    for (const int f : complex_.cells[std::size_t(cell)])
-        if (face_labels_.at(f) == Sign::above) side = Side::inside;
-    resolved_[std::size_t(cell)].push_back({leaf_, side});
+    for (const int c : family) {
+        Side side = Side::outside;
+        for (const int f : complex_.cells[std::size_t(c)])
+            if (face_labels_.at(f) == Sign::above) side = Side::inside;
+        resolved_[std::size_t(c)].push_back({leaf_, side});
+    }
 }
 
 }  // namespace deburr

@@ -96,9 +96,7 @@ private:
                 Vec3& root) const;
     Vec3 on_seam(std::span<const int> faces, Vec3 start, double reach, const LocalDensity& density) const;
     void find_loops(int cell);
-    void find_walls(int cell);
     void span(int cell, const LocalDensity& density);
-    void resolve(int cell);
     int owner(int face, std::span<const int> family) const;
 
     const Subdivision& subdivision_;
