@@ -1,0 +1,98 @@
+// What is known of ρ over a region, and on which side of the surface that puts it: half-space by half-space,
+// density by density, and of the solid that they make up.
+#pragma once
+#include <vector>
+
+#include "bounds/profile.hpp"
+#include "bounds/solid_range.hpp"
+
+namespace deburr {
+
+// ρ ranges this near to ½ count as ending there: they come from α = 0 to within a few ε.
+inline constexpr double level_slack = 1e-12;
+
+inline Side decide(Range rho) {
+    if (rho.hi <= 0.5 + level_slack) return Side::outside;
+    if (rho.lo >= 0.5 - level_slack) return Side::inside;
+    return Side::straddling;
+}
+
+inline bool is_decided(Range rho) { return decide(rho) != Side::straddling; }
+
+// Distances that a vertex snapped to h or h ± r should have had.
+inline double snapped(double distance, double radius, double tolerance) {
+    for (const double plane : {-radius, 0.0, radius})
+        if (std::abs(distance - plane) <= tolerance) return plane;
+    return distance;
+}
+
+// ρ between two distances: the least is at the greater of them. A sharp one is constant on either closed side.
+inline double least_rho(const HalfSpace& h, double hi, double tolerance) {
+    hi = snapped(hi, h.radius, tolerance);
+    return h.radius > 0 ? profile(hi / h.radius) : hi > 0 ? 0.0 : 1.0;
+}
+inline double greatest_rho(const HalfSpace& h, double lo, double tolerance) {
+    lo = snapped(lo, h.radius, tolerance);
+    return h.radius > 0 ? profile(lo / h.radius) : lo >= 0 ? 0.0 : 1.0;
+}
+inline Range rho_between(const HalfSpace& h, double lo, double hi, double tolerance) {
+    return {least_rho(h, hi, tolerance), greatest_rho(h, lo, tolerance)};
+}
+
+inline bool varies(Range rho) { return rho.hi != 0 && rho.lo != 1; }
+
+// Folds decided leaves away; `solid` keeps children before parents, the root last.
+template <class SideOfLeaf>
+Side fold(std::vector<SolidTreeNode>& solid, SideOfLeaf side_of_leaf) {
+    if (solid.size() == 1 && solid[0].op == SolidOp::leaf) {
+        const Side side = side_of_leaf(solid[0].a);
+        if (side != Side::straddling) solid.clear();
+        return side;
+    }
+    std::vector<Side> sides;
+    for (const SolidTreeNode& n : solid) {
+        switch (n.op) {
+            case SolidOp::nothing: sides.push_back(Side::outside); break;
+            case SolidOp::everything: sides.push_back(Side::inside); break;
+            case SolidOp::leaf: sides.push_back(side_of_leaf(n.a)); break;
+            default: sides.push_back(combine(n.op, sides[std::size_t(n.a)], sides[std::size_t(n.b)]));
+        }
+    }
+    const Side root = sides.back();
+    if (root != Side::straddling) {
+        solid.clear();
+        return root;
+    }
+    if (solid.size() == 1) return root;
+    std::vector<char> needed(solid.size(), false);
+    needed.back() = true;
+    for (std::size_t i = solid.size(); i-- > 0;) {
+        if (!needed[i] || sides[i] != Side::straddling || solid[i].op == SolidOp::leaf) continue;
+        needed[std::size_t(solid[i].a)] = needed[std::size_t(solid[i].b)] = true;
+    }
+    std::vector<int> place(solid.size(), -1);
+    std::vector<SolidTreeNode> to;
+    for (std::size_t i = 0; i < solid.size(); ++i) {
+        if (!needed[i]) continue;
+        SolidTreeNode n = solid[i];
+        if (sides[i] != Side::straddling) {
+            n = {sides[i] == Side::inside ? SolidOp::everything : SolidOp::nothing};
+        } else if (n.op != SolidOp::leaf) {
+            const bool a_open = sides[std::size_t(n.a)] == Side::straddling;
+            const bool b_open = sides[std::size_t(n.b)] == Side::straddling;
+            if (!b_open || (!a_open && n.op != SolidOp::subtract)) {
+                place[i] = place[std::size_t(b_open ? n.b : n.a)];
+                continue;
+            }
+            n.a = place[std::size_t(n.a)];
+            n.b = place[std::size_t(n.b)];
+        }
+        place[i] = int(to.size());
+        to.push_back(n);
+    }
+    to.resize(std::size_t(place.back()) + 1);
+    solid = std::move(to);
+    return root;
+}
+
+}  // namespace deburr
