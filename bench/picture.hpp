@@ -1,11 +1,13 @@
 // Pictures of scenes on one thread, and the rays they are made of.
 #pragma once
+#include <array>
 #include <string>
 #include <vector>
 
 #include "bench/ratio.hpp"
 #include "raytracer/integrator.hpp"
 #include "raytracer/ray_tracer.hpp"
+#include "raytracer/render.hpp"
 #include "raytracer/scene_reader.hpp"
 
 namespace deburr::bench {
@@ -15,8 +17,12 @@ inline Scene scene_of(const std::string& name) { return read_scene(scene_path(na
 
 inline void render_picture(const Scene& scene, const RayTracer& tracer, TraceCounters& counters, int spp = 1) {
     const Integrator integrator(scene, tracer, {scene.width, scene.height, spp, 0});
-    for (int y = 0; y < scene.height; ++y)
-        for (int x = 0; x < scene.width; ++x) keep(integrator.pixel(x, y, counters));
+    const Window window{0, 0, scene.width, scene.height};
+    std::array<Pixel, tile_side * tile_side> pixels;
+    for (std::int64_t i = 0; i < tile_count(window); ++i) {
+        integrator.block(tile(window, i), pixels.data(), counters);
+        keep(pixels);
+    }
 }
 
 /// Every ray that a picture asks for, in the order it does, to be asked again of any tracer.

@@ -31,7 +31,7 @@ void one_thread_and_two(Report& report) {
         const auto trace = [&](std::size_t threads) {
             const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
             keep(render(scene.width, scene.height, {0, 0, scene.width, scene.height},
-                        [&](int x, int y, TraceCounters& counters) { return integrator.pixel(x, y, counters); }, stop)
+                        [&](const Window& block, Pixel* pixels, TraceCounters& counters) { integrator.block(block, pixels, counters); }, stop)
                      .pixels_done);
         };
         report.ratio(fmt::format("{}: one thread / two, on the wall", name),

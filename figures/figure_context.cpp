@@ -50,7 +50,7 @@ Film FigureContext::render(const Scene& scene, const RayTracer& tracer, const Fi
     const int spp = std::max(1, (settings.spp ? settings.spp : scene.spp) / fewer);
     const Integrator integrator(scene, tracer, {width, height, spp, 0});
     Film film = deburr::render(width, height, {0, 0, width, height},
-                               [&](int x, int y, TraceCounters& counters) { return integrator.pixel(x, y, counters); },
+                               [&](const Window& block, Pixel* pixels, TraceCounters& counters) { integrator.block(block, pixels, counters); },
                                stop_)
                     .film;
     check_stop();

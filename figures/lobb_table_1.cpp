@@ -1,10 +1,13 @@
 // Lobb, table 1: what rounding costs.
 #include <tbb/parallel_for.h>
 
+#include <array>
+
 #include "bench/ratio.hpp"
 #include "figures/figure.hpp"
 #include "raytracer/bsp.hpp"
 #include "raytracer/integrator.hpp"
+#include "raytracer/render.hpp"
 
 namespace deburr {
 namespace {
@@ -12,9 +15,11 @@ namespace {
 // One ray through each pixel's centre, as in the paper.
 void trace(const Scene& scene, const RayTracer& tracer) {
     const Integrator integrator(scene, tracer, {scene.width, scene.height, 1, 0});
-    tbb::parallel_for(0, scene.height, [&](int y) {
+    const Window window{0, 0, scene.width, scene.height};
+    tbb::parallel_for(std::int64_t(0), tile_count(window), [&](std::int64_t i) {
         TraceCounters counters;
-        for (int x = 0; x < scene.width; ++x) integrator.pixel(x, y, counters);
+        std::array<Pixel, tile_side * tile_side> pixels;
+        integrator.block(tile(window, i), pixels.data(), counters);
     });
 }
 

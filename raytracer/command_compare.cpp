@@ -33,7 +33,7 @@ Picture trace(const Scene& scene, const RayTracer& tracer, Size size, int spp, s
               const std::atomic<bool>& stop) {
     const Integrator integrator(scene, tracer, {size.width, size.height, spp, seed});
     return {render(size.width, size.height, {0, 0, size.width, size.height},
-                   [&](int x, int y, TraceCounters& counters) { return integrator.pixel(x, y, counters); }, stop)
+                   [&](const Window& block, Pixel* pixels, TraceCounters& counters) { integrator.block(block, pixels, counters); }, stop)
                 .film};
 }
 

@@ -4,6 +4,7 @@
 #include <tbb/info.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <charconv>
 #include <cstdlib>
 #include <ctime>
@@ -177,7 +178,10 @@ int run_render(const RenderOptions& o) {
                       Progress::standard_error(o.quiet));
     Rendering rendering = render(
         size.width, size.height, window,
-        [&](int x, int y, TraceCounters& counters) { return o.wire.empty() ? integrator.pixel(x, y, counters) : paper; },
+        [&](const Window& block, Pixel* pixels, TraceCounters& counters) {
+            if (o.wire.empty()) integrator.block(block, pixels, counters);
+            else std::fill_n(pixels, block.width * block.height, paper);
+        },
         stop, [&](std::int64_t done) { progress.advance(double(done) * spp); });
     if (!lines.triangles.empty())
         draw_strokes(rendering.film,

@@ -136,6 +136,11 @@ Pixel Integrator::pixel(int x, int y, TraceCounters& counters) const {
     return pixel;
 }
 
+void Integrator::block(const Window& block, Pixel* pixels, TraceCounters& counters) const {
+    for (int y = block.y; y < block.y + block.height; ++y)
+        for (int x = block.x; x < block.x + block.width; ++x) *pixels++ = pixel(x, y, counters);
+}
+
 const Material& Integrator::material(const Hit& hit) const {
     return scene_.materials[std::size_t(hit.material)];
 }

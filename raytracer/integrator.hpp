@@ -66,6 +66,8 @@ public:
     Integrator(const Scene& scene, const RayTracer& tracer, RenderSettings settings);
     /// Never holds a NaN. The layers, of the centre's ray; the cost, of all of this pixel's rays.
     Pixel pixel(int x, int y, TraceCounters& counters) const;
+    /// The same for all of a block, row by row.
+    void block(const Window& block, Pixel* pixels, TraceCounters& counters) const;
 
 private:
     struct Path;

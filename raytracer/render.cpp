@@ -5,13 +5,12 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <array>
 
 namespace deburr {
 namespace {
 
-// Small enough that "finish the tiles in hand" is soon done and that the last tiles do not leave
-// other threads idle for long; large enough that a tile costs much more than handing it out.
-constexpr int tile_side = 16;
+std::int64_t tiles_along(int pixels) { return (std::int64_t(pixels) + tile_side - 1) / tile_side; }
 
 struct Work {
     TraceCounters counters;
@@ -20,21 +19,25 @@ struct Work {
 
 }  // namespace
 
-Rendering render(int width, int height, Window window, const PixelFunction& pixel,
+std::int64_t tile_count(const Window& window) { return tiles_along(window.width) * tiles_along(window.height); }
+
+Window tile(const Window& window, std::int64_t index) {
+    const std::int64_t columns = tiles_along(window.width);
+    const int x = int(index % columns) * tile_side, y = int(index / columns) * tile_side;
+    return {window.x + x, window.y + y, std::min(tile_side, window.width - x), std::min(tile_side, window.height - y)};
+}
+
+Rendering render(int width, int height, Window window, const BlockFunction& block,
                  const std::atomic<bool>& stop, const PixelsDone& done) {
     Rendering result;
     result.film = Film(width, height, window);
-    const std::int64_t columns = (window.width + tile_side - 1) / tile_side;
-    const std::int64_t rows = (window.height + tile_side - 1) / tile_side;
-
-    const auto fill = [&](std::int64_t tile, Work& work) {
-        const int x0 = window.x + int(tile % columns) * tile_side;
-        const int y0 = window.y + int(tile / columns) * tile_side;
-        const int x1 = std::min(x0 + tile_side, window.x + window.width);
-        const int y1 = std::min(y0 + tile_side, window.y + window.height);
-        for (int y = y0; y < y1; ++y)
-            for (int x = x0; x < x1; ++x) result.film.at(x, y) = pixel(x, y, work.counters);
-        const std::int64_t pixels = std::int64_t(x1 - x0) * (y1 - y0);
+    const auto fill = [&](std::int64_t index, Work& work) {
+        const Window part = tile(window, index);
+        std::array<Pixel, tile_side * tile_side> seen;
+        block(part, seen.data(), work.counters);
+        for (int y = 0; y < part.height; ++y)
+            std::copy_n(&seen[std::size_t(y * part.width)], part.width, &result.film.at(part.x, part.y + y));
+        const std::int64_t pixels = std::int64_t(part.width) * part.height;
         work.pixels += pixels;
         if (done) done(pixels);
     };
@@ -44,7 +47,7 @@ Rendering render(int width, int height, Window window, const PixelFunction& pixe
     std::atomic<std::int64_t> next{0};
     tbb::enumerable_thread_specific<Work> work;
     tbb::parallel_for(
-        tbb::blocked_range<std::int64_t>(0, columns * rows),
+        tbb::blocked_range<std::int64_t>(0, tile_count(window)),
         [&](const tbb::blocked_range<std::int64_t>& tickets) {
             Work& mine = work.local();
             for (std::int64_t i = tickets.begin(); i != tickets.end(); ++i)

@@ -10,12 +10,13 @@ namespace {
 
 const std::atomic<bool> never{false};
 
-Pixel place(int x, int y, TraceCounters& counters) {
-    ++counters.rays;
-    counters.evaluations += std::uint64_t(x);
-    Pixel pixel;
-    pixel.color = {double(x), double(y), 1};
-    return pixel;
+void places(const Window& block, Pixel* pixels, TraceCounters& counters) {
+    for (int y = block.y; y < block.y + block.height; ++y)
+        for (int x = block.x; x < block.x + block.width; ++x) {
+            ++counters.rays;
+            counters.evaluations += std::uint64_t(x);
+            *pixels++ = {.color = {double(x), double(y), 1}};
+        }
 }
 
 }  // namespace
@@ -26,7 +27,7 @@ TEST_CASE("every pixel of the window is rendered once, whatever its size") {
         CAPTURE(window.x, window.y, window.width, window.height);
         std::atomic<std::int64_t> told{0};
         const Rendering r =
-            render(100, 50, window, place, never, [&](std::int64_t n) { told += n; });
+            render(100, 50, window, places, never, [&](std::int64_t n) { told += n; });
         const auto pixels = std::uint64_t(window.width) * std::uint64_t(window.height);
         CHECK(r.film.complete);
         CHECK(r.film.window == window);
@@ -43,7 +44,7 @@ TEST_CASE("sums of counters do not depend on the number of threads") {
     std::uint64_t evaluations = 0;
     for (const std::size_t threads : {1, 2, 4}) {
         const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
-        const Rendering r = render(300, 200, {0, 0, 300, 200}, place, never);
+        const Rendering r = render(300, 200, {0, 0, 300, 200}, places, never);
         if (threads == 1) evaluations = r.counters.evaluations;
         CHECK(r.counters.evaluations == evaluations);
     }
@@ -55,9 +56,9 @@ TEST_CASE("a stop lets the tiles in hand finish and starts no other") {
     std::atomic<bool> stop{false};
     const Rendering r = render(
         100, 100, {0, 0, 100, 100},
-        [&](int x, int y, TraceCounters& counters) {
-            if (x == 20 && y == 3) stop = true;  // within the second tile of the first row
-            return place(x, y, counters);
+        [&](const Window& block, Pixel* pixels, TraceCounters& counters) {
+            if (block.x == 16) stop = true;  // the second tile of the first row
+            places(block, pixels, counters);
         },
         stop);
     CHECK_FALSE(r.film.complete);
@@ -69,15 +70,14 @@ TEST_CASE("a stop lets the tiles in hand finish and starts no other") {
 
 TEST_CASE("a stop before the first tile leaves an empty film") {
     const std::atomic<bool> stop{true};
-    const Rendering r = render(8, 8, {0, 0, 8, 8}, place, stop);
+    const Rendering r = render(8, 8, {0, 0, 8, 8}, places, stop);
     CHECK_FALSE(r.film.complete);
     CHECK(r.pixels_done == 0);
 }
 
-TEST_CASE("what a pixel throws comes through") {
-    const auto thrower = [](int x, int, TraceCounters&) -> Pixel {
-        if (x == 40) throw std::runtime_error("broken");
-        return {};
+TEST_CASE("what a block throws comes through") {
+    const auto thrower = [](const Window& block, Pixel*, TraceCounters&) {
+        if (block.x == 32) throw std::runtime_error("broken");
     };
     CHECK_THROWS_AS(render(64, 64, {0, 0, 64, 64}, thrower, never), std::runtime_error);
 }

@@ -219,6 +219,22 @@ TEST_CASE("A pixel depends on its place and the seed, not on what was rendered b
     CHECK(changed > 300);
 }
 
+TEST_CASE("A block is its pixels, row by row") {
+    const Zoo zoo;
+    const AnalyticTracer tracer(zoo.shapes);
+    const Window block{5, 3, 16, 11};
+    for (int spp : {1, 3}) {
+        const Integrator integrator(zoo.scene, tracer, {24, 16, spp, 9});
+        std::vector<Pixel> pixels(16 * 11);
+        TraceCounters together, single;
+        integrator.block(block, pixels.data(), together);
+        for (int i = 0; i < 16 * 11; ++i) CHECK(same(pixels[std::size_t(i)], integrator.pixel(5 + i % 16, 3 + i / 16, single)));
+        CHECK(together.rays == single.rays);
+        CHECK(together.shadow_rays == single.shadow_rays);
+        CHECK(together.evaluations == single.evaluations);
+    }
+}
+
 TEST_CASE("No pixel holds a NaN, wherever the camera and the lights are") {
     Zoo zoo;
     int pixels = 0, lit = 0;
