@@ -20,7 +20,7 @@ inline void render_picture(const Scene& scene, const RayTracer& tracer, TraceCou
     const Window window{0, 0, scene.width, scene.height};
     std::array<Pixel, tile_side * tile_side> pixels;
     for (std::int64_t i = 0; i < tile_count(window); ++i) {
-        integrator.block(tile(window, i), pixels.data(), counters);
+        integrator.block(tile(window, i), pixels.data(), nullptr, counters);
         keep(pixels);
     }
 }

@@ -19,7 +19,7 @@ void trace(const Scene& scene, const RayTracer& tracer) {
     tbb::parallel_for(std::int64_t(0), tile_count(window), [&](std::int64_t i) {
         TraceCounters counters;
         std::array<Pixel, tile_side * tile_side> pixels;
-        integrator.block(tile(window, i), pixels.data(), counters);
+        integrator.block(tile(window, i), pixels.data(), nullptr, counters);
     });
 }
 

@@ -29,12 +29,14 @@ struct CompareOptions : Options {
     std::string most_missed, most_distance, most_rmse;
 };
 
-Picture trace(const Scene& scene, const RayTracer& tracer, Size size, int spp, std::uint64_t seed,
+Film trace(const Scene& scene, const RayTracer& tracer, Size size, int spp, std::uint64_t seed,
               const std::atomic<bool>& stop) {
     const Integrator integrator(scene, tracer, {size.width, size.height, spp, seed});
-    return {render(size.width, size.height, {0, 0, size.width, size.height},
-                   [&](const Window& block, Pixel* pixels, TraceCounters& counters) { integrator.block(block, pixels, counters); }, stop)
-                .film};
+    return render(Film(size.width, size.height, {0, 0, size.width, size.height}, compared_layers()),
+                  [&](const Window& block, Pixel* pixels, PixelLayers* layers, TraceCounters& counters) {
+                      integrator.block(block, pixels, layers, counters);
+                  }, stop)
+        .film;
 }
 
 Json json_of(const DifferenceFigures& f) { return {{"mean", f.mean}, {"p99", f.p99}, {"max", f.max}}; }
@@ -74,16 +76,16 @@ int run_compare(const CompareOptions& o) {
     const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, std::size_t(threads));
     const std::atomic<bool>& stop = catch_interrupts(!o.quiet);
 
-    Picture a, b;
+    Film a, b;
     std::vector<double> units;
     Json j;
     if (!o.second.empty()) {
         a = read_picture(o.scene);
         b = read_picture(o.second);
-        if (a.film.window != b.film.window)
+        if (a.window != b.window)
             throw UsageError(fmt::format("compare: expected pictures of one size, got {}x{} and {}x{}",
-                                         a.film.window.width, a.film.window.height, b.film.window.width,
-                                         b.film.window.height));
+                                         a.window.width, a.window.height, b.window.width,
+                                         b.window.height));
         j["first"] = o.scene;
         j["second"] = o.second;
     } else {

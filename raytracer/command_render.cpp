@@ -92,8 +92,8 @@ void check_options(const RenderOptions& o) {
 }
 
 // Better now than killed by the system in the middle of the work.
-void check_memory(const Window& window) {
-    const double needed = double(window.width) * window.height * sizeof(Pixel);
+void check_memory(const Window& window, const std::vector<ImageLayer>& layers) {
+    const double needed = double(window.width) * window.height * Film::bytes_per_pixel(layers);
     const double there = double(sysconf(_SC_PHYS_PAGES)) * double(sysconf(_SC_PAGESIZE));
     if (needed > there)
         throw WorkError(
@@ -109,7 +109,7 @@ void write_images(const RenderOptions& o, const Film& film, const ImageNotes& no
         const double work = writing_work * double(film.pixels.size());
         double told = 0;
         try {
-            write_image(path, film, {o.float_color, o.layers, threads}, notes, [&](double share) {
+            write_image(path, film, {o.float_color, threads}, notes, [&](double share) {
                 progress.advance(work * (share - told));
                 told = share;
             });
@@ -139,7 +139,7 @@ int run_render(const RenderOptions& o) {
     const Size size = picture_size(o, scene);
     const Window window = o.crop.value_or(Window{0, 0, size.width, size.height});
     check_crop("--crop", window, size);
-    check_memory(window);
+    check_memory(window, o.layers);
     for (const std::string& path : o.outputs) check_writable(path);
     if (!o.stats_json.empty()) check_writable(o.stats_json);
     const int spp = o.spp.value_or(scene.spp);
@@ -177,10 +177,11 @@ int run_render(const RenderOptions& o) {
     Progress progress(pixels * (spp + writing_work * double(o.outputs.size())),
                       Progress::standard_error(o.quiet));
     Rendering rendering = render(
-        size.width, size.height, window,
-        [&](const Window& block, Pixel* pixels, TraceCounters& counters) {
-            if (o.wire.empty()) integrator.block(block, pixels, counters);
-            else std::fill_n(pixels, block.width * block.height, paper);
+        Film(size.width, size.height, window, o.layers),
+        [&](const Window& block, Pixel* pixels, PixelLayers* layers, TraceCounters& counters) {
+            if (o.wire.empty()) return integrator.block(block, pixels, layers, counters);
+            std::fill_n(pixels, block.width * block.height, paper);
+            if (layers) std::fill_n(layers, block.width * block.height, PixelLayers{});
         },
         stop, [&](std::int64_t done) { progress.advance(double(done) * spp); });
     if (!lines.triangles.empty())

@@ -48,53 +48,46 @@ const SrgbBytes& srgb_bytes() {
     return bytes;
 }
 
-class Channels {
-public:
-    explicit Channels(const Film& film) : film_(film) {}
+struct LayerChannels {
+    ImageLayer layer;
+    std::vector<const char*> names;
+    ChannelType type = ChannelType::single_float;
+};
 
-    // value(pixel) is exact for every id: they have 32 bits.
-    template <class PixelValue>
-    void add(const std::string& name, ChannelType type, PixelValue value) {
-        list.push_back(image_channel(name, type, [&film = film_, value](std::size_t i) { return double(value(film.pixels[i])); }));
-    }
-
-    void add_vector(const std::string& layer, const char* components, ChannelType type, Vec3 Pixel::*member) {
-        for (int k = 0; k < 3; ++k) add(layer + components[k], type, [member, k](const Pixel& p) { return (p.*member)[k]; });
-    }
-
-    void add_layer(ImageLayer layer) {
-        constexpr auto type = ChannelType::single_float;
-        switch (layer) {
-            case ImageLayer::position: return add_vector("P.", "XYZ", type, &Pixel::position);
-            case ImageLayer::normal: return add_vector("N.", "XYZ", type, &Pixel::normal);
-            case ImageLayer::albedo: return add_vector("Albedo.", "RGB", type, &Pixel::albedo);
-            case ImageLayer::z: return add("Z", type, [](const Pixel& p) { return p.z; });
-            case ImageLayer::id: return add("id", ChannelType::whole, [](const Pixel& p) { return double(p.id); });
-            case ImageLayer::cost: return add("cost", type, [](const Pixel& p) { return p.cost; });
-        }
-    }
-
-    std::vector<ImageChannel> list;
-
-private:
-    const Film& film_;
+const LayerChannels layer_channels[] = {
+    {ImageLayer::position, {"P.X", "P.Y", "P.Z"}},
+    {ImageLayer::normal, {"N.X", "N.Y", "N.Z"}},
+    {ImageLayer::z, {"Z"}},
+    {ImageLayer::albedo, {"Albedo.R", "Albedo.G", "Albedo.B"}},
+    {ImageLayer::id, {"id"}, ChannelType::whole},
+    {ImageLayer::cost, {"cost"}},
 };
 
 std::vector<ImageChannel> channels(const Film& film, ImageKind kind, const ImageFormat& format) {
-    Channels to(film);
-    if (kind == ImageKind::exr) {
-        const auto color = format.float_color ? ChannelType::single_float : ChannelType::half_float;
-        to.add_vector("", "RGB", color, &Pixel::color);
-        to.add("A", color, [](const Pixel& p) { return p.alpha; });
-        for (const ImageLayer layer : all_layers())
-            if (std::count(format.layers.begin(), format.layers.end(), layer)) to.add_layer(layer);
-    } else if (kind == ImageKind::linear) {
-        to.add_vector("", "RGB", ChannelType::single_float, &Pixel::color);
-    } else {
+    std::vector<ImageChannel> list;
+    const auto& pixels = film.pixels;
+    const auto add_color = [&](ChannelType type, auto value_of) {
         for (int k = 0; k < 3; ++k)
-            to.add(std::string(1, "RGB"[k]), ChannelType::byte, [k, &byte = srgb_bytes()](const Pixel& p) { return byte(p.color[k]); });
+            list.push_back(image_channel(std::string(1, "RGB"[k]), type, [&pixels, k, value_of](std::size_t i) { return value_of(pixels[i].color[k]); }));
+    };
+    const auto as_it_is = [](double value) { return value; };
+    if (kind == ImageKind::display) {
+        add_color(ChannelType::byte, [&byte = srgb_bytes()](double value) { return double(byte(value)); });
+        return list;
     }
-    return to.list;
+    if (kind == ImageKind::linear) {
+        add_color(ChannelType::single_float, as_it_is);
+        return list;
+    }
+    const auto color = format.float_color ? ChannelType::single_float : ChannelType::half_float;
+    add_color(color, as_it_is);
+    list.push_back(image_channel("A", color, [&pixels](std::size_t i) { return pixels[i].alpha; }));
+    for (const auto& [layer, names, type] : layer_channels) {
+        if (!film.keeps(layer)) continue;
+        for (int k = 0; k < components(layer); ++k)
+            list.push_back(image_channel(names[std::size_t(k)], type, [&plane = film.layer(layer), k](std::size_t i) { return plane.at(i, k); }));
+    }
+    return list;
 }
 
 std::vector<ImageAttribute> attributes(const Film& film, const ImageNotes& notes, bool exr) {

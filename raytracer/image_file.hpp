@@ -32,12 +32,11 @@ struct ImageNotes {
 };
 
 struct ImageFormat {
-    bool float_color = false;   // EXR: 32 bits for R G B A
-    std::vector<ImageLayer> layers;  // EXR: further ones
-    int threads = 1;                 // EXR: that compress
+    bool float_color = false;  // EXR: 32 bits for R G B A
+    int threads = 1;           // EXR: that compress
 };
 
-/// Writes the whole file or nothing; throws WorkError. The format follows from the name, which
+/// Writes the whole file or nothing; throws WorkError. An EXR gets all layers that the film keeps. The format follows from the name, which
 /// image_kind() must know. `done` is told the share of it, from 0 to 1, as it proceeds.
 void write_image(const std::string& path, const Film& film, const ImageFormat& format,
                  const ImageNotes& notes, const ShareDone& done = {});

@@ -48,35 +48,4 @@ std::string known_extensions() {
     return all;
 }
 
-std::string_view layer_name(ImageLayer layer) {
-    switch (layer) {
-        case ImageLayer::position:
-            return "P";
-        case ImageLayer::normal:
-            return "N";
-        case ImageLayer::z:
-            return "Z";
-        case ImageLayer::albedo:
-            return "albedo";
-        case ImageLayer::id:
-            return "id";
-        case ImageLayer::cost:
-            return "cost";
-    }
-    return {};
-}
-
-const std::vector<ImageLayer>& all_layers() {
-    static const std::vector<ImageLayer> all = {ImageLayer::position, ImageLayer::normal,
-                                                ImageLayer::z,        ImageLayer::albedo,
-                                                ImageLayer::id,       ImageLayer::cost};
-    return all;
-}
-
-std::optional<ImageLayer> find_layer(std::string_view name) {
-    for (const ImageLayer layer : all_layers())
-        if (layer_name(layer) == name) return layer;
-    return std::nullopt;
-}
-
 }  // namespace deburr

@@ -1,9 +1,7 @@
-// Which files a picture can be written to, and which layers an EXR can hold.
+// Which files a picture can be written to.
 #pragma once
 #include <optional>
 #include <string>
-#include <string_view>
-#include <vector>
 
 namespace deburr {
 
@@ -23,13 +21,5 @@ std::optional<ImageKind> image_kind(const std::string& path);
 
 /// All extensions that image_kind() knows, for messages: ".exr, .png, …".
 std::string known_extensions();
-
-/// In the order in which they are written.
-enum class ImageLayer { position, normal, z, albedo, id, cost };
-
-/// As --aov takes them: P, N, Z, albedo, id, cost.
-std::string_view layer_name(ImageLayer layer);
-std::optional<ImageLayer> find_layer(std::string_view name);
-const std::vector<ImageLayer>& all_layers();
 
 }  // namespace deburr

@@ -94,19 +94,23 @@ Integrator::Integrator(const Scene& scene, const RayTracer& tracer, RenderSettin
     for (const Light& light : scene.lights) lights_.emplace_back(light);
 }
 
-Pixel Integrator::pixel(int x, int y, TraceCounters& counters) const {
+Pixel Integrator::pixel(int x, int y, PixelLayers* layers, TraceCounters& counters) const {
     const std::uint64_t evaluations = counters.evaluations;
+    const int spp = std::max(1, settings_.spp);
     const Ray center = camera_.ray(x + 0.5, y + 0.5);
-    const Hit first = tracer_.first_hit(center, infinity, counters);
-    Pixel pixel;
-    if (first) {
-        pixel.position = finite_or_zero(first.position);
-        pixel.normal = finite_or_zero(first.normal);
-        pixel.z = first.t * glm::dot(center.direction, camera_.forward());
-        pixel.id = std::uint32_t(first.solid + 1);
+    Hit first;
+    if (layers || spp == 1) first = tracer_.first_hit(center, infinity, counters);
+    if (layers) {
+        *layers = {};
+        if (first) {
+            layers->position = finite_or_zero(first.position);
+            layers->normal = finite_or_zero(first.normal);
+            layers->z = first.t * glm::dot(center.direction, camera_.forward());
+            layers->id = std::uint32_t(first.solid + 1);
+        }
     }
 
-    const int spp = std::max(1, settings_.spp);
+    Pixel pixel;
     const auto add = [&](const Ray& ray, const Hit& hit, const Sampler& sampler) {
         if (!hit) {
             pixel.color += finite_or_zero(sky_.towards(ray.direction));
@@ -116,8 +120,8 @@ Pixel Integrator::pixel(int x, int y, TraceCounters& counters) const {
         path.without_noise = spp == 1;
         const Vec3 albedo = texture_color(hit);
         pixel.color += finite_or_zero(color_from(hit, albedo, ray.direction, path));
-        pixel.albedo += finite_or_zero(albedo);
         pixel.alpha += 1.0;
+        if (layers) layers->albedo += finite_or_zero(albedo);
     };
     if (spp == 1) {
         add(center, first, Sampler(settings_.seed, x, y, 0));
@@ -129,16 +133,16 @@ Pixel Integrator::pixel(int x, int y, TraceCounters& counters) const {
             add(ray, tracer_.first_hit(ray, infinity, counters), sampler);
         }
         pixel.color /= spp;
-        pixel.albedo /= spp;
         pixel.alpha /= spp;
+        if (layers) layers->albedo /= spp;
     }
-    pixel.cost = double(counters.evaluations - evaluations);
+    if (layers) layers->cost = double(counters.evaluations - evaluations);
     return pixel;
 }
 
-void Integrator::block(const Window& block, Pixel* pixels, TraceCounters& counters) const {
+void Integrator::block(const Window& block, Pixel* pixels, PixelLayers* layers, TraceCounters& counters) const {
     for (int y = block.y; y < block.y + block.height; ++y)
-        for (int x = block.x; x < block.x + block.width; ++x) *pixels++ = pixel(x, y, counters);
+        for (int x = block.x; x < block.x + block.width; ++x) *pixels++ = pixel(x, y, layers ? layers++ : nullptr, counters);
 }
 
 const Material& Integrator::material(const Hit& hit) const {

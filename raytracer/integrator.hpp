@@ -64,10 +64,10 @@ class Integrator {
 public:
     /// Keeps references to both.
     Integrator(const Scene& scene, const RayTracer& tracer, RenderSettings settings);
-    /// Never holds a NaN. The layers, of the centre's ray; the cost, of all of this pixel's rays.
-    Pixel pixel(int x, int y, TraceCounters& counters) const;
+    /// Sets `layers` unless it is null. Neither ever holds a NaN.
+    Pixel pixel(int x, int y, PixelLayers* layers, TraceCounters& counters) const;
     /// The same for all of a block, row by row.
-    void block(const Window& block, Pixel* pixels, TraceCounters& counters) const;
+    void block(const Window& block, Pixel* pixels, PixelLayers* layers, TraceCounters& counters) const;
 
 private:
     struct Path;

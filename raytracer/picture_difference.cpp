@@ -34,17 +34,43 @@ ReadImage colors(const Film& film) {
     return image;
 }
 
-int hit_class(const Pixel& a, const Pixel& b) {
-    if (a.alpha > 0 && !(b.alpha > 0)) return 1;
-    if (b.alpha > 0 && !(a.alpha > 0)) return 2;
-    return a.id != b.id ? 3 : 0;
-}
+// Pixel i of both.
+class Compared {
+public:
+    Compared(const Film& a, const Film& b) : a_(a), b_(b) {}
+
+    const Film& first() const { return a_; }
+    const Film& second() const { return b_; }
+    bool both_keep(ImageLayer layer) const { return a_.keeps(layer) && b_.keeps(layer); }
+
+    Vec3 color(std::size_t i) const { return a_.pixels[i].color - b_.pixels[i].color; }
+    // As write_difference has it.
+    int hit(std::size_t i) const {
+        const bool in_a = a_.pixels[i].alpha > 0, in_b = b_.pixels[i].alpha > 0;
+        if (in_a != in_b) return in_a ? 1 : 2;
+        return id(a_, i) != id(b_, i) ? 3 : 0;
+    }
+    double distance(std::size_t i) const { return glm::length(vec(a_, ImageLayer::position, i) - vec(b_, ImageLayer::position, i)); }
+    double angle(std::size_t i) const { return deburr::angle(vec(a_, ImageLayer::normal, i), vec(b_, ImageLayer::normal, i)); }
+
+    static std::uint32_t id(const Film& film, std::size_t i) {
+        return film.keeps(ImageLayer::id) ? std::uint32_t(film.layer(ImageLayer::id).at(i)) : 0;
+    }
+
+private:
+    static Vec3 vec(const Film& film, ImageLayer layer, std::size_t i) { return film.layer(layer).vec(i); }
+    const Film &a_, &b_;
+};
 
 }  // namespace
 
-PictureDifference difference(const Picture& a, const Picture& b, const std::vector<double>& radii) {
+std::vector<ImageLayer> compared_layers() { return {ImageLayer::position, ImageLayer::normal, ImageLayer::id}; }
+
+PictureDifference difference(const Film& a, const Film& b, const std::vector<double>& radii) {
+    const Compared both(a, b);
+    const bool distances_known = both.both_keep(ImageLayer::position), angles_known = both.both_keep(ImageLayer::normal);
     PictureDifference d;
-    d.pixels = a.film.pixels.size();
+    d.pixels = a.pixels.size();
     d.in_radii = !radii.empty();
     double least = infinity;
     for (const double r : radii)
@@ -54,47 +80,45 @@ PictureDifference difference(const Picture& a, const Picture& b, const std::vect
         if (!d.in_radii) return 1.0;
         return id >= 1 && id <= radii.size() && radii[id - 1] > 0 ? radii[id - 1] : least;
     };
-    const auto counts = [&](const Pixel& p) {
-        return p.alpha > 0 && (!d.in_radii || (p.id >= 1 && p.id <= radii.size() && radii[p.id - 1] > 0));
+    const auto counts = [&](const Film& film, std::size_t i) {
+        const std::uint32_t id = Compared::id(film, i);
+        return film.pixels[i].alpha > 0 && (!d.in_radii || (id >= 1 && id <= radii.size() && radii[id - 1] > 0));
     };
     std::vector<double> distances, angles;
     double squares = 0;
     for (std::size_t i = 0; i < d.pixels; ++i) {
-        const Pixel &p = a.film.pixels[i], &q = b.film.pixels[i];
-        const Vec3 c = p.color - q.color;
+        const Vec3 c = both.color(i);
         squares += glm::dot(c, c);
-        if (!counts(p) && !counts(q)) continue;
+        if (!counts(a, i) && !counts(b, i)) continue;
         ++d.on_object;
-        const int hit = hit_class(p, q);
+        const int hit = both.hit(i);
         d.only_first += hit == 1;
         d.only_second += hit == 2;
         d.other_solid += hit == 3;
         if (hit != 0) continue;
-        distances.push_back(glm::length(p.position - q.position) / radius(p.id));
-        angles.push_back(angle(p.normal, q.normal));
+        if (distances_known) distances.push_back(both.distance(i) / radius(Compared::id(a, i)));
+        if (angles_known) angles.push_back(both.angle(i));
     }
-    if (a.has_position && b.has_position) d.distance = figures(distances);
-    if (a.has_normal && b.has_normal) d.normal_degrees = figures(angles);
+    if (distances_known) d.distance = figures(distances);
+    if (angles_known) d.normal_degrees = figures(angles);
     d.rmse = d.pixels ? std::sqrt(squares / (3.0 * double(d.pixels))) : 0;
     if (d.rmse > 0) d.psnr = -20 * std::log10(d.rmse);
-    d.perceptual_fails = image_module().perceptual_fails(colors(a.film), colors(b.film));
+    d.perceptual_fails = image_module().perceptual_fails(colors(a), colors(b));
     return d;
 }
 
-void write_difference(const std::string& path, const Picture& a, const Picture& b) {
+void write_difference(const std::string& path, const Film& a, const Film& b) {
     const auto kind = image_kind(path);
     if (!kind) throw WorkError(fmt::format("cannot write '{}': unknown image format", path));
     const bool bytes = *kind == ImageKind::display, exr = *kind == ImageKind::exr;
-    const auto& first = a.film.pixels;
-    const auto& second = b.film.pixels;
-    ImageRaster image{a.film.width, a.film.height, a.film.window, {}, {}};
+    const Compared both(a, b);
+    ImageRaster image{a.width, a.height, a.window, {}, {}};
     const auto add = [&](const char* name, auto value) {
-        image.channels.push_back(image_channel(name, bytes ? ChannelType::byte : ChannelType::single_float,
-                                               [&, value](std::size_t i) { return value(first[i], second[i]); }));
+        image.channels.push_back(image_channel(name, bytes ? ChannelType::byte : ChannelType::single_float, value));
     };
     const auto add_color = [&](const char* name, int k) {
-        add(name, [k, bytes](const Pixel& p, const Pixel& q) {
-            const double d = std::abs(p.color[k] - q.color[k]);
+        add(name, [both, k, bytes](std::size_t i) {
+            const double d = std::abs(both.color(i)[k]);
             return bytes ? std::round(255 * std::min(d, 1.0)) : d;
         });
     };
@@ -102,15 +126,15 @@ void write_difference(const std::string& path, const Picture& a, const Picture& 
     add_color("G", 1);
     add_color("B", 2);
     if (exr) {
-        const auto both = [](const Pixel& p, const Pixel& q) { return hit_class(p, q) == 0 && p.alpha > 0; };
-        add("distance", [=](const Pixel& p, const Pixel& q) { return both(p, q) ? glm::length(p.position - q.position) : 0; });
-        add("angle", [=](const Pixel& p, const Pixel& q) { return both(p, q) ? angle(p.normal, q.normal) : 0; });
-        add("hit", [](const Pixel& p, const Pixel& q) { return double(hit_class(p, q)); });
+        const auto same = [both](std::size_t i) { return both.hit(i) == 0 && both.first().pixels[i].alpha > 0; };
+        if (both.both_keep(ImageLayer::position)) add("distance", [=](std::size_t i) { return same(i) ? both.distance(i) : 0.0; });
+        if (both.both_keep(ImageLayer::normal)) add("angle", [=](std::size_t i) { return same(i) ? both.angle(i) : 0.0; });
+        add("hit", [both](std::size_t i) { return double(both.hit(i)); });
     }
     write_raster(path, image);
 }
 
-Picture read_picture(const std::string& path) {
+Film read_picture(const std::string& path) {
     const auto read = [&] {
         try {
             return image_module().read(path);
@@ -128,19 +152,25 @@ Picture read_picture(const std::string& path) {
     const int rgb[3] = {std::max(0, channel("R")), channel("G"), channel("B")}, alpha = channel("A"), id = channel("id");
     const int position[3] = {channel("P.X"), channel("P.Y"), channel("P.Z")};
     const int normal[3] = {channel("N.X"), channel("N.Y"), channel("N.Z")};
-    Picture picture{Film(image.width, image.height, image.window), position[0] >= 0, normal[0] >= 0};
-    for (std::size_t i = 0; i < picture.film.pixels.size(); ++i) {
+    std::vector<ImageLayer> kept;
+    if (position[0] >= 0) kept.push_back(ImageLayer::position);
+    if (normal[0] >= 0) kept.push_back(ImageLayer::normal);
+    if (id >= 0) kept.push_back(ImageLayer::id);
+    Film film(image.width, image.height, image.window, kept);
+    std::vector<PixelLayers> layers(film.pixels.size());
+    for (std::size_t i = 0; i < film.pixels.size(); ++i) {
         const float* from = &image.values[i * image.channels.size()];
-        Pixel& p = picture.film.pixels[i];
+        Pixel& p = film.pixels[i];
         for (int k = 0; k < 3; ++k) {
             p.color[k] = from[rgb[k] >= 0 ? rgb[k] : rgb[0]];
-            if (picture.has_position) p.position[k] = from[position[k]];
-            if (picture.has_normal) p.normal[k] = from[normal[k]];
+            if (position[0] >= 0) layers[i].position[k] = from[position[k]];
+            if (normal[0] >= 0) layers[i].normal[k] = from[normal[k]];
         }
         p.alpha = alpha >= 0 ? from[alpha] : 1;
-        if (id >= 0) p.id = std::uint32_t(from[id]);
+        if (id >= 0) layers[i].id = std::uint32_t(from[id]);
     }
-    return picture;
+    film.set_layers(film.window, layers.data());
+    return film;
 }
 
 }  // namespace deburr

@@ -8,11 +8,8 @@
 
 namespace deburr {
 
-/// A film, and which of its layers are known.
-struct Picture {
-    Film film;
-    bool has_position = true, has_normal = true;
-};
+/// What is compared beside colour and alpha.
+std::vector<ImageLayer> compared_layers();
 
 struct DifferenceFigures {
     double mean = 0, p99 = 0, max = 0;  // p99: 99 % are below it
@@ -32,14 +29,14 @@ struct PictureDifference {
 
 /// `radii`: by solid, the unit of distances; empty: the scene's own unit. Solids whose radius is 0
 /// (sharp or unbounded ones) count with the least radius there is, and not as the object.
-/// Both films have the same window.
-PictureDifference difference(const Picture& a, const Picture& b, const std::vector<double>& radii);
+/// Both films have the same window; distances and angles are known where both keep those layers.
+PictureDifference difference(const Film& a, const Film& b, const std::vector<double>& radii);
 
-/// Writes colour differences; an EXR also has `distance`, `angle` (degrees) and `hit` (1: only the
-/// first, 2: only the second, 3: another solid). Throws WorkError.
-void write_difference(const std::string& path, const Picture& a, const Picture& b);
+/// Writes colour differences; an EXR also has `hit` (1: only the first, 2: only the second, 3: another
+/// solid), and `distance` and `angle` (degrees) where they are known. Throws WorkError.
+void write_difference(const std::string& path, const Film& a, const Film& b);
 
 /// Reads a picture with whatever layers it has. Throws UsageError if it cannot be read.
-Picture read_picture(const std::string& path);
+Film read_picture(const std::string& path);
 
 }  // namespace deburr

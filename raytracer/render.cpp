@@ -13,6 +13,8 @@ namespace {
 std::int64_t tiles_along(int pixels) { return (std::int64_t(pixels) + tile_side - 1) / tile_side; }
 
 struct Work {
+    std::array<Pixel, tile_side * tile_side> pixels_in_hand;
+    std::vector<PixelLayers> layers_in_hand;
     TraceCounters counters;
     std::int64_t pixels = 0;
 };
@@ -27,16 +29,18 @@ Window tile(const Window& window, std::int64_t index) {
     return {window.x + x, window.y + y, std::min(tile_side, window.width - x), std::min(tile_side, window.height - y)};
 }
 
-Rendering render(int width, int height, Window window, const BlockFunction& block,
-                 const std::atomic<bool>& stop, const PixelsDone& done) {
+Rendering render(Film film, const BlockFunction& block, const std::atomic<bool>& stop, const PixelsDone& done) {
     Rendering result;
-    result.film = Film(width, height, window);
+    result.film = std::move(film);
+    const Window window = result.film.window;
+    const bool with_layers = result.film.keeps_layers();
     const auto fill = [&](std::int64_t index, Work& work) {
         const Window part = tile(window, index);
-        std::array<Pixel, tile_side * tile_side> seen;
-        block(part, seen.data(), work.counters);
+        if (with_layers) work.layers_in_hand.resize(work.pixels_in_hand.size());
+        block(part, work.pixels_in_hand.data(), with_layers ? work.layers_in_hand.data() : nullptr, work.counters);
         for (int y = 0; y < part.height; ++y)
-            std::copy_n(&seen[std::size_t(y * part.width)], part.width, &result.film.at(part.x, part.y + y));
+            std::copy_n(&work.pixels_in_hand[std::size_t(y * part.width)], part.width, &result.film.at(part.x, part.y + y));
+        if (with_layers) result.film.set_layers(part, work.layers_in_hand.data());
         const std::int64_t pixels = std::int64_t(part.width) * part.height;
         work.pixels += pixels;
         if (done) done(pixels);

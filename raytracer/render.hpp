@@ -22,9 +22,9 @@ constexpr int tile_side = 16;
 std::int64_t tile_count(const Window& window);
 Window tile(const Window& window, std::int64_t index);
 
-/// Sets colour and layers of all pixels of a block of the picture, row by row; a block is a tile or
-/// a part of one. Called from many threads at once.
-using BlockFunction = std::function<void(const Window& block, Pixel* pixels, TraceCounters& counters)>;
+/// Sets all pixels of a block of the picture, row by row, and, unless null, their layers; a block is
+/// a tile or a part of one. Called from many threads at once.
+using BlockFunction = std::function<void(const Window& block, Pixel* pixels, PixelLayers* layers, TraceCounters& counters)>;
 
 /// Told the number of pixels that were just finished; called from many threads at once.
 using PixelsDone = std::function<void(std::int64_t pixels)>;
@@ -35,9 +35,8 @@ struct Rendering {
     std::int64_t pixels_done = 0;
 };
 
-/// Tiles start from the top. Once `stop` is set no further tile starts; those in hand are finished.
+/// Fills an empty film. Tiles start from the top. Once `stop` is set no further tile starts; those in hand are finished.
 /// What `block` throws comes through.
-Rendering render(int width, int height, Window window, const BlockFunction& block,
-                 const std::atomic<bool>& stop, const PixelsDone& done = {});
+Rendering render(Film film, const BlockFunction& block, const std::atomic<bool>& stop, const PixelsDone& done = {});
 
 }  // namespace deburr

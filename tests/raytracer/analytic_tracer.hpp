@@ -96,7 +96,7 @@ inline Scene probe(Material material) {
 inline Pixel pixel_of(const Scene& scene, const RayTracer& tracer, int spp,
                       std::uint64_t seed = 0) {
     TraceCounters counters;
-    return Integrator(scene, tracer, {1, 1, spp, seed}).pixel(0, 0, counters);
+    return Integrator(scene, tracer, {1, 1, spp, seed}).pixel(0, 0, nullptr, counters);
 }
 
 }  // namespace deburr

@@ -15,22 +15,22 @@ using namespace deburr::test;
 namespace {
 
 // A film whose every pixel differs; one of them hit nothing.
-Film film(Window window = {0, 0, 20, 70}) {
-    Film film(20, 70, window);
+Film film(Window window = {0, 0, 20, 70}, const std::vector<ImageLayer>& layers = all_layers()) {
+    Film film(20, 70, window, layers);
     for (int y = window.y; y < window.y + window.height; ++y)
         for (int x = window.x; x < window.x + window.width; ++x) {
-            Pixel& p = film.at(x, y);
+            if (x == 0 && y == 0) continue;
             const double k = x + 20 * y;
-            p.color = {k / 1400, 0.5, 2.0 * k};
-            p.alpha = 0.25;
+            film.at(x, y) = {.color = {k / 1400, 0.5, 2.0 * k}, .alpha = 0.25};
+            PixelLayers p;
             p.position = {k, -k, 0.1 * k};
             p.normal = {0.6, 0.0, -0.8};
             p.z = 3 + k;
             p.albedo = {0.1, 0.2, 0.3};
             p.id = std::uint32_t(4'000'000'000 + k);  // no float holds it
             p.cost = k + 0.5;
+            film.set_layers({x, y, 1, 1}, &p);
         }
-    if (window.x == 0 && window.y == 0) film.at(0, 0) = Pixel{};
     return film;
 }
 
@@ -90,7 +90,7 @@ std::vector<std::string> png_chunks(const std::string& bytes) {
 TEST_CASE("an EXR gives back every layer") {
     const Folder folder;
     const Film original = film();
-    write_image(folder / "a.exr", original, {false, all_layers()}, notes());
+    write_image(folder / "a.exr", original, {}, notes());
     const Read r = read(folder / "a.exr");
     CHECK(r.spec.nchannels == 16);
     CHECK(r.spec.channelformat(r.spec.channelindex("R")) == OIIO::TypeDesc::HALF);
@@ -105,31 +105,39 @@ TEST_CASE("an EXR gives back every layer") {
     for (int y = 0; y < 70; ++y)
         for (int x = 0; x < 20; ++x) {
             const Pixel& p = original.at(x, y);
-            REQUIRE(r.at(x, y, "P.X") == float(p.position.x));
-            REQUIRE(r.at(x, y, "P.Y") == float(p.position.y));
-            REQUIRE(r.at(x, y, "P.Z") == float(p.position.z));
-            REQUIRE(r.at(x, y, "N.X") == float(p.normal.x));
-            REQUIRE(r.at(x, y, "N.Z") == float(p.normal.z));
-            REQUIRE(r.at(x, y, "Z") == float(p.z));
-            REQUIRE(r.at(x, y, "Albedo.B") == float(p.albedo.z));
-            REQUIRE(r.at(x, y, "cost") == float(p.cost));
+            const auto kept = [&](ImageLayer layer, int k = 0) { return float(original.layer(layer).at(original.index(x, y), k)); };
+            for (int k = 0; k < 3; ++k) {
+                REQUIRE(r.at(x, y, std::string("P.") + "XYZ"[k]) == kept(ImageLayer::position, k));
+                REQUIRE(r.at(x, y, std::string("N.") + "XYZ"[k]) == kept(ImageLayer::normal, k));
+                REQUIRE(r.at(x, y, std::string("Albedo.") + "RGB"[k]) == kept(ImageLayer::albedo, k));
+            }
+            REQUIRE(r.at(x, y, "Z") == kept(ImageLayer::z));
+            REQUIRE(r.at(x, y, "cost") == kept(ImageLayer::cost));
             REQUIRE(r.at(x, y, "A") == float(p.alpha));
             REQUIRE(std::abs(r.at(x, y, "R") - p.color.x) <=
                     p.color.x * 0x1p-11);  // half of a half's last bit
-            REQUIRE(r.ids[std::size_t(y * 20 + x)] == p.id);
+            REQUIRE(r.ids[std::size_t(y * 20 + x)] == std::uint32_t(original.layer(ImageLayer::id).at(original.index(x, y))));
         }
     CHECK(r.at(0, 0, "Z") == std::numeric_limits<float>::infinity());
     CHECK(r.at(0, 0, "N.X") == 0);
     CHECK(r.ids[0] == 0);
 }
 
-TEST_CASE("an EXR holds only the layers that were asked for") {
+TEST_CASE("an EXR holds the layers that the film keeps, and other files do not depend on them") {
     const Folder folder;
-    write_image(folder / "a.exr", film(), {}, notes());
+    const Window all{0, 0, 20, 70};
+    write_image(folder / "a.exr", film(all, {}), {}, notes());
     CHECK(read(folder / "a.exr").spec.channelnames == std::vector<std::string>{"R", "G", "B", "A"});
-    write_image(folder / "a.exr", film(), {false, {ImageLayer::id}}, notes());
+    write_image(folder / "a.exr", film(all, {ImageLayer::id}), {}, notes());
     CHECK(read(folder / "a.exr").spec.channelnames ==
           std::vector<std::string>{"R", "G", "B", "A", "id"});
+    for (const char* name : {"a.png", "a.hdr", "a.jpg"}) {
+        CAPTURE(name);
+        write_image(folder / name, film(all, {}), {}, notes());
+        const std::string without = read_file(folder / name);
+        write_image(folder / name, film(), {}, notes());
+        CHECK(read_file(folder / name) == without);
+    }
 }
 
 TEST_CASE("with --float colours keep 32 bits; half is clamped to finite values") {
@@ -137,7 +145,7 @@ TEST_CASE("with --float colours keep 32 bits; half is clamped to finite values")
     Film bright = film();
     bright.at(3, 3).color = {1e6, -1e6, infinity};
     write_image(folder / "half.exr", bright, {}, notes());
-    write_image(folder / "float.exr", bright, {true, {}}, notes());
+    write_image(folder / "float.exr", bright, {true}, notes());
     const Read half = read(folder / "half.exr"), full = read(folder / "float.exr");
     CHECK(half.at(3, 3, "R") == 65504);
     CHECK(half.at(3, 3, "G") == -65504);
@@ -179,10 +187,10 @@ TEST_CASE("an incomplete picture is marked") {
 
 TEST_CASE("a crop is a data window inside the display window, with the whole picture's pixels") {
     const Folder folder;
-    write_image(folder / "all.exr", film(), {false, all_layers()}, notes());
+    write_image(folder / "all.exr", film(), {}, notes());
     const Read all = read(folder / "all.exr");
     for (const Window w : {Window{5, 2, 7, 65}, Window{19, 69, 1, 1}, Window{0, 1, 20, 16}}) {
-        write_image(folder / "part.exr", film(w), {false, all_layers()}, notes());
+        write_image(folder / "part.exr", film(w), {}, notes());
         const Read part = read(folder / "part.exr");
         CHECK(Window{part.spec.x, part.spec.y, part.spec.width, part.spec.height} == w);
         CHECK(part.spec.full_x == 0);

@@ -47,16 +47,29 @@ struct Zoo {
     }
 };
 
-bool same(const Pixel& a, const Pixel& b) {
-    return a.color == b.color && a.alpha == b.alpha && a.position == b.position &&
-           a.normal == b.normal && a.z == b.z && a.albedo == b.albedo && a.id == b.id &&
-           a.cost == b.cost;
+struct Seen {
+    Pixel pixel;
+    PixelLayers layers;
+};
+
+Seen seen(const Integrator& integrator, int x, int y, TraceCounters& counters) {
+    Seen s;
+    s.pixel = integrator.pixel(x, y, &s.layers, counters);
+    return s;
 }
 
-bool finite(const Pixel& p) {
-    double sum = p.alpha + p.cost;
-    for (Vec3 v : {p.color, p.position, p.normal, p.albedo}) sum += v.x + v.y + v.z;
-    return std::isfinite(sum) && !std::isnan(p.z);
+bool same(const Pixel& a, const Pixel& b) { return a.color == b.color && a.alpha == b.alpha; }
+
+bool same(const PixelLayers& a, const PixelLayers& b) {
+    return a.position == b.position && a.normal == b.normal && a.z == b.z && a.albedo == b.albedo && a.id == b.id && a.cost == b.cost;
+}
+
+bool same(const Seen& a, const Seen& b) { return same(a.pixel, b.pixel) && same(a.layers, b.layers); }
+
+bool finite(const Seen& s) {
+    double sum = s.pixel.alpha + s.layers.cost;
+    for (Vec3 v : {s.pixel.color, s.layers.position, s.layers.normal, s.layers.albedo}) sum += v.x + v.y + v.z;
+    return std::isfinite(sum) && !std::isnan(s.layers.z);
 }
 
 }  // namespace
@@ -167,10 +180,10 @@ TEST_CASE("With one sample matte and plastic cost a camera ray and a shadow ray 
         scene.lights = {light, light};
         TraceCounters counters;
         const AnalyticTracer tracer({unit_sphere});
-        const Pixel p = Integrator(scene, tracer, {1, 1, 1, 0}).pixel(0, 0, counters);
+        const Seen s = seen(Integrator(scene, tracer, {1, 1, 1, 0}), 0, 0, counters);
         CHECK(counters.rays == 1);
         CHECK(counters.shadow_rays == 2);
-        CHECK(p.cost == 3);
+        CHECK(s.layers.cost == 3);
     }
 }
 
@@ -185,7 +198,7 @@ TEST_CASE("Layers are those of the ray through the pixel's centre at any number 
         for (int y = 0; y < height; ++y)
             for (int x = 0; x < width; ++x) {
                 TraceCounters counters;
-                const Pixel p = integrator.pixel(x, y, counters);
+                const auto [pixel, p] = seen(integrator, x, y, counters);
                 const Hit hit = tracer.first_hit(camera.ray(x + 0.5, y + 0.5), infinity, counters);
                 CHECK(p.id == std::uint32_t(hit.solid + 1));
                 if (!hit) {
@@ -196,7 +209,7 @@ TEST_CASE("Layers are those of the ray through the pixel's centre at any number 
                 CHECK(p.position == hit.position);
                 CHECK(p.normal == hit.normal);
                 CHECK(p.z == Approx(glm::dot(hit.position - camera.eye(), camera.forward())));
-                if (spp == 1) CHECK(p.alpha == 1);
+                if (spp == 1) CHECK(pixel.alpha == 1);
             }
     }
     CHECK(hits > 300);
@@ -211,12 +224,24 @@ TEST_CASE("A pixel depends on its place and the seed, not on what was rendered b
     int changed = 0;
     for (int i = 0; i < 24 * 16; ++i) {
         const int x = i % 24, y = i / 24;
-        const Pixel p = a.pixel(x, y, counters);
-        b.pixel(23 - x, 15 - y, used);
-        CHECK(same(p, b.pixel(x, y, used)));
-        changed += !same(p, other.pixel(x, y, counters));
+        const Seen p = seen(a, x, y, counters);
+        seen(b, 23 - x, 15 - y, used);
+        CHECK(same(p, seen(b, x, y, used)));
+        changed += !same(p, seen(other, x, y, counters));
     }
     CHECK(changed > 300);
+}
+
+TEST_CASE("A pixel is the same without layers, and then asks for no ray that only they need") {
+    const Zoo zoo;
+    const AnalyticTracer tracer(zoo.shapes);
+    for (int spp : {1, 3}) {
+        const Integrator integrator(zoo.scene, tracer, {24, 16, spp, 9});
+        TraceCounters with, without;
+        for (int i = 0; i < 24 * 16; ++i) CHECK(same(seen(integrator, i % 24, i / 24, with).pixel, integrator.pixel(i % 24, i / 24, nullptr, without)));
+        CHECK(with.rays - without.rays == (spp == 1 ? 0 : 24 * 16));
+        CHECK(with.shadow_rays == without.shadow_rays);
+    }
 }
 
 TEST_CASE("A block is its pixels, row by row") {
@@ -226,9 +251,11 @@ TEST_CASE("A block is its pixels, row by row") {
     for (int spp : {1, 3}) {
         const Integrator integrator(zoo.scene, tracer, {24, 16, spp, 9});
         std::vector<Pixel> pixels(16 * 11);
+        std::vector<PixelLayers> layers(pixels.size());
         TraceCounters together, single;
-        integrator.block(block, pixels.data(), together);
-        for (int i = 0; i < 16 * 11; ++i) CHECK(same(pixels[std::size_t(i)], integrator.pixel(5 + i % 16, 3 + i / 16, single)));
+        integrator.block(block, pixels.data(), layers.data(), together);
+        for (int i = 0; i < 16 * 11; ++i)
+            CHECK(same({pixels[std::size_t(i)], layers[std::size_t(i)]}, seen(integrator, 5 + i % 16, 3 + i / 16, single)));
         CHECK(together.rays == single.rays);
         CHECK(together.shadow_rays == single.shadow_rays);
         CHECK(together.evaluations == single.evaluations);
@@ -254,8 +281,9 @@ TEST_CASE("No pixel holds a NaN, wherever the camera and the lights are") {
             const Integrator integrator(zoo.scene, tracer, {20, 14, spp, 0});
             for (int i = 0; i < 20 * 14; ++i) {
                 TraceCounters counters;
-                const Pixel p = integrator.pixel(i % 20, i / 20, counters);
-                CHECK(finite(p));
+                const Seen s = seen(integrator, i % 20, i / 20, counters);
+                const Pixel& p = s.pixel;
+                CHECK(finite(s));
                 CHECK(std::min({p.color.x, p.color.y, p.color.z}) >= 0);
                 lit += p.color.x > 0.02;
                 ++pixels;
@@ -279,8 +307,8 @@ TEST_CASE("A tracer that returns nonsense does not spread it") {
     Zoo zoo;
     for (int m = 0; m < 9; ++m) {
         std::swap(zoo.scene.materials[0], zoo.scene.materials[std::size_t(m)]);
-        CHECK(finite(pixel_of(zoo.scene, broken, 1)));
-        CHECK(finite(pixel_of(zoo.scene, broken, 4)));
+        TraceCounters counters;
+        for (int spp : {1, 4}) CHECK(finite(seen(Integrator(zoo.scene, broken, {1, 1, spp, 0}), 0, 0, counters)));
     }
 }
 
