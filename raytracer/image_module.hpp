@@ -13,7 +13,7 @@ struct ReadImage {
     int width = 0, height = 0;
     Window window;
     std::vector<std::string> channels;
-    std::vector<float> values;  // by pixel, then channel
+    std::vector<float> values;  // by pixel, then channel; whole numbers as they are, bytes from 0 to 1
 };
 
 /// Its functions throw std::runtime_error.

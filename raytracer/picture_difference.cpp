@@ -48,7 +48,7 @@ public:
     int hit(std::size_t i) const {
         const bool in_a = a_.pixels[i].alpha > 0, in_b = b_.pixels[i].alpha > 0;
         if (in_a != in_b) return in_a ? 1 : 2;
-        return id(a_, i) != id(b_, i) ? 3 : 0;
+        return both_keep(ImageLayer::id) && id(a_, i) != id(b_, i) ? 3 : 0;
     }
     double distance(std::size_t i) const { return glm::length(vec(a_, ImageLayer::position, i) - vec(b_, ImageLayer::position, i)); }
     double angle(std::size_t i) const { return deburr::angle(vec(a_, ImageLayer::normal, i), vec(b_, ImageLayer::normal, i)); }

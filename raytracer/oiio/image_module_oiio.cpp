@@ -88,6 +88,13 @@ public:
         image.values.resize(spec.image_pixels() * std::size_t(spec.nchannels));
         if (!in->read_image(0, 0, 0, spec.nchannels, TypeDesc::FLOAT, image.values.data()))
             throw std::runtime_error(in->geterror());
+        // As floats, whole numbers would be shares of the greatest one.
+        for (int c = 0; c < spec.nchannels; ++c) {
+            if (spec.channelformat(c) != TypeDesc::UINT32) continue;
+            std::vector<std::uint32_t> whole(spec.image_pixels());
+            if (!in->read_image(0, 0, c, c + 1, TypeDesc::UINT32, whole.data())) throw std::runtime_error(in->geterror());
+            for (std::size_t i = 0; i < whole.size(); ++i) image.values[i * std::size_t(spec.nchannels) + std::size_t(c)] = float(whole[i]);
+        }
         return image;
     }
 

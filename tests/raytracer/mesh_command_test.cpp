@@ -156,6 +156,26 @@ TEST_CASE("compare says how two files differ, and its limits are exit codes") {
     CHECK(run({"compare", a, folder / "none.exr"}).code == 2);
 }
 
+TEST_CASE("compare tells solids of two files apart where both say which they saw") {
+    const Folder folder;
+    const std::string left = "rounded(0.1, cube()):translate(-2, 0, 0)", right = "rounded(0.1, cube()):translate(1, 0, 0)";
+    write_file(folder / "a.lua", "return { solids = {" + left + ", " + right + "} }");
+    write_file(folder / "b.lua", "return { solids = {" + right + ", " + left + "} }");
+    for (const std::string name : {"a", "b"})
+        REQUIRE(run({"render", folder / (name + ".lua"), "-q", "--size", "60x40", "--aov", "id", "-o", folder / (name + ".exr"), "-o",
+                     folder / (name + ".png")}).code == 0);
+    const auto compared = [&](const char* a, const char* b) {
+        run({"compare", folder / a, folder / b, "-q", "--json", folder / "d.json"});
+        const auto d = Json::parse(read_file(folder / "d.json"));
+        return std::pair{d["other_solid"].get<int>(), d["pixels_on_object"].get<int>()};
+    };
+    const auto [other, all] = compared("a.exr", "b.exr");
+    CHECK(all > 100);
+    CHECK(other == all);
+    CHECK(compared("a.exr", "a.exr").first == 0);
+    CHECK(compared("a.exr", "b.png").first == 0);
+}
+
 TEST_CASE("a mesh does not depend on the number of threads") {
     const Folder folder;
     write_file(folder / "s.lua",
