@@ -13,7 +13,7 @@ class Placed final : public Others {
 public:
     Placed(const std::vector<Space>& all, const Space& space) : all_(all), space_(space) {}
 
-    FoundSurface find(std::uint32_t number, const Ray& ray, double t_max, TraceCounters& counters) const override;
+    FoundSurface find(std::uint32_t number, const Ray& ray, double t_max, double end, TraceCounters& counters) const override;
     bool any(std::uint32_t number, const Ray& ray, double t_max, TraceCounters& counters) const override;
 
 private:
@@ -43,10 +43,12 @@ struct Placed::Inside {
     double rate = 1;
 };
 
-FoundSurface Placed::find(std::uint32_t number, const Ray& ray, double t_max, TraceCounters& counters) const {
+FoundSurface Placed::find(std::uint32_t number, const Ray& ray, double t_max, double end, TraceCounters& counters) const {
     const Placement& p = space_.placements[number];
     const Inside in(all_, p, ray, counters);
-    FoundSurface found = in.space.bsp.find(in.ray, t_max * in.rate, counters, &in.placed);
+    // A distance is rounded there and back: what is at `end` must be found.
+    end *= in.rate * (1 + 4 * epsilon);
+    FoundSurface found = in.space.bsp.find(in.ray, t_max * in.rate, counters, &in.placed, end);
     if (!(found.crossing.t < infinity)) return {};
     found.crossing.t /= in.rate;
     if (!p.only_moved) found.crossing.normal = glm::normalize(found.crossing.normal * p.into.linear);  // by the transpose
@@ -98,7 +100,7 @@ BspStatistics ImplicitTracer::statistics() const {
     BspStatistics s;
     std::size_t local = 0;
     for (const Space& space : spaces_->all) {
-        const Pieces& pieces = space.bsp.pieces();
+        const Pieces& pieces = space.bsp.surfaces().pieces;
         s.placements += space.placements.size() + space.bsp.trees().size() - 1;
         std::uint32_t first = 0;  // piece of the tree
         for (const BspTree& tree : space.bsp.trees()) {

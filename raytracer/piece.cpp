@@ -133,7 +133,9 @@ void cut_within(Box& box, ConvexView d) {
 
 Box Pieces::surface_box(std::size_t i, double margin) const {
     const Piece& p = pieces_[i];
-    Box box = p.box;
+    // A ray looks as far as rounding beyond the cell's walls.
+    const Box cell = inflated(p.box, margin);
+    Box box = cell;
     if (p.kind == Piece::Kind::plane) {
         cut(box, planes_[p.first], true);
     } else if (p.kind == Piece::Kind::convex) {
@@ -145,7 +147,7 @@ Box Pieces::surface_box(std::size_t i, double margin) const {
         }
     }
     // The cell, where nothing was left but for rounding.
-    return box.empty() ? p.box : intersection(inflated(box, margin), p.box);
+    return box.empty() ? cell : intersection(inflated(box, margin), cell);
 }
 
 }  // namespace deburr

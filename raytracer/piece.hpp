@@ -66,7 +66,7 @@ public:
     /// Unit normal, out of the solid.
     Vec3 normal(std::size_t i, const PieceCrossing& crossing, const Vec3& origin, const Vec3& direction) const;
 
-    /// A box around what can be crossed of piece i, within its cell, with this much to spare.
+    /// A box around what can be crossed of piece i, in its cell or this much beyond, with as much to spare.
     Box surface_box(std::size_t i, double margin) const;
 
 private:
