@@ -48,6 +48,18 @@ public:
     template <class Visit>
     void visit(const Vec3& origin, const Vec3& direction, const Vec3& inverse, double t0, double t1, Visit visit) const;
 
+    /// A ray as the tree sees it, from a point of it on.
+    struct Line {
+        float start[3], inverse[3];
+    };
+    Line line(const Vec3& point, const Vec3& inverse) const;
+
+    /// visit() for several rays at once, of whose lines these are the least and the most numbers, and none of
+    /// which goes on for longer than `longest`: calls visit(number of an item) for all that visit() would for one of them, the nearest first but where boxes
+    /// overlap. It returns how far from their starts the longest goes on.
+    template <class Visit>
+    void visit_together(const Line& least, const Line& most, double longest, Visit visit) const;
+
     /// Calls visit(number of an item) for those whose boxes may meet this one.
     template <class Visit>
     void meeting(const Box& box, Visit visit) const;
@@ -62,6 +74,9 @@ private:
         float side[3][8];
         std::int32_t child[4];  // ≥ 0: a node, < 0: ~item
     };
+    template <class Meet, class Visit>
+    void walk(float end, Meet meet, Visit visit) const;
+    float single(double distance) const;
     std::int32_t collapse(const Builder& from, int root, int depth);
     Node node_of(const Builder& from, const std::vector<int>& children) const;
 
@@ -93,45 +108,26 @@ inline BoxSpan span_in(const Box& box, const Vec3& origin, const Vec3& inverse, 
     return {t0, t1};
 }
 
-template <class Visit>
-void BoxTree::visit(const Vec3& origin, const Vec3& direction, const Vec3& reciprocal, double t0, double t1, Visit visit) const {
+// meet(node, end, t[4]) → bits of the children that are met before `end`, and where.
+template <class Meet, class Visit>
+void BoxTree::walk(float end, Meet meet, Visit visit) const {
     struct Entry {
         std::int32_t child;
         float t;
     };
     Entry stack[most_entries];
     int top = 0;
-
-    const Vec3 start = (origin + direction * t0 - middle_) * per_unit_;
-    float begin[3], inverse[3];
-    int near[3];
-    for (int k = 0; k < 3; ++k) {
-        constexpr double most = 1e30;  // beyond it a direction does not leave its place
-        begin[k] = float(start[k]);
-        inverse[k] = float(std::clamp(reciprocal[k], -most, most));
-        near[k] = inverse[k] < 0 ? 4 : 0;
-    }
-    const Float4 ox(begin[0]), oy(begin[1]), oz(begin[2]), ix(inverse[0]), iy(inverse[1]), iz(inverse[2]);
-    // Distances from t0 on, in single precision, rounded up.
-    const auto single = [&](double t) { return float((t - t0) * per_unit_) * (1 + 0x1p-22f); };
-    float end = single(t1);
     std::int32_t now = 0;
     for (;;) {
         if (now >= 0) {
             const Node& n = nodes_[std::size_t(now)];
-            const auto at = [](const float* side, Float4 o, Float4 i) { return (Float4::load(side) - o) * i; };
-            const Float4 lo = max(max(at(n.side[0] + near[0], ox, ix), at(n.side[1] + near[1], oy, iy)),
-                                  max(at(n.side[2] + near[2], oz, iz), Float4(0.0f)));
-            const Float4 hi = min(min(at(n.side[0] + (near[0] ^ 4), ox, ix), at(n.side[1] + (near[1] ^ 4), oy, iy)),
-                                  min(at(n.side[2] + (near[2] ^ 4), oz, iz), Float4(end)));
-            unsigned met = not_above(lo, hi);
+            alignas(16) float t[4];
+            unsigned met = meet(n, end, t);
             if (met != 0) {
                 if ((met & (met - 1)) == 0) {
                     now = n.child[__builtin_ctz(met)];
                     continue;
                 }
-                alignas(16) float t[4];
-                lo.store(t);
                 const int first = top;
                 do {  // sorted by insertion, the nearest on top
                     const int k = __builtin_ctz(met);
@@ -146,9 +142,8 @@ void BoxTree::visit(const Vec3& origin, const Vec3& direction, const Vec3& recip
                 continue;
             }
         } else {
-            const double until = visit(std::uint32_t(~now));
-            if (until < 0) return;
-            if (until < infinity) end = std::min(end, single(until));
+            end = visit(std::uint32_t(~now), end);
+            if (end < 0) return;
         }
         do {
             if (top == 0) return;
@@ -156,6 +151,81 @@ void BoxTree::visit(const Vec3& origin, const Vec3& direction, const Vec3& recip
         } while (stack[top].t > end);
         now = stack[top].child;
     }
+}
+
+// Distances in single precision, rounded up.
+inline float BoxTree::single(double distance) const { return float(distance * per_unit_) * (1 + 0x1p-22f); }
+
+inline BoxTree::Line BoxTree::line(const Vec3& point, const Vec3& reciprocal) const {
+    const Vec3 start = (point - middle_) * per_unit_;
+    Line line;
+    for (int k = 0; k < 3; ++k) {
+        constexpr double most = 1e30;  // beyond it a direction does not leave its place
+        line.start[k] = float(start[k]);
+        line.inverse[k] = float(std::clamp(reciprocal[k], -most, most));
+    }
+    return line;
+}
+
+template <class Visit>
+void BoxTree::visit(const Vec3& origin, const Vec3& direction, const Vec3& reciprocal, double t0, double t1, Visit visit) const {
+    const Line ray = line(origin + direction * t0, reciprocal);
+    int near[3];
+    for (int k = 0; k < 3; ++k) near[k] = ray.inverse[k] < 0 ? 4 : 0;
+    const Float4 ox(ray.start[0]), oy(ray.start[1]), oz(ray.start[2]), ix(ray.inverse[0]), iy(ray.inverse[1]), iz(ray.inverse[2]);
+    walk(
+        single(t1 - t0),
+        [&](const Node& n, float end, float* t) __attribute__((always_inline)) {
+            const auto at = [](const float* side, Float4 o, Float4 i) { return (Float4::load(side) - o) * i; };
+            const Float4 lo = max(max(at(n.side[0] + near[0], ox, ix), at(n.side[1] + near[1], oy, iy)),
+                                  max(at(n.side[2] + near[2], oz, iz), Float4(0.0f)));
+            const Float4 hi = min(min(at(n.side[0] + (near[0] ^ 4), ox, ix), at(n.side[1] + (near[1] ^ 4), oy, iy)),
+                                  min(at(n.side[2] + (near[2] ^ 4), oz, iz), Float4(end)));
+            lo.store(t);
+            return not_above(lo, hi);
+        },
+        [&](std::uint32_t item, float end) {
+            const double until = visit(item);
+            return until < 0 ? -1.0f : until < infinity ? std::min(end, single(until - t0)) : end;
+        });
+}
+
+// Each operation in single precision is monotone, also where it rounds: what the extreme starts and directions
+// give lies around what any of the rays gives. So what one of them meets alone, all meet together.
+template <class Visit>
+void BoxTree::visit_together(const Line& least, const Line& most, double longest, Visit visit) const {
+    // Along an axis both of whose directions occur, nothing is known.
+    struct Axis {
+        int index, near;
+        Float4 from_near, from_far, least, most;  // starts, and what is divided by
+    };
+    Axis axes[3];
+    int known = 0;
+    for (int k = 0; k < 3; ++k) {
+        if (least.inverse[k] > 0)
+            axes[known++] = {k, 0, Float4(most.start[k]), Float4(least.start[k]), Float4(least.inverse[k]), Float4(most.inverse[k])};
+        else if (most.inverse[k] < 0)
+            axes[known++] = {k, 4, Float4(least.start[k]), Float4(most.start[k]), Float4(least.inverse[k]), Float4(most.inverse[k])};
+    }
+    walk(
+        single(longest),
+        [&](const Node& n, float end, float* t) __attribute__((always_inline)) {
+            Float4 lo(0.0f), hi(end);
+            for (int i = 0; i < known; ++i) {
+                const Axis& a = axes[i];
+                const Float4 near = Float4::load(n.side[a.index] + a.near) - a.from_near;
+                const Float4 far = Float4::load(n.side[a.index] + (a.near ^ 4)) - a.from_far;
+                lo = max(lo, min(near * a.least, near * a.most));
+                hi = min(hi, max(far * a.least, far * a.most));
+            }
+            lo.store(t);
+            const unsigned met = not_above(lo, hi);  // no empty slot, if an axis is known
+            return known > 0 ? met : not_above(Float4::load(n.side[0]), Float4::load(n.side[0] + 4));
+        },
+        [&](std::uint32_t item, float end) {
+            const double until = visit(item);
+            return until < 0 ? -1.0f : until < infinity ? std::min(end, single(until)) : end;
+        });
 }
 
 template <class Visit>

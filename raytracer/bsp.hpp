@@ -29,6 +29,8 @@ public:
     ~ImplicitTracer() override;
     Hit first_hit(const Ray& ray, double t_max, TraceCounters& counters) const override;
     bool occluded(const Ray& ray, double t_max, TraceCounters& counters) const override;
+    void first_hits(std::span<const Ray> rays, Hit* hits, TraceCounters& counters) const override;
+    void occlusions(std::span<const Ray> rays, std::span<const double> t_max, bool* occluded, TraceCounters& counters) const override;
     BspStatistics statistics() const;
 
 private:

@@ -1,5 +1,7 @@
 #include "raytracer/bsp_trace.hpp"
 
+#include "raytracer/packet_search.hpp"
+
 #include <algorithm>
 
 namespace deburr {
@@ -81,6 +83,35 @@ FoundSurface BspTracer::find(const Ray& ray, double t_max, TraceCounters& counte
 bool BspTracer::any(const Ray& ray, double t_max, TraceCounters& counters, const Others* others) const {
     SurfaceSearch<true> s(surfaces_, ray, t_max, t_max, counters, others);
     return search(s);
+}
+
+namespace {
+
+// Fewer are led alone: together they gain nothing.
+constexpr std::size_t fewest_together = 4;
+
+}  // namespace
+
+void BspTracer::find(std::span<const Ray> rays, std::span<const double> t_max, FoundSurface* found, TraceCounters& counters,
+                     const Others* others) const {
+    if (rays.size() < fewest_together || !bounded_) {
+        for (std::size_t k = 0; k < rays.size(); ++k) found[k] = find(rays[k], t_max[k], counters, others);
+        return;
+    }
+    PacketSearch<false> packet(surfaces_, rays, t_max, counters, others);
+    packet.search(boxes_);
+    for (int k = 0; k < int(rays.size()); ++k) found[k] = packet.surface(k);
+}
+
+Lanes BspTracer::any(std::span<const Ray> rays, std::span<const double> t_max, TraceCounters& counters, const Others* others) const {
+    Lanes found = 0;
+    if (rays.size() < fewest_together || !bounded_) {
+        for (std::size_t k = 0; k < rays.size(); ++k) found |= Lanes(any(rays[k], t_max[k], counters, others)) << k;
+        return found;
+    }
+    PacketSearch<true> packet(surfaces_, rays, t_max, counters, others);
+    packet.search(boxes_);
+    return packet.any();
 }
 
 // ---- construction --------------------------------------------------------------------------------

@@ -4,6 +4,8 @@
 // (box_tree.hpp) around what is in them, so that empty cells cost nothing. Only outside of that tree,
 // where an unbounded solid goes on, is a BSP itself traversed.
 #pragma once
+#include <span>
+
 #include "raytracer/box_tree.hpp"
 #include "raytracer/bsp_tree.hpp"
 #include "raytracer/surface_search.hpp"
@@ -30,6 +32,10 @@ public:
                       double end = infinity) const;
     /// Whether there is one.
     bool any(const Ray& ray, double t_max, TraceCounters& counters, const Others* others = nullptr) const;
+    /// The same for several rays that run close to each other, each as far as its t_max.
+    void find(std::span<const Ray> rays, std::span<const double> t_max, FoundSurface* found, TraceCounters& counters,
+              const Others* others = nullptr) const;
+    Lanes any(std::span<const Ray> rays, std::span<const double> t_max, TraceCounters& counters, const Others* others = nullptr) const;
 
     const std::vector<BspTree>& trees() const { return trees_; }  // without their LocalSolids
     const Surfaces& surfaces() const { return surfaces_; }  // what these were, one tree's after the other's

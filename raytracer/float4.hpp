@@ -14,6 +14,7 @@ namespace deburr {
 
 struct Float4 {
     __m128 v;
+    Float4() = default;
     explicit Float4(float x) : v(_mm_set1_ps(x)) {}
     explicit Float4(__m128 x) : v(x) {}
     static Float4 load(const float* aligned) { return Float4(_mm_load_ps(aligned)); }
@@ -30,6 +31,7 @@ struct Float4 {
 
 struct Float4 {
     float32x4_t v;
+    Float4() = default;
     explicit Float4(float x) : v(vdupq_n_f32(x)) {}
     explicit Float4(float32x4_t x) : v(x) {}
     static Float4 load(const float* aligned) { return Float4(vld1q_f32(aligned)); }
@@ -48,6 +50,7 @@ struct Float4 {
 
 struct Float4 {
     float v[4];
+    Float4() = default;
     explicit Float4(float x) : v{x, x, x, x} {}
     static Float4 load(const float* p) { return each([&](int k) { return p[k]; }); }
     void store(float* p) const {

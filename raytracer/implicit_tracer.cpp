@@ -74,10 +74,9 @@ ImplicitTracer::ImplicitTracer(const std::vector<Solid>& solids, Criterion crite
 
 ImplicitTracer::~ImplicitTracer() = default;
 
-Hit ImplicitTracer::first_hit(const Ray& ray, double t_max, TraceCounters& counters) const {
-    ++counters.rays;
-    const Placed placed(spaces_->all, spaces_->all[0]);
-    const FoundSurface found = spaces_->all[0].bsp.find(ray, t_max, counters, &placed);
+namespace {
+
+Hit hit_of(const FoundSurface& found, const Ray& ray) {
     if (!(found.crossing.t < infinity)) return {};
     Hit hit;
     hit.t = found.crossing.t;
@@ -90,10 +89,40 @@ Hit ImplicitTracer::first_hit(const Ray& ray, double t_max, TraceCounters& count
     return hit;
 }
 
+}  // namespace
+
+Hit ImplicitTracer::first_hit(const Ray& ray, double t_max, TraceCounters& counters) const {
+    ++counters.rays;
+    const Placed placed(spaces_->all, spaces_->all[0]);
+    return hit_of(spaces_->all[0].bsp.find(ray, t_max, counters, &placed), ray);
+}
+
 bool ImplicitTracer::occluded(const Ray& ray, double t_max, TraceCounters& counters) const {
     ++counters.shadow_rays;
     const Placed placed(spaces_->all, spaces_->all[0]);
     return spaces_->all[0].bsp.any(ray, t_max, counters, &placed);
+}
+
+void ImplicitTracer::first_hits(std::span<const Ray> rays, Hit* hits, TraceCounters& counters) const {
+    static const std::vector<double> endless(RayPacket::size, infinity);
+    counters.rays += rays.size();
+    const Placed placed(spaces_->all, spaces_->all[0]);
+    FoundSurface found[RayPacket::size];
+    for (std::size_t first = 0; first < rays.size(); first += RayPacket::size) {
+        const auto packet = rays.subspan(first, std::min(rays.size() - first, std::size_t(RayPacket::size)));
+        spaces_->all[0].bsp.find(packet, endless, found, counters, &placed);
+        for (std::size_t k = 0; k < packet.size(); ++k) hits[first + k] = hit_of(found[k], packet[k]);
+    }
+}
+
+void ImplicitTracer::occlusions(std::span<const Ray> rays, std::span<const double> t_max, bool* occluded, TraceCounters& counters) const {
+    counters.shadow_rays += rays.size();
+    const Placed placed(spaces_->all, spaces_->all[0]);
+    for (std::size_t first = 0; first < rays.size(); first += RayPacket::size) {
+        const std::size_t count = std::min(rays.size() - first, std::size_t(RayPacket::size));
+        const Lanes any = spaces_->all[0].bsp.any(rays.subspan(first, count), t_max.subspan(first, count), counters, &placed);
+        for (std::size_t k = 0; k < count; ++k) occluded[first + k] = any >> k & 1;
+    }
 }
 
 BspStatistics ImplicitTracer::statistics() const {

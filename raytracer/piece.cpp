@@ -50,6 +50,21 @@ std::size_t Pieces::half_spaces(std::size_t i) const {
     }
 }
 
+Lanes Pieces::crossings(const Piece& p, const RayPacket& rays, Lanes lanes, const PacketSpans& spans, PacketCrossings& found,
+                        TraceCounters& counters) const {
+    if (p.kind == Piece::Kind::convex)
+        return packet_functions.convex_crossings(view(p), rays, lanes, spans, scale_, found, counters.evaluations);
+    const Lanes crossed = packet_functions.plane_crossings(planes_[p.first], rays, lanes, spans, found);
+    counters.flat_hits += std::uint64_t(__builtin_popcount(crossed));
+    return crossed;
+}
+
+Lanes Pieces::occlusions(const Piece& p, const RayPacket& rays, Lanes lanes, const PacketSpans& spans, TraceCounters& counters) const {
+    if (p.kind == Piece::Kind::convex) return packet_functions.convex_occlusions(view(p), rays, lanes, spans, scale_, counters.evaluations);
+    PacketCrossings found;
+    return crossings(p, rays, lanes, spans, found, counters);
+}
+
 SurfaceCrossing Pieces::general_crossing(const Piece& p, const Vec3& origin, const Vec3& direction, double t0, double t1,
                                          bool any, TraceCounters& counters) const {
     CrossingScratch& memory = scratch();
@@ -63,13 +78,12 @@ SurfaceCrossing Pieces::general_crossing(const Piece& p, const Vec3& origin, con
     return c;
 }
 
-Vec3 Pieces::normal(std::size_t i, const PieceCrossing& crossing, const Vec3& origin, const Vec3& direction) const {
+Vec3 Pieces::normal(std::size_t i, const ConvexCrossing& crossing, const Vec3& origin, const Vec3& direction) const {
     const Piece& p = pieces_[i];
     if (p.kind == Piece::Kind::plane) return planes_[p.first].slope;
-    if (p.kind == Piece::Kind::general) return crossing.normal;
-    const Vec3 n = surface_normal(view(p), crossing.convex, origin + direction * crossing.t);
+    const Vec3 n = surface_normal(view(p), crossing, origin + direction * crossing.t);
     // It leaves the solid, so it is against a ray that enters.
-    return (glm::dot(n, direction) < 0) == crossing.convex.entering ? n : -n;
+    return (glm::dot(n, direction) < 0) == crossing.entering ? n : -n;
 }
 
 // ---- boxes ---------------------------------------------------------------------------------------

@@ -8,6 +8,7 @@
 
 #include "bounds/convex_density.hpp"
 #include "raytracer/local_solid.hpp"
+#include "raytracer/piece_packet.hpp"
 #include "raytracer/ray_tracer.hpp"
 
 namespace deburr {
@@ -23,15 +24,6 @@ struct Piece {
     bool complement = false;
 };
 static_assert(sizeof(Piece) == 64);  // a cache line
-
-/// Where a piece is crossed, and what its normal there is to be computed from.
-struct PieceCrossing {
-    double t = infinity;
-    ConvexCrossing convex;  // of a convex piece
-    Vec3 normal{0.0};       // of a general one
-    int material = 0;
-    double error = 0;       // of its place (SurfaceCrossing)
-};
 
 class Pieces {
 public:
@@ -60,11 +52,21 @@ public:
                         TraceCounters& counters) const {
         return any_crossing(view(p), origin, direction, t0, t1, negligible(t0), counters.evaluations);
     }
+    /// Whether packets may ask for piece i.
+    bool for_packets(std::size_t i) const {
+        const Piece& p = pieces_[i];
+        return p.kind == Piece::Kind::plane || (p.kind == Piece::Kind::convex && p.soft <= most_packet_factors && p.box.finite());
+    }
+    /// First crossings of rays of a packet with such a piece, in their spans; those that have one.
+    Lanes crossings(const Piece& p, const RayPacket& rays, Lanes lanes, const PacketSpans& spans, PacketCrossings& found,
+                    TraceCounters& counters) const;
+    /// Those that cross it.
+    Lanes occlusions(const Piece& p, const RayPacket& rays, Lanes lanes, const PacketSpans& spans, TraceCounters& counters) const;
     /// First crossing of a general one; `any`: that there is one will do, and its t means nothing.
     SurfaceCrossing general_crossing(const Piece& p, const Vec3& origin, const Vec3& direction, double t0, double t1,
                                      bool any, TraceCounters& counters) const;
-    /// Unit normal, out of the solid.
-    Vec3 normal(std::size_t i, const PieceCrossing& crossing, const Vec3& origin, const Vec3& direction) const;
+    /// Unit normal, out of the solid, of piece i: a plane, or convex.
+    Vec3 normal(std::size_t i, const ConvexCrossing& crossing, const Vec3& origin, const Vec3& direction) const;
 
     /// A box around what can be crossed of piece i, in its cell or this much beyond, with as much to spare.
     Box surface_box(std::size_t i, double margin) const;

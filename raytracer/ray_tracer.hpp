@@ -2,6 +2,7 @@
 // (implicit, bsp.hpp; or a mesh in Embree).
 #pragma once
 #include <cstdint>
+#include <span>
 
 #include "bounds/vec.hpp"
 
@@ -38,6 +39,10 @@ public:
     virtual Hit first_hit(const Ray& ray, double t_max, TraceCounters& counters) const = 0;
     /// Whether there is any surface at a distance in (0, t_max).
     virtual bool occluded(const Ray& ray, double t_max, TraceCounters& counters) const = 0;
+
+    /// The same for many rays, to the bit: the sooner the closer neighbours run to each other.
+    virtual void first_hits(std::span<const Ray> rays, Hit* hits, TraceCounters& counters) const;
+    virtual void occlusions(std::span<const Ray> rays, std::span<const double> t_max, bool* occluded, TraceCounters& counters) const;
 };
 
 /// The ray's origin lifted off the surface it was found on, to the side that `direction` leads to.

@@ -2,20 +2,13 @@
 // of boxes, a walk through a BSP, or another's hierarchy.
 //
 // What is found does not depend on the order in which surfaces are looked at, nor on whether one that the
-// ray does not cross is looked at: what a ray crosses of one is a function of the two alone, and of several
-// crossings the first is taken by (t, solid, number of the surface).
+// ray does not cross is looked at: what a ray crosses of one is a function of the two alone, and which of
+// several crossings is taken is settled (nearest_crossing.hpp).
 #pragma once
 #include "raytracer/box_tree.hpp"
-#include "raytracer/piece.hpp"
-#include "raytracer/ray_tracer.hpp"
+#include "raytracer/nearest_crossing.hpp"
 
 namespace deburr {
-
-struct FoundSurface {
-    SurfaceCrossing crossing;  // t = infinity: none
-    int solid = -1;            // as the space numbers them
-    double error = 0;          // of the position: what floating point rounds it by
-};
 
 /// What is in a space besides: found by its box, asked for by its number.
 class Others {
@@ -43,15 +36,15 @@ public:
     /// In [0, t_max]; what lies beyond `end` need not be found.
     SurfaceSearch(const Surfaces& surfaces, const Ray& ray, double t_max, double end, TraceCounters& counters, const Others* others)
         : surfaces_(surfaces), ray_(ray), inverse_(reciprocal(ray.direction)), reach_(surfaces.scale + largest(ray.origin)),
-          t_max_(t_max), end_(std::min(t_max, end)), counters_(counters), others_(others) {}
+          t_max_(t_max), nearest_(std::min(t_max, end)), counters_(counters), others_(others) {}
 
     const Ray& ray() const { return ray_; }
     const Vec3& inverse() const { return inverse_; }
-    bool found() const { return found_; }
+    bool found() const { return nearest_.found() || any_; }
     /// Nothing counts beyond.
-    double end() const { return end_; }
+    double end() const { return nearest_.end(); }
     /// Nothing more needs to be looked at.
-    bool enough() const { return Any && found_; }
+    bool enough() const { return any_; }
     /// A distance along the ray is rounded by this much.
     double rounding(double t) const { return 4 * epsilon * (reach_ + t); }
 
@@ -65,26 +58,16 @@ public:
     }
 
     /// What was found.
-    FoundSurface surface() const {
-        if (!pieces_) return of_other_;
-        return {{end_, pieces_->normal(number_, crossing_, ray_.origin, ray_.direction), crossing_.material},
-                solid_,
-                rounding(end_) + crossing_.error};
-    }
+    FoundSurface surface() const { return nearest_.surface(ray_, rounding(nearest_.end())); }
 
 private:
     void look_in_cell(std::uint32_t i) {
-        // As far as t_max, not end_: what is found may depend on both ends of the stretch, by rounding.
+        // As far as t_max, not end(): what is found may depend on both ends of the stretch, by rounding.
         const BoxSpan span = span_in(surfaces_.pieces[i].box, ray_.origin, inverse_, 0, t_max_);
         // Cells overlap by what their walls are rounded by: a surface in a wall belongs to both.
         const double pad = rounding(std::min(span.lo, span.hi));
         const double from = std::max(0.0, span.lo - pad), to = std::min(t_max_, span.hi + pad);
-        if (from <= to && from <= end_) look(surfaces_.pieces, i, from, to);
-    }
-
-    bool is_better(double t, int solid, std::uint32_t number) const {
-        if (t != end_) return t < end_;
-        return !found_ || solid < solid_ || (solid == solid_ && number < number_);
+        if (from <= to && from <= end()) look(surfaces_.pieces, i, from, to);
     }
 
     void look(const Pieces& pieces, std::uint32_t i, double from, double to) {
@@ -94,60 +77,42 @@ private:
             const double t = pieces.plane_crossing(p, ray_.origin, ray_.direction);
             if (!(t >= from && t <= to && t < infinity)) return;
             ++counters_.flat_hits;
-            take_if_better(t, p.solid, &pieces, i, p.material);
+            if constexpr (Any) any_ = true;
+            else nearest_.offer(pieces, i, {t});
         } else if (p.kind == Piece::Kind::convex) {
             if constexpr (Any) {
-                found_ = found_ || pieces.crosses_convex(p, ray_.origin, ray_.direction, from, to, counters_);
+                any_ = any_ || pieces.crosses_convex(p, ray_.origin, ray_.direction, from, to, counters_);
             } else {
                 const ConvexCrossing c = pieces.convex_crossing(p, ray_.origin, ray_.direction, from, to, counters_);
-                if (c.t < infinity && take_if_better(c.t, p.solid, &pieces, i, p.material)) crossing_.convex = c;
+                if (c.t < infinity) nearest_.offer(pieces, i, c);
             }
         } else {
             const SurfaceCrossing c = pieces.general_crossing(p, ray_.origin, ray_.direction, from, to, Any, counters_);
-            if (!(c.t < infinity) || !take_if_better(c.t, p.solid, &pieces, i, c.material)) return;
-            crossing_.normal = c.normal;
-            crossing_.error = c.error;
+            if (!(c.t < infinity)) return;
+            if constexpr (Any) any_ = true;
+            else nearest_.offer(c, rounding(c.t) + c.error, p.solid, i);
         }
     }
 
     void look_at_other(std::uint32_t i) {
         const std::uint32_t other = i - std::uint32_t(surfaces_.pieces.size());
         if constexpr (Any) {
-            found_ = others_->any(other, ray_, end_, counters_);
+            any_ = others_->any(other, ray_, end(), counters_);
         } else {
-            const FoundSurface found = others_->find(other, ray_, t_max_, end_, counters_);
-            const double t = found.crossing.t;
-            if (t < infinity && take_if_better(t, found.solid, nullptr, i, 0)) of_other_ = found;
+            const FoundSurface found = others_->find(other, ray_, t_max_, end(), counters_);
+            if (found.crossing.t < infinity) nearest_.offer(found.crossing, found.error, found.solid, i);
         }
-    }
-
-    bool take_if_better(double t, int solid, const Pieces* pieces, std::uint32_t number, int material) {
-        if (!Any && !is_better(t, solid, number)) return false;
-        found_ = true;
-        end_ = t;
-        solid_ = solid;
-        pieces_ = pieces;
-        number_ = number;
-        crossing_.t = t;
-        crossing_.material = material;
-        crossing_.error = 0;
-        return true;
     }
 
     const Surfaces& surfaces_;
     const Ray& ray_;
     Vec3 inverse_;
     double reach_;  // of coordinates that are added
-    double t_max_, end_;
+    double t_max_;
+    NearestCrossing nearest_;
+    bool any_ = false;
     TraceCounters& counters_;
     const Others* others_;
-    // What was found, as yet without its normal.
-    bool found_ = false;
-    int solid_ = -1;
-    std::uint32_t number_ = 0;
-    const Pieces* pieces_ = nullptr;  // null: it is another's
-    PieceCrossing crossing_;
-    FoundSurface of_other_;
 };
 
 }  // namespace deburr

@@ -1,0 +1,150 @@
+// Searches of several rays that are led together: through the boxes with one test for all, over planes and
+// products of half-spaces with one instruction for several (piece_packet.hpp), and one by one over what is left.
+// Each finds what it finds alone (surface_search.hpp), to the bit.
+#pragma once
+#include <span>
+
+#include "raytracer/piece_packet.hpp"
+#include "raytracer/surface_search.hpp"
+
+namespace deburr {
+
+template <bool Any>
+class PacketSearch {
+public:
+    /// Of at most RayPacket::size rays, each as far as its t_max.
+    PacketSearch(const Surfaces& surfaces, std::span<const Ray> rays, std::span<const double> t_max, TraceCounters& counters,
+                 const Others* others)
+        : surfaces_(surfaces), rays_(rays), counters_(counters), others_(others), lanes_((Lanes(1) << rays.size()) - 1) {
+        for (std::size_t k = 0; k < RayPacket::size; ++k) {
+            const std::size_t i = k < rays.size() ? k : 0;  // so that there are numbers everywhere
+            for (int axis = 0; axis < 3; ++axis) {
+                packet_.origin[axis][k] = rays[i].origin[axis];
+                packet_.direction[axis][k] = rays[i].direction[axis];
+            }
+            packet_.t_max[k] = packet_.end[k] = t_max[i];
+            if constexpr (!Any) nearest_[k] = NearestCrossing(t_max[i]);
+        }
+        packet_functions.prepare(packet_, surfaces.scale);
+    }
+
+    void search(const BoxTree& boxes) {
+        look_at_planes();
+        if (boxes.empty() || lanes_ == 0) return;
+        lanes_ = packet_functions.enter(boxes.box(), packet_, lanes_, entry_);
+        if (lanes_ == 0) return;
+        boxes.visit_together(boxes.line(entry_.least_point, entry_.least_inverse), boxes.line(entry_.most_point, entry_.most_inverse),
+                             longest_way(), [&](std::uint32_t i) {
+                                 if (!look_at(i)) return infinity;
+                                 return lanes_ == 0 ? -1.0 : longest_way();
+                             });
+    }
+
+    /// Those that cross anything.
+    Lanes any() const { return any_; }
+    /// What ray k found.
+    FoundSurface surface(int k) const {
+        return nearest_[k].surface(rays_[std::size_t(k)], rounding(k, nearest_[k].end()));
+    }
+
+private:
+    double longest_way() const { return packet_functions.longest_way(packet_, lanes_, entry_); }
+    double rounding(int k, double t) const { return 4 * epsilon * (packet_.reach[k] + t); }
+
+    void look_at_planes() {
+        if (surfaces_.planes.size() == 0) return;
+        PacketSpans spans;
+        for (int k = 0; k < RayPacket::size; ++k) {
+            spans.from[k] = 0;
+            spans.to[k] = packet_.t_max[k];
+        }
+        for (std::size_t i = 0; i < surfaces_.planes.size(); ++i) look(surfaces_.planes, std::uint32_t(i), lanes_, spans);
+    }
+
+    // Whether anything was found.
+    bool look_at(std::uint32_t i) {
+        if (i >= surfaces_.pieces.size()) return look_at_other(i);
+        PacketSpans spans;
+        const Lanes in = packet_functions.spans_in_cell(surfaces_.pieces[i].box, packet_, lanes_, spans);
+        return in != 0 && look(surfaces_.pieces, i, in, spans);
+    }
+
+    bool look(const Pieces& pieces, std::uint32_t i, Lanes lanes, const PacketSpans& spans) {
+        counters_.cells += std::uint64_t(__builtin_popcount(lanes));
+        const Piece& p = pieces[i];
+        if (!pieces.for_packets(i)) return look_one_by_one(pieces, i, lanes, spans);
+        if constexpr (Any) {
+            return found(pieces.occlusions(p, packet_, lanes, spans, counters_));
+        } else {
+            PacketCrossings c;
+            return found(pieces.crossings(p, packet_, lanes, spans, c, counters_),
+                         [&](int k) { nearest_[k].offer(pieces, i, {c.t[k], bool(c.entering >> k & 1), int(c.plane[k])}); });
+        }
+    }
+
+    bool look_one_by_one(const Pieces& pieces, std::uint32_t i, Lanes lanes, const PacketSpans& spans) {
+        const Piece& p = pieces[i];
+        Lanes crossed = 0;
+        for_each_lane(lanes, [&](int k) {
+            const Ray& ray = rays_[std::size_t(k)];
+            const double from = spans.from[k], to = spans.to[k];
+            bool is = false;
+            if (p.kind == Piece::Kind::general) {
+                const SurfaceCrossing c = pieces.general_crossing(p, ray.origin, ray.direction, from, to, Any, counters_);
+                is = c.t < infinity;
+                if (!Any && is) nearest_[k].offer(c, rounding(k, c.t) + c.error, p.solid, i);
+            } else if constexpr (Any) {
+                is = pieces.crosses_convex(p, ray.origin, ray.direction, from, to, counters_);
+            } else {
+                const ConvexCrossing c = pieces.convex_crossing(p, ray.origin, ray.direction, from, to, counters_);
+                is = c.t < infinity;
+                if (is) nearest_[k].offer(pieces, i, c);
+            }
+            crossed |= Lanes(is) << k;
+        });
+        return found(crossed);
+    }
+
+    bool look_at_other(std::uint32_t i) {
+        const std::uint32_t other = i - std::uint32_t(surfaces_.pieces.size());
+        Lanes crossed = 0;
+        for_each_lane(lanes_, [&](int k) {
+            const Ray& ray = rays_[std::size_t(k)];
+            if constexpr (Any) {
+                crossed |= Lanes(others_->any(other, ray, packet_.t_max[k], counters_)) << k;
+            } else {
+                const FoundSurface f = others_->find(other, ray, packet_.t_max[k], packet_.end[k], counters_);
+                if (!(f.crossing.t < infinity)) return;
+                crossed |= Lanes(1) << k;
+                nearest_[k].offer(f.crossing, f.error, f.solid, i);
+            }
+        });
+        return found(crossed);
+    }
+
+    template <class Offer>
+    bool found(Lanes crossed, Offer offer) {
+        if constexpr (Any) {
+            any_ |= crossed;
+            lanes_ &= ~crossed;
+        } else {
+            for_each_lane(crossed, [&](int k) {
+                offer(k);
+                packet_.end[k] = nearest_[k].end();
+            });
+        }
+        return crossed != 0;
+    }
+    bool found(Lanes crossed) { return found(crossed, [](int) {}); }
+
+    const Surfaces& surfaces_;
+    std::span<const Ray> rays_;
+    TraceCounters& counters_;
+    const Others* others_;
+    Lanes lanes_, any_ = 0;  // that go on; that found something
+    RayPacket packet_;
+    PacketEntry entry_;
+    NearestCrossing nearest_[Any ? 1 : RayPacket::size];
+};
+
+}  // namespace deburr
