@@ -31,7 +31,7 @@ struct CompareOptions : Options {
 
 Film trace(const Scene& scene, const RayTracer& tracer, Size size, int spp, std::uint64_t seed,
               const std::atomic<bool>& stop) {
-    const Integrator integrator(scene, tracer, {size.width, size.height, spp, seed});
+    const Integrator integrator(scene, tracer, {size.width, size.height, spp, seed, false});
     return render(Film(size.width, size.height, {0, 0, size.width, size.height}, compared_layers()),
                   [&](const Window& block, Pixel* pixels, PixelLayers* layers, TraceCounters& counters) {
                       integrator.block(block, pixels, layers, counters);

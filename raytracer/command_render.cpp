@@ -169,7 +169,7 @@ int run_render(const RenderOptions& o) {
     clock.end();
 
     clock.begin("trace");
-    const Integrator integrator(scene, *tracer, {size.width, size.height, spp, o.seed});
+    const Integrator integrator(scene, *tracer, {size.width, size.height, spp, o.seed, std::count(o.layers.begin(), o.layers.end(), ImageLayer::cost) > 0});
     Pixel paper;  // of a wire frame
     paper.color = Vec3(1.0);
     paper.alpha = 1;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "raytracer/path.hpp"
 #include "raytracer/textures.hpp"
 
 namespace deburr {
@@ -28,14 +29,6 @@ constexpr double caustic_alpha = 0.5;
 // with the other no sharper than this many times the one's α hardly looks different.
 constexpr double blur_in_blur = 2.0;
 
-// What a path draws random numbers for, at each depth; and once, for its way through the filter.
-enum Purpose : std::uint32_t { choice, turn, layer_turn, first_light, purposes = 1024 };
-constexpr std::uint32_t lens = 0xffffffffu;
-
-double brightest(Vec3 c) { return std::max({c.x, c.y, c.z}); }
-bool finite(Vec3 v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
-Vec3 finite_or_zero(Vec3 v) { return finite(v) ? v : Vec3(0.0); }
-
 Vec3 towards_ray(Vec3 normal, Vec3 direction) {
     return glm::dot(normal, direction) > 0 ? -normal : normal;
 }
@@ -47,35 +40,6 @@ double layer_share(double layer, double base) {
 }
 
 }  // namespace
-
-struct Integrator::Path {
-    const Sampler& sampler;
-    TraceCounters& counters;
-    int depth = 0;               // rays since the camera's
-    double weight = 1.0;         // bound of its share in the pixel, kept where glass forks
-    bool without_noise = false;  // see "one sample" in the header
-    bool scattered = false;      // by a base
-    bool sees_lights = false;    // it was reflected last
-    double density = infinity;   // of that reflection, per solid angle
-    double blur = 0.0;           // least α of the highlights that it sees
-
-    std::uint32_t dimension(std::uint32_t purpose) const {
-        return std::uint32_t(depth) * purposes + purpose;
-    }
-    Path on(double share = 1.0) const {
-        Path p = *this;
-        ++p.depth;
-        p.weight *= share;
-        return p;
-    }
-    // An area light in a mirror that a base sees is left out, as point lights are of necessity.
-    Path reflected(double with_density, double share = 1.0) const {
-        Path p = on(share);
-        p.sees_lights = !scattered;
-        p.density = with_density;
-        return p;
-    }
-};
 
 Integrator::Integrator(const Scene& scene, const RayTracer& tracer, RenderSettings settings)
     : scene_(scene),
@@ -92,57 +56,6 @@ Integrator::Integrator(const Scene& scene, const RayTracer& tracer, RenderSettin
         glass_ = glass_ || m.kind == Material::Kind::glass;
     }
     for (const Light& light : scene.lights) lights_.emplace_back(light);
-}
-
-Pixel Integrator::pixel(int x, int y, PixelLayers* layers, TraceCounters& counters) const {
-    const std::uint64_t evaluations = counters.evaluations;
-    const int spp = std::max(1, settings_.spp);
-    const Ray center = camera_.ray(x + 0.5, y + 0.5);
-    Hit first;
-    if (layers || spp == 1) first = tracer_.first_hit(center, infinity, counters);
-    if (layers) {
-        *layers = {};
-        if (first) {
-            layers->position = finite_or_zero(first.position);
-            layers->normal = finite_or_zero(first.normal);
-            layers->z = first.t * glm::dot(center.direction, camera_.forward());
-            layers->id = std::uint32_t(first.solid + 1);
-        }
-    }
-
-    Pixel pixel;
-    const auto add = [&](const Ray& ray, const Hit& hit, const Sampler& sampler) {
-        if (!hit) {
-            pixel.color += finite_or_zero(sky_.towards(ray.direction));
-            return;
-        }
-        Path path{.sampler = sampler, .counters = counters};
-        path.without_noise = spp == 1;
-        const Vec3 albedo = texture_color(hit);
-        pixel.color += finite_or_zero(color_from(hit, albedo, ray.direction, path));
-        pixel.alpha += 1.0;
-        if (layers) layers->albedo += finite_or_zero(albedo);
-    };
-    if (spp == 1) {
-        add(center, first, Sampler(settings_.seed, x, y, 0));
-    } else {
-        for (int s = 0; s < spp; ++s) {
-            const Sampler sampler(settings_.seed, x, y, s);
-            const Vec2 offset = filter_offset(sampler.square(lens));
-            const Ray ray = camera_.ray(x + 0.5 + offset.x, y + 0.5 + offset.y);
-            add(ray, tracer_.first_hit(ray, infinity, counters), sampler);
-        }
-        pixel.color /= spp;
-        pixel.alpha /= spp;
-        if (layers) layers->albedo /= spp;
-    }
-    if (layers) layers->cost = double(counters.evaluations - evaluations);
-    return pixel;
-}
-
-void Integrator::block(const Window& block, Pixel* pixels, PixelLayers* layers, TraceCounters& counters) const {
-    for (int y = block.y; y < block.y + block.height; ++y)
-        for (int x = block.x; x < block.x + block.width; ++x) *pixels++ = pixel(x, y, layers ? layers++ : nullptr, counters);
 }
 
 const Material& Integrator::material(const Hit& hit) const {
@@ -170,33 +83,39 @@ Vec3 Integrator::lights_seen(const Ray& ray, double t_max, const Path& path) con
     return sum;
 }
 
-// `share` is the probability with which the layer's reflection is sampled too; 0: light is found
-// here only.
-Vec3 Integrator::lit(const Bsdf& bsdf, const Hit& hit, const Path& path, double share) const {
+// What the surface scatters to the eye of light that nothing hides; of `samples` that are drawn from its source.
+Vec3 Integrator::scattered(const Surface& surface, const Incident& light, int samples) const {
+    if (!(brightest(light.irradiance) > 0)) return Vec3(0.0);
+    const Bsdf& bsdf = surface.bsdf;
+    const Bsdf::Value value = bsdf.value(light.direction);
+    Vec3 sum = value.base;
+    if (surface.layer_share > 0 && light.density < infinity)
+        sum += value.layer / (1 + surface.layer_share * bsdf.layer_density(light.direction) / (samples * light.density));
+    else
+        sum += value.layer;
+    return sum * light.irradiance;
+}
+
+Vec3 Integrator::lit(const Surface& surface, const Path& path) const {
     Vec3 sum(0.0);
     std::uint32_t dimension = path.dimension(first_light);
     for (const LightSource& source : lights_) {
         const int samples = path.scattered ? 1 : source.samples();
         Vec3 here(0.0);
         for (int k = 0; k < samples; ++k) {
-            const Vec2 u =
-                source.extended() ? path.sampler.square(dimension, k, samples) : Vec2(0.5);
-            const Incident light = source.at(hit.position, u);
-            if (!(brightest(light.irradiance) > 0)) continue;
-            const Bsdf::Value value = bsdf.value(light.direction);
-            Vec3 scattered = value.base;
-            if (share > 0 && light.density < infinity)
-                scattered += value.layer / (1 + share * bsdf.layer_density(light.direction) /
-                                                    (samples * light.density));
-            else
-                scattered += value.layer;
-            if (!(brightest(scattered) > 0)) continue;
-            here += scattered * light.irradiance * transmittance(hit, light, path);
+            const Incident light = incident(source, surface.hit, path, dimension, k, samples);
+            const Vec3 light_here = scattered(surface, light, samples);
+            if (brightest(light_here) > 0) here += light_here * transmittance(surface.hit, light, path);
         }
         sum += here / double(samples);
         ++dimension;
     }
     return sum;
+}
+
+Incident Integrator::incident(const LightSource& source, const Hit& hit, const Path& path, std::uint32_t dimension, int k,
+                              int samples) const {
+    return source.at(hit.position, source.extended() ? path.sampler.square(dimension, k, samples) : Vec2(0.5));
 }
 
 Vec3 Integrator::transmittance(const Hit& hit, const Incident& light, const Path& path) const {
@@ -217,37 +136,48 @@ Vec3 Integrator::transmittance(const Hit& hit, const Incident& light, const Path
     return Vec3(0.0);
 }
 
-Vec3 Integrator::color_from(const Hit& hit, Vec3 color_here, Vec3 direction, const Path& path) const {
-    if (material(hit).kind == Material::Kind::glass) return color_of_glass(hit, color_here, direction, path);
+Integrator::Surface Integrator::surface(const Hit& hit, Vec3 color_here, Vec3 direction, const Path& path) const {
     const SurfaceLayer& layer = layers_[std::size_t(hit.material)];
-    const Bsdf bsdf(layer, color_here, towards_ray(hit.normal, direction), -direction, path.blur);
-    const Vec3 ambient = bsdf.base_albedo() * scene_.ambient;
-    if (path.without_noise || path.scattered || path.depth >= scene_.bounces)
-        return ambient + lit(bsdf, hit, path, 0.0) +
-               reflected_without_noise(bsdf, hit, path);
-
-    const double base = sky_.black() ? 0.0 : brightest(bsdf.base_albedo());
+    Surface s{hit, Bsdf(layer, color_here, towards_ray(hit.normal, direction), -direction, path.blur)};
+    s.last = path.without_noise || path.scattered || path.depth >= scene_.bounces;
+    if (s.last) return s;
+    s.base = sky_.black() ? 0.0 : brightest(s.bsdf.base_albedo());
     // Plastic that the camera sees takes both ways: the layer's colour is not the base's, and a
     // choice between them would be noise in all channels where the base is dark.
-    const bool both = path.depth == 0 && layer.kind() == Material::Kind::plastic;
-    const double share = both ? 1.0 : layer_share(brightest(bsdf.layer_albedo()), base);
-    const double base_share = both ? 1.0 : 1 - share;
-    const double chosen = both ? 0.0 : path.sampler.line(path.dimension(choice));
-    Vec3 color = ambient + lit(bsdf, hit, path, share);
+    s.both = path.depth == 0 && layer.kind() == Material::Kind::plastic;
+    s.layer_share = s.both ? 1.0 : layer_share(brightest(s.bsdf.layer_albedo()), s.base);
+    return s;
+}
+
+Vec3 Integrator::color_from(const Hit& hit, Vec3 color_here, Vec3 direction, const Path& path) const {
+    if (material(hit).kind == Material::Kind::glass) return color_of_glass(hit, color_here, direction, path);
+    const Surface s = surface(hit, color_here, direction, path);
+    return color_of(s, lit(s, path), path);
+}
+
+Vec3 Integrator::color_of(const Surface& s, Vec3 lit, const Path& path) const {
+    const Bsdf& bsdf = s.bsdf;
+    const Vec3 ambient = bsdf.base_albedo() * scene_.ambient;
+    if (s.last) return ambient + lit + reflected_without_noise(bsdf, s.hit, path);
+
+    const double share = s.layer_share, base_share = s.both ? 1.0 : 1 - share;
+    const double chosen = s.both ? 0.0 : path.sampler.line(path.dimension(choice));
+    Vec3 color = ambient + lit;
     Vec3 way, weight;
     if (chosen < share &&
         bsdf.sample_layer(path.sampler.square(path.dimension(layer_turn)), way, weight)) {
+        const SurfaceLayer& layer = bsdf.layer();
         Path next = path.reflected(share * bsdf.layer_density(way));
         if (!layer.smooth()) next.blur = std::min(caustic_alpha, std::max(path.blur, blur_in_blur * layer.ggx().alpha));
-        color += weight / share * color_along(leave(hit, way), next);
+        color += weight / share * color_along(leave(s.hit, way), next);
     }
-    if (base > 0 && (both || chosen >= share)) {
+    if (s.base > 0 && (s.both || chosen >= share)) {
         weight = bsdf.sample_base(path.sampler.square(path.dimension(turn)), way);
         Path next = path.on();
         next.scattered = true;
         next.blur = caustic_alpha;
         next.sees_lights = false;
-        color += weight / base_share * color_along(leave(hit, way), next);
+        color += weight / base_share * color_along(leave(s.hit, way), next);
     }
     return color;
 }

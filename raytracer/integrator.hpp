@@ -43,6 +43,7 @@ struct RenderSettings {
     int width = 0, height = 0;  // of the whole picture
     int spp = 1;                // 1: one ray through the pixel's centre
     std::uint64_t seed = 0;
+    bool cost = true;           // PixelLayers::cost is asked for: then no two pixels' rays are traced together
 };
 
 /// Ray through a point of the picture, in pixels: (x + ½, y + ½) is the centre of pixel (x, y).
@@ -64,19 +65,26 @@ class Integrator {
 public:
     /// Keeps references to both.
     Integrator(const Scene& scene, const RayTracer& tracer, RenderSettings settings);
-    /// Sets `layers` unless it is null. Neither ever holds a NaN.
-    Pixel pixel(int x, int y, PixelLayers* layers, TraceCounters& counters) const;
-    /// The same for all of a block, row by row.
+    /// Of a block, row by row; sets `layers` unless it is null. Neither ever holds a NaN.
     void block(const Window& block, Pixel* pixels, PixelLayers* layers, TraceCounters& counters) const;
+    /// The same of one pixel.
+    Pixel pixel(int x, int y, PixelLayers* layers, TraceCounters& counters) const;
 
 private:
     struct Path;
+    struct Surface;
+    class CameraRays;
     Vec3 color_along(const Ray& ray, const Path& path) const;
     Vec3 lights_seen(const Ray& ray, double t_max, const Path& path) const;
     // `color_here`, `tint`: the material's at the hit.
     Vec3 color_from(const Hit& hit, Vec3 color_here, Vec3 direction, const Path& path) const;
     Vec3 color_of_glass(const Hit& hit, Vec3 tint, Vec3 direction, const Path& path) const;
-    Vec3 lit(const Bsdf& bsdf, const Hit& hit, const Path& path, double layer_share) const;
+    Surface surface(const Hit& hit, Vec3 color_here, Vec3 direction, const Path& path) const;
+    Vec3 color_of(const Surface& surface, Vec3 lit, const Path& path) const;
+    Vec3 lit(const Surface& surface, const Path& path) const;
+    void light(const std::vector<Surface>& surfaces, const std::vector<Path>& paths, Vec3* lit) const;
+    Incident incident(const LightSource& source, const Hit& hit, const Path& path, std::uint32_t dimension, int k, int samples) const;
+    Vec3 scattered(const Surface& surface, const Incident& light, int samples) const;
     Vec3 reflected_without_noise(const Bsdf& bsdf, const Hit& hit, const Path& path) const;
     Vec3 transmittance(const Hit& hit, const Incident& light, const Path& path) const;
     const Material& material(const Hit& hit) const;
