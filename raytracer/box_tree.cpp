@@ -13,13 +13,15 @@ constexpr double slack = 0x1p-19;
 
 }  // namespace
 
+BoxFrame::BoxFrame(const Box& around) : middle(0.5 * (around.lo + around.hi)) {
+    const double side = largest(around.hi - around.lo);
+    if (side > 0) per_unit = 2 / side;
+}
+
 BoxTree::BoxTree(const Builder& from, int root) {
     if (root == Builder::nothing) return;
     box_ = from.parts_[std::size_t(root)].box;
-    middle_ = 0.5 * (box_.lo + box_.hi);
-    const Vec3 sides = box_.hi - box_.lo;
-    const double largest = std::max({sides.x, sides.y, sides.z});
-    per_unit_ = largest > 0 ? 2 / largest : 1;
+    frame_ = BoxFrame(box_);
     if (collapse(from, root, 0) < 0) {  // one item alone
         nodes_.push_back(node_of(from, {root}));
         nodes_[0].child[0] = ~from.parts_[std::size_t(root)].a;
@@ -61,8 +63,8 @@ BoxTree::Node BoxTree::node_of(const Builder& from, const std::vector<int>& chil
             n.side[k][i + 4] = -std::numeric_limits<float>::max();
             if (i >= children.size()) continue;
             const Box& box = from.parts_[std::size_t(children[i])].box;
-            n.side[k][i] = float((box.lo[k] - middle_[k]) * per_unit_ - slack);
-            n.side[k][i + 4] = float((box.hi[k] - middle_[k]) * per_unit_ + slack);
+            n.side[k][i] = float(frame_.place(box.lo)[k] - slack);
+            n.side[k][i + 4] = float(frame_.place(box.hi)[k] + slack);
         }
     }
     return n;

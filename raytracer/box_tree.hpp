@@ -14,6 +14,20 @@
 
 namespace deburr {
 
+/// Where boxes and rays are measured from, and in what unit, so that single precision serves: in `around`
+/// coordinates are −1 … 1.
+struct BoxFrame {
+    BoxFrame() = default;
+    explicit BoxFrame(const Box& around);
+
+    Vec3 place(const Vec3& x) const { return (x - middle) * per_unit; }
+    /// At least the distance, and 0.
+    float distance(double d) const { return std::max(0.0f, float(d * per_unit) * (1 + 0x1p-22f)); }
+
+    Vec3 middle{0.0};
+    double per_unit = 1;
+};
+
 class BoxTree {
 public:
     /// A binary tree to start from; every subtree of it that holds anything has a finite box.
@@ -76,14 +90,12 @@ private:
     };
     template <class Meet, class Visit>
     void walk(float end, Meet meet, Visit visit) const;
-    float single(double distance) const;
     std::int32_t collapse(const Builder& from, int root, int depth);
     Node node_of(const Builder& from, const std::vector<int>& children) const;
 
     std::vector<Node, LargePages<Node>> nodes_;  // the root first
     Box box_;
-    Vec3 middle_{0.0};
-    double per_unit_ = 1;
+    BoxFrame frame_;
 };
 
 /// Where a ray is within a box: [lo, hi], none if lo > hi. Boundaries count.
@@ -153,11 +165,8 @@ void BoxTree::walk(float end, Meet meet, Visit visit) const {
     }
 }
 
-// Distances in single precision, rounded up.
-inline float BoxTree::single(double distance) const { return float(distance * per_unit_) * (1 + 0x1p-22f); }
-
 inline BoxTree::Line BoxTree::line(const Vec3& point, const Vec3& reciprocal) const {
-    const Vec3 start = (point - middle_) * per_unit_;
+    const Vec3 start = frame_.place(point);
     Line line;
     for (int k = 0; k < 3; ++k) {
         constexpr double most = 1e30;  // beyond it a direction does not leave its place
@@ -174,7 +183,7 @@ void BoxTree::visit(const Vec3& origin, const Vec3& direction, const Vec3& recip
     for (int k = 0; k < 3; ++k) near[k] = ray.inverse[k] < 0 ? 4 : 0;
     const Float4 ox(ray.start[0]), oy(ray.start[1]), oz(ray.start[2]), ix(ray.inverse[0]), iy(ray.inverse[1]), iz(ray.inverse[2]);
     walk(
-        single(t1 - t0),
+        frame_.distance(t1 - t0),
         [&](const Node& n, float end, float* t) __attribute__((always_inline)) {
             const auto at = [](const float* side, Float4 o, Float4 i) { return (Float4::load(side) - o) * i; };
             const Float4 lo = max(max(at(n.side[0] + near[0], ox, ix), at(n.side[1] + near[1], oy, iy)),
@@ -186,7 +195,7 @@ void BoxTree::visit(const Vec3& origin, const Vec3& direction, const Vec3& recip
         },
         [&](std::uint32_t item, float end) {
             const double until = visit(item);
-            return until < 0 ? -1.0f : until < infinity ? std::min(end, single(until - t0)) : end;
+            return until < 0 ? -1.0f : until < infinity ? std::min(end, frame_.distance(until - t0)) : end;
         });
 }
 
@@ -208,7 +217,7 @@ void BoxTree::visit_together(const Line& least, const Line& most, double longest
             axes[known++] = {k, 4, Float4(least.start[k]), Float4(most.start[k]), Float4(least.inverse[k]), Float4(most.inverse[k])};
     }
     walk(
-        single(longest),
+        frame_.distance(longest),
         [&](const Node& n, float end, float* t) __attribute__((always_inline)) {
             Float4 lo(0.0f), hi(end);
             for (int i = 0; i < known; ++i) {
@@ -224,14 +233,14 @@ void BoxTree::visit_together(const Line& least, const Line& most, double longest
         },
         [&](std::uint32_t item, float end) {
             const double until = visit(item);
-            return until < 0 ? -1.0f : until < infinity ? std::min(end, single(until)) : end;
+            return until < 0 ? -1.0f : until < infinity ? std::min(end, frame_.distance(until)) : end;
         });
 }
 
 template <class Visit>
 void BoxTree::meeting(const Box& box, Visit visit) const {
     if (empty()) return;
-    const Vec3 lo = (box.lo - middle_) * per_unit_, hi = (box.hi - middle_) * per_unit_;
+    const Vec3 lo = frame_.place(box.lo), hi = frame_.place(box.hi);
     std::vector<std::int32_t> open{0};
     while (!open.empty()) {
         const Node& n = nodes_[std::size_t(open.back())];

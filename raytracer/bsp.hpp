@@ -25,7 +25,7 @@ class ImplicitTracer final : public RayTracer {
 public:
     /// The criterion matters where roots are searched for.
     explicit ImplicitTracer(const std::vector<Solid>& solids, Criterion criterion = Criterion::exact,
-                            Search search = Search::where_needed);
+                            Search search = Search::where_needed, Accel accel = Accel::bsp);
     ~ImplicitTracer() override;
     Hit first_hit(const Ray& ray, double t_max, TraceCounters& counters) const override;
     bool occluded(const Ray& ray, double t_max, TraceCounters& counters) const override;

@@ -48,17 +48,19 @@ template <bool Any>
     search.look_at_planes();
     if (search.enough()) return true;
     const Ray& ray = search.ray();
-    const BoxSpan span = span_in(boxes_.box(), ray.origin, search.inverse(), 0, search.end());
-    const bool meets = !boxes_.empty() && span.lo <= span.hi;
+    const BoxSpan span = span_in(around_, ray.origin, search.inverse(), 0, search.end());
+    const bool meets = !around_.empty() && span.lo <= span.hi;
     if (!bounded_) {
         walk(search, 0, meets ? span.lo : search.end());
         if (search.enough() || (search.found() && search.end() < span.lo)) return true;
     }
     if (!meets) return search.found();
-    boxes_.visit(ray.origin, ray.direction, search.inverse(), span.lo, span.hi, [&](std::uint32_t i) {
+    const auto look = [&](std::uint32_t i) {
         search.look_at(i);
         return search.enough() ? -1.0 : search.end();
-    });
+    };
+    if (!embree_) boxes_.visit(ray.origin, ray.direction, search.inverse(), span.lo, span.hi, look);
+    else embree_->visit(ray.origin, ray.direction, span.lo, span.hi, Any ? EmbreeBoxes::Order::any : EmbreeBoxes::Order::nearest_first, look);
     if (!bounded_ && !search.enough() && search.end() > span.hi) walk(search, span.hi, search.end());
     return search.found();
 }
@@ -92,9 +94,11 @@ constexpr std::size_t fewest_together = 4;
 
 }  // namespace
 
+bool BspTracer::leads_together(std::size_t rays) const { return rays >= fewest_together && bounded_ && !embree_; }
+
 void BspTracer::find(std::span<const Ray> rays, std::span<const double> t_max, FoundSurface* found, TraceCounters& counters,
                      const Others* others) const {
-    if (rays.size() < fewest_together || !bounded_) {
+    if (!leads_together(rays.size())) {
         for (std::size_t k = 0; k < rays.size(); ++k) found[k] = find(rays[k], t_max[k], counters, others);
         return;
     }
@@ -105,7 +109,7 @@ void BspTracer::find(std::span<const Ray> rays, std::span<const double> t_max, F
 
 Lanes BspTracer::any(std::span<const Ray> rays, std::span<const double> t_max, TraceCounters& counters, const Others* others) const {
     Lanes found = 0;
-    if (rays.size() < fewest_together || !bounded_) {
+    if (!leads_together(rays.size())) {
         for (std::size_t k = 0; k < rays.size(); ++k) found |= Lanes(any(rays[k], t_max[k], counters, others)) << k;
         return found;
     }
@@ -117,6 +121,9 @@ Lanes BspTracer::any(std::span<const Ray> rays, std::span<const double> t_max, T
 // ---- construction --------------------------------------------------------------------------------
 
 namespace {
+
+// So many boxes are a single node of a BoxTree, and not worth a scene of Embree's.
+constexpr std::size_t few = 4;
 
 // The cells, by the places of what is in them.
 std::vector<Box> cells_of_locals(const BspTree& tree) {
@@ -169,9 +176,10 @@ std::vector<NamedBsp> alone(BspTree&& tree) {
 
 }  // namespace
 
-BspTracer::BspTracer(BspTree&& tree, Criterion criterion) : BspTracer(alone(std::move(tree)), {}, criterion) {}
+BspTracer::BspTracer(BspTree&& tree, Criterion criterion, Accel accel)
+    : BspTracer(alone(std::move(tree)), {}, criterion, accel) {}
 
-BspTracer::BspTracer(std::vector<NamedBsp> bsps, const std::vector<Box>& others, Criterion criterion) {
+BspTracer::BspTracer(std::vector<NamedBsp> bsps, const std::vector<Box>& others, Criterion criterion, Accel accel) {
     Tolerances tolerances = bsps[0].tree.tolerances;
     for (const NamedBsp& bsp : bsps) tolerances.scale = std::max(tolerances.scale, bsp.tree.tolerances.scale);
     surfaces_.scale = tolerances.scale;
@@ -199,11 +207,14 @@ BspTracer::BspTracer(std::vector<NamedBsp> bsps, const std::vector<Box>& others,
     }
     BoxTree::Builder builder;
     std::vector<int> parts;
+    std::vector<NumberedBox> items;
     std::uint32_t first = 0;
     for (NamedBsp& bsp : bsps) {
         parts.push_back(join_like(bsp.tree, builder, [&](std::uint32_t i) {
             const Box box = intersection(boxes[first + i], world);
-            return box.empty() ? BoxTree::Builder::nothing : builder.item(first + i, box);
+            if (box.empty()) return BoxTree::Builder::nothing;
+            items.push_back({first + i, box});
+            return builder.item(first + i, box);
         }));
         first += std::uint32_t(bsp.tree.locals.size());
         bsp.tree.locals.clear();
@@ -212,8 +223,13 @@ BspTracer::BspTracer(std::vector<NamedBsp> bsps, const std::vector<Box>& others,
         if (!walked) bsp.tree.nodes = {};
         trees_.push_back(std::move(bsp.tree));
     }
-    for (const Box& box : others) parts.push_back(builder.item(first++, box));
-    boxes_ = BoxTree(builder, builder.join_by_area(std::move(parts)));
+    for (const Box& box : others) {
+        items.push_back({first, box});
+        parts.push_back(builder.item(first++, box));
+    }
+    for (const NumberedBox& item : items) around_ = hull(around_, item.box);
+    if (accel == Accel::embree && items.size() > few) embree_.emplace(items);
+    else boxes_ = BoxTree(builder, builder.join_by_area(std::move(parts)));
 }
 
 }  // namespace deburr

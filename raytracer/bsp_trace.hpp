@@ -1,13 +1,16 @@
 // Rays through BSPs of one space.
 //
 // The BSPs' cells say what there is; which of them a ray meets is found by one tree of boxes
-// (box_tree.hpp) around what is in them, so that empty cells cost nothing. Only outside of that tree,
-// where an unbounded solid goes on, is a BSP itself traversed.
+// (box_tree.hpp; or Embree's, embree_boxes.hpp) around what is in them, so that empty cells cost nothing. Only
+// outside of that tree, where an unbounded solid goes on, is a BSP itself traversed.
 #pragma once
+#include <optional>
 #include <span>
 
 #include "raytracer/box_tree.hpp"
 #include "raytracer/bsp_tree.hpp"
+#include "raytracer/embree_boxes.hpp"
+#include "raytracer/search.hpp"
 #include "raytracer/surface_search.hpp"
 
 namespace deburr {
@@ -22,9 +25,9 @@ class BspTracer {
 public:
     BspTracer() = default;
     /// Of one BSP, with its numbers.
-    BspTracer(BspTree&& tree, Criterion criterion);
+    BspTracer(BspTree&& tree, Criterion criterion, Accel accel = Accel::bsp);
     /// Of several, of which but the first must be bounded, and of others' boxes.
-    BspTracer(std::vector<NamedBsp> bsps, const std::vector<Box>& others, Criterion criterion);
+    BspTracer(std::vector<NamedBsp> bsps, const std::vector<Box>& others, Criterion criterion, Accel accel = Accel::bsp);
 
     /// First crossing along the ray in [0, t_max]; none is needed beyond `end`. `others` are asked by the
     /// number of their box.
@@ -45,11 +48,15 @@ private:
     bool search(SurfaceSearch<Any>& search) const;
     template <bool Any>
     void walk(SurfaceSearch<Any>& search, double t0, double t1) const;
+    bool leads_together(std::size_t rays) const;
 
     std::vector<BspTree> trees_;
     Surfaces surfaces_;
-    BoxTree boxes_;        // of pieces and then of others; unbounded pieces as far as all else reaches
-    bool bounded_ = true;  // nothing is outside of `boxes_`
+    // Of pieces and then of others; unbounded pieces as far as all else reaches. One of the two is there.
+    BoxTree boxes_;
+    std::optional<EmbreeBoxes> embree_;
+    Box around_;           // all of these
+    bool bounded_ = true;  // nothing is outside
 };
 
 }  // namespace deburr

@@ -34,6 +34,7 @@ struct RenderOptions : Options {
     std::string via = "implicit", tolerance;
     std::string wire;  // "": no wire frame
     bool flat = false, edges = false;
+    std::optional<Accel> accel;
 };
 
 // Boxes to look at for each sum and difference before rendering; `info` looks longer.
@@ -73,6 +74,7 @@ void check_options(const RenderOptions& o) {
         if (o.via != "triage" && o.via != "octree") throw UsageError("--tolerance: expected --via triage or octree, got '" + o.via + "'");
         parse_tolerance(o.tolerance);
     }
+    if (o.accel && o.via != "implicit") throw UsageError("--accel: expected --via implicit, got '" + o.via + "'");
     for (const auto& [name, given] : {std::pair{"--flat", o.flat}, {"--edges", o.edges}, {"--wire", !o.wire.empty()}})
         if (given && o.via == "implicit") throw UsageError(fmt::format("{}: expected --via {}, got 'implicit'", name, mesh_method_names()));
     if (!o.wire.empty() && o.wire != "visible" && o.wire != "front")
@@ -153,10 +155,11 @@ int run_render(const RenderOptions& o) {
     clock.begin("build");
     std::unique_ptr<RayTracer> tracer;
     std::optional<BspStatistics> bsp;
+    const Accel accel = o.accel.value_or(Accel::bsp);
     Mesh lines;  // whose edges are drawn
     if (o.via == "implicit") {
         auto implicit = std::make_unique<ImplicitTracer>(scene.solids, o.criterion,
-                                                           o.criterion == Criterion::lobb ? Search::always : Search::where_needed);
+                                                           o.criterion == Criterion::lobb ? Search::always : Search::where_needed, accel);
         bsp = implicit->statistics();
         tracer = std::move(implicit);
         say(fmt::format("{} cells of {} half-spaces", bsp->cells, bsp->half_spaces));
@@ -207,6 +210,7 @@ int run_render(const RenderOptions& o) {
                         {"seed", fmt::format("{}", o.seed)},
                         {"via", o.via},
                         {"criterion", o.criterion == Criterion::lobb ? "lobb" : "exact"}};
+    if (bsp) notes.attributes.push_back({"accel", name(accel)});
     for (const auto& [name, value] : scene.parameters)
         notes.attributes.push_back({"parameter." + name, value});
     write_images(o, film, notes, threads, progress);
@@ -219,6 +223,7 @@ int run_render(const RenderOptions& o) {
     if (o.stats || !o.stats_json.empty()) {
         const RunStatistics run{scene.file,
                                 o.via,
+                                bsp ? name(accel) : "",
                                 size.width,
                                 size.height,
                                 window,
@@ -251,6 +256,10 @@ Command add_render_command(CLI::App& program) {
     add_picture_options(*command, *options);
     command->add_option("--via", options->via, "the road from the scene to the picture: implicit (exact), or a mesh by " + mesh_method_names())
         ->type_name("NAME");
+    command->add_option_function<std::string>(
+        "--accel", [options](const std::string& text) { options->accel = parse_accel("--accel", text); },
+        "what leads exact rays to surfaces, with the same picture: BSPs with a tree of boxes, or a BVH of Embree's; default: bsp")
+        ->type_name("bsp|embree");
     command->add_option("--tolerance", options->tolerance, "of the mesh, as for mesh; default: 0.03 of each solid's least radius")
         ->type_name("D");
     command->add_flag("--flat", options->flat, "of a mesh: each facet with one normal");

@@ -69,8 +69,8 @@ struct ImplicitTracer::Spaces {
     std::vector<Space> all;
 };
 
-ImplicitTracer::ImplicitTracer(const std::vector<Solid>& solids, Criterion criterion, Search search)
-    : spaces_(new Spaces{build_spaces(solids, criterion, search)}) {}
+ImplicitTracer::ImplicitTracer(const std::vector<Solid>& solids, Criterion criterion, Search search, Accel accel)
+    : spaces_(new Spaces{build_spaces(solids, criterion, search, accel)}) {}
 
 ImplicitTracer::~ImplicitTracer() = default;
 

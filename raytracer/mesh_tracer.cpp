@@ -1,14 +1,8 @@
 #include "raytracer/mesh_tracer.hpp"
 
-#if __has_include(<embree4/rtcore.h>)
-#include <embree4/rtcore.h>
-#else
-#include <embree3/rtcore.h>
-#endif
-
 #include <algorithm>
 
-#include "raytracer/errors.hpp"
+#include "raytracer/embree.hpp"
 #include "raytracer/split_far.hpp"
 
 namespace deburr {
@@ -50,33 +44,16 @@ void meet(const Ray& ray, Vec3 x, Vec3 e1, Vec3 e2, double& u, double& v) {
 }  // namespace
 
 struct MeshTracer::Embree {
-    RTCDevice device = nullptr;
-    RTCScene scene = nullptr;
+    EmbreeScene scene;
 
     explicit Embree(const Mesh& mesh) {
-        device = rtcNewDevice(nullptr);
-        if (!device) throw WorkError("Embree does not start on this machine");
-        scene = rtcNewScene(device);
-        rtcSetSceneFlags(scene, RTC_SCENE_FLAG_ROBUST);
-        rtcSetSceneBuildQuality(scene, RTC_BUILD_QUALITY_HIGH);
         if (!mesh.triangles.empty()) add(mesh);
-        rtcCommitScene(scene);
-        if (rtcGetDeviceError(device) != RTC_ERROR_NONE) {
-            rtcReleaseScene(scene);
-            rtcReleaseDevice(device);
-            throw WorkError("Embree cannot hold the mesh: out of memory");
-        }
-    }
-    Embree(const Embree&) = delete;
-    Embree& operator=(const Embree&) = delete;
-    ~Embree() {
-        rtcReleaseScene(scene);
-        rtcReleaseDevice(device);
+        scene.commit("the mesh");
     }
 
 private:
     void add(const Mesh& mesh) {
-        RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
+        RTCGeometry geometry = scene.new_geometry(RTC_GEOMETRY_TYPE_TRIANGLE);
         auto* vertices = static_cast<float*>(rtcSetNewGeometryBuffer(
             geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, 3 * sizeof(float), mesh.positions.size()));
         auto* indices = static_cast<unsigned*>(
@@ -88,9 +65,7 @@ private:
             for (const Triangle& t : mesh.triangles)
                 for (const int v : t.vertex) *indices++ = unsigned(v);
         }
-        rtcCommitGeometry(geometry);
-        rtcAttachGeometry(scene, geometry);
-        rtcReleaseGeometry(geometry);
+        scene.add(geometry);
     }
 };
 
@@ -103,13 +78,8 @@ Hit MeshTracer::first_hit(const Ray& ray, double t_max, TraceCounters& counters)
     RTCRayHit query{};
     query.ray = ray_of(ray, t_max);
     query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
-#if RTC_VERSION_MAJOR >= 4
-    rtcIntersect1(embree_->scene, &query);
-#else
-    RTCIntersectContext context;
-    rtcInitIntersectContext(&context);
-    rtcIntersect1(embree_->scene, &context, &query);
-#endif
+    EmbreeContext context;
+    embree_->scene.intersect(query, context);
     Hit hit;
     if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID) return hit;
     const Triangle& t = mesh_.triangles[query.hit.primID];
@@ -137,13 +107,8 @@ Hit MeshTracer::first_hit(const Ray& ray, double t_max, TraceCounters& counters)
 bool MeshTracer::occluded(const Ray& ray, double t_max, TraceCounters& counters) const {
     ++counters.shadow_rays;
     RTCRay query = ray_of(ray, t_max);
-#if RTC_VERSION_MAJOR >= 4
-    rtcOccluded1(embree_->scene, &query);
-#else
-    RTCIntersectContext context;
-    rtcInitIntersectContext(&context);
-    rtcOccluded1(embree_->scene, &context, &query);
-#endif
+    EmbreeContext context;
+    embree_->scene.occluded(query, context);
     return query.tfar < 0;
 }
 

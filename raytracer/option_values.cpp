@@ -126,6 +126,12 @@ Criterion parse_criterion(std::string_view option, std::string_view text) {
     expected(option, "exact or lobb", text);
 }
 
+Accel parse_accel(std::string_view option, std::string_view text) {
+    if (text == "bsp") return Accel::bsp;
+    if (text == "embree") return Accel::embree;
+    expected(option, "bsp or embree", text);
+}
+
 void parse_define(std::string_view option, std::string_view text,
                   std::map<std::string, std::string>& defines) {
     const auto letter = [](char c) {

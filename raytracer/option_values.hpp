@@ -10,6 +10,7 @@
 #include "bounds/root_finder.hpp"
 #include "raytracer/film.hpp"
 #include "raytracer/image_format.hpp"
+#include "raytracer/search.hpp"
 
 namespace deburr {
 
@@ -37,6 +38,7 @@ void check_crop(std::string_view option, const Window& crop, Size picture);
 /// Names with commas between them.
 std::vector<ImageLayer> parse_layers(std::string_view option, std::string_view text);
 Criterion parse_criterion(std::string_view option, std::string_view text);
+Accel parse_accel(std::string_view option, std::string_view text);
 /// name=value, added to `defines`.
 void parse_define(std::string_view option, std::string_view text,
                   std::map<std::string, std::string>& defines);

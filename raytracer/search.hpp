@@ -1,7 +1,15 @@
-// How the implicit road finds roots.
+// How the implicit road finds what a ray may cross, and roots.
 #pragma once
 
 namespace deburr {
+
+/// What leads a ray to the surfaces of a space; what it finds is the same.
+enum class Accel {
+    bsp,    // a tree of boxes around what is in the cells of BSPs
+    embree  // the same boxes under a BVH of Embree's
+};
+
+inline const char* name(Accel accel) { return accel == Accel::embree ? "embree" : "bsp"; }
 
 /// Which densities' roots are searched for by the bounds M, L and G.
 enum class Search {

@@ -237,7 +237,7 @@ private:
 
 }  // namespace
 
-std::vector<Space> build_spaces(const std::vector<Solid>& solids, Criterion criterion, Search search) {
+std::vector<Space> build_spaces(const std::vector<Solid>& solids, Criterion criterion, Search search, Accel accel) {
     Plan plan(solids);
     std::vector<Space> spaces(plan.spaces.size());
     in_parallel(spaces.size(), [&](std::size_t i) {
@@ -249,7 +249,7 @@ std::vector<Space> build_spaces(const std::vector<Solid>& solids, Criterion crit
         build(0, 0);
         const double scale = std::max(bsps[0].tree.tolerances.scale, planned.reach);
         in_parallel(bsps.size() - 1, [&](std::size_t k) { build(k + 1, least_share_of_scale * scale); });
-        spaces[i] = {BspTracer(std::move(bsps), planned.boxes, criterion), std::move(planned.placements)};
+        spaces[i] = {BspTracer(std::move(bsps), planned.boxes, criterion, accel), std::move(planned.placements)};
     });
     return spaces;
 }

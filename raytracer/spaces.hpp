@@ -31,6 +31,6 @@ struct Space {
 };
 
 /// Materials that are still to be named are −1. The result does not depend on the number of threads.
-std::vector<Space> build_spaces(const std::vector<Solid>& solids, Criterion criterion, Search search);
+std::vector<Space> build_spaces(const std::vector<Solid>& solids, Criterion criterion, Search search, Accel accel = Accel::bsp);
 
 }  // namespace deburr

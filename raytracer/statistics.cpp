@@ -66,6 +66,7 @@ std::string statistics_table(const RunStatistics& run) {
     if (c.rays > 0)
         text += row("  per ray",
                     fmt::format("{:.2f}", double(c.evaluations) / double(c.rays + c.shadow_rays)));
+    if (!run.accel.empty()) text += row("accel", run.accel);
     if (run.bsp) {
         text += row("spaces", run.bsp->spaces) + row("  placements", run.bsp->placements) +
                 row("BSP cells", run.bsp->cells) + row("  empty", run.bsp->empty_cells) +
@@ -82,6 +83,7 @@ std::string statistics_json(const RunStatistics& run) {
     j["version"] = DEBURR_VERSION;
     j["scene"] = run.scene;
     j["via"] = run.road;
+    if (!run.accel.empty()) j["accel"] = run.accel;
     j["complete"] = run.complete;
     j["width"] = run.width;
     j["height"] = run.height;

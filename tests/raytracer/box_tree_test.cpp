@@ -4,61 +4,104 @@
 
 #include "catch.hpp"
 #include "random_case.hpp"
+#include "raytracer/embree_boxes.hpp"
 
 using namespace deburr;
 
-TEST_CASE("every box that a ray touches is visited, wherever the boxes are and however large") {
-    long touched = 0, visited = 0;
-    for (auto seed : seeds(300)) {
+namespace {
+
+// Numbers of the boxes that are visited where the ray goes on to `until`.
+std::set<std::uint32_t> visited_by(const BoxTree& tree, Vec3 o, Vec3 d, BoxSpan whole, double until) {
+    std::set<std::uint32_t> seen;
+    tree.visit(o, d, reciprocal(d), whole.lo, whole.hi, [&](std::uint32_t i) {
+        REQUIRE(seen.insert(i).second);
+        return until;
+    });
+    return seen;
+}
+
+std::set<std::uint32_t> visited_by(const EmbreeBoxes& boxes, Vec3 o, Vec3 d, BoxSpan whole, double until, EmbreeBoxes::Order order) {
+    std::set<std::uint32_t> seen;
+    boxes.visit(o, d, whole.lo, whole.hi, order, [&](std::uint32_t i) {
+        REQUIRE(seen.insert(i).second);
+        return until;
+    });
+    return seen;
+}
+
+// Along an axis, nearly so, or anywhere.
+Vec3 awkward_direction(Gen& g) {
+    Vec3 d = g.direction();
+    if (g.chance(0.5)) return d;
+    const double off = g.chance(0.5) ? 0 : std::pow(10.0, g.between(-40, -5));
+    const int axis = g.below(3);
+    for (int k = 0; k < 3; ++k) d[k] *= k == axis ? 1 : off;
+    return glm::normalize(d);
+}
+
+}  // namespace
+
+TEST_CASE("every box that a ray touches is visited, by either hierarchy, wherever the boxes are and however large") {
+    long touched = 0, visited = 0, visited_by_embree = 0;
+    for (auto seed : seeds(400)) {
         CAPTURE(seed);
         Gen g(seed);
         const double size = std::pow(10.0, g.between(-30, 30));
         const Vec3 away = g.chance(0.5) ? Vec3(0) : g.point(1e6) * size;
-        std::vector<Box> boxes;
+        std::vector<NumberedBox> boxes;
         BoxTree::Builder builder;
         int root = BoxTree::Builder::nothing;
         const int count = 1 + g.below(60);
+        const bool grid = g.chance(0.3);  // faces coincide
         for (int i = 0; i < count; ++i) {
             Vec3 half(g.number(), g.number(), g.number());
             half *= 0.2;
             if (g.chance(0.3)) half[g.below(3)] = 0;  // flat
-            const Vec3 middle = g.point(1);
-            boxes.push_back({away + (middle - half) * size, away + (middle + half) * size});
-            root = builder.join(root, builder.item(std::uint32_t(i), boxes.back()));
+            if (grid) half = Vec3(0.125);
+            const Vec3 middle = grid ? 0.25 * glm::round(4.0 * g.point(1)) : g.point(1);
+            boxes.push_back({std::uint32_t(i), {away + (middle - half) * size, away + (middle + half) * size}});
+            root = builder.join(root, builder.item(std::uint32_t(i), boxes.back().box));
         }
         const BoxTree tree(builder, root);
+        const EmbreeBoxes embree(boxes);
         for (int k = 0; k < 40; ++k) {
-            const Box& aim = boxes[std::size_t(g.below(count))];
-            // At corners and edges as often as elsewhere; along axes, too.
+            const Box& aim = boxes[std::size_t(g.below(count))].box;
+            // At corners and edges as often as elsewhere; in walls, too.
             Vec3 target;
             for (int axis = 0; axis < 3; ++axis) {
                 const double s = g.chance(0.5) ? g.number() : g.below(2);
                 target[axis] = aim.lo[axis] + s * (aim.hi[axis] - aim.lo[axis]);
             }
-            Vec3 d = g.direction();
-            if (g.chance(0.3)) {
-                d = Vec3(0);
-                d[g.below(3)] = g.chance(0.5) ? 1 : -1;
-            }
-            const Vec3 o = target - d * (size * std::pow(10.0, g.between(-2, 3)));
+            const Vec3 d = awkward_direction(g);
+            const Vec3 o = target - d * (size * std::pow(10.0, g.between(-2, g.chance(0.2) ? 6 : 3)));
             const BoxSpan whole = span_in(tree.box(), o, reciprocal(d), 0, infinity);
             if (whole.lo > whole.hi) continue;
-            std::set<std::uint32_t> seen;
-            tree.visit(o, d, reciprocal(d), whole.lo, whole.hi, [&](std::uint32_t i) {
-                REQUIRE(seen.insert(i).second);
-                return infinity;
-            });
-            for (std::size_t i = 0; i < boxes.size(); ++i) {
-                const BoxSpan span = span_in(boxes[i], o, reciprocal(d), 0, infinity);
-                if (span.lo > span.hi) continue;
-                ++touched;
-                REQUIRE(seen.count(std::uint32_t(i)) == 1);
+            std::vector<double> entered;
+            for (const NumberedBox& box : boxes) {
+                const BoxSpan span = span_in(box.box, o, reciprocal(d), 0, infinity);
+                entered.push_back(span.lo <= span.hi ? span.lo : infinity);
             }
-            visited += long(seen.size());
+            // All the way, and no further than where some box begins.
+            const double begins = entered[std::size_t(g.below(count))];
+            for (const double until : {infinity, begins}) {
+                const auto seen = visited_by(tree, o, d, whole, until);
+                const auto by_embree = visited_by(embree, o, d, whole, until, EmbreeBoxes::Order::nearest_first);
+                const auto in_any_order = visited_by(embree, o, d, whole, until, EmbreeBoxes::Order::any);
+                for (std::size_t i = 0; i < boxes.size(); ++i) {
+                    if (!(entered[i] < infinity && entered[i] <= until)) continue;
+                    touched += until == infinity;
+                    REQUIRE(seen.count(std::uint32_t(i)) == 1);
+                    REQUIRE(by_embree.count(std::uint32_t(i)) == 1);
+                    REQUIRE(in_any_order.count(std::uint32_t(i)) == 1);
+                }
+                visited += until == infinity ? long(seen.size()) : 0;
+                visited_by_embree += until == infinity ? long(by_embree.size()) : 0;
+            }
         }
     }
-    CHECK(touched > 8'000);
-    CHECK(visited < 1.3 * double(touched));
+    CHECK(touched > 20'000);
+    CHECK(visited < 1.5 * double(touched));
+    CHECK(visited_by_embree < 1.5 * double(touched));
 }
 
 namespace {

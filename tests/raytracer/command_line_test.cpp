@@ -121,6 +121,9 @@ TEST_CASE("a wrong call is one line and exit code 2, and nothing is written") {
         {{"render", scene, "-o", output, "--via", "magic"}, "--via: expected implicit"},
         {{"render", scene, "-o", output, "--criterion", "x"},
          "--criterion: expected exact or lobb, got 'x'"},
+        {{"render", scene, "-o", output, "--accel", "kd"}, "--accel: expected bsp or embree, got 'kd'"},
+        {{"render", scene, "-o", output, "--accel", "embree", "--via", "triage"},
+         "--accel: expected --via implicit, got 'triage'"},
         {{"render", scene, "-o", output, "--quiet=foo"}, "--quiet: expected no value, got 'foo'"},
         {{"render", scene, "-o", output, "-D", "r"}, "-D: expected name=value, got 'r'"},
         {{"render", scene, "-o", output, "-D", "rr=3"}, "rr"},
@@ -270,6 +273,29 @@ TEST_CASE("a crop has the bytes of the whole picture") {
             for (int x = part.spec.x; x < part.spec.x + part.spec.width; ++x)
                 REQUIRE(std::memcmp(part.at(x, y), whole.at(x, y), whole.pixel) == 0);
     }
+}
+
+TEST_CASE("a picture by --accel bsp and by embree is the same to the byte, and says by which") {
+    const Place place;
+    for (const std::string scene : {"csg_examples", "variable_rounding", "staplers"}) {
+        CAPTURE(scene);
+        std::vector<unsigned char> bytes;
+        for (const std::string accel : {"bsp", "embree"}) {
+            const Outcome o = run({"render", DEBURR_SOURCE_DIR "/scenes/" + scene + ".lua", "-q", "-o", place / "a.exr",
+                                   "--accel", accel, "--size", "120x80", "--float", "--aov", "P,N,Z,id", "--stats",
+                                   "--stats-json", place / "s.json"},
+                                  {"SOURCE_DATE_EPOCH=0"});
+            REQUIRE(o.code == 0);
+            const Picture picture(place / "a.exr");
+            CHECK(picture.spec.get_string_attribute("deburr.accel") == accel);
+            CHECK(nlohmann::json::parse(read_file(place / "s.json"))["accel"] == accel);
+            CHECK(o.out.find("accel") != std::string::npos);
+            if (bytes.empty()) bytes = picture.bytes;
+            CHECK(picture.bytes == bytes);
+        }
+    }
+    REQUIRE(run(place.render({"--via", "triage"})).code == 0);
+    CHECK_FALSE(Picture(place / "a.exr").spec.find_attribute("deburr.accel"));
 }
 
 TEST_CASE("another seed gives another picture only where there are random samples") {
