@@ -1,6 +1,7 @@
 // How the cost of a ray grows with the number of objects, and with the half-spaces of one.
 #include <fmt/format.h>
 
+#include "bench/blocks.hpp"
 #include "bench/picture.hpp"
 #include "bench/sections.hpp"
 #include "raytracer/bsp.hpp"
@@ -13,31 +14,6 @@ constexpr int rays = 40'000;
 constexpr double longest_build = 60;
 
 double fraction(double x) { return x - std::floor(x); }
-
-// Tilted rounded blocks, placements of one, on a cubic grid.
-std::vector<Solid> blocks(int count) {
-    const int side = std::max(1, int(std::ceil(std::cbrt(count) - 1e-9)));
-    const Solid block = Solid::rounded(0.08, Density::box(Vec3(-0.5), Vec3(0.5)));
-    std::vector<Solid> solids;
-    for (int i = 0; i < count; ++i) {
-        const double a = 0.7 * i, c = std::cos(a), s = std::sin(a);
-        solids.push_back(block.transformed({Mat3(0.6 * c, 0.6 * s, 0, -0.6 * s, 0.6 * c, 0, 0, 0, 0.6),
-                                            Vec3(i % side, i / side % side, i / side / side)}));
-    }
-    return solids;
-}
-
-// From all sides to everywhere: points of two Kronecker sequences, the same in every run.
-std::vector<Ray> rays_through(double side) {
-    std::vector<Ray> all;
-    for (int n = 1; n <= rays; ++n) {
-        const Vec3 target = side * Vec3(fraction(0.8192 * n), fraction(0.6711 * n), fraction(0.5497 * n));
-        const double phi = 6.2831853 * fraction(0.6180 * n), z = 2 * fraction(0.7549 * n) - 1;
-        const Vec3 eye = Vec3(0.5 * side) + 2 * side * Vec3(std::cos(phi) * std::sqrt(1 - z * z), z, std::sin(phi) * std::sqrt(1 - z * z));
-        all.push_back({eye, glm::normalize(target - eye)});
-    }
-    return all;
-}
 
 // A unit plate with k × k square pits, 6 + 5 k² half-spaces in the papers' arithmetic, the clip of all
 // pits counted as one more; everything, the radius too, in proportion to a pit.
@@ -103,7 +79,7 @@ void growth_of_tracing(Report& report) {
         std::optional<ImplicitTracer> tracer;
         const double build = cpu_seconds_of([&] { tracer.emplace(solids); });
         build_a_block = build / count;
-        const double ray = seconds_a_ray(*tracer, rays_through(std::cbrt(count)));
+        const double ray = seconds_a_ray(*tracer, rays_through(std::cbrt(count), rays));
         objects.add(count, ray);
         report.figure(fmt::format("{} blocks: a ray", count), 1e6 * ray, "µs");
         report.figure(fmt::format("{} blocks: build", count), build, "s");

@@ -28,6 +28,7 @@ const Section sections[] = {
     {"g", "one thread and two", one_thread_and_two},
     {"h", "work per pixel, the same on every machine", work_per_pixel},
     {"i", "every voxel's test against the octree's", octree_against_every_voxel},
+    {"j", "exact rays by Embree's BVH / by the tree of boxes, one thread", embree_against_boxes},
 };
 
 int refuse(const std::string& what) {
@@ -47,7 +48,7 @@ int main(int argc, char** argv) {
             continue;
         }
         const bool known = std::any_of(std::begin(sections), std::end(sections), [&](const Section& s) { return word == s.letter; });
-        if (!known) return refuse("expected sections from a to i, got '" + word + "'");
+        if (!known) return refuse("expected sections from a to j, got '" + word + "'");
         letters += word;
     }
     try {

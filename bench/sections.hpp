@@ -13,5 +13,6 @@ void growth_of_triage(Report& report);           // f
 void one_thread_and_two(Report& report);         // g
 void work_per_pixel(Report& report);             // h
 void octree_against_every_voxel(Report& report);  // i
+void embree_against_boxes(Report& report);       // j
 
 }  // namespace deburr::bench

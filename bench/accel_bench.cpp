@@ -1,0 +1,38 @@
+// What leads exact rays to surfaces: a BVH of Embree's against the tree of boxes, by the same rays to the same hits.
+#include <fmt/format.h>
+
+#include "bench/blocks.hpp"
+#include "bench/picture.hpp"
+#include "bench/sections.hpp"
+#include "raytracer/bsp.hpp"
+
+namespace deburr::bench {
+namespace {
+
+ImplicitTracer by_embree(const std::vector<Solid>& solids) {
+    return ImplicitTracer(solids, Criterion::exact, Search::where_needed, Accel::embree);
+}
+
+}  // namespace
+
+void embree_against_boxes(Report& report) {
+    TraceCounters counters;
+    for (const char* name : {"csg_examples", "variable_rounding", "staplers"}) {
+        const Scene scene = scene_of(name);
+        const ImplicitTracer boxes(scene.solids), embree = by_embree(scene.solids);
+        const Recording recording(boxes);
+        render_picture(scene, recording, counters);
+        report.ratio(fmt::format("{}: rays by Embree's BVH / by boxes", name),
+                     ratio_of([&] { recording.ask(embree, counters); }, [&] { recording.ask(boxes, counters); }));
+    }
+    constexpr int count = 10'000, rays = 200'000;
+    const std::vector<Solid> solids = blocks(count);
+    const std::vector<Ray> all = rays_through(std::cbrt(count), rays);
+    const ImplicitTracer boxes(solids), embree = by_embree(solids);
+    const auto ask = [&](const RayTracer& tracer) {
+        for (const Ray& ray : all) keep(tracer.first_hit(ray, infinity, counters));
+    };
+    report.ratio("10,000 blocks: rays by Embree's BVH / by boxes", ratio_of([&] { ask(embree); }, [&] { ask(boxes); }));
+}
+
+}  // namespace deburr::bench
