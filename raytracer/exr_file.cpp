@@ -42,15 +42,6 @@ Imf::PixelType pixel_type(ChannelType type) {
     return type == ChannelType::half_float ? Imf::HALF : type == ChannelType::whole ? Imf::UINT : Imf::FLOAT;
 }
 
-std::size_t size_of(ChannelType type) { return type == ChannelType::half_float ? 2 : 4; }
-
-void store(char* to, ChannelType type, double value) {
-    const auto put = [&](auto x) { std::memcpy(to, &x, sizeof x); };
-    if (type == ChannelType::half_float) put(half(float(std::clamp(value, -largest_half, largest_half))));
-    else if (type == ChannelType::whole) put(std::uint32_t(value));
-    else put(float(value));
-}
-
 struct AddAttribute {
     Imf::Header& header;
     const char* name;
@@ -71,6 +62,8 @@ Imath::Box2i box(int x, int y, int width, int height) {
 
 }  // namespace
 
+std::uint16_t half_bits(double value) { return half(float(std::clamp(value, -largest_half, largest_half))).bits(); }
+
 std::string encode_exr(const ImageRaster& image, int threads, const ShareDone& done) {
     const Window& w = image.window;
     Imf::Header header(box(0, 0, image.width, image.height), box(w.x, w.y, w.width, w.height));
@@ -85,15 +78,13 @@ std::string encode_exr(const ImageRaster& image, int threads, const ShareDone& d
     Memory memory;
     {
         Imf::OutputFile file(memory, header, threads > 1 ? threads : 0);
-        std::vector<double> values(std::size_t(w.width) * std::size_t(std::min(rows_at_once, w.height)));
-        std::vector<char> bytes(pixel_size * values.size());
+        std::vector<char> bytes(pixel_size * std::size_t(w.width) * std::size_t(std::min(rows_at_once, w.height)));
         by_rows(image, done, [&](int row, int end) {
             Imf::FrameBuffer frame;
             std::size_t at = 0;
             const std::size_t first = std::size_t(row) * std::size_t(w.width), count = std::size_t(end - row) * std::size_t(w.width);
             for (const ImageChannel& c : image.channels) {
-                c.values(first, count, values.data());
-                for (std::size_t i = 0; i < count; ++i) store(&bytes[i * pixel_size + at], c.type, values[i]);
+                c.write(first, count, &bytes[at], pixel_size);
                 frame.insert(c.name, Imf::Slice::Make(pixel_type(c.type), &bytes[at], box(w.x, w.y + row, w.width, end - row),
                                                       pixel_size, pixel_size * std::size_t(w.width)));
                 at += size_of(c.type);

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <glm/gtc/type_ptr.hpp>
 
 #include "raytracer/camera_matrix.hpp"
 #include "raytracer/errors.hpp"
@@ -38,7 +39,7 @@ struct SrgbBytes {
     unsigned char operator()(double linear) const {
         if (!(linear > 0)) return 0;
         if (linear >= 1) return 255;
-        const unsigned char at = byte[std::size_t(linear * steps)];
+        const unsigned char at = byte[std::size_t(int(linear * steps))];
         return at + (linear >= begin[std::size_t(at) + 1]);
     }
 };
@@ -65,14 +66,14 @@ const LayerChannels layer_channels[] = {
 
 std::vector<ImageChannel> channels(const Film& film, ImageKind kind, const ImageFormat& format) {
     std::vector<ImageChannel> list;
-    const auto& pixels = film.pixels;
+    const Pixel* pixels = film.pixels.data();
     const auto add_color = [&](ChannelType type, auto value_of) {
         for (int k = 0; k < 3; ++k)
-            list.push_back(image_channel(std::string(1, "RGB"[k]), type, [&pixels, k, value_of](std::size_t i) { return value_of(pixels[i].color[k]); }));
+            list.push_back(image_channel(std::string(1, "RGB"[k]), type, [pixels, k, value_of](std::size_t i) { return value_of(glm::value_ptr(pixels[i].color)[k]); }));
     };
     const auto as_it_is = [](double value) { return value; };
     if (kind == ImageKind::display) {
-        add_color(ChannelType::byte, [&byte = srgb_bytes()](double value) { return double(byte(value)); });
+        add_color(ChannelType::byte, [&byte = srgb_bytes()](double value) { return byte(value); });
         return list;
     }
     if (kind == ImageKind::linear) {
@@ -81,7 +82,7 @@ std::vector<ImageChannel> channels(const Film& film, ImageKind kind, const Image
     }
     const auto color = format.float_color ? ChannelType::single_float : ChannelType::half_float;
     add_color(color, as_it_is);
-    list.push_back(image_channel("A", color, [&pixels](std::size_t i) { return pixels[i].alpha; }));
+    list.push_back(image_channel("A", color, [pixels](std::size_t i) { return pixels[i].alpha; }));
     for (const auto& [layer, names, type] : layer_channels) {
         if (!film.keeps(layer)) continue;
         for (int k = 0; k < components(layer); ++k)

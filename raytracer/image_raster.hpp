@@ -1,6 +1,11 @@
 // A picture as encoders take it, whatever it shows: named channels of numbers, and attributes.
+//
+// A channel writes its numbers itself, as the file has them and where the encoder wants them: there
+// are no values between, and one call for many pixels.
 #pragma once
 #include <algorithm>
+#include <cstdint>
+#include <cstring>
 #include <functional>
 #include <string>
 #include <utility>
@@ -19,19 +24,40 @@ enum class ChannelType {
     whole,       // 32 bit, unsigned
 };
 
+constexpr std::size_t size_of(ChannelType type) {
+    return type == ChannelType::byte ? 1 : type == ChannelType::half_float ? 2 : 4;
+}
+
+/// The bits of a number of 16 bits, finite.
+std::uint16_t half_bits(double value);
+
 struct ImageChannel {
     std::string name;
     ChannelType type;
-    /// The values of `count` pixels from `first` on, of the window's, row by row.
-    std::function<void(std::size_t first, std::size_t count, double* to)> values;
+    /// Writes `count` numbers, of the window's pixels from `first` on, row by row; the next is
+    /// `stride` bytes on.
+    std::function<void(std::size_t first, std::size_t count, char* to, std::size_t stride)> write;
 };
 
 /// Whose value at pixel i is value(i).
 template <class Value>
 ImageChannel image_channel(std::string name, ChannelType type, Value value) {
-    return {std::move(name), type, [value](std::size_t first, std::size_t count, double* to) {
-                for (std::size_t i = 0; i < count; ++i) to[i] = value(first + i);
-            }};
+    const auto write_as = [value](auto number_of) {
+        return [value, number_of](std::size_t first, std::size_t count, char* to, std::size_t stride) {
+            const Value local = value;  // a char* may point at the other
+            for (std::size_t i = 0; i < count; ++i, to += stride) {
+                const auto number = number_of(local(first + i));
+                std::memcpy(to, &number, sizeof number);
+            }
+        };
+    };
+    switch (type) {
+        case ChannelType::byte: return {std::move(name), type, write_as([](auto v) { return static_cast<unsigned char>(v); })};
+        case ChannelType::half_float: return {std::move(name), type, write_as([](auto v) { return half_bits(v); })};
+        case ChannelType::single_float: return {std::move(name), type, write_as([](auto v) { return float(v); })};
+        case ChannelType::whole: return {std::move(name), type, write_as([](auto v) { return std::uint32_t(v); })};
+    }
+    return {};
 }
 
 using ImageAttribute = std::pair<std::string, std::variant<int, float, std::string, Matrix44>>;

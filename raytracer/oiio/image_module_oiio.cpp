@@ -61,18 +61,14 @@ public:
         };
         check(writer && writer->set_ioproxy(&memory));
         check(writer->open("x" + extension, spec));
-        std::vector<double> of_channel;
-        std::vector<float> values;
+        std::vector<char> numbers;
         by_rows(image, done, [&](int row, int end) {
             const std::size_t width = std::size_t(image.window.width), channels = image.channels.size();
             const std::size_t first = std::size_t(row) * width, count = std::size_t(end - row) * width;
-            of_channel.resize(count);
-            values.resize(count * channels);
-            for (std::size_t c = 0; c < channels; ++c) {
-                image.channels[c].values(first, count, of_channel.data());
-                for (std::size_t i = 0; i < count; ++i) values[i * channels + c] = float(bytes ? of_channel[i] / 255 : of_channel[i]);
-            }
-            check(writer->write_scanlines(row, end, 0, TypeDesc::FLOAT, values.data()));
+            const std::size_t size = size_of(image.channels[0].type);
+            numbers.resize(count * channels * size);
+            for (std::size_t c = 0; c < channels; ++c) image.channels[c].write(first, count, &numbers[c * size], channels * size);
+            check(writer->write_scanlines(row, end, 0, spec.format, numbers.data()));
         });
         check(writer->close());
         const auto& file = memory.buffer();
