@@ -136,22 +136,21 @@ Vec3 Integrator::transmittance(const Hit& hit, const Incident& light, const Path
     return Vec3(0.0);
 }
 
-Integrator::Surface Integrator::surface(const Hit& hit, Vec3 color_here, Vec3 direction, const Path& path) const {
-    const SurfaceLayer& layer = layers_[std::size_t(hit.material)];
-    Surface s{hit, Bsdf(layer, color_here, towards_ray(hit.normal, direction), -direction, path.blur)};
-    s.last = path.without_noise || path.scattered || path.depth >= scene_.bounces;
-    if (s.last) return s;
-    s.base = sky_.black() ? 0.0 : brightest(s.bsdf.base_albedo());
+Integrator::Surface::Surface(const Integrator& in, const Hit& hit, Vec3 color_here, Vec3 direction, const Path& path)
+    : hit(hit),
+      bsdf(in.layers_[std::size_t(hit.material)], color_here, towards_ray(hit.normal, direction), -direction, path.blur),
+      last(path.without_noise || path.scattered || path.depth >= in.scene_.bounces) {
+    if (last) return;
+    base = in.sky_.black() ? 0.0 : brightest(bsdf.base_albedo());
     // Plastic that the camera sees takes both ways: the layer's colour is not the base's, and a
     // choice between them would be noise in all channels where the base is dark.
-    s.both = path.depth == 0 && layer.kind() == Material::Kind::plastic;
-    s.layer_share = s.both ? 1.0 : layer_share(brightest(s.bsdf.layer_albedo()), s.base);
-    return s;
+    both = path.depth == 0 && bsdf.layer().kind() == Material::Kind::plastic;
+    layer_share = both ? 1.0 : deburr::layer_share(brightest(bsdf.layer_albedo()), base);
 }
 
 Vec3 Integrator::color_from(const Hit& hit, Vec3 color_here, Vec3 direction, const Path& path) const {
     if (material(hit).kind == Material::Kind::glass) return color_of_glass(hit, color_here, direction, path);
-    const Surface s = surface(hit, color_here, direction, path);
+    const Surface s(*this, hit, color_here, direction, path);
     return color_of(s, lit(s, path), path);
 }
 

@@ -79,10 +79,8 @@ private:
     // `color_here`, `tint`: the material's at the hit.
     Vec3 color_from(const Hit& hit, Vec3 color_here, Vec3 direction, const Path& path) const;
     Vec3 color_of_glass(const Hit& hit, Vec3 tint, Vec3 direction, const Path& path) const;
-    Surface surface(const Hit& hit, Vec3 color_here, Vec3 direction, const Path& path) const;
     Vec3 color_of(const Surface& surface, Vec3 lit, const Path& path) const;
     Vec3 lit(const Surface& surface, const Path& path) const;
-    void light(const std::vector<Surface>& surfaces, const std::vector<Path>& paths, Vec3* lit) const;
     Incident incident(const LightSource& source, const Hit& hit, const Path& path, std::uint32_t dimension, int k, int samples) const;
     Vec3 scattered(const Surface& surface, const Incident& light, int samples) const;
     Vec3 reflected_without_noise(const Bsdf& bsdf, const Hit& hit, const Path& path) const;

@@ -1,4 +1,6 @@
 // The camera's rays and the shadow rays of what they hit, traced together.
+#include <memory>
+
 #include "raytracer/path.hpp"
 
 namespace deburr {
@@ -11,50 +13,60 @@ constexpr std::size_t most_rays = 128;
 
 }  // namespace
 
+// Surfaces keep references to the hits: vectors are as long as they may become from the start.
 class Integrator::CameraRays {
 public:
     CameraRays(const Integrator& integrator, Pixel* pixels, PixelLayers* layers, TraceCounters& counters)
-        : in_(integrator), pixels_(pixels), layers_(layers), counters_(counters) {
+        : in_(integrator), pixels_(pixels), layers_(layers), counters_(counters), hits_(most_rays), colors_(most_rays), lit_(most_rays), here_(most_rays),
+          hidden_(new bool[most_rays]) {
         rays_.reserve(most_rays);
-        of_.reserve(most_rays);
-        paths_.reserve(most_rays);
+        uses_.reserve(most_rays);
         surfaces_.reserve(most_rays);
+        seen_by_.reserve(most_rays);
+        shadows_.reserve(most_rays);
+        t_max_.reserve(most_rays);
+        unhidden_.reserve(most_rays);
     }
 
     struct Use {
-        std::size_t pixel;
+        Sampler sampler;
+        std::uint32_t pixel;
         bool center, sample;  // for the layers; for the colour
     };
-    void add(const Ray& ray, const Sampler& sampler, Use use) {
+    void add(const Ray& ray, const Use& use) {
         rays_.push_back(ray);
-        of_.push_back({sampler, use});
+        uses_.push_back(use);
         if (rays_.size() == most_rays) finish();
     }
 
     /// Of all rays so far.
     void finish() {
-        hits_.resize(rays_.size());
-        colors_.assign(rays_.size(), Vec3(0.0));
         in_.tracer_.first_hits(rays_, hits_.data(), counters_);
-        for (std::size_t i = 0; i < rays_.size(); ++i) take(i);
-        lit_.assign(surfaces_.size(), Vec3(0.0));
-        in_.light(surfaces_, paths_, lit_.data());
+        for (std::uint32_t i = 0; i < rays_.size(); ++i) take(i);
+        std::fill_n(lit_.begin(), surfaces_.size(), Vec3(0.0));
+        light();
         for (std::size_t j = 0; j < surfaces_.size(); ++j)
-            colors_[ray_of_[j]] = in_.color_of(surfaces_[j], lit_[j], paths_[j]);
+            colors_[seen_by_[j]] = in_.color_of(surfaces_[j], lit_[j], path(seen_by_[j]));
+        // In their order: a pixel's sum does not depend on what travels with it.
         for (std::size_t i = 0; i < rays_.size(); ++i)
-            if (of_[i].use.sample) pixels_[of_[i].use.pixel].color += finite_or_zero(colors_[i]);
+            if (uses_[i].sample) pixels_[uses_[i].pixel].color += finite_or_zero(colors_[i]);
         rays_.clear();
-        of_.clear();
-        paths_.clear();
+        uses_.clear();
         surfaces_.clear();
-        ray_of_.clear();
+        seen_by_.clear();
     }
 
 private:
-    void take(std::size_t i) {
+    Path path(std::uint32_t i) const {
+        Path path{.sampler = uses_[i].sampler, .counters = counters_};
+        path.without_noise = in_.settings_.spp <= 1;
+        return path;
+    }
+
+    void take(std::uint32_t i) {
         const Hit& hit = hits_[i];
         const Vec3 direction = rays_[i].direction;
-        const Use& use = of_[i].use;
+        const Use& use = uses_[i];
         PixelLayers* layers = layers_ ? layers_ + use.pixel : nullptr;
         if (use.center && layers && hit) {
             layers->position = finite_or_zero(hit.position);
@@ -70,20 +82,50 @@ private:
         const Vec3 albedo = in_.texture_color(hit);
         pixels_[use.pixel].alpha += 1.0;
         if (layers) layers->albedo += finite_or_zero(albedo);
-        Path path{.sampler = of_[i].sampler, .counters = counters_};
-        path.without_noise = in_.settings_.spp <= 1;
         if (in_.material(hit).kind == Material::Kind::glass) {
-            colors_[i] = in_.color_of_glass(hit, albedo, direction, path);
+            colors_[i] = in_.color_of_glass(hit, albedo, direction, path(i));
             return;
         }
-        paths_.push_back(path);
-        surfaces_.push_back(in_.surface(hit, albedo, direction, path));
-        ray_of_.push_back(i);
+        surfaces_.emplace_back(in_, hit, albedo, direction, path(i));
+        seen_by_.push_back(i);
     }
 
-    struct Origin {
-        Sampler sampler;
-        Use use;
+    // What lit() says of each surface, light by light.
+    void light() {
+        if (in_.glass_) {  // shadow rays go on through it
+            for (std::size_t j = 0; j < surfaces_.size(); ++j) lit_[j] = in_.lit(surfaces_[j], path(seen_by_[j]));
+            return;
+        }
+        std::uint32_t number = first_light;
+        for (const LightSource& source : in_.lights_) {
+            std::fill_n(here_.begin(), surfaces_.size(), Vec3(0.0));
+            for (int k = 0; k < source.samples(); ++k) light(source, number, k);
+            for (std::size_t j = 0; j < surfaces_.size(); ++j) lit_[j] += here_[j] / double(source.samples());
+            ++number;
+        }
+    }
+
+    void light(const LightSource& source, std::uint32_t number, int k) {
+        shadows_.clear();
+        t_max_.clear();
+        unhidden_.clear();
+        for (std::uint32_t j = 0; j < surfaces_.size(); ++j) {
+            const Surface& surface = surfaces_[j];
+            const Incident light = in_.incident(source, surface.hit, path(seen_by_[j]), number, k, source.samples());
+            const Vec3 scattered = in_.scattered(surface, light, source.samples());
+            if (!(brightest(scattered) > 0)) continue;
+            shadows_.push_back(leave(surface.hit, light.direction));
+            t_max_.push_back(light.distance);
+            unhidden_.push_back({scattered, j});
+        }
+        in_.tracer_.occlusions(shadows_, t_max_, hidden_.get(), counters_);
+        for (std::size_t s = 0; s < unhidden_.size(); ++s)
+            if (!hidden_[s]) here_[unhidden_[s].surface] += unhidden_[s].light;
+    }
+
+    struct Unhidden {
+        Vec3 light;  // if nothing is in between
+        std::uint32_t surface;
     };
 
     const Integrator& in_;
@@ -91,54 +133,19 @@ private:
     PixelLayers* layers_;
     TraceCounters& counters_;
     std::vector<Ray> rays_;
-    std::vector<Origin> of_;
+    std::vector<Use> uses_;
     std::vector<Hit> hits_;
     std::vector<Vec3> colors_;
     // Of those that hit something opaque.
-    std::vector<Path> paths_;
     std::vector<Surface> surfaces_;
-    std::vector<std::size_t> ray_of_;
-    std::vector<Vec3> lit_;
+    std::vector<std::uint32_t> seen_by_;
+    std::vector<Vec3> lit_, here_;
+    // To one light.
+    std::vector<Ray> shadows_;
+    std::vector<double> t_max_;
+    std::vector<Unhidden> unhidden_;
+    std::unique_ptr<bool[]> hidden_;
 };
-
-// What lit() says of each, light by light.
-void Integrator::light(const std::vector<Surface>& surfaces, const std::vector<Path>& paths, Vec3* lit) const {
-    if (glass_) {  // shadow rays go on through it
-        for (std::size_t i = 0; i < surfaces.size(); ++i) lit[i] = this->lit(surfaces[i], paths[i]);
-        return;
-    }
-    std::vector<Ray> rays;
-    std::vector<double> t_max;
-    std::vector<Vec3> light_here, here;
-    std::vector<std::size_t> whose;
-    std::unique_ptr<bool[]> hidden(new bool[surfaces.size()]);
-    std::uint32_t number = first_light;
-    for (const LightSource& source : lights_) {
-        const int samples = source.samples();
-        here.assign(surfaces.size(), Vec3(0.0));
-        for (int k = 0; k < samples; ++k) {
-            rays.clear();
-            t_max.clear();
-            light_here.clear();
-            whose.clear();
-            for (std::size_t i = 0; i < surfaces.size(); ++i) {
-                const Incident light = incident(source, surfaces[i].hit, paths[i], paths[i].dimension(number), k, samples);
-                const Vec3 unhidden = scattered(surfaces[i], light, samples);
-                if (!(brightest(unhidden) > 0)) continue;
-                rays.push_back(leave(surfaces[i].hit, light.direction));
-                t_max.push_back(light.distance);
-                light_here.push_back(unhidden);
-                whose.push_back(i);
-            }
-            if (rays.empty()) continue;
-            tracer_.occlusions(rays, t_max, hidden.get(), paths[0].counters);
-            for (std::size_t j = 0; j < rays.size(); ++j)
-                if (!hidden[j]) here[whose[j]] += light_here[j];
-        }
-        for (std::size_t i = 0; i < surfaces.size(); ++i) lit[i] += here[i] / double(samples);
-        ++number;
-    }
-}
 
 void Integrator::block(const Window& block, Pixel* pixels, PixelLayers* layers, TraceCounters& counters) const {
     const std::size_t count = std::size_t(block.width) * std::size_t(block.height);
@@ -149,14 +156,14 @@ void Integrator::block(const Window& block, Pixel* pixels, PixelLayers* layers, 
     CameraRays rays(*this, pixels, layers, counters);
     std::uint64_t evaluations = counters.evaluations;
     const auto pixel = [&](int x, int y) {
-        const std::size_t i = std::size_t(y) * std::size_t(block.width) + std::size_t(x);
+        const auto i = std::uint32_t(y * block.width + x);
         x += block.x;
         y += block.y;
-        if (spp == 1 || layers) rays.add(camera_.ray(x + 0.5, y + 0.5), Sampler(settings_.seed, x, y, 0), {i, true, spp == 1});
+        if (spp == 1 || layers) rays.add(camera_.ray(x + 0.5, y + 0.5), {Sampler(settings_.seed, x, y, 0), i, true, spp == 1});
         for (int s = 0; spp > 1 && s < spp; ++s) {
             const Sampler sampler(settings_.seed, x, y, s);
             const Vec2 offset = filter_offset(sampler.square(lens));
-            rays.add(camera_.ray(x + 0.5 + offset.x, y + 0.5 + offset.y), sampler, {i, false, true});
+            rays.add(camera_.ray(x + 0.5 + offset.x, y + 0.5 + offset.y), {sampler, i, false, true});
         }
         if (!apart) return;
         rays.finish();

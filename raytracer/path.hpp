@@ -43,11 +43,13 @@ struct Integrator::Path {
     }
 };
 
-// An opaque surface, as a path meets it.
+// An opaque surface, as a path meets it; `color_here`: the material's at the hit. Keeps a reference to the hit.
 struct Integrator::Surface {
-    Hit hit;
+    Surface(const Integrator& in, const Hit& hit, Vec3 color_here, Vec3 direction, const Path& path);
+
+    const Hit& hit;
     Bsdf bsdf;
-    bool last = true;          // no ray goes on to be sampled
+    bool last;                 // no ray goes on to be sampled
     bool both = false;         // layer and base are both followed
     double base = 0.0;         // what the base returns, at most
     double layer_share = 0.0;  // probability with which the layer's reflection is sampled too; 0: light is found here only
