@@ -1,6 +1,8 @@
 // Pictures of scenes on one thread, and the rays they are made of.
 #pragma once
+#include <algorithm>
 #include <array>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -25,32 +27,56 @@ inline void render_picture(const Scene& scene, const RayTracer& tracer, TraceCou
     }
 }
 
-/// Every ray that a picture asks for, in the order it does, to be asked again of any tracer.
+/// Every ray that a picture asks for, in the order it does and together with those it does, to be asked again
+/// of any tracer.
 class Recording final : public RayTracer {
 public:
     explicit Recording(const RayTracer& tracer) : tracer_(tracer) {}
     Hit first_hit(const Ray& ray, double t_max, TraceCounters& counters) const override {
-        questions_.push_back({ray, t_max, false});
+        questions_.push_back({{ray}, {t_max}, false, true});
         return tracer_.first_hit(ray, t_max, counters);
     }
     bool occluded(const Ray& ray, double t_max, TraceCounters& counters) const override {
-        questions_.push_back({ray, t_max, true});
+        questions_.push_back({{ray}, {t_max}, true, true});
         return tracer_.occluded(ray, t_max, counters);
     }
-    std::size_t rays() const { return questions_.size(); }
+    void first_hits(std::span<const Ray> rays, Hit* hits, TraceCounters& counters) const override {
+        questions_.push_back({{rays.begin(), rays.end()}, {}, false, false});
+        tracer_.first_hits(rays, hits, counters);
+    }
+    void occlusions(std::span<const Ray> rays, std::span<const double> t_max, bool* occluded, TraceCounters& counters) const override {
+        questions_.push_back({{rays.begin(), rays.end()}, {t_max.begin(), t_max.end()}, true, false});
+        tracer_.occlusions(rays, t_max, occluded, counters);
+    }
+    std::size_t rays() const {
+        std::size_t sum = 0;
+        for (const Question& q : questions_) sum += q.rays.size();
+        return sum;
+    }
     void ask(const RayTracer& tracer, TraceCounters& counters) const {
+        std::vector<Hit> hits(most());
+        const std::unique_ptr<bool[]> occluded(new bool[most()]);
         for (const Question& q : questions_) {
-            if (q.any) keep(tracer.occluded(q.ray, q.t_max, counters));
-            else keep(tracer.first_hit(q.ray, q.t_max, counters));
+            if (q.alone && q.any) keep(tracer.occluded(q.rays[0], q.t_max[0], counters));
+            else if (q.alone) keep(tracer.first_hit(q.rays[0], q.t_max[0], counters));
+            else if (q.any) tracer.occlusions(q.rays, q.t_max, occluded.get(), counters);
+            else tracer.first_hits(q.rays, hits.data(), counters);
         }
+        keep(hits);
+        keep(occluded);
     }
 
 private:
     struct Question {
-        Ray ray;
-        double t_max;
-        bool any;
+        std::vector<Ray> rays;
+        std::vector<double> t_max;
+        bool any, alone;
     };
+    std::size_t most() const {
+        std::size_t most = 1;
+        for (const Question& q : questions_) most = std::max(most, q.rays.size());
+        return most;
+    }
     const RayTracer& tracer_;
     mutable std::vector<Question> questions_;
 };

@@ -11,8 +11,8 @@
 
 namespace deburr {
 
-/// The name under which a file of POV-Ray declares ρ(α), and its declaration.
-extern const char* const pov_profile;
+/// The declaration of ρ(α), as Rho, in a file of POV-Ray: by cases, or clamped by min and max.
+std::string pov_profile(bool by_cases);
 
 class PovField {
 public:

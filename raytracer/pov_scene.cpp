@@ -53,7 +53,7 @@ PovScene pov_scene(const Scene& scene, Size size, PovSurface surface) {
     out.text += pov_settings(scene) + pov_camera(scene.camera, size) + pov_background(scene.background);
     for (const Light& light : scene.lights) out.text += pov_light(light, scene);
     out.text += "\n";
-    if (!surface.sharp) out.text += pov_profile;
+    if (!surface.sharp) out.text += pov_profile(!surface.min_max);
     for (std::size_t i = 0; i < scene.materials.size(); ++i)
         out.text += fmt::format("#declare Material_{} = {}", i, pov_material(scene.materials[i]));
     out.text += solids;

@@ -10,6 +10,7 @@ namespace deburr {
 
 struct PovSurface {
     bool sharp = false;         // every radius 0: CSG of planes and boxes, and no isosurface
+    bool min_max = false;       // the profile is clamped by min and max instead of by cases: a slower field
     double max_gradient = 0;    // 0: what is proved of each density
     double accuracy = 0;        // 0: a ten-thousandth of each density's least radius
     Box limit = Box::everything();  // what is infinite ends here; finite

@@ -157,6 +157,7 @@ TEST_CASE("POV-Ray sees the silhouettes that Deburr sees") {
         CAPTURE(solid);
         CHECK(mismatch(solid) < 0.005);
     }
+    CHECK(mismatch("rounded(0.1, cube() - halfspace({0, 1, 0}, 1) * pit)", {"--min-max"}) < 0.005);
 }
 
 TEST_CASE("export-pov --sharp is the scene with every radius 0") {
@@ -177,7 +178,7 @@ TEST_CASE("export-pov refuses what it cannot do, and writes nothing") {
     write_file(folder / "s.lua", "return { solids = { rounded(0.1, cube()) } }");
     for (const std::vector<std::string>& words :
          {std::vector<std::string>{}, {"-o", "a.obj"}, {"-o", "a.pov", "--max-gradient", "0"},
-          {"-o", "a.pov", "--accuracy", "x"}, {"-o", "a.pov", "--sharp", "--accuracy", "1"}}) {
+          {"-o", "a.pov", "--accuracy", "x"}, {"-o", "a.pov", "--sharp", "--accuracy", "1"}, {"-o", "a.pov", "--sharp", "--min-max"}}) {
         std::vector<std::string> all{"export-pov", folder / "s.lua"};
         for (const std::string& word : words) all.push_back(word == "a.pov" ? folder / word : word);
         CHECK(run(all).code == 2);
