@@ -83,8 +83,7 @@ double Ggx::density(double cos_out, double cos_half) const {
 
 // The visible normals of a hemisphere are halfway between `to_eye` and a spherical cap that is
 // uniform; those of GGX are a stretched hemisphere's.
-Vec3 Ggx::facet_about_z(Vec3 to_eye, double u, Vec2 turn) const {
-    const Vec3 eye = glm::normalize(Vec3(alpha * to_eye.x, alpha * to_eye.y, to_eye.z));
+inline Vec3 Ggx::facet_about_z(Vec3 eye, double u, Vec2 turn) const {
     const double z = (1 - u) * (1 + eye.z) - eye.z;
     const double r = std::sqrt(glm::clamp(1 - z * z, 0.0, 1.0));
     const Vec3 half = Vec3(r * turn.x, r * turn.y, z) + eye;
@@ -95,7 +94,7 @@ Vec3 Ggx::facet_about_z(Vec3 to_eye, double u, Vec2 turn) const {
 
 Vec3 Ggx::facet(Vec3 to_eye, Vec3 normal, Vec2 u) const {
     const Frame frame(normal);
-    return frame.to_world(facet_about_z(frame.to_local(to_eye), u.x, turn_by(u.y)));
+    return frame.to_world(facet_about_z(stretched(frame.to_local(to_eye)), u.x, turn_by(u.y)));
 }
 
 bool SurfaceLayer::same(const Material& a, const Material& b) {
@@ -131,12 +130,16 @@ double SurfaceLayer::integrate(double cosine) const {
         for (int i = 0; i < points; ++i) all.push_back(turn_by(glm::fract((i + 0.5) / std::numbers::phi)));
         return all;
     }();
-    const Vec3 to_eye(0, -std::sqrt(std::max(0.0, 1 - c * c)), c);
+    const Vec3 to_eye(0, -std::sqrt(std::max(0.0, 1 - c * c)), c), eye = ggx_.stretched(to_eye);
+    const bool plastic = kind_ == Material::Kind::plastic;
     double sum = 0;
     for (int i = 0; i < points; ++i) {
-        const Vec3 facet = ggx_.facet_about_z(to_eye, (i + 0.5) / points, turns[std::size_t(i)]);
+        const Vec3 facet = ggx_.facet_about_z(eye, (i + 0.5) / points, turns[std::size_t(i)]);
         const double out = reflected(to_eye, facet).z;
-        if (out > 0) sum += fresnel(Vec3(1.0), glm::dot(to_eye, facet)).x * ggx_.shadowing(out, c);
+        if (!(out > 0)) continue;
+        // A white metal's Fresnel reflectance is 1.
+        const double share = plastic ? fresnel_dielectric(glm::dot(to_eye, facet), ior_) : 1.0;
+        sum += share * ggx_.shadowing(out, c);
     }
     return sum / points;
 }

@@ -51,8 +51,9 @@ struct Ggx {
     double density(double cos_out, double cos_half) const;
     /// A facet's normal, as often as `to_eye` sees it.
     Vec3 facet(Vec3 to_eye, Vec3 normal, Vec2 u) const;
-    /// The same about z, for the cosine and sine of 2π u.y.
-    Vec3 facet_about_z(Vec3 to_eye, double u, Vec2 turn) const;
+    /// The same about z, for the cosine and sine of 2π u.y and for stretched(to_eye).
+    Vec3 facet_about_z(Vec3 stretched_eye, double u, Vec2 turn) const;
+    Vec3 stretched(Vec3 to_eye) const { return glm::normalize(Vec3(alpha * to_eye.x, alpha * to_eye.y, to_eye.z)); }
 };
 
 /// What all points of a material have in common.
