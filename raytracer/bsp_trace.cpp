@@ -96,24 +96,23 @@ constexpr std::size_t fewest_together = 4;
 
 bool BspTracer::leads_together(std::size_t rays) const { return rays >= fewest_together && bounded_ && !embree_; }
 
-void BspTracer::find(std::span<const Ray> rays, std::span<const double> t_max, FoundSurface* found, TraceCounters& counters,
-                     const Others* others) const {
+void BspTracer::find(const SeveralRays& rays, FoundSurface* found, TraceCounters& counters, const Others* others) const {
     if (!leads_together(rays.size())) {
-        for (std::size_t k = 0; k < rays.size(); ++k) found[k] = find(rays[k], t_max[k], counters, others);
+        for (std::size_t k = 0; k < rays.size(); ++k) found[k] = find(rays.rays[k], rays.t_max[k], counters, others, rays.end[k]);
         return;
     }
-    PacketSearch<false> packet(surfaces_, rays, t_max, counters, others);
+    PacketSearch<false> packet(surfaces_, rays, counters, others);
     packet.search(boxes_);
     for (int k = 0; k < int(rays.size()); ++k) found[k] = packet.surface(k);
 }
 
-Lanes BspTracer::any(std::span<const Ray> rays, std::span<const double> t_max, TraceCounters& counters, const Others* others) const {
+Lanes BspTracer::any(const SeveralRays& rays, TraceCounters& counters, const Others* others) const {
     Lanes found = 0;
     if (!leads_together(rays.size())) {
-        for (std::size_t k = 0; k < rays.size(); ++k) found |= Lanes(any(rays[k], t_max[k], counters, others)) << k;
+        for (std::size_t k = 0; k < rays.size(); ++k) found |= Lanes(any(rays.rays[k], rays.t_max[k], counters, others)) << k;
         return found;
     }
-    PacketSearch<true> packet(surfaces_, rays, t_max, counters, others);
+    PacketSearch<true> packet(surfaces_, rays, counters, others);
     packet.search(boxes_);
     return packet.any();
 }
@@ -187,7 +186,10 @@ BspTracer::BspTracer(std::vector<NamedBsp> bsps, const std::vector<Box>& others,
     pieces = planes = Pieces(tolerances, criterion);
     std::vector<Box> boxes;  // of pieces
     Box world;
-    for (const Box& box : others) world = hull(world, box);
+    for (const Box& box : others) {
+        world = hull(world, box);
+        surfaces_.others.push_back(inflated(box, tolerances.margin()));
+    }
     for (NamedBsp& bsp : bsps) {
         const auto name = [&](const LocalSolid& local) { return bsp.solids[std::size_t(local.solid())]; };
         for (LocalSolid& plane : bsp.tree.planes) {

@@ -5,7 +5,6 @@
 // outside of that tree, where an unbounded solid goes on, is a BSP itself traversed.
 #pragma once
 #include <optional>
-#include <span>
 
 #include "raytracer/box_tree.hpp"
 #include "raytracer/bsp_tree.hpp"
@@ -35,10 +34,9 @@ public:
                       double end = infinity) const;
     /// Whether there is one.
     bool any(const Ray& ray, double t_max, TraceCounters& counters, const Others* others = nullptr) const;
-    /// The same for several rays that run close to each other, each as far as its t_max.
-    void find(std::span<const Ray> rays, std::span<const double> t_max, FoundSurface* found, TraceCounters& counters,
-              const Others* others = nullptr) const;
-    Lanes any(std::span<const Ray> rays, std::span<const double> t_max, TraceCounters& counters, const Others* others = nullptr) const;
+    /// The same for at most RayPacket::size rays, to the bit.
+    void find(const SeveralRays& rays, FoundSurface* found, TraceCounters& counters, const Others* others = nullptr) const;
+    Lanes any(const SeveralRays& rays, TraceCounters& counters, const Others* others = nullptr) const;
 
     const std::vector<BspTree>& trees() const { return trees_; }  // without their LocalSolids
     const Surfaces& surfaces() const { return surfaces_; }  // what these were, one tree's after the other's

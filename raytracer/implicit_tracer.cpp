@@ -15,19 +15,19 @@ public:
 
     FoundSurface find(std::uint32_t number, const Ray& ray, double t_max, double end, TraceCounters& counters) const override;
     bool any(std::uint32_t number, const Ray& ray, double t_max, TraceCounters& counters) const override;
+    void find_together(std::uint32_t number, const SeveralRays& rays, FoundSurface* found, TraceCounters& counters) const override;
+    Lanes any_together(std::uint32_t number, const SeveralRays& rays, TraceCounters& counters) const override;
 
 private:
-    struct Inside;
+    const Space& space_of(const Placement& p) const { return all_[std::size_t(p.space)]; }
 
     const std::vector<Space>& all_;
     const Space& space_;
 };
 
-// A placement's own space, and what a ray is there.
-struct Placed::Inside {
-    Inside(const std::vector<Space>& all, const Placement& p, const Ray& from, TraceCounters& counters)
-        : space(all[std::size_t(p.space)]), placed(all, space) {
-        ++counters.placements;
+// What a ray is in the placed space.
+struct Inside {
+    Inside(const Placement& p, const Ray& from) {
         if (p.only_moved) {
             ray = {from.origin + p.into.shift, from.direction};
             return;
@@ -36,21 +36,35 @@ struct Placed::Inside {
         rate = glm::length(direction);
         ray = {p.into(from.origin), direction / rate};
     }
+    // A distance is rounded there and back: what is at `end` must be found.
+    double end(double outside) const { return outside * rate * (1 + 4 * epsilon); }
 
-    const Space& space;
-    Placed placed;
     Ray ray;
     double rate = 1;
 };
 
-FoundSurface Placed::find(std::uint32_t number, const Ray& ray, double t_max, double end, TraceCounters& counters) const {
-    const Placement& p = space_.placements[number];
-    const Inside in(all_, p, ray, counters);
-    // A distance is rounded there and back: what is at `end` must be found.
-    end *= in.rate * (1 + 4 * epsilon);
-    FoundSurface found = in.space.bsp.find(in.ray, t_max * in.rate, counters, &in.placed, end);
+// What several are.
+struct InsideTogether {
+    InsideTogether(const Placement& p, const SeveralRays& from) : count(from.size()) {
+        for (std::size_t k = 0; k < count; ++k) {
+            const Inside in(p, from.rays[k]);
+            rays[k] = in.ray;
+            rates[k] = in.rate;
+            t_max[k] = from.t_max[k] * in.rate;
+            ends[k] = in.end(from.end[k]);
+        }
+    }
+    SeveralRays several() const { return {{rays, count}, {t_max, count}, {ends, count}}; }
+
+    std::size_t count;
+    Ray rays[RayPacket::size];
+    double rates[RayPacket::size], t_max[RayPacket::size], ends[RayPacket::size];
+};
+
+// What was found along `ray`, in the space around again.
+FoundSurface outside(FoundSurface found, const Placement& p, const Ray& ray, double rate) {
     if (!(found.crossing.t < infinity)) return {};
-    found.crossing.t /= in.rate;
+    found.crossing.t /= rate;
     if (!p.only_moved) found.crossing.normal = glm::normalize(found.crossing.normal * p.into.linear);  // by the transpose
     if (found.crossing.material < 0) found.crossing.material = p.material;
     found.solid = p.solid;
@@ -58,9 +72,41 @@ FoundSurface Placed::find(std::uint32_t number, const Ray& ray, double t_max, do
     return found;
 }
 
+FoundSurface Placed::find(std::uint32_t number, const Ray& ray, double t_max, double end, TraceCounters& counters) const {
+    const Placement& p = space_.placements[number];
+    ++counters.placements;
+    const Inside in(p, ray);
+    const Space& space = space_of(p);
+    const Placed placed(all_, space);
+    return outside(space.bsp.find(in.ray, t_max * in.rate, counters, &placed, in.end(end)), p, ray, in.rate);
+}
+
 bool Placed::any(std::uint32_t number, const Ray& ray, double t_max, TraceCounters& counters) const {
-    const Inside in(all_, space_.placements[number], ray, counters);
-    return in.space.bsp.any(in.ray, t_max * in.rate, counters, &in.placed);
+    const Placement& p = space_.placements[number];
+    ++counters.placements;
+    const Inside in(p, ray);
+    const Space& space = space_of(p);
+    const Placed placed(all_, space);
+    return space.bsp.any(in.ray, t_max * in.rate, counters, &placed);
+}
+
+void Placed::find_together(std::uint32_t number, const SeveralRays& rays, FoundSurface* found, TraceCounters& counters) const {
+    const Placement& p = space_.placements[number];
+    counters.placements += rays.size();
+    const InsideTogether in(p, rays);
+    const Space& space = space_of(p);
+    const Placed placed(all_, space);
+    space.bsp.find(in.several(), found, counters, &placed);
+    for (std::size_t k = 0; k < rays.size(); ++k) found[k] = outside(found[k], p, rays.rays[k], in.rates[k]);
+}
+
+Lanes Placed::any_together(std::uint32_t number, const SeveralRays& rays, TraceCounters& counters) const {
+    const Placement& p = space_.placements[number];
+    counters.placements += rays.size();
+    const InsideTogether in(p, rays);
+    const Space& space = space_of(p);
+    const Placed placed(all_, space);
+    return space.bsp.any(in.several(), counters, &placed);
 }
 
 }  // namespace
@@ -110,7 +156,7 @@ void ImplicitTracer::first_hits(std::span<const Ray> rays, Hit* hits, TraceCount
     FoundSurface found[RayPacket::size];
     for (std::size_t first = 0; first < rays.size(); first += RayPacket::size) {
         const auto packet = rays.subspan(first, std::min(rays.size() - first, std::size_t(RayPacket::size)));
-        spaces_->all[0].bsp.find(packet, endless, found, counters, &placed);
+        spaces_->all[0].bsp.find({packet, endless, endless}, found, counters, &placed);
         for (std::size_t k = 0; k < packet.size(); ++k) hits[first + k] = hit_of(found[k], packet[k]);
     }
 }
@@ -120,7 +166,8 @@ void ImplicitTracer::occlusions(std::span<const Ray> rays, std::span<const doubl
     const Placed placed(spaces_->all, spaces_->all[0]);
     for (std::size_t first = 0; first < rays.size(); first += RayPacket::size) {
         const std::size_t count = std::min(rays.size() - first, std::size_t(RayPacket::size));
-        const Lanes any = spaces_->all[0].bsp.any(rays.subspan(first, count), t_max.subspan(first, count), counters, &placed);
+        const auto ends = t_max.subspan(first, count);
+        const Lanes any = spaces_->all[0].bsp.any({rays.subspan(first, count), ends, ends}, counters, &placed);
         for (std::size_t k = 0; k < count; ++k) occluded[first + k] = any >> k & 1;
     }
 }

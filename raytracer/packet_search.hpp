@@ -12,18 +12,18 @@ namespace deburr {
 template <bool Any>
 class PacketSearch {
 public:
-    /// Of at most RayPacket::size rays, each as far as its t_max.
-    PacketSearch(const Surfaces& surfaces, std::span<const Ray> rays, std::span<const double> t_max, TraceCounters& counters,
-                 const Others* others)
-        : surfaces_(surfaces), rays_(rays), counters_(counters), others_(others), lanes_((Lanes(1) << rays.size()) - 1) {
+    /// Of at most RayPacket::size rays.
+    PacketSearch(const Surfaces& surfaces, const SeveralRays& rays, TraceCounters& counters, const Others* others)
+        : surfaces_(surfaces), rays_(rays.rays), counters_(counters), others_(others), lanes_((Lanes(1) << rays.size()) - 1) {
         for (std::size_t k = 0; k < RayPacket::size; ++k) {
             const std::size_t i = k < rays.size() ? k : 0;  // so that there are numbers everywhere
             for (int axis = 0; axis < 3; ++axis) {
-                packet_.origin[axis][k] = rays[i].origin[axis];
-                packet_.direction[axis][k] = rays[i].direction[axis];
+                packet_.origin[axis][k] = rays.rays[i].origin[axis];
+                packet_.direction[axis][k] = rays.rays[i].direction[axis];
             }
-            packet_.t_max[k] = packet_.end[k] = t_max[i];
-            if constexpr (!Any) nearest_[k] = NearestCrossing(t_max[i]);
+            packet_.t_max[k] = rays.t_max[i];
+            packet_.end[k] = std::min(rays.t_max[i], rays.end[i]);
+            if constexpr (!Any) nearest_[k] = NearestCrossing(packet_.end[k]);
         }
         packet_functions.prepare(packet_, surfaces.scale);
     }
@@ -107,18 +107,33 @@ private:
 
     bool look_at_other(std::uint32_t i) {
         const std::uint32_t other = i - std::uint32_t(surfaces_.pieces.size());
-        Lanes crossed = 0;
-        for_each_lane(lanes_, [&](int k) {
-            const Ray& ray = rays_[std::size_t(k)];
-            if constexpr (Any) {
-                crossed |= Lanes(others_->any(other, ray, packet_.t_max[k], counters_)) << k;
-            } else {
-                const FoundSurface f = others_->find(other, ray, packet_.t_max[k], packet_.end[k], counters_);
-                if (!(f.crossing.t < infinity)) return;
-                crossed |= Lanes(1) << k;
-                nearest_[k].offer(f.crossing, f.error, f.solid, i);
-            }
+        PacketSpans spans;
+        const Lanes in = packet_functions.spans_in_cell(surfaces_.others[other], packet_, lanes_, spans);
+        if (in == 0) return false;
+        Ray rays[RayPacket::size];
+        double t_max[RayPacket::size], end[RayPacket::size];
+        int lane[RayPacket::size];
+        std::size_t count = 0;
+        for_each_lane(in, [&](int k) {
+            rays[count] = rays_[std::size_t(k)];
+            t_max[count] = packet_.t_max[k];
+            end[count] = packet_.end[k];
+            lane[count++] = k;
         });
+        const SeveralRays several{{rays, count}, {t_max, count}, {end, count}};
+        Lanes crossed = 0;
+        if constexpr (Any) {
+            const Lanes any = others_->any_together(other, several, counters_);
+            for (std::size_t j = 0; j < count; ++j) crossed |= (any >> j & 1) << lane[j];
+        } else {
+            FoundSurface f[RayPacket::size];
+            others_->find_together(other, several, f, counters_);
+            for (std::size_t j = 0; j < count; ++j) {
+                if (!(f[j].crossing.t < infinity)) continue;
+                crossed |= Lanes(1) << lane[j];
+                nearest_[lane[j]].offer(f[j].crossing, f[j].error, f[j].solid, i);
+            }
+        }
         return found(crossed);
     }
 

@@ -5,10 +5,20 @@
 // ray does not cross is looked at: what a ray crosses of one is a function of the two alone, and which of
 // several crossings is taken is settled (nearest_crossing.hpp).
 #pragma once
+#include <span>
+
 #include "raytracer/box_tree.hpp"
 #include "raytracer/nearest_crossing.hpp"
 
 namespace deburr {
+
+/// Rays that run close to each other: each in [0, t_max]; what lies beyond `end` need not be found.
+struct SeveralRays {
+    std::span<const Ray> rays;
+    std::span<const double> t_max, end;
+
+    std::size_t size() const { return rays.size(); }
+};
 
 /// What is in a space besides: found by its box, asked for by its number.
 class Others {
@@ -17,6 +27,15 @@ public:
     virtual FoundSurface find(std::uint32_t other, const Ray& ray, double t_max, double end, TraceCounters& counters) const = 0;
     /// Whether there is one.
     virtual bool any(std::uint32_t other, const Ray& ray, double t_max, TraceCounters& counters) const = 0;
+    /// The same for at most RayPacket::size rays, to the bit.
+    virtual void find_together(std::uint32_t other, const SeveralRays& rays, FoundSurface* found, TraceCounters& counters) const {
+        for (std::size_t k = 0; k < rays.size(); ++k) found[k] = find(other, rays.rays[k], rays.t_max[k], rays.end[k], counters);
+    }
+    virtual Lanes any_together(std::uint32_t other, const SeveralRays& rays, TraceCounters& counters) const {
+        Lanes found = 0;
+        for (std::size_t k = 0; k < rays.size(); ++k) found |= Lanes(any(other, rays.rays[k], rays.t_max[k], counters)) << k;
+        return found;
+    }
 
 protected:
     ~Others() = default;
@@ -27,6 +46,7 @@ struct Surfaces {
     double scale = 1;  // coordinates reach so far
     Pieces pieces;
     Pieces planes;     // whole solids
+    std::vector<Box> others;  // around them, with more to spare than rounding makes of a ray
 };
 
 /// `Any`: that there is a crossing in [0, t_max] is all that is asked.
