@@ -122,7 +122,7 @@ inline BoxSpan span_in(const Box& box, const Vec3& origin, const Vec3& inverse, 
 
 // meet(node, end, t[4]) → bits of the children that are met before `end`, and where.
 template <class Meet, class Visit>
-void BoxTree::walk(float end, Meet meet, Visit visit) const {
+[[gnu::always_inline]] inline void BoxTree::walk(float end, Meet meet, Visit visit) const {
     struct Entry {
         std::int32_t child;
         float t;
