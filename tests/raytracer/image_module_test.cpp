@@ -14,21 +14,21 @@ using namespace deburr::test;
 
 namespace {
 
-// Which of them a call loads, by the first letters of their names.
+// Which of them a call loads.
 std::string loaded(const std::vector<std::string>& words) {
     const Outcome outcome = run(words, {"LD_DEBUG=files"});  // the loader names every file it opens
     CAPTURE(words);
     CHECK(outcome.code == 0);
     CHECK(outcome.err.find("libpng") != std::string::npos);
     std::string names;
-    for (const char* library : {"OpenEXR", "OpenImageIO"})
+    for (const char* library : {"OpenEXR", "OpenImageIO", "embree"})
         if (outcome.err.find(std::string("lib") + library) != std::string::npos) names += std::string(names.empty() ? "" : " ") + library;
     return names;
 }
 
 }  // namespace
 
-TEST_CASE("only what needs OpenEXR or OpenImageIO loads it") {
+TEST_CASE("only what needs OpenEXR, OpenImageIO or Embree loads it") {
     const Folder folder;
     const std::string scene = folder / "cube.lua";
     write_file(scene, cube_scene());
@@ -38,6 +38,8 @@ TEST_CASE("only what needs OpenEXR or OpenImageIO loads it") {
     CHECK(loaded({"render", scene, "-q", "-o", folder / "a.png"}) == "");
     CHECK(loaded({"render", scene, "-q", "-o", folder / "a.exr", "-o", folder / "a.png"}) == "OpenEXR");
     CHECK(loaded({"render", scene, "-q", "-o", folder / "a.jpg"}) == "OpenEXR OpenImageIO");  // which depends on it
+    CHECK(loaded({"render", scene, "-q", "-o", folder / "a.png", "--via", "triage"}) == "embree");
+    CHECK(loaded({"render", scene, "-q", "-o", folder / "a.png", "--accel", "embree"}) == "embree");
     CHECK(loaded({"compare", folder / "a.exr", folder / "a.png", "-q"}) == "OpenEXR OpenImageIO");
 }
 
