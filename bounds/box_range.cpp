@@ -24,23 +24,25 @@ bool is_constant(Op op, const Range& range, const NodeRange& a, const NodeRange&
 
 template <class OfHalfSpace, class Misses>
 const std::vector<NodeRange>& ranges_from(const DensityTree& tree, OfHalfSpace of_half_space, Misses misses) {
-    thread_local std::vector<NodeRange> done;
-    done.clear();
-    for (const TreeNode& n : tree.nodes) {
+    thread_local std::vector<NodeRange> own;
+    own.resize(tree.nodes.size());
+    NodeRange* const done = own.data();
+    for (std::size_t i = 0; i < tree.nodes.size(); ++i) {
+        const TreeNode& n = tree.nodes[i];
         if (n.op == Op::constant) {
-            done.push_back({{n.value, n.value}, true});
+            done[i] = {{n.value, n.value}, true};
         } else if (n.op == Op::half_space) {
             const Range r = of_half_space(std::size_t(n.a));
-            done.push_back({r, r.hi == 0 || r.lo == 1});
+            done[i] = {r, r.hi == 0 || r.lo == 1};
         } else if (n.support >= 0 && misses(tree.supports[std::size_t(n.support)])) {
-            done.push_back({{0, 0}, true});
+            done[i] = {{0, 0}, true};
         } else {
-            const NodeRange a = done[std::size_t(n.a)], b = n.b < 0 ? NodeRange{} : done[std::size_t(n.b)];
+            const NodeRange a = done[n.a], b = n.b < 0 ? NodeRange{} : done[n.b];
             const Range r = combine(n.op, a, b);
-            done.push_back({r, is_constant(n.op, r, a, b)});
+            done[i] = {r, is_constant(n.op, r, a, b)};
         }
     }
-    return done;
+    return own;
 }
 
 const std::vector<NodeRange>& ranges(const DensityTree& tree, const Box& box) {

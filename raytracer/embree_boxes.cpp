@@ -58,9 +58,9 @@ struct EmbreeBoxes::Embree {
         numbers.reserve(boxes.size());
         for (const NumberedBox& b : boxes) numbers.push_back(b.number);
         RTCGeometry geometry = scene.new_geometry(RTC_GEOMETRY_TYPE_USER);
-        rtcSetGeometryUserPrimitiveCount(geometry, unsigned(boxes.size()));
+        embree().set_primitive_count(geometry, unsigned(boxes.size()));
         const std::pair<const BoxFrame*, const NumberedBox*> from{&frame, boxes.data()};
-        rtcSetGeometryBoundsFunction(
+        embree().set_bounds_function(
             geometry,
             [](const RTCBoundsFunctionArguments* a) {
                 const auto& [frame, boxes] = *static_cast<const std::pair<const BoxFrame*, const NumberedBox*>*>(a->geometryUserPtr);
@@ -69,9 +69,9 @@ struct EmbreeBoxes::Embree {
                 *a->bounds_o = {float(lo.x), float(lo.y), float(lo.z), 0, float(hi.x), float(hi.y), float(hi.z), 0};
             },
             nullptr);
-        rtcSetGeometryUserData(geometry, const_cast<void*>(static_cast<const void*>(&from)));
-        rtcSetGeometryIntersectFunction(geometry, on_intersect);
-        rtcSetGeometryOccludedFunction(geometry, on_occluded);
+        embree().set_user_data(geometry, const_cast<void*>(static_cast<const void*>(&from)));
+        embree().set_intersect_function(geometry, on_intersect);
+        embree().set_occluded_function(geometry, on_occluded);
         scene.add(geometry);
         scene.commit("the cells");
     }

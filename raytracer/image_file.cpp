@@ -119,7 +119,7 @@ void write_raster(const std::string& path, const ImageRaster& image, int threads
     const std::string extension = image_extension(path);
     std::string bytes;
     try {
-        bytes = extension == ".exr"   ? encode_exr(image, threads, done)
+        bytes = extension == ".exr"   ? exr_encoder()(image, threads, done)
                 : extension == ".png" ? encode_png(image, done)
                                       : image_module().encode(extension, image, done);
     } catch (const UnsupportedError&) {

@@ -16,7 +16,7 @@ enum class ImageKind {
 std::string image_extension(const std::string& path);
 
 /// By the extension; nothing if it is unknown or this machine's OpenImageIO cannot write it. Throws
-/// UnsupportedError if OpenImageIO is needed and cannot be loaded.
+/// UnsupportedError if a module is needed for it and cannot be loaded.
 std::optional<ImageKind> image_kind(const std::string& path);
 
 /// All extensions that image_kind() knows, for messages: ".exr, .png, …".

@@ -1,46 +1,18 @@
 #include "raytracer/image_module.hpp"
 
-#include <dlfcn.h>
-#include <fmt/format.h>
-
-#include <filesystem>
-
-#include "raytracer/errors.hpp"
+#include "raytracer/module.hpp"
 
 namespace deburr {
-namespace {
-
-// Seen from the program's folder: beside it, above it (programs of tests and benchmarks), and where
-// it is installed.
-constexpr const char* folders[] = {"", "..", DEBURR_MODULE_FOLDER};
-
-const ImageModule* load() {
-    namespace fs = std::filesystem;
-    std::error_code none;
-    const fs::path program = fs::read_symlink("/proc/self/exe", none).parent_path();
-    fs::path found;
-    for (const char* folder : folders) {
-        const fs::path path = program / folder / DEBURR_IMAGE_MODULE;
-        if (found.empty() && fs::exists(path, none)) found = path;
-    }
-    const auto fail = [](const std::string& why) {
-        throw UnsupportedError("pictures other than EXR and PNG need " DEBURR_IMAGE_MODULE ": " + why);
-    };
-    if (found.empty())
-        fail(fmt::format("expected in '{}' or '{}', not found", program.string(),
-                         (program / DEBURR_MODULE_FOLDER).lexically_normal().string()));
-    void* module = dlopen(found.c_str(), RTLD_NOW | RTLD_LOCAL);
-    if (!module) fail(dlerror());
-    void* entry = dlsym(module, image_module_entry);
-    if (!entry) fail(dlerror());
-    return reinterpret_cast<ImageModuleEntry*>(entry)();
-}
-
-}  // namespace
 
 const ImageModule& image_module() {
-    static const ImageModule* const module = load();
+    static const ImageModule* const module =
+        module_function<ImageModuleEntry>(DEBURR_IMAGE_MODULE, image_module_entry, "pictures other than EXR and PNG")();
     return *module;
+}
+
+ExrEncoder* exr_encoder() {
+    static ExrEncoder* const encoder = module_function<ExrModuleEntry>(DEBURR_EXR_MODULE, exr_module_entry, "EXR pictures")();
+    return encoder;
 }
 
 }  // namespace deburr

@@ -1,8 +1,5 @@
-// What only OpenImageIO does: reading pictures, formats beside EXR and PNG, comparing as eyes do.
-//
-// Debian's OpenImageIO depends on 250 shared libraries, and loading them takes longer than most
-// pictures. So the code that calls it is a module of its own, beside the program, that is loaded when
-// it is first asked for.
+// What modules (module.hpp) do for pictures: one by OpenEXR itself, which writes EXR; and one by
+// OpenImageIO, which reads pictures, writes formats beside EXR and PNG, and compares as eyes do.
 #pragma once
 #include "raytracer/image_raster.hpp"
 
@@ -31,8 +28,16 @@ public:
 /// Throws UnsupportedError if it cannot be loaded.
 const ImageModule& image_module();
 
-/// What the module gives, by this name.
+/// The bytes of an EXR; throws std::runtime_error.
+using ExrEncoder = std::string(const ImageRaster& image, int threads, const ShareDone& done);
+
+/// Throws UnsupportedError if it cannot be loaded.
+ExrEncoder* exr_encoder();
+
+/// What the modules give, by these names.
 using ImageModuleEntry = const ImageModule*();
 constexpr const char* image_module_entry = "deburr_image_module";
+using ExrModuleEntry = ExrEncoder*();
+constexpr const char* exr_module_entry = "deburr_exr_module";
 
 }  // namespace deburr

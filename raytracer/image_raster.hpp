@@ -86,9 +86,7 @@ void by_rows(const ImageRaster& image, const ShareDone& done, Rows rows) {
     }
 }
 
-/// The bytes of a file. They throw std::runtime_error.
-std::string encode_exr(const ImageRaster& image, int threads, const ShareDone& done);
-/// R, G, B as bytes: sRGB. Attributes become text.
+/// The bytes of a file; throws std::runtime_error. R, G, B as bytes: sRGB. Attributes become text.
 std::string encode_png(const ImageRaster& image, const ShareDone& done);
 
 }  // namespace deburr

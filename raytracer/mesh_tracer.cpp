@@ -54,10 +54,10 @@ struct MeshTracer::Embree {
 private:
     void add(const Mesh& mesh) {
         RTCGeometry geometry = scene.new_geometry(RTC_GEOMETRY_TYPE_TRIANGLE);
-        auto* vertices = static_cast<float*>(rtcSetNewGeometryBuffer(
+        auto* vertices = static_cast<float*>(embree().set_new_geometry_buffer(
             geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, 3 * sizeof(float), mesh.positions.size()));
         auto* indices = static_cast<unsigned*>(
-            rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
+            embree().set_new_geometry_buffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
                                     3 * sizeof(unsigned), mesh.triangles.size()));
         if (vertices && indices) {
             for (const Vec3& x : mesh.positions)

@@ -1,4 +1,4 @@
-// OpenImageIO is loaded where it is needed and nowhere else.
+// Large libraries are loaded where they are needed and nowhere else.
 #include "raytracer/image_module.hpp"
 
 #include <sys/wait.h>
@@ -14,26 +14,33 @@ using namespace deburr::test;
 
 namespace {
 
-bool loads_openimageio(const std::vector<std::string>& words) {
+// Which of them a call loads.
+std::string loaded(const std::vector<std::string>& words) {
     const Outcome outcome = run(words, {"LD_DEBUG=files"});  // the loader names every file it opens
     CAPTURE(words);
     CHECK(outcome.code == 0);
-    CHECK(outcome.err.find("libOpenEXR") != std::string::npos);
-    return outcome.err.find("libOpenImageIO") != std::string::npos;
+    CHECK(outcome.err.find("libpng") != std::string::npos);
+    std::string names;
+    for (const char* library : {"OpenEXR", "OpenImageIO", "embree"})
+        if (outcome.err.find(std::string("lib") + library) != std::string::npos) names += std::string(names.empty() ? "" : " ") + library;
+    return names;
 }
 
 }  // namespace
 
-TEST_CASE("only what needs OpenImageIO loads it") {
+TEST_CASE("only what needs OpenEXR, OpenImageIO or Embree loads it") {
     const Folder folder;
     const std::string scene = folder / "cube.lua";
     write_file(scene, cube_scene());
-    CHECK_FALSE(loads_openimageio({"--help"}));
-    CHECK_FALSE(loads_openimageio({"info", scene}));
-    CHECK_FALSE(loads_openimageio({"mesh", scene, "-q", "-o", folder / "a.stl"}));
-    CHECK_FALSE(loads_openimageio({"render", scene, "-q", "-o", folder / "a.exr", "-o", folder / "a.png"}));
-    CHECK(loads_openimageio({"render", scene, "-q", "-o", folder / "a.jpg"}));
-    CHECK(loads_openimageio({"compare", folder / "a.exr", folder / "a.png", "-q"}));
+    CHECK(loaded({"--help"}) == "");
+    CHECK(loaded({"info", scene}) == "");
+    CHECK(loaded({"mesh", scene, "-q", "-o", folder / "a.stl"}) == "");
+    CHECK(loaded({"render", scene, "-q", "-o", folder / "a.png"}) == "");
+    CHECK(loaded({"render", scene, "-q", "-o", folder / "a.exr", "-o", folder / "a.png"}) == "OpenEXR");
+    CHECK(loaded({"render", scene, "-q", "-o", folder / "a.jpg"}) == "OpenEXR OpenImageIO");  // which depends on it
+    CHECK(loaded({"render", scene, "-q", "-o", folder / "a.png", "--via", "triage"}) == "embree");
+    CHECK(loaded({"render", scene, "-q", "-o", folder / "a.png", "--accel", "embree"}) == "embree");
+    CHECK(loaded({"compare", folder / "a.exr", folder / "a.png", "-q"}) == "OpenEXR OpenImageIO");
 }
 
 TEST_CASE("a missing module is one clear line, before any work") {
@@ -44,9 +51,12 @@ TEST_CASE("a missing module is one clear line, before any work") {
         const std::string command = "cd '" + (folder / "") + "' && ./deburr render cube.lua -q -o " + output + " 2> errors";
         return WEXITSTATUS(std::system(command.c_str()));
     };
-    CHECK(call("a.jpg") == 3);
-    const std::string error = read_file(folder / "errors");
-    CHECK(error.find("pictures other than EXR and PNG need deburr_images.so: expected in '") != std::string::npos);
-    CHECK(std::count(error.begin(), error.end(), '\n') == 1);
+    for (const auto& [output, says] : {std::pair{"a.jpg", "pictures other than EXR and PNG need deburr_images.so: expected in '"},
+                                       {"a.exr", "EXR pictures need deburr_exr.so: expected in '"}}) {
+        CHECK(call(output) == 3);
+        const std::string error = read_file(folder / "errors");
+        CHECK(error.find(says) != std::string::npos);
+        CHECK(std::count(error.begin(), error.end(), '\n') == 1);
+    }
     CHECK(call("a.png") == 0);
 }

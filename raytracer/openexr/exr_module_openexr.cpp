@@ -1,5 +1,5 @@
-// An EXR's bytes, by OpenEXR itself: OpenImageIO would call it, and takes ten times as long to load
-// as this takes to write a picture.
+// A module behind raytracer/image_module.hpp: an EXR's bytes, by OpenEXR itself. OpenImageIO would
+// call it, and takes ten times as long to load as this takes to write a picture.
 #include <ImfChannelList.h>
 #include <ImfFloatAttribute.h>
 #include <ImfFrameBuffer.h>
@@ -14,7 +14,7 @@
 #include <algorithm>
 #include <cstring>
 
-#include "raytracer/image_raster.hpp"
+#include "raytracer/image_module.hpp"
 
 namespace deburr {
 namespace {
@@ -35,8 +35,6 @@ private:
     std::string bytes_;
     std::size_t at_ = 0;
 };
-
-constexpr double largest_half = 65504;
 
 Imf::PixelType pixel_type(ChannelType type) {
     return type == ChannelType::half_float ? Imf::HALF : type == ChannelType::whole ? Imf::UINT : Imf::FLOAT;
@@ -59,10 +57,6 @@ struct AddAttribute {
 Imath::Box2i box(int x, int y, int width, int height) {
     return {Imath::V2i(x, y), Imath::V2i(x + width - 1, y + height - 1)};
 }
-
-}  // namespace
-
-std::uint16_t half_bits(double value) { return half(float(std::clamp(value, -largest_half, largest_half))).bits(); }
 
 std::string encode_exr(const ImageRaster& image, int threads, const ShareDone& done) {
     const Window& w = image.window;
@@ -96,4 +90,7 @@ std::string encode_exr(const ImageRaster& image, int threads, const ShareDone& d
     return memory.take();
 }
 
+}  // namespace
 }  // namespace deburr
+
+extern "C" __attribute__((visibility("default"))) deburr::ExrEncoder* deburr_exr_module() { return deburr::encode_exr; }
