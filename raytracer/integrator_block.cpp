@@ -111,7 +111,8 @@ private:
         unhidden_.clear();
         for (std::uint32_t j = 0; j < surfaces_.size(); ++j) {
             const Surface& surface = surfaces_[j];
-            const Incident light = in_.incident(source, surface.hit, path(seen_by_[j]), number, k, source.samples());
+            const Vec2 u = source.extended() ? uses_[seen_by_[j]].sampler.square(number, k, source.samples()) : Vec2(0.5);
+            const Incident light = source.at(surface.hit.position, u);
             const Vec3 scattered = in_.scattered(surface, light, source.samples());
             if (!(brightest(scattered) > 0)) continue;
             shadows_.push_back(leave(surface.hit, light.direction));
