@@ -33,8 +33,9 @@ double fresnel_dielectric(double cosine, double ior) {
     const double g2 = ior * ior - 1 + c * c;  // (ior · cosine beyond)²
     if (g2 <= 0) return 1.0;
     const double g = std::sqrt(g2);
-    const double s = (c - g) / (c + g);
-    const double p = (ior * ior * c - g) / (ior * ior * c + g);
+    // (c − g)/(c + g) and (ior² c − g)/(ior² c + g), by one division.
+    const double d = ior * ior * c, inverse = 1 / ((c + g) * (d + g));
+    const double s = (c - g) * (d + g) * inverse, p = (d - g) * (c + g) * inverse;
     return 0.5 * (s * s + p * p);
 }
 
@@ -116,6 +117,7 @@ SurfaceLayer::SurfaceLayer(const Material& material)
             const double t = (i + nodes[k]) / steps;
             mean_ += weights[k] / steps * 4 * t * t * t * albedo(t * t);
         }
+    if (mean_ < 1) base_share_ = 1 / (pi * (1 - mean_));
 }
 
 // The mean weight of reflections about visible facets, over a lattice of golden steps. Over five
@@ -192,12 +194,9 @@ Vec3 Bsdf::layer_albedo() const {
 Bsdf::Value Bsdf::value(Vec3 to_light) const {
     const double cos_light = glm::dot(normal_, to_light);
     if (!(cos_light > 0)) return {};
-    if (layer_.kind() == Material::Kind::matte) return {base_ * (cos_light / pi), Vec3(0.0)};
+    if (layer_.kind() == Material::Kind::matte) return {base_ * (cos_light * std::numbers::inv_pi), Vec3(0.0)};
     Value v;
-    const double mean = layer_.mean_albedo();
-    if (mean < 1)
-        v.base = base_ *
-                 (cos_light / pi * (1 - albedo_eye_) * (1 - layer_.albedo(cos_light)) / (1 - mean));
+    v.base = base_ * (cos_light * (1 - albedo_eye_) * (1 - layer_.albedo(cos_light)) * layer_.base_share());
     if (layer_.smooth()) return v;
     const Vec3 half = glm::normalize(to_eye_ + to_light);
     v.layer = layer_.fresnel(color_, glm::dot(half, to_light)) *

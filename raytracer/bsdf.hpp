@@ -70,6 +70,8 @@ public:
     /// E of the layer (metal, mirror: of a white one), and its mean weighted by the cosine.
     double albedo(double cosine) const;
     double mean_albedo() const { return mean_; }
+    /// 1/(π (1 − E_mean)), of what the layer lets through; 0 if that is nothing.
+    double base_share() const { return base_share_; }
     Vec3 fresnel(Vec3 color, double cosine) const;
 
 private:
@@ -79,7 +81,7 @@ private:
     bool smooth_;
     Ggx ggx_;
     double ior_;
-    double mean_ = 0.0;
+    double mean_ = 0.0, base_share_ = 0.0;
     std::array<double, steps + 1> albedo_{};  // at cosine (i / steps)²
 };
 

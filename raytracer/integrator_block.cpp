@@ -100,7 +100,8 @@ private:
         for (const LightSource& source : in_.lights_) {
             std::fill_n(here_.begin(), surfaces_.size(), Vec3(0.0));
             for (int k = 0; k < source.samples(); ++k) light(source, number, k);
-            for (std::size_t j = 0; j < surfaces_.size(); ++j) lit_[j] += here_[j] / double(source.samples());
+            const double share = double(source.samples());
+            for (std::size_t j = 0; j < surfaces_.size(); ++j) lit_[j] += share == 1 ? here_[j] : here_[j] / share;
             ++number;
         }
     }

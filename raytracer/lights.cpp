@@ -48,9 +48,10 @@ Incident LightSource::at(Vec3 point, Vec2 u) const {
     const double square = glm::dot(way, way);
     if (!(square > 0)) return light;
     light.distance = std::sqrt(square);
-    light.direction = way / light.distance;
+    const double inverse = 1 / light.distance;
+    light.direction = way * inverse;
     if (kind_ == Light::Kind::point) {
-        light.irradiance = emitted_ / square;
+        light.irradiance = emitted_ * (inverse * inverse);
         return light;
     }
     const double cosine = -glm::dot(direction_, light.direction);
