@@ -62,17 +62,15 @@ public:
     template <class Visit>
     void visit(const Vec3& origin, const Vec3& direction, const Vec3& inverse, double t0, double t1, Visit visit) const;
 
-    /// A ray as the tree sees it, from a point of it on.
-    struct Line {
-        float start[3], inverse[3];
+    /// Several rays: where they enter box(), their directions, and how far the farthest goes on in it.
+    struct Beam {
+        Vec3 least_point, most_point, least_direction, most_direction;
+        double longest;
     };
-    Line line(const Vec3& point, const Vec3& inverse) const;
-
-    /// visit() for several rays at once, of whose lines these are the least and the most numbers, and none of
-    /// which goes on for longer than `longest`: calls visit(number of an item) for all that visit() would for one of them, the nearest first but where boxes
-    /// overlap. It returns how far from their starts the longest goes on.
+    /// visit() for all of them at once: calls visit(number of an item) for whatever one of them may meet, the
+    /// nearest first but where boxes overlap. It returns how far the farthest goes on.
     template <class Visit>
-    void visit_together(const Line& least, const Line& most, double longest, Visit visit) const;
+    void visit_together(const Beam& beam, Visit visit) const;
 
     /// Calls visit(number of an item) for those whose boxes may meet this one.
     template <class Visit>
@@ -90,6 +88,7 @@ private:
     };
     template <class Meet, class Visit>
     void walk(float end, Meet meet, Visit visit) const;
+    static float inverse_of(double x);
     std::int32_t collapse(const Builder& from, int root, int depth);
     Node node_of(const Builder& from, const std::vector<int>& children) const;
 
@@ -104,10 +103,8 @@ struct BoxSpan {
 };
 
 /// 1/d, but finite where d is 0.
-inline Vec3 reciprocal(Vec3 d) {
-    const auto of = [](double x) { return std::abs(x) > 1e-300 ? 1 / x : std::copysign(1e300, x); };
-    return {of(d.x), of(d.y), of(d.z)};
-}
+inline double reciprocal(double d) { return std::abs(d) > 1e-300 ? 1 / d : std::copysign(1e300, d); }
+inline Vec3 reciprocal(Vec3 d) { return {reciprocal(d.x), reciprocal(d.y), reciprocal(d.z)}; }
 
 /// Of a box that is not empty.
 inline BoxSpan span_in(const Box& box, const Vec3& origin, const Vec3& inverse, double t0, double t1) {
@@ -165,23 +162,21 @@ template <class Meet, class Visit>
     }
 }
 
-inline BoxTree::Line BoxTree::line(const Vec3& point, const Vec3& reciprocal) const {
-    const Vec3 start = frame_.place(point);
-    Line line;
-    for (int k = 0; k < 3; ++k) {
-        constexpr double most = 1e30;  // beyond it a direction does not leave its place
-        line.start[k] = float(start[k]);
-        line.inverse[k] = float(std::clamp(reciprocal[k], -most, most));
-    }
-    return line;
+inline float BoxTree::inverse_of(double x) {
+    constexpr double most = 1e30;  // beyond it a direction does not leave its place
+    return float(std::clamp(x, -most, most));
 }
 
 template <class Visit>
-void BoxTree::visit(const Vec3& origin, const Vec3& direction, const Vec3& reciprocal, double t0, double t1, Visit visit) const {
-    const Line ray = line(origin + direction * t0, reciprocal);
+void BoxTree::visit(const Vec3& origin, const Vec3& direction, const Vec3& reciprocals, double t0, double t1, Visit visit) const {
+    const Vec3 start = frame_.place(origin + direction * t0);
+    float inverse[3];
     int near[3];
-    for (int k = 0; k < 3; ++k) near[k] = ray.inverse[k] < 0 ? 4 : 0;
-    const Float4 ox(ray.start[0]), oy(ray.start[1]), oz(ray.start[2]), ix(ray.inverse[0]), iy(ray.inverse[1]), iz(ray.inverse[2]);
+    for (int k = 0; k < 3; ++k) {
+        inverse[k] = inverse_of(reciprocals[k]);
+        near[k] = inverse[k] < 0 ? 4 : 0;
+    }
+    const Float4 ox(float(start.x)), oy(float(start.y)), oz(float(start.z)), ix(inverse[0]), iy(inverse[1]), iz(inverse[2]);
     walk(
         frame_.distance(t1 - t0),
         [&](const Node& n, float end, float* t) __attribute__((always_inline)) {
@@ -199,37 +194,50 @@ void BoxTree::visit(const Vec3& origin, const Vec3& direction, const Vec3& recip
         });
 }
 
-// Each operation in single precision is monotone, also where it rounds: what the extreme starts and directions
-// give lies around what any of the rays gives. So what one of them meets alone, all meet together.
+// Along an axis that all go up, or all down: each operation in single precision is monotone, also where it
+// rounds, so what the extreme starts and directions give lies around what any of the rays gives. Along
+// another: the places that any of them reaches. The boxes' slack is more than rounding makes of these.
 template <class Visit>
-void BoxTree::visit_together(const Line& least, const Line& most, double longest, Visit visit) const {
-    // Along an axis both of whose directions occur, nothing is known.
-    struct Axis {
-        int index, near;
-        Float4 from_near, from_far, least, most;  // starts, and what is divided by
+void BoxTree::visit_together(const Beam& beam, Visit visit) const {
+    struct Directed {
+        int axis, near;
+        float to_near, to_far, inverse, other_inverse;  // from which start; divided by
     };
-    Axis axes[3];
-    int known = 0;
+    struct Undirected {
+        int axis;
+        float lo, hi;
+    };
+    Directed directed[3];
+    Undirected undirected[3];
+    int directed_axes = 0, undirected_axes = 0;
+    const Vec3 start = frame_.place(beam.least_point), other_start = frame_.place(beam.most_point);
+    const double way = frame_.distance(beam.longest);
     for (int k = 0; k < 3; ++k) {
-        if (least.inverse[k] > 0)
-            axes[known++] = {k, 0, Float4(most.start[k]), Float4(least.start[k]), Float4(least.inverse[k]), Float4(most.inverse[k])};
-        else if (most.inverse[k] < 0)
-            axes[known++] = {k, 4, Float4(least.start[k]), Float4(most.start[k]), Float4(least.inverse[k]), Float4(most.inverse[k])};
+        const double least = beam.least_direction[k], most = beam.most_direction[k];
+        const float a = float(start[k]), b = float(other_start[k]);
+        if (least > 0) directed[directed_axes++] = {k, 0, b, a, inverse_of(reciprocal(most)), inverse_of(reciprocal(least))};
+        else if (most < 0) directed[directed_axes++] = {k, 4, a, b, inverse_of(reciprocal(most)), inverse_of(reciprocal(least))};
+        else undirected[undirected_axes++] = {k, float(std::max(a + least * way, -2.0)), float(std::min(b + most * way, 2.0))};
     }
     walk(
-        frame_.distance(longest),
+        frame_.distance(beam.longest),
         [&](const Node& n, float end, float* t) __attribute__((always_inline)) {
             Float4 lo(0.0f), hi(end);
-            for (int i = 0; i < known; ++i) {
-                const Axis& a = axes[i];
-                const Float4 near = Float4::load(n.side[a.index] + a.near) - a.from_near;
-                const Float4 far = Float4::load(n.side[a.index] + (a.near ^ 4)) - a.from_far;
-                lo = max(lo, min(near * a.least, near * a.most));
-                hi = min(hi, max(far * a.least, far * a.most));
+            for (int i = 0; i < directed_axes; ++i) {
+                const Directed& d = directed[i];
+                const Float4 inverse(d.inverse), other_inverse(d.other_inverse);
+                const Float4 near = Float4::load(n.side[d.axis] + d.near) - Float4(d.to_near);
+                const Float4 far = Float4::load(n.side[d.axis] + (d.near ^ 4)) - Float4(d.to_far);
+                lo = max(lo, min(near * inverse, near * other_inverse));
+                hi = min(hi, max(far * inverse, far * other_inverse));
             }
             lo.store(t);
-            const unsigned met = not_above(lo, hi);  // no empty slot, if an axis is known
-            return known > 0 ? met : not_above(Float4::load(n.side[0]), Float4::load(n.side[0] + 4));
+            unsigned met = not_above(lo, hi);
+            for (int i = 0; i < undirected_axes; ++i) {
+                const Undirected& u = undirected[i];
+                met &= not_above(Float4::load(n.side[u.axis]), Float4(u.hi)) & not_above(Float4(u.lo), Float4::load(n.side[u.axis] + 4));
+            }
+            return met;
         },
         [&](std::uint32_t item, float end) {
             const double until = visit(item);

@@ -33,11 +33,11 @@ public:
         if (boxes.empty() || lanes_ == 0) return;
         lanes_ = packet_functions.enter(boxes.box(), packet_, lanes_, entry_);
         if (lanes_ == 0) return;
-        boxes.visit_together(boxes.line(entry_.least_point, entry_.least_inverse), boxes.line(entry_.most_point, entry_.most_inverse),
-                             longest_way(), [&](std::uint32_t i) {
-                                 if (!look_at(i)) return infinity;
-                                 return lanes_ == 0 ? -1.0 : longest_way();
-                             });
+        const BoxTree::Beam beam{entry_.least_point, entry_.most_point, entry_.least_direction, entry_.most_direction, longest_way()};
+        boxes.visit_together(beam, [&](std::uint32_t i) {
+            if (!look_at(i)) return infinity;
+            return lanes_ == 0 ? -1.0 : longest_way();
+        });
     }
 
     /// Those that cross anything.

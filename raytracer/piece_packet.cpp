@@ -93,7 +93,7 @@ struct Span {
 
 Lanes enter(const Box& box, const RayPacket& rays, Lanes lanes, PacketEntry& entry) {
     Lanes met = 0;
-    V least[6], most[6];  // points, inverses
+    V least[6], most[6];  // points, directions
     for (int k = 0; k < 6; ++k) {
         least[k] = number(infinity);
         most[k] = number(-infinity);
@@ -107,19 +107,19 @@ Lanes enter(const Box& box, const RayPacket& rays, Lanes lanes, PacketEntry& ent
         const M meets = both(s.lo <= s.hi, mask_of(part));
         met |= bits_of(meets) << first;
         for (int k = 0; k < 3; ++k) {
-            const V point = hn::Load(d, rays.origin[k] + first) + hn::Load(d, rays.direction[k] + first) * s.lo;
-            const V inverse = hn::Load(d, rays.inverse[k] + first);
+            const V direction = hn::Load(d, rays.direction[k] + first);
+            const V point = hn::Load(d, rays.origin[k] + first) + direction * s.lo;
             least[k] = hn::Min(least[k], select(meets, point, least[k]));
             most[k] = hn::Max(most[k], select(meets, point, most[k]));
-            least[k + 3] = hn::Min(least[k + 3], select(meets, inverse, least[k + 3]));
-            most[k + 3] = hn::Max(most[k + 3], select(meets, inverse, most[k + 3]));
+            least[k + 3] = hn::Min(least[k + 3], select(meets, direction, least[k + 3]));
+            most[k + 3] = hn::Max(most[k + 3], select(meets, direction, most[k + 3]));
         }
     }
     for (int k = 0; k < 3; ++k) {
         entry.least_point[k] = hn::GetLane(hn::MinOfLanes(d, least[k]));
         entry.most_point[k] = hn::GetLane(hn::MaxOfLanes(d, most[k]));
-        entry.least_inverse[k] = hn::GetLane(hn::MinOfLanes(d, least[k + 3]));
-        entry.most_inverse[k] = hn::GetLane(hn::MaxOfLanes(d, most[k + 3]));
+        entry.least_direction[k] = hn::GetLane(hn::MinOfLanes(d, least[k + 3]));
+        entry.most_direction[k] = hn::GetLane(hn::MaxOfLanes(d, most[k + 3]));
     }
     return met;
 }

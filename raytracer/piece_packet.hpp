@@ -15,7 +15,7 @@ namespace deburr {
 /// Where rays of a packet are in a box, and what lies around them where they enter it.
 struct PacketEntry {
     alignas(64) double lo[RayPacket::size], hi[RayPacket::size];
-    Vec3 least_point, most_point, least_inverse, most_inverse;
+    Vec3 least_point, most_point, least_direction, most_direction;
 };
 
 /// Where rays of a packet are in a cell, with its walls' rounding added: what a piece there is asked for.

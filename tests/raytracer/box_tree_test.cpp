@@ -131,3 +131,59 @@ TEST_CASE("boxes come nearest first, and none beyond the distance that is asked 
         for (std::size_t i = 0; i < order.size(); ++i) CHECK(order[i] == (forward ? i : 999 - i));
     }
 }
+
+TEST_CASE("what one of several rays touches, they meet together") {
+    long alone = 0, together = 0, across = 0;
+    for (auto seed : seeds(2'000)) {
+        CAPTURE(seed);
+        Gen g(seed);
+        const double size = std::pow(10.0, g.between(-30, 30));
+        BoxTree::Builder builder;
+        int root = BoxTree::Builder::nothing;
+        std::vector<Box> boxes;
+        for (int i = 0, count = 1 + g.below(60); i < count; ++i) {
+            const Vec3 half = 0.2 * Vec3(g.number(), g.number(), g.number()), middle = g.point(1);
+            boxes.push_back({(middle - half) * size, (middle + half) * size});
+            root = builder.join(root, builder.item(std::uint32_t(i), boxes.back()));
+        }
+        const BoxTree tree(builder, root);
+        // A beam, or rays in all directions.
+        const double apart = g.chance(0.2) ? 3 : std::pow(10.0, g.between(-12, -1));
+        const Vec3 middle = awkward_direction(g), from = g.point(0.5) - middle * g.between(0, 4);
+        std::set<std::uint32_t> any;
+        BoxTree::Beam beam{Vec3(infinity), Vec3(-infinity), Vec3(infinity), Vec3(-infinity), 0};
+        for (int k = 2 + g.below(15); k > 0; --k) {
+            const Vec3 d = g.chance(0.2) ? middle : glm::normalize(middle + g.point(apart)), inverse = reciprocal(d);
+            const Vec3 o = (g.chance(0.5) ? from : from + g.point(apart)) * size;
+            const BoxSpan whole = span_in(tree.box(), o, inverse, 0, infinity);
+            if (whole.lo > whole.hi) continue;
+            const Vec3 point = o + d * whole.lo;
+            beam.least_point = glm::min(beam.least_point, point);
+            beam.most_point = glm::max(beam.most_point, point);
+            beam.least_direction = glm::min(beam.least_direction, d);
+            beam.most_direction = glm::max(beam.most_direction, d);
+            beam.longest = std::max(beam.longest, whole.hi - whole.lo);
+            for (const std::uint32_t i : visited_by(tree, o, d, whole, infinity)) {
+                const BoxSpan span = span_in(boxes[i], o, inverse, 0, infinity);
+                if (span.lo <= span.hi) any.insert(i);
+            }
+        }
+        if (any.empty()) continue;
+        bool all_across = true;
+        for (int k = 0; k < 3; ++k) all_across &= beam.least_direction[k] < 0 && beam.most_direction[k] > 0;
+        across += all_across;
+        std::set<std::uint32_t> seen;
+        tree.visit_together(beam, [&](std::uint32_t i) {
+            REQUIRE(seen.insert(i).second);
+            return infinity;
+        });
+        for (const std::uint32_t i : any) REQUIRE(seen.count(i) == 1);
+        if (apart < 1e-3) {
+            alone += long(any.size());
+            together += long(seen.size());
+        }
+    }
+    CHECK(across > 20);
+    CHECK(alone > 400);
+    CHECK(together < 1.2 * double(alone));
+}
