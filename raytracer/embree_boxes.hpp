@@ -1,6 +1,7 @@
 // Boxes as user geometry under a BVH of Embree's: what box_tree.hpp does, by another hierarchy.
 //
-// Every box that the exact ray touches is found, and some more; in what order is Embree's affair.
+// Every box that the exact ray touches is found, and some more; which, and in what order, is Embree's affair
+// and may differ from one processor to another.
 #pragma once
 #include <cstdint>
 #include <memory>

@@ -1,4 +1,6 @@
 // What leads rays to surfaces does not change what they hit: trees of boxes against Embree's BVHs, to the bit.
+#include <tbb/global_control.h>
+
 #include <algorithm>
 #include <filesystem>
 
@@ -133,4 +135,27 @@ TEST_CASE("tiny, huge and far away, in placements of placements, hits are the sa
         hits += roads.hits;
     }
     CHECK(hits > 2'000);
+}
+
+TEST_CASE("what Embree leads rays to does not depend on the number of threads") {
+    std::vector<Solid> solids;
+    for (int i = 0; i < 6000; ++i) {
+        const Density box = Density::box(Vec3(0), Vec3(0.4, 0.5, 0.3 + 0.01 * (i % 10)));
+        solids.push_back(Solid::rounded(0.05, box).transformed({Mat3(1.0), Vec3(i % 20, i / 20 % 20, i / 400)}));
+    }
+    const auto work = [&](std::size_t threads) {
+        const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
+        const ImplicitTracer tracer(solids, Criterion::exact, Search::where_needed, Accel::embree);
+        TraceCounters counters;
+        double sum = 0;
+        for (const auto seed : seeds(2000)) {
+            Gen g(seed);
+            const Hit hit = tracer.first_hit({g.point(30), g.direction()}, infinity, counters);
+            if (hit) sum += hit.t;
+        }
+        return std::make_tuple(sum, counters.placements, counters.cells, counters.evaluations);
+    };
+    const auto one = work(1);
+    CHECK(one == work(2));
+    CHECK(one == work(5));
 }
