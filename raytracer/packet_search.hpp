@@ -44,13 +44,11 @@ public:
     Lanes any() const { return any_; }
     /// What ray k found.
     FoundSurface surface(int k) const {
-        return nearest_[k].surface(rays_[std::size_t(k)], rounding(k, nearest_[k].end()));
+        return nearest_[k].surface(rays_[std::size_t(k)], rounding_of(packet_.reach[k], nearest_[k].end()));
     }
 
 private:
     double longest_way() const { return packet_functions.longest_way(packet_, lanes_, entry_); }
-    double rounding(int k, double t) const { return 4 * epsilon * (packet_.reach[k] + t); }
-
     void look_at_planes() {
         if (surfaces_.planes.size() == 0) return;
         PacketSpans spans;
@@ -83,24 +81,12 @@ private:
     }
 
     bool look_one_by_one(const Pieces& pieces, std::uint32_t i, Lanes lanes, const PacketSpans& spans) {
-        const Piece& p = pieces[i];
         Lanes crossed = 0;
         for_each_lane(lanes, [&](int k) {
-            const Ray& ray = rays_[std::size_t(k)];
-            const double from = spans.from[k], to = spans.to[k];
-            bool is = false;
-            if (p.kind == Piece::Kind::general) {
-                const SurfaceCrossing c = pieces.general_crossing(p, ray.origin, ray.direction, from, to, Any, counters_);
-                is = c.t < infinity;
-                if (!Any && is) nearest_[k].offer(c, rounding(k, c.t) + c.error, p.solid, i);
-            } else if constexpr (Any) {
-                is = pieces.crosses_convex(p, ray.origin, ray.direction, from, to, counters_);
-            } else {
-                const ConvexCrossing c = pieces.convex_crossing(p, ray.origin, ray.direction, from, to, counters_);
-                is = c.t < infinity;
-                if (is) nearest_[k].offer(pieces, i, c);
-            }
-            crossed |= Lanes(is) << k;
+            NearestCrossing& nearest = nearest_[Any ? 0 : k];  // of no use where that there is one is all that is asked
+            const bool crosses = look_at_piece<Any>(pieces, i, rays_[std::size_t(k)], spans.from[k], spans.to[k], packet_.reach[k],
+                                                    nearest, counters_);
+            crossed |= Lanes(crosses) << k;
         });
         return found(crossed);
     }

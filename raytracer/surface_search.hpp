@@ -49,6 +49,35 @@ struct Surfaces {
     std::vector<Box> others;  // around them, with more to spare than rounding makes of a ray
 };
 
+/// What a distance along a ray is rounded by, where coordinates that are added reach so far.
+inline double rounding_of(double reach, double t) { return 4 * epsilon * (reach + t); }
+
+/// Whether the ray crosses piece i in [from, to]. Unless that is all that is asked (`Any`), the first crossing is
+/// offered to `nearest`.
+template <bool Any>
+[[gnu::always_inline]] inline bool look_at_piece(const Pieces& pieces, std::uint32_t i, const Ray& ray, double from, double to,
+                                                 double reach, NearestCrossing& nearest, TraceCounters& counters) {
+    const Piece& p = pieces[i];
+    if (p.kind == Piece::Kind::plane) {
+        const double t = pieces.plane_crossing(p, ray.origin, ray.direction);
+        if (!(t >= from && t <= to && t < infinity)) return false;
+        ++counters.flat_hits;
+        if constexpr (!Any) nearest.offer(pieces, i, {t});
+        return true;
+    }
+    if (p.kind == Piece::Kind::convex) {
+        if constexpr (Any) return pieces.crosses_convex(p, ray.origin, ray.direction, from, to, counters);
+        const ConvexCrossing c = pieces.convex_crossing(p, ray.origin, ray.direction, from, to, counters);
+        if (!(c.t < infinity)) return false;
+        nearest.offer(pieces, i, c);
+        return true;
+    }
+    const SurfaceCrossing c = pieces.general_crossing(p, ray.origin, ray.direction, from, to, Any, counters);
+    if (!(c.t < infinity)) return false;
+    if constexpr (!Any) nearest.offer(c, rounding_of(reach, c.t) + c.error, p.solid, i);
+    return true;
+}
+
 /// `Any`: that there is a crossing in [0, t_max] is all that is asked.
 template <bool Any>
 class SurfaceSearch {
@@ -66,7 +95,7 @@ public:
     /// Nothing more needs to be looked at.
     bool enough() const { return any_; }
     /// A distance along the ray is rounded by this much.
-    double rounding(double t) const { return 4 * epsilon * (reach_ + t); }
+    double rounding(double t) const { return rounding_of(reach_, t); }
 
     void look_at_planes() {
         for (std::size_t i = 0; i < surfaces_.planes.size(); ++i) look(surfaces_.planes, std::uint32_t(i), 0, t_max_);
@@ -92,26 +121,8 @@ private:
 
     void look(const Pieces& pieces, std::uint32_t i, double from, double to) {
         ++counters_.cells;
-        const Piece& p = pieces[i];
-        if (p.kind == Piece::Kind::plane) {
-            const double t = pieces.plane_crossing(p, ray_.origin, ray_.direction);
-            if (!(t >= from && t <= to && t < infinity)) return;
-            ++counters_.flat_hits;
-            if constexpr (Any) any_ = true;
-            else nearest_.offer(pieces, i, {t});
-        } else if (p.kind == Piece::Kind::convex) {
-            if constexpr (Any) {
-                any_ = any_ || pieces.crosses_convex(p, ray_.origin, ray_.direction, from, to, counters_);
-            } else {
-                const ConvexCrossing c = pieces.convex_crossing(p, ray_.origin, ray_.direction, from, to, counters_);
-                if (c.t < infinity) nearest_.offer(pieces, i, c);
-            }
-        } else {
-            const SurfaceCrossing c = pieces.general_crossing(p, ray_.origin, ray_.direction, from, to, Any, counters_);
-            if (!(c.t < infinity)) return;
-            if constexpr (Any) any_ = true;
-            else nearest_.offer(c, rounding(c.t) + c.error, p.solid, i);
-        }
+        const bool crosses = look_at_piece<Any>(pieces, i, ray_, from, to, reach_, nearest_, counters_);
+        any_ |= Any && crosses;
     }
 
     void look_at_other(std::uint32_t i) {
