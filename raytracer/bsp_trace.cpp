@@ -48,6 +48,9 @@ template <bool Any>
     search.look_at_planes();
     if (search.enough()) return true;
     const Ray& ray = search.ray();
+    // What is no number would be let into empty boxes.
+    const Vec3 sum = ray.origin + ray.direction;
+    if (!(sum == sum)) return false;
     const BoxSpan span = span_in(around_, ray.origin, search.inverse(), 0, search.end());
     const bool meets = !around_.empty() && span.lo <= span.hi;
     if (!bounded_) {

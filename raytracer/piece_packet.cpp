@@ -104,15 +104,18 @@ Lanes enter(const Box& box, const RayPacket& rays, Lanes lanes, PacketEntry& ent
         const Span s(box, rays, first, hn::Load(d, rays.end + first));
         hn::Store(s.lo, d, entry.lo + first);
         hn::Store(s.hi, d, entry.hi + first);
-        const M meets = both(s.lo <= s.hi, mask_of(part));
-        met |= bits_of(meets) << first;
+        M meets = both(s.lo <= s.hi, mask_of(part));
+        V around[6];
         for (int k = 0; k < 3; ++k) {
-            const V direction = hn::Load(d, rays.direction[k] + first);
-            const V point = hn::Load(d, rays.origin[k] + first) + direction * s.lo;
-            least[k] = hn::Min(least[k], select(meets, point, least[k]));
-            most[k] = hn::Max(most[k], select(meets, point, most[k]));
-            least[k + 3] = hn::Min(least[k + 3], select(meets, direction, least[k + 3]));
-            most[k + 3] = hn::Max(most[k + 3], select(meets, direction, most[k + 3]));
+            around[k + 3] = hn::Load(d, rays.direction[k] + first);
+            around[k] = hn::Load(d, rays.origin[k] + first) + around[k + 3] * s.lo;
+            // What is no number meets nothing, and must not be taken for the least or the most.
+            meets = both(meets, both(around[k] == around[k], around[k + 3] == around[k + 3]));
+        }
+        met |= bits_of(meets) << first;
+        for (int k = 0; k < 6; ++k) {
+            least[k] = select(meets, hn::Min(least[k], around[k]), least[k]);
+            most[k] = select(meets, hn::Max(most[k], around[k]), most[k]);
         }
     }
     for (int k = 0; k < 3; ++k) {

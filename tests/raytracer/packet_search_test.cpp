@@ -85,6 +85,7 @@ TEST_CASE("rays that are traced together hit what they hit alone, to the bit: wh
             const double apart = g.chance(0.3) ? 2 : std::pow(10.0, g.between(-6, 0));
             for (int k = 2 + g.below(30); k > 0; --k) {
                 Vec3 d = g.chance(0.1) ? g.normal() : aim - eye + g.point(apart);
+                if (g.chance(0.02)) d[g.below(3)] = std::nan("");  // which finds nothing, and hides nothing from others
                 rays.push_back({g.chance(0.5) ? eye : eye + g.point(apart), glm::normalize(d)});
                 t_max.push_back(g.chance(0.3) ? infinity : g.between(0, 6));
             }
