@@ -107,7 +107,7 @@ inline double reciprocal(double d) { return std::abs(d) > 1e-300 ? 1 / d : std::
 inline Vec3 reciprocal(Vec3 d) { return {reciprocal(d.x), reciprocal(d.y), reciprocal(d.z)}; }
 
 /// Of a box that is not empty.
-inline BoxSpan span_in(const Box& box, const Vec3& origin, const Vec3& inverse, double t0, double t1) {
+[[gnu::always_inline]] inline BoxSpan span_in(const Box& box, const Vec3& origin, const Vec3& inverse, double t0, double t1) {
     for (int k = 0; k < 3; ++k) {
         const double a = (box.lo[k] - origin[k]) * inverse[k], b = (box.hi[k] - origin[k]) * inverse[k];
         const double lo = a < b ? a : b, hi = a < b ? b : a;

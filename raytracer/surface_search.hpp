@@ -119,7 +119,7 @@ private:
         if (from <= to && from <= end()) look(surfaces_.pieces, i, from, to);
     }
 
-    void look(const Pieces& pieces, std::uint32_t i, double from, double to) {
+    [[gnu::always_inline]] void look(const Pieces& pieces, std::uint32_t i, double from, double to) {
         ++counters_.cells;
         const bool crosses = look_at_piece<Any>(pieces, i, ray_, from, to, reach_, nearest_, counters_);
         any_ |= Any && crosses;
