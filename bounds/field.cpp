@@ -42,6 +42,7 @@ public:
         ray.field = inner_.get();
         inner_->prepare(ray);
     }
+    double greatest_unit(const Box& box) const override { return inner_->greatest_unit(image(inverse_, box)); }
     ValueSlope at(const FieldRay& ray, double t) const override { return ray.field->at(ray, t); }
     RayBounds bounds(const FieldRay& ray, double t0, double t1) const override {
         return ray.field->bounds(ray, t0, t1);

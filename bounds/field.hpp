@@ -49,6 +49,9 @@ public:
     virtual double settled(Vec3 origin, Vec3 direction) const = 0;
     /// Sets up ray.numbers, if the field uses them, and ray.unit, for the ray that the others name.
     virtual void prepare(FieldRay&) const {}
+    /// No ray within the finite box has a greater unit: what f may be off by anywhere in it, and for whatever ray,
+    /// is RootFinder::rounding of it.
+    virtual double greatest_unit(const Box&) const { return 1; }
     /// f and df/dt in ray.unit: there f must be off by less than RootFinder::rounding.
     virtual ValueSlope at(const FieldRay& ray, double t) const = 0;
     /// M, L and G of the same over [t0, t1].

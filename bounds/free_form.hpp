@@ -40,6 +40,7 @@ public:
     FieldPtr carried(const Affine& map) const override;
     double settled(Vec3 origin, Vec3 direction) const override;
     void prepare(FieldRay& ray) const override;
+    double greatest_unit(const Box& box) const override;
     ValueSlope at(const FieldRay& ray, double t) const override;
     RayBounds bounds(const FieldRay& ray, double t0, double t1) const override;
 

@@ -114,6 +114,16 @@ void FreeForm::prepare(FieldRay& ray) const {
     for (std::size_t i = first_perturbation; i < n.size(); i += stride) n[i] *= scale;
 }
 
+double FreeForm::greatest_unit(const Box& box) const {
+    const auto magnitude = [&](const Quadric& q) { return q.magnitude(glm::max(glm::abs(box.lo - q.centre), glm::abs(box.hi - q.centre))); };
+    double unit = magnitude(base_);
+    for (const Perturbation& p : perturbations_) {
+        const double most = p.quadric.range(box).hi;
+        if (most > 0) unit += 3 * std::abs(p.factor) * most * most * magnitude(p.quadric);
+    }
+    return unit > 0 ? unit : 1;
+}
+
 ValueSlope FreeForm::at(const FieldRay& ray, double t) const {
     const auto& n = ray.numbers;
     const double u = t - n[0];

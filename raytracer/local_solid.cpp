@@ -66,7 +66,9 @@ void LocalSolid::add_leaf(const SolidLeaf& leaf, const Box& box, const Tolerance
                           Search search, std::optional<bool>& constant) {
     if (leaf.field) {  // pruned to where it straddles
         leaves_.push_back({Vec3(0.0), 0, int(softs_.size()), leaf.material});
-        softs_.push_back({LocalDensity(leaf.density), {}, {}, {}, {}, false, false, leaf.field});
+        const Box seen = intersection(box, inflated(leaf.field->bounding_box(), tolerances.margin()));
+        const double unit = !seen.empty() && seen.finite() ? leaf.field->greatest_unit(seen) : 0;
+        softs_.push_back({LocalDensity(leaf.density), {}, {}, {}, {}, false, false, leaf.field, unit});
         return;
     }
     const auto prepared = [&] {

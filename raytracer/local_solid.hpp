@@ -103,7 +103,8 @@ private:
         BoundCsg outer, inner;
         bool bounded;  // the bounds hold
         bool all_sharp;
-        FieldPtr field = {};  // if not null, all else is void
+        FieldPtr field = {};  // if not null, all else is void, but
+        double unit = 0;      // of any ray here, at most; 0: not known
     };
 
     void add_leaf(const SolidLeaf& leaf, const Box& box, const Tolerances& tolerances, Search search,
@@ -112,7 +113,7 @@ private:
     std::optional<ConvexDensity> intersection_of_leaves(unsigned positive) const;
     bool evaluate(std::vector<char>& state, const std::vector<char>& inside) const;
     template <class Visit>
-    void field_crossings(const Field& field, const Vec3& origin, const Vec3& direction, double t0, double t1,
+    void field_crossings(const Field& field, double greatest_unit, const Vec3& origin, const Vec3& direction, double t0, double t1,
                          CrossingScratch& scratch, bool* start_inside, Visit visit) const;
     template <class Visit>
     void sum_crossings(const ProductSum& sum, const Vec3& origin, const Vec3& direction, double t0, double t1, bool coarse,

@@ -71,8 +71,8 @@ bool clip(const Box& box, const Vec3& origin, const Vec3& direction, double& t0,
 
 // visit(t, entering, normal) → go on?
 template <class Visit>
-void LocalSolid::field_crossings(const Field& field, const Vec3& origin, const Vec3& direction, double t0, double t1,
-                                 CrossingScratch& scratch, bool* start_inside, Visit visit) const {
+void LocalSolid::field_crossings(const Field& field, double greatest_unit, const Vec3& origin, const Vec3& direction, double t0,
+                                 double t1, CrossingScratch& scratch, bool* start_inside, Visit visit) const {
     // What is passed over as a mere touch; f is in the ray's unit, of which rounding is all the noise.
     constexpr double faint = 2 * RootFinder::rounding;
     constexpr double farthest = 1e30;  // squares and cubes are far from overflowing there
@@ -85,9 +85,10 @@ void LocalSolid::field_crossings(const Field& field, const Vec3& origin, const V
     FieldRay& ray = scratch.field;
     const auto emit = [&](double t, bool entering) {
         const Vec3 gradient = field.at(origin + direction * t).gradient, normal = unit(gradient);
-        // Where large terms cancel, f is off by more than its slope makes of a coordinate's rounding.
+        // Where large terms cancel, f is off by more than its slope makes of a coordinate's rounding; and a ray that
+        // leaves from here may run to where they are larger.
         const double slope = glm::length(gradient), most = 0x1p-30 * scale_;
-        scratch.error = slope > 0 ? std::min(4 * epsilon * ray.unit / slope, most) : most;
+        scratch.error = slope > 0 ? std::min(4 * epsilon * std::max(ray.unit, greatest_unit) / slope, most) : most;
         // At a cone's apex there is none: the ray's own will do.
         return visit(t, entering, normal == Vec3(0.0) ? direction : normal);
     };
@@ -129,7 +130,7 @@ void LocalSolid::sum_crossings(const ProductSum& sum, const Vec3& origin, const 
 template <class Visit>
 void LocalSolid::soft_crossings(const Soft& soft, const Vec3& origin, const Vec3& direction, double t0, double t1,
                                 CrossingScratch& scratch, bool* start_inside, Visit visit) const {
-    if (soft.field) return field_crossings(*soft.field, origin, direction, t0, t1, scratch, start_inside, visit);
+    if (soft.field) return field_crossings(*soft.field, soft.unit, origin, direction, t0, t1, scratch, start_inside, visit);
     if (soft.convex) {
         const ConvexView view = ConvexView::of(*soft.convex);
         const ConvexCrossings all = all_crossings(view, origin, direction, t0, t1, 8 * epsilon * (scale_ + t0),

@@ -195,7 +195,7 @@ TEST_CASE("rays that leave a surface do not meet it at once, also where large te
             ++hits;
             const Vec3 d = g.direction();
             if (std::abs(glm::dot(d, hit.normal)) < 0.2) continue;
-            again += tracer.first_hit(leave(hit, d), 1e-6, counters).t < infinity;
+            again += tracer.first_hit(leave(hit, d), infinity, counters).t < 1e-6;
             CHECK(hit.offset < 1e-7);  // far below anything to be seen
         }
     }
