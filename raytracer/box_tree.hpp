@@ -72,6 +72,9 @@ public:
     template <class Visit>
     void visit_together(const Beam& beam, Visit visit) const;
 
+    /// Items from `number` on lie at `first`, so many bytes apart: they are fetched before they are visited.
+    void items_lie_at(std::uint32_t number, const void* first, std::size_t apart) { items_ = {number, static_cast<const char*>(first), apart}; }
+
     /// Calls visit(number of an item) for those whose boxes may meet this one.
     template <class Visit>
     void meeting(const Box& box, Visit visit) const;
@@ -86,12 +89,23 @@ private:
         float side[3][8];
         std::int32_t child[4];  // ≥ 0: a node, < 0: ~item
     };
+    struct Items {
+        std::uint32_t number = ~0u;
+        const char* first = nullptr;
+        std::size_t apart = 0;
+    };
+    void fetch_item(std::uint32_t i) const {
+        if (i < items_.number) return;
+        const char* item = items_.first + (i - items_.number) * items_.apart;
+        for (std::size_t at = 0; at < items_.apart; at += 64) __builtin_prefetch(item + at);
+    }
     template <class Meet, class Visit>
     void walk(float end, Meet meet, Visit visit) const;
     static float inverse_of(double x);
     std::int32_t collapse(const Builder& from, int root, int depth);
     Node node_of(const Builder& from, const std::vector<int>& children) const;
 
+    Items items_;
     std::vector<Node, LargePages<Node>> nodes_;  // the root first
     Box box_;
     BoxFrame frame_;
@@ -146,6 +160,7 @@ template <class Meet, class Visit>
                     stack[place] = {n.child[k], t[k]};
                     // It is looked at soon, if not next.
                     if (n.child[k] >= 0) __builtin_prefetch(&nodes_[std::size_t(n.child[k])]);
+                    else fetch_item(std::uint32_t(~n.child[k]));
                 } while (met != 0);
                 now = stack[--top].child;
                 continue;

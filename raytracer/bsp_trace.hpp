@@ -38,6 +38,9 @@ public:
     void find(const SeveralRays& rays, FoundSurface* found, TraceCounters& counters, const Others* others = nullptr) const;
     Lanes any(const SeveralRays& rays, TraceCounters& counters, const Others* others = nullptr) const;
 
+    /// Others lie at `first`, so many bytes apart, as long as rays are traced.
+    void others_lie_at(const void* first, std::size_t apart) { boxes_.items_lie_at(std::uint32_t(surfaces_.pieces.size()), first, apart); }
+
     const std::vector<BspTree>& trees() const { return trees_; }  // without their LocalSolids
     const Surfaces& surfaces() const { return surfaces_; }  // what these were, one tree's after the other's
 

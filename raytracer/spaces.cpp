@@ -250,6 +250,7 @@ std::vector<Space> build_spaces(const std::vector<Solid>& solids, Criterion crit
         const double scale = std::max(bsps[0].tree.tolerances.scale, planned.reach);
         in_parallel(bsps.size() - 1, [&](std::size_t k) { build(k + 1, least_share_of_scale * scale); });
         spaces[i] = {BspTracer(std::move(bsps), planned.boxes, criterion, accel), std::move(planned.placements)};
+        spaces[i].bsp.others_lie_at(spaces[i].placements.data(), sizeof(Placement));
     });
     return spaces;
 }
