@@ -21,7 +21,12 @@ std::string loaded(const std::vector<std::string>& words) {
     CHECK(outcome.code == 0);
     CHECK(outcome.err.find("libpng") != std::string::npos);
     std::string names;
-    for (const char* library : {"OpenEXR", "OpenImageIO", "embree"})
+#ifdef __SANITIZE_ADDRESS__
+    const std::vector<const char*> libraries{"OpenEXR", "OpenImageIO"};  // Embree is linked (CMakeLists.txt)
+#else
+    const std::vector<const char*> libraries{"OpenEXR", "OpenImageIO", "embree"};
+#endif
+    for (const char* library : libraries)
         if (outcome.err.find(std::string("lib") + library) != std::string::npos) names += std::string(names.empty() ? "" : " ") + library;
     return names;
 }
@@ -38,8 +43,10 @@ TEST_CASE("only what needs OpenEXR, OpenImageIO or Embree loads it") {
     CHECK(loaded({"render", scene, "-q", "-o", folder / "a.png"}) == "");
     CHECK(loaded({"render", scene, "-q", "-o", folder / "a.exr", "-o", folder / "a.png"}) == "OpenEXR");
     CHECK(loaded({"render", scene, "-q", "-o", folder / "a.jpg"}) == "OpenEXR OpenImageIO");  // which depends on it
+#ifndef __SANITIZE_ADDRESS__
     CHECK(loaded({"render", scene, "-q", "-o", folder / "a.png", "--via", "triage"}) == "embree");
     CHECK(loaded({"render", scene, "-q", "-o", folder / "a.png", "--accel", "embree"}) == "embree");
+#endif
     CHECK(loaded({"compare", folder / "a.exr", folder / "a.png", "-q"}) == "OpenEXR OpenImageIO");
 }
 
