@@ -65,7 +65,7 @@ void triage_against_flying_edges(Report& report) {
                                                      }) /
                                                      meshes_in_turn;
                                           },
-                                          r < 0.02 ? 3 : 7);
+                                          r < 0.01 ? 3 : 7);
         const Bars bars = bars_at(r);
         report.figure(fmt::format("obj4, r = {}: triangles, of flying edges'", r),
                       100 * double(ours.triangles.size()) / double(theirs.triangles()), "%", bars.triangles);
