@@ -13,9 +13,9 @@ file(name) = sprintf("%s/%s.dat", data, name)
 if (have("bars")) {
     stats file("bars") using 2 nooutput
     rows = STATS_records
-    set terminal pngcairo size 900, 80 + 22*rows font font noenhanced
+    set terminal pngcairo size 960, 80 + 22*rows font font noenhanced
     set output sprintf("%s/bench_ratios.png", images)
-    set lmargin 48
+    set lmargin 54
     set rmargin 18
     set title "How many times better than the bar: measured (bar)"
     set logscale x 10
