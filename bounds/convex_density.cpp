@@ -164,7 +164,7 @@ private:
 
     // Distance s ≥ from of C's beginning, if it is not beyond `to`; the ray's parameter is base + sign·s.
     double newton(double s, Point p, double to, double negligible, double base = 0, double sign = 1) const {
-        for (int k = 0; k < most_steps; ++k) {
+        for (int k = 0; k < most_newton_steps; ++k) {
             if (p.P >= 0.5 - rounding) return p.slope > 0 ? s : infinity;
             if (!(p.slope > 0)) return infinity;
             // log 1/x from below: a Padé approximant, exact to (1 − x)⁵. So the step is no longer than
@@ -181,9 +181,6 @@ private:
         }
         return s;
     }
-
-    // Steps shrink quadratically, or by half where the ray touches C: then to the root of ε.
-    static constexpr int most_steps = 100;
 
     const ConvexView& density_;
     std::uint64_t& evaluations_;

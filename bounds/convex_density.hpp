@@ -50,6 +50,9 @@ struct ConvexView {
 /// More factors than this are not promised to be handled: convex_density() gives none.
 constexpr int most_factors = 255;
 
+/// Steps shrink quadratically, or by half where the ray touches C: then to the root of ε.
+constexpr int most_newton_steps = 100;
+
 struct ConvexCrossing {
     double t = infinity;
     bool entering = false;  // ρ > ½ beyond it
