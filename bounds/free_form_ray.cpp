@@ -55,6 +55,9 @@ double bernstein_bound(const std::array<double, count>& c) {
     return most;
 }
 
+// What a perturbation adds to the unit, where its Q is at most `most` and its terms add up to `magnitude`.
+double unit_of(const Perturbation& p, double most, double magnitude) { return 3 * std::abs(p.factor) * most * most * magnitude; }
+
 // The largest t where q = 0, or −infinity.
 double last_root(const Quadratic& q) {
     if (q.c == 0) return q.b == 0 ? -infinity : -q.a / q.b;
@@ -106,7 +109,7 @@ void FreeForm::prepare(FieldRay& ray) const {
         if (q.c < 0 && std::abs(q.b) < -2 * q.c * half) most = q.a - q.b * q.b / (4 * q.c);
         if (!(most > 0)) continue;
         n.insert(n.end(), {p.factor, q.a, q.b, q.c});
-        unit += 3 * std::abs(p.factor) * most * most * magnitude(p.quadric);
+        unit += unit_of(p, most, magnitude(p.quadric));
     }
     if (unit > 0) ray.unit = unit;
     const double scale = 1 / ray.unit;
@@ -119,7 +122,7 @@ double FreeForm::greatest_unit(const Box& box) const {
     double unit = magnitude(base_);
     for (const Perturbation& p : perturbations_) {
         const double most = p.quadric.range(box).hi;
-        if (most > 0) unit += 3 * std::abs(p.factor) * most * most * magnitude(p.quadric);
+        if (most > 0) unit += unit_of(p, most, magnitude(p.quadric));
     }
     return unit > 0 ? unit : 1;
 }

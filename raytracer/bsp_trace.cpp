@@ -1,8 +1,8 @@
 #include "raytracer/bsp_trace.hpp"
 
-#include "raytracer/packet_search.hpp"
-
 #include <algorithm>
+
+#include "raytracer/packet_search.hpp"
 
 namespace deburr {
 namespace {

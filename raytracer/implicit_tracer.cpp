@@ -19,10 +19,22 @@ public:
     Lanes any_together(std::uint32_t number, const SeveralRays& rays, TraceCounters& counters) const override;
 
 private:
-    const Space& space_of(const Placement& p) const { return all_[std::size_t(p.space)]; }
+    struct Entered;
 
     const std::vector<Space>& all_;
     const Space& space_;
+};
+
+// A placement that rays enter.
+struct Placed::Entered {
+    Entered(const Placed& around, std::uint32_t number, std::size_t rays, TraceCounters& counters)
+        : p(around.space_.placements[number]), bsp(around.all_[std::size_t(p.space)].bsp), others(around.all_, around.all_[std::size_t(p.space)]) {
+        counters.placements += rays;
+    }
+
+    const Placement& p;
+    const BspTracer& bsp;
+    Placed others;
 };
 
 // What a ray is in the placed space.
@@ -73,40 +85,27 @@ FoundSurface outside(FoundSurface found, const Placement& p, const Ray& ray, dou
 }
 
 FoundSurface Placed::find(std::uint32_t number, const Ray& ray, double t_max, double end, TraceCounters& counters) const {
-    const Placement& p = space_.placements[number];
-    ++counters.placements;
-    const Inside in(p, ray);
-    const Space& space = space_of(p);
-    const Placed placed(all_, space);
-    return outside(space.bsp.find(in.ray, t_max * in.rate, counters, &placed, in.end(end)), p, ray, in.rate);
+    const Entered e(*this, number, 1, counters);
+    const Inside in(e.p, ray);
+    return outside(e.bsp.find(in.ray, t_max * in.rate, counters, &e.others, in.end(end)), e.p, ray, in.rate);
 }
 
 bool Placed::any(std::uint32_t number, const Ray& ray, double t_max, TraceCounters& counters) const {
-    const Placement& p = space_.placements[number];
-    ++counters.placements;
-    const Inside in(p, ray);
-    const Space& space = space_of(p);
-    const Placed placed(all_, space);
-    return space.bsp.any(in.ray, t_max * in.rate, counters, &placed);
+    const Entered e(*this, number, 1, counters);
+    const Inside in(e.p, ray);
+    return e.bsp.any(in.ray, t_max * in.rate, counters, &e.others);
 }
 
 void Placed::find_together(std::uint32_t number, const SeveralRays& rays, FoundSurface* found, TraceCounters& counters) const {
-    const Placement& p = space_.placements[number];
-    counters.placements += rays.size();
-    const InsideTogether in(p, rays);
-    const Space& space = space_of(p);
-    const Placed placed(all_, space);
-    space.bsp.find(in.several(), found, counters, &placed);
-    for (std::size_t k = 0; k < rays.size(); ++k) found[k] = outside(found[k], p, rays.rays[k], in.rates[k]);
+    const Entered e(*this, number, rays.size(), counters);
+    const InsideTogether in(e.p, rays);
+    e.bsp.find(in.several(), found, counters, &e.others);
+    for (std::size_t k = 0; k < rays.size(); ++k) found[k] = outside(found[k], e.p, rays.rays[k], in.rates[k]);
 }
 
 Lanes Placed::any_together(std::uint32_t number, const SeveralRays& rays, TraceCounters& counters) const {
-    const Placement& p = space_.placements[number];
-    counters.placements += rays.size();
-    const InsideTogether in(p, rays);
-    const Space& space = space_of(p);
-    const Placed placed(all_, space);
-    return space.bsp.any(in.several(), counters, &placed);
+    const Entered e(*this, number, rays.size(), counters);
+    return e.bsp.any(InsideTogether(e.p, rays).several(), counters, &e.others);
 }
 
 }  // namespace

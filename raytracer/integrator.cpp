@@ -103,7 +103,7 @@ Vec3 Integrator::lit(const Surface& surface, const Path& path) const {
         const int samples = path.scattered ? 1 : source.samples();
         Vec3 here(0.0);
         for (int k = 0; k < samples; ++k) {
-            const Incident light = incident(source, surface.hit, path, dimension, k, samples);
+            const Incident light = incident(source, surface.hit, path.sampler, dimension, k, samples);
             const Vec3 light_here = scattered(surface, light, samples);
             if (brightest(light_here) > 0) here += light_here * transmittance(surface.hit, light, path);
         }
@@ -113,9 +113,9 @@ Vec3 Integrator::lit(const Surface& surface, const Path& path) const {
     return sum;
 }
 
-Incident Integrator::incident(const LightSource& source, const Hit& hit, const Path& path, std::uint32_t dimension, int k,
-                              int samples) const {
-    return source.at(hit.position, source.extended() ? path.sampler.square(dimension, k, samples) : Vec2(0.5));
+Incident Integrator::incident(const LightSource& source, const Hit& hit, const Sampler& sampler, std::uint32_t dimension, int k,
+                              int samples) {
+    return source.at(hit.position, source.extended() ? sampler.square(dimension, k, samples) : Vec2(0.5));
 }
 
 Vec3 Integrator::transmittance(const Hit& hit, const Incident& light, const Path& path) const {

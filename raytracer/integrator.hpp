@@ -81,7 +81,7 @@ private:
     Vec3 color_of_glass(const Hit& hit, Vec3 tint, Vec3 direction, const Path& path) const;
     Vec3 color_of(const Surface& surface, Vec3 lit, const Path& path) const;
     Vec3 lit(const Surface& surface, const Path& path) const;
-    Incident incident(const LightSource& source, const Hit& hit, const Path& path, std::uint32_t dimension, int k, int samples) const;
+    static Incident incident(const LightSource& source, const Hit& hit, const Sampler& sampler, std::uint32_t dimension, int k, int samples);
     Vec3 scattered(const Surface& surface, const Incident& light, int samples) const;
     Vec3 reflected_without_noise(const Bsdf& bsdf, const Hit& hit, const Path& path) const;
     Vec3 transmittance(const Hit& hit, const Incident& light, const Path& path) const;

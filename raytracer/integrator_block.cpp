@@ -129,8 +129,7 @@ private:
         m_.unhidden.clear();
         for (std::uint32_t j = 0; j < m_.surfaces.size(); ++j) {
             const Surface& surface = m_.surfaces[j];
-            const Vec2 u = source.extended() ? m_.uses[m_.seen_by[j]].sampler.square(number, k, source.samples()) : Vec2(0.5);
-            const Incident light = source.at(surface.hit.position, u);
+            const Incident light = incident(source, surface.hit, m_.uses[m_.seen_by[j]].sampler, number, k, source.samples());
             const Vec3 scattered = in_.scattered(surface, light, source.samples());
             if (!(brightest(scattered) > 0)) continue;
             m_.shadows.push_back(leave(surface.hit, light.direction));
