@@ -1,12 +1,10 @@
 // What leads rays to surfaces does not change what they hit: trees of boxes against Embree's BVHs, to the bit.
-#include <tbb/global_control.h>
-
 #include <algorithm>
 #include <filesystem>
 
 #include "ball_field.hpp"
 #include "catch.hpp"
-#include "random_case.hpp"
+#include "raytracer/hits.hpp"
 #include "raytracer/bsp.hpp"
 #include "raytracer/integrator.hpp"
 #include "raytracer/scene_reader.hpp"
@@ -14,11 +12,6 @@
 using namespace deburr;
 
 namespace {
-
-bool same_bits(const Hit& a, const Hit& b) {
-    return a.t == b.t && a.position == b.position && a.normal == b.normal && a.solid == b.solid && a.material == b.material &&
-           a.offset == b.offset;
-}
 
 // Both roads through the same solids.
 class Roads {
@@ -144,16 +137,7 @@ TEST_CASE("what Embree leads rays to does not depend on the number of threads") 
         solids.push_back(Solid::rounded(0.05, box).transformed({Mat3(1.0), Vec3(i % 20, i / 20 % 20, i / 400)}));
     }
     const auto work = [&](std::size_t threads) {
-        const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
-        const ImplicitTracer tracer(solids, Criterion::exact, Search::where_needed, Accel::embree);
-        TraceCounters counters;
-        double sum = 0;
-        for (const auto seed : seeds(2000)) {
-            Gen g(seed);
-            const Hit hit = tracer.first_hit({g.point(30), g.direction()}, infinity, counters);
-            if (hit) sum += hit.t;
-        }
-        return std::make_tuple(sum, counters.placements, counters.cells, counters.evaluations);
+        return random_hits(threads, [&] { return ImplicitTracer(solids, Criterion::exact, Search::where_needed, Accel::embree); });
     };
     const auto one = work(1);
     CHECK(one == work(2));

@@ -1,7 +1,7 @@
 #include "raytracer/bsp.hpp"
 
 #include "catch.hpp"
-#include "random_case.hpp"
+#include "raytracer/hits.hpp"
 #include "raytracer/integrator.hpp"
 #include "raytracer/scene_reader.hpp"
 
@@ -11,13 +11,7 @@ namespace {
 
 Scene scene_of(const std::string& name) { return read_scene(DEBURR_SOURCE_DIR "/scenes/" + name + ".lua", {}); }
 
-bool same(const Hit& a, const Hit& b) {
-    if (!a && !b) return true;
-    return a.t == b.t && a.position == b.position && a.normal == b.normal && a.solid == b.solid && a.material == b.material &&
-           a.offset == b.offset;
-}
-
-// Of these rays, packets of `together`: how many hit, and how many do not find what they find alone.
+// Of rays that are asked for together: how many hit, and how many do not find what they find alone.
 struct Comparison {
     int rays = 0, hits = 0, occluded = 0, different = 0;
 
@@ -29,7 +23,7 @@ struct Comparison {
         tracer.occlusions(rays_of, t_max, any.get(), counters);
         for (std::size_t k = 0; k < rays_of.size(); ++k) {
             const bool occludes = tracer.occluded(rays_of[k], t_max[k], counters);
-            different += !same(together[k], tracer.first_hit(rays_of[k], infinity, counters)) || any[k] != occludes;
+            different += !same_bits(together[k], tracer.first_hit(rays_of[k], infinity, counters)) || any[k] != occludes;
             ++rays;
             hits += bool(together[k]);
             occluded += occludes;

@@ -1,11 +1,9 @@
 // Spaces and placements against one BSP of everything, ray by ray.
 #include "raytracer/spaces.hpp"
 
-#include <tbb/global_control.h>
-
 #include "ball_field.hpp"
 #include "catch.hpp"
-#include "random_case.hpp"
+#include "raytracer/hits.hpp"
 #include "raytracer/bsp.hpp"
 #include "raytracer/bsp_trace.hpp"
 
@@ -223,18 +221,7 @@ TEST_CASE("spaces do not depend on the number of threads") {
     Density many = Density::box({0, 0, -3}, {0.5, 0.5, -2.5});  // and one solid that is built in parallel
     for (int i = 1; i < 300; ++i) many = many | Density::box({0.7 * (i % 20), i / 20, -3}, {0.7 * (i % 20) + 0.8, i / 20 + 0.5, -2.5});
     solids.push_back(Solid::rounded(0.04, many));
-    const auto hits = [&](std::size_t threads) {
-        const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
-        const ImplicitTracer tracer(solids);
-        TraceCounters counters;
-        double sum = 0;
-        for (const auto seed : seeds(2000)) {
-            Gen g(seed);
-            const Hit hit = tracer.first_hit({g.point(30), g.direction()}, infinity, counters);
-            if (hit) sum += hit.t;
-        }
-        return std::make_tuple(sum, counters.placements, counters.cells, counters.evaluations);
-    };
+    const auto hits = [&](std::size_t threads) { return random_hits(threads, [&] { return ImplicitTracer(solids); }); };
     const auto one = hits(1);
     CHECK(one == hits(2));
     CHECK(one == hits(5));
