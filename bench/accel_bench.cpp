@@ -17,8 +17,12 @@ ImplicitTracer by_embree(const std::vector<Solid>& solids) {
 class RaysAlone final : public RayTracer {
 public:
     explicit RaysAlone(const RayTracer& tracer) : tracer_(tracer) {}
-    Hit first_hit(const Ray& ray, double t_max, TraceCounters& counters) const override { return tracer_.first_hit(ray, t_max, counters); }
-    bool occluded(const Ray& ray, double t_max, TraceCounters& counters) const override { return tracer_.occluded(ray, t_max, counters); }
+    Hit first_hit(const Ray& ray, double t_max, TraceCounters& counters) const override {
+        return tracer_.first_hit(ray, t_max, counters);
+    }
+    bool occluded(const Ray& ray, double t_max, TraceCounters& counters) const override {
+        return tracer_.occluded(ray, t_max, counters);
+    }
 
 private:
     const RayTracer& tracer_;
@@ -46,7 +50,8 @@ void embree_against_boxes(Report& report) {
     const auto ask = [&](const RayTracer& tracer) {
         for (const Ray& ray : all) keep(tracer.first_hit(ray, infinity, counters));
     };
-    report.ratio("10,000 blocks: rays one by one, by Embree's BVH / by boxes", ratio_of([&] { ask(embree); }, [&] { ask(boxes); }));
+    report.ratio("10,000 blocks: rays one by one, by Embree's BVH / by boxes",
+                 ratio_of([&] { ask(embree); }, [&] { ask(boxes); }));
 }
 
 }  // namespace deburr::bench

@@ -26,7 +26,8 @@ std::vector<Ray> rays_through(double side, int count) {
     for (int n = 1; n <= count; ++n) {
         const Vec3 target = side * Vec3(fraction(0.8192 * n), fraction(0.6711 * n), fraction(0.5497 * n));
         const double phi = 6.2831853 * fraction(0.6180 * n), z = 2 * fraction(0.7549 * n) - 1;
-        const Vec3 eye = Vec3(0.5 * side) + 2 * side * Vec3(std::cos(phi) * std::sqrt(1 - z * z), z, std::sin(phi) * std::sqrt(1 - z * z));
+        const Vec3 eye = Vec3(0.5 * side) +
+                         2 * side * Vec3(std::cos(phi) * std::sqrt(1 - z * z), z, std::sin(phi) * std::sqrt(1 - z * z));
         all.push_back({eye, glm::normalize(target - eye)});
     }
     return all;

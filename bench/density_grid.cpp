@@ -41,9 +41,12 @@ void combine_rows(Row& a, Row& b, int count, Row& out, Of of) {
     float* to = out.values.data();
     const float *from_a = a.values.data(), *from_b = b.values.data();
     const float value_a = a.value, value_b = b.value;
-    if (a.constant) for (int i = 0; i < count; ++i) to[i] = of(value_a, from_b[i]);
-    else if (b.constant) for (int i = 0; i < count; ++i) to[i] = of(from_a[i], value_b);
-    else for (int i = 0; i < count; ++i) to[i] = of(from_a[i], from_b[i]);
+    if (a.constant)
+        for (int i = 0; i < count; ++i) to[i] = of(value_a, from_b[i]);
+    else if (b.constant)
+        for (int i = 0; i < count; ++i) to[i] = of(from_a[i], value_b);
+    else
+        for (int i = 0; i < count; ++i) to[i] = of(from_a[i], from_b[i]);
 }
 
 void product_rows(Row& a, Row& b, int count, Row& out) {
@@ -74,16 +77,24 @@ DensityGrid density_grid(const DensityTree& tree, const Box& box, double step) {
                 Row& row = rows[i];
                 const auto at = [&](int c) -> Row& { return rows[std::size_t(c)]; };
                 switch (n.op) {
-                    case Op::half_space: profile_row(tree.half_spaces[std::size_t(n.a)], start, step, count, row); break;
+                    case Op::half_space:
+                        profile_row(tree.half_spaces[std::size_t(n.a)], start, step, count, row);
+                        break;
                     case Op::product: product_rows(at(n.a), at(n.b), count, row); break;
-                    case Op::sum: combine_rows(at(n.a), at(n.b), count, row, [](float a, float b) { return a + b; }); break;
-                    case Op::difference: combine_rows(at(n.a), at(n.b), count, row, [](float a, float b) { return a - b; }); break;
+                    case Op::sum:
+                        combine_rows(at(n.a), at(n.b), count, row, [](float a, float b) { return a + b; });
+                        break;
+                    case Op::difference:
+                        combine_rows(at(n.a), at(n.b), count, row, [](float a, float b) { return a - b; });
+                        break;
                     default: throw std::logic_error("density_grid: not the papers' arithmetic");
                 }
             }
             const Row& last = rows.back();
-            if (last.constant) std::fill(out, out + count, last.value);
-            else std::copy(last.values.begin(), last.values.begin() + count, out);
+            if (last.constant)
+                std::fill(out, out + count, last.value);
+            else
+                std::copy(last.values.begin(), last.values.begin() + count, out);
         }
     return grid;
 }

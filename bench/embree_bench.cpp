@@ -25,7 +25,8 @@ void implicit_against_embree(Report& report) {
             TraceCounters counters;
             const Recording recording(implicit);
             render_picture(scene, recording, counters, spp);
-            const Ratio rays = ratio_of([&] { recording.ask(implicit, counters); }, [&] { recording.ask(embree, counters); });
+            const Ratio rays =
+                ratio_of([&] { recording.ask(implicit, counters); }, [&] { recording.ask(embree, counters); });
             report.ratio(fmt::format("{}, spp {}: rays alone", name, spp), rays, at_most(2.0));
             report.ratio(fmt::format("{}, spp {}: picture with shading", name, spp),
                          ratio_of([&] { render_picture(scene, implicit, counters, spp); },
@@ -37,8 +38,8 @@ void implicit_against_embree(Report& report) {
         }
         const Folder folder;
         const auto whole = [&](const char* via) {
-            return *cpu_seconds_of_program({deburr_program(), "render", scene_path(name), "-q", "--threads", "1", "--spp",
-                                            "1", "--via", via, "-o", folder / "picture.png"});
+            return *cpu_seconds_of_program({deburr_program(), "render", scene_path(name), "-q", "--threads", "1",
+                                            "--spp", "1", "--via", via, "-o", folder / "picture.png"});
         };
         report.ratio(fmt::format("{}: whole process", name),
                      ratio_of_times([&] { return whole("implicit"); }, [&] { return whole("triage"); }, 5));

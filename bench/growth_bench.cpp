@@ -49,9 +49,12 @@ std::vector<Ray> rays_to_flat_parts(int k) {
 
 double seconds_a_ray(const RayTracer& tracer, const std::vector<Ray>& all) {
     TraceCounters counters;
-    return seconds_of([&] {
-               for (const Ray& ray : all) keep(tracer.first_hit(ray, infinity, counters));
-           }, 5) / double(all.size());
+    return seconds_of(
+               [&] {
+                   for (const Ray& ray : all) keep(tracer.first_hit(ray, infinity, counters));
+               },
+               5) /
+           double(all.size());
 }
 
 // The last cost over the one where `x` was `reference`.
@@ -85,7 +88,8 @@ void growth_of_tracing(Report& report) {
         report.figure(fmt::format("{} blocks: build", count), build, "s");
         report.point("rays through blocks", "objects", "µs per ray", count, 1e6 * ray);
     }
-    report.ratio(fmt::format("a ray through {:.0f} blocks / 100 blocks", objects.last_x), {objects.last, objects.reference}, at_most(3));
+    report.ratio(fmt::format("a ray through {:.0f} blocks / 100 blocks", objects.last_x),
+                 {objects.last, objects.reference}, at_most(3));
 
     Growth half_spaces{12};
     for (const int k : {1, 4, 11, 35}) {
@@ -96,7 +100,8 @@ void growth_of_tracing(Report& report) {
         report.figure(fmt::format("one object of {} half-spaces: a ray to a flat part", count), 1e6 * ray, "µs");
         report.point("rays to one object", "half-spaces", "µs per ray", count, 1e6 * ray);
     }
-    report.ratio(fmt::format("a ray to {:.0f} half-spaces / 12", half_spaces.last_x), {half_spaces.last, half_spaces.reference}, at_most(3));
+    report.ratio(fmt::format("a ray to {:.0f} half-spaces / 12", half_spaces.last_x),
+                 {half_spaces.last, half_spaces.reference}, at_most(3));
 }
 
 }  // namespace deburr::bench

@@ -1,4 +1,5 @@
-// deburr_bench [--json FILE] [--markdown FILE] [--plot-data FOLDER] [LETTER …]: measures, and says which bars are reached.
+// deburr_bench [--json FILE] [--markdown FILE] [--plot-data FOLDER] [LETTER …]: measures, and says which bars are
+// reached.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -47,7 +48,8 @@ int main(int argc, char** argv) {
             (word == "--json" ? json : word == "--markdown" ? markdown : plot_data) = argv[i];
             continue;
         }
-        const bool known = std::any_of(std::begin(sections), std::end(sections), [&](const Section& s) { return word == s.letter; });
+        const bool known =
+            std::any_of(std::begin(sections), std::end(sections), [&](const Section& s) { return word == s.letter; });
         if (!known) return refuse("expected sections from a to j, got '" + word + "'");
         letters += word;
     }

@@ -14,9 +14,9 @@ namespace deburr::bench {
 namespace {
 
 SolidTree obj4(double r) {
-    return flatten(Solid::rounded(
-        r, Density::box(Vec3(0.0), Vec3(1.0)) -
-               Density::half_space({0, 1, 0}, 1) * Density::box({0.25, 0.8, 0.25}, {0.75, 1.8, 0.75})));
+    return flatten(
+        Solid::rounded(r, Density::box(Vec3(0.0), Vec3(1.0)) -
+                              Density::half_space({0, 1, 0}, 1) * Density::box({0.25, 0.8, 0.25}, {0.75, 1.8, 0.75})));
 }
 
 // Boxes on a cubic grid, six half-spaces each, as one Boolean density.
@@ -58,14 +58,15 @@ void triage_against_flying_edges(Report& report) {
         const Box box = polygonization_box(tree);
         FlyingEdges theirs;
         Mesh ours;
-        const Ratio time = ratio_of_times([&] { return cpu_seconds_of([&] { theirs.run(tree.leaves[0].density, box, r / 2); }); },
-                                          [&] {
-                                              return cpu_seconds_of([&] {
-                                                         for (int k = 0; k < meshes_in_turn; ++k) ours = triage(tree, box);
-                                                     }) /
-                                                     meshes_in_turn;
-                                          },
-                                          r < 0.01 ? 3 : 7);
+        const Ratio time =
+            ratio_of_times([&] { return cpu_seconds_of([&] { theirs.run(tree.leaves[0].density, box, r / 2); }); },
+                           [&] {
+                               return cpu_seconds_of([&] {
+                                          for (int k = 0; k < meshes_in_turn; ++k) ours = triage(tree, box);
+                                      }) /
+                                      meshes_in_turn;
+                           },
+                           r < 0.01 ? 3 : 7);
         const Bars bars = bars_at(r);
         report.figure(fmt::format("obj4, r = {}: triangles, of flying edges'", r),
                       100 * double(ours.triangles.size()) / double(theirs.triangles()), "%", bars.triangles);
@@ -79,7 +80,8 @@ void triage_against_flying_edges(Report& report) {
         const double their_distance = measure(theirs.mesh(), tree).distance.max / r;
         report.figure(fmt::format("obj4, r = {}: greatest distance of triage", r), our_distance, "r");
         report.figure(fmt::format("obj4, r = {}: the same of flying edges", r), their_distance, "r");
-        report.figure(fmt::format("obj4, r = {}: triage's distance / flying edges'", r), our_distance / their_distance, "", bars.distance);
+        report.figure(fmt::format("obj4, r = {}: triage's distance / flying edges'", r), our_distance / their_distance,
+                      "", bars.distance);
     }
 }
 

@@ -44,7 +44,8 @@ public:
         questions_.push_back({{rays.begin(), rays.end()}, {}, false, false});
         tracer_.first_hits(rays, hits, counters);
     }
-    void occlusions(std::span<const Ray> rays, std::span<const double> t_max, bool* occluded, TraceCounters& counters) const override {
+    void occlusions(std::span<const Ray> rays, std::span<const double> t_max, bool* occluded,
+                    TraceCounters& counters) const override {
         questions_.push_back({{rays.begin(), rays.end()}, {t_max.begin(), t_max.end()}, true, false});
         tracer_.occlusions(rays, t_max, occluded, counters);
     }
@@ -57,10 +58,14 @@ public:
         std::vector<Hit> hits(most());
         const std::unique_ptr<bool[]> occluded(new bool[most()]);
         for (const Question& q : questions_) {
-            if (q.alone && q.any) keep(tracer.occluded(q.rays[0], q.t_max[0], counters));
-            else if (q.alone) keep(tracer.first_hit(q.rays[0], q.t_max[0], counters));
-            else if (q.any) tracer.occlusions(q.rays, q.t_max, occluded.get(), counters);
-            else tracer.first_hits(q.rays, hits.data(), counters);
+            if (q.alone && q.any)
+                keep(tracer.occluded(q.rays[0], q.t_max[0], counters));
+            else if (q.alone)
+                keep(tracer.first_hit(q.rays[0], q.t_max[0], counters));
+            else if (q.any)
+                tracer.occlusions(q.rays, q.t_max, occluded.get(), counters);
+            else
+                tracer.first_hits(q.rays, hits.data(), counters);
         }
         keep(hits);
         keep(occluded);

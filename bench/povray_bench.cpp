@@ -31,13 +31,17 @@ void primary_hits(Report& report) {
                 if (tracer.first_hit(ray, infinity, counters)) rays.push_back(ray);
             }
     std::vector<Hit> hits(rays.size());
-    const double together = seconds_of([&] {
-        tracer.first_hits(rays, hits.data(), counters);
-        keep(hits);
-    }, rounds_of_hits);
-    const double alone = seconds_of([&] {
-        for (const Ray& ray : rays) keep(tracer.first_hit(ray, infinity, counters));
-    }, rounds_of_hits);
+    const double together = seconds_of(
+        [&] {
+            tracer.first_hits(rays, hits.data(), counters);
+            keep(hits);
+        },
+        rounds_of_hits);
+    const double alone = seconds_of(
+        [&] {
+            for (const Ray& ray : rays) keep(tracer.first_hit(ray, infinity, counters));
+        },
+        rounds_of_hits);
     report.figure("obj4: exact primary hits", 1e-6 * double(rays.size()) / together, "million/s", at_least(8));
     report.figure("obj4: exact primary hits, ray by ray", 1e-6 * double(rays.size()) / alone, "million/s");
 }
@@ -54,11 +58,12 @@ void deburr_against_povray(Report& report) {
     const Folder folder;
     for (const char* name : {"csg_examples", "variable_rounding"}) {
         const auto ours = [&] {
-            return *cpu_seconds_of_program({deburr_program(), "render", scene_path(name), "-q", "--threads", "1", "--spp",
-                                            "1", "--size", "600x380", "-o", folder / "ours.png"});
+            return *cpu_seconds_of_program({deburr_program(), "render", scene_path(name), "-q", "--threads", "1",
+                                            "--spp", "1", "--size", "600x380", "-o", folder / "ours.png"});
         };
         const auto against = [&](const std::string& what, const std::vector<std::string>& options, Bar bar) {
-            std::vector<std::string> words{deburr_program(), "export-pov", scene_path(name), "-q", "--size", "600x380", "-o", folder / "s.pov"};
+            std::vector<std::string> words{deburr_program(), "export-pov", scene_path(name), "-q", "--size",
+                                           "600x380",        "-o",         folder / "s.pov"};
             words.insert(words.end(), options.begin(), options.end());
             cpu_seconds_of_program(words);
             const auto theirs = [&] {

@@ -8,7 +8,8 @@ namespace deburr::bench {
 
 /// CPU seconds of the program with these words, and of all it starts; nothing if it is not installed.
 /// What it says goes to `log` (or nowhere). Throws if it fails.
-std::optional<double> cpu_seconds_of_program(const std::vector<std::string>& words, const std::string& log = "/dev/null");
+std::optional<double> cpu_seconds_of_program(const std::vector<std::string>& words,
+                                             const std::string& log = "/dev/null");
 
 /// A folder for the benchmark's files, which vanishes with them at the end.
 class Folder {

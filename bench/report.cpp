@@ -44,8 +44,9 @@ void Report::begin(const std::string& letter, const std::string& title) {
 }
 
 void Report::add(Figure figure) {
-    const std::string verdict =
-        figure.bar ? fmt::format("{:>9} {}", words(*figure.bar), figure.bar->reached(figure.value) ? "reached" : "NOT REACHED") : "";
+    const std::string verdict = figure.bar ? fmt::format("{:>9} {}", words(*figure.bar),
+                                                         figure.bar->reached(figure.value) ? "reached" : "NOT REACHED")
+                                           : "";
     const std::string detail =
         figure.times ? fmt::format("{:.4g} s / {:.4g} s", figure.times->a, figure.times->b) : figure.unit;
     fmt::print("    {:<58}{:>9.4g}  {:<24}{}\n", figure.name, figure.value, detail, verdict);
@@ -115,8 +116,9 @@ void Report::write_plot_data(const std::string& folder) const {
     for (const SectionResult& section : sections_) {
         for (const Figure& f : section.figures)
             if (f.bar)
-                bars += fmt::format("\"{}   {}\" {:.6g} \"{:.3g}{} ({}{:g})\"\n", f.name, section.letter, f.bar->margin(f.value), f.value,
-                                    f.unit == "%" ? " %" : "", f.bar->is == Bar::Is::at_most ? "≤ " : "≥ ", f.bar->value);
+                bars += fmt::format("\"{}   {}\" {:.6g} \"{:.3g}{} ({}{:g})\"\n", f.name, section.letter,
+                                    f.bar->margin(f.value), f.value, f.unit == "%" ? " %" : "",
+                                    f.bar->is == Bar::Is::at_most ? "≤ " : "≥ ", f.bar->value);
         for (const Curve& c : section.curves) {
             std::string lines = fmt::format("# {} against {}\n", c.y, c.x);
             for (const auto& [x, y] : c.points) lines += fmt::format("{:g} {:g}\n", x, y);

@@ -25,7 +25,7 @@ inline Bar at_least(double value) { return {Bar::Is::at_least, value}; }
 struct Figure {
     std::string name;
     double value = 0;
-    std::string unit;          // "" for ratios
+    std::string unit;  // "" for ratios
     std::optional<Bar> bar;
     std::optional<Ratio> times;  // of a ratio
 };
@@ -47,8 +47,7 @@ class Report {
 public:
     void begin(const std::string& letter, const std::string& title);
     void ratio(const std::string& name, const Ratio& ratio, std::optional<Bar> bar = std::nullopt);
-    void figure(const std::string& name, double value, const std::string& unit,
-                std::optional<Bar> bar = std::nullopt);
+    void figure(const std::string& name, double value, const std::string& unit, std::optional<Bar> bar = std::nullopt);
     /// A point of the curve of this name.
     void point(const std::string& curve, const std::string& x_name, const std::string& y_name, double x, double y);
     void note(const std::string& text);

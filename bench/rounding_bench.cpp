@@ -16,7 +16,8 @@ namespace {
 std::vector<std::string> scenes() {
     std::vector<std::string> names{"csg_examples", "variable_rounding"};
     for (const auto& entry : std::filesystem::directory_iterator(DEBURR_SOURCE_DIR "/scenes"))
-        if (const std::string name = entry.path().stem(); entry.path().extension() == ".lua" && name.find("stapler") != std::string::npos)
+        if (const std::string name = entry.path().stem();
+            entry.path().extension() == ".lua" && name.find("stapler") != std::string::npos)
             names.push_back(name);
     std::sort(names.begin() + 2, names.end());
     return names;
@@ -31,8 +32,9 @@ void rounded_against_sharp(Report& report) {
         for (Solid& solid : sharp.solids) solid = sharpened(solid);
         const ImplicitTracer of_rounded(rounded.solids), of_sharp(sharp.solids);
         TraceCounters counters;
-        report.ratio(fmt::format("{}: rounded / sharp", name), ratio_of([&] { render_picture(rounded, of_rounded, counters); },
-                                    [&] { render_picture(sharp, of_sharp, counters); }),
+        report.ratio(fmt::format("{}: rounded / sharp", name),
+                     ratio_of([&] { render_picture(rounded, of_rounded, counters); },
+                              [&] { render_picture(sharp, of_sharp, counters); }),
                      at_most(1.25));
     }
     const Scene scene = scene_of("variable_rounding");
@@ -41,7 +43,8 @@ void rounded_against_sharp(Report& report) {
     TraceCounters of_exact, of_printed;
     render_picture(scene, exact, of_exact);
     render_picture(scene, printed, of_printed);
-    report.figure("variable_rounding: segments, exact / eq. 6", double(of_exact.segments) / double(of_printed.segments), "counted");
+    report.figure("variable_rounding: segments, exact / eq. 6", double(of_exact.segments) / double(of_printed.segments),
+                  "counted");
 }
 
 }  // namespace deburr::bench

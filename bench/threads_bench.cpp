@@ -30,10 +30,12 @@ void one_thread_and_two(Report& report) {
         const Integrator integrator(scene, tracer, {scene.width, scene.height, 1, 0});
         const auto trace = [&](std::size_t threads) {
             const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
-            keep(render(Film(scene.width, scene.height, {0, 0, scene.width, scene.height}),
-                        [&](const Window& block, Pixel* pixels, PixelLayers* layers, TraceCounters& counters) {
-                            integrator.block(block, pixels, layers, counters);
-                        }, stop)
+            keep(render(
+                     Film(scene.width, scene.height, {0, 0, scene.width, scene.height}),
+                     [&](const Window& block, Pixel* pixels, PixelLayers* layers, TraceCounters& counters) {
+                         integrator.block(block, pixels, layers, counters);
+                     },
+                     stop)
                      .pixels_done);
         };
         report.ratio(fmt::format("{}: one thread / two, on the wall", name),

@@ -37,7 +37,9 @@ BallShare::BallShare(const DensityTree& tree) {
     use.back() = as_it_is;
     for (std::size_t i = nodes.size(); i-- > 0;) {
         const auto& n = nodes[i];
-        const auto turned = [](char u) { return char(u == as_it_is ? complemented : u == complemented ? as_it_is : both_ways); };
+        const auto turned = [](char u) {
+            return char(u == as_it_is ? complemented : u == complemented ? as_it_is : both_ways);
+        };
         if (n.op == Op::constant) continue;
         if (n.op == Op::half_space) {
             uses_[std::size_t(n.a)] |= n.negated ? turned(use[i]) : use[i];
@@ -122,8 +124,10 @@ double BallShare::at(const std::vector<double>& alpha, std::vector<double>& slop
     slope.assign(count, 0);
     known.resize(count);
     for (std::size_t i = 0; i < count; ++i) known[i] = alpha[i] >= 1 ? 0 : alpha[i] <= -1 ? 1 : unknown;
-    if (count > std::size_t(Truth::most_tabulated)) mark_open(function_, known, open);
-    else open.assign(count, true);
+    if (count > std::size_t(Truth::most_tabulated))
+        mark_open(function_, known, open);
+    else
+        open.assign(count, true);
     planes.clear();
     whose.clear();
     literals.assign(count, {});
@@ -199,8 +203,7 @@ Range BallShare::range(const Box& box) const {
     const Vec3 centre = 0.5 * (box.lo + box.hi), half = 0.5 * (box.hi - box.lo);
     double farthest = 0;
     for (const double y : {-half.y, half.y})
-        for (const double z : {-half.z, half.z})
-            farthest = std::max(farthest, glm::length(in_ball({half.x, y, z})));
+        for (const double z : {-half.z, half.z}) farthest = std::max(farthest, glm::length(in_ball({half.x, y, z})));
     alpha.clear();
     for (const HalfSpace& h : half_spaces_) alpha.push_back(h.alpha(centre));
     const double reach = 0.75 * farthest * (1 + 8 * epsilon) + error, middle = at(alpha, slope);

@@ -36,8 +36,8 @@ public:
 
     /// M, L and G on a segment where every αᵢ runs linearly from a0[i] to a1[i] while the ball moves
     /// by `speed` of its radii per unit of t.
-    RayBounds bounds(const std::vector<double>& a0, const std::vector<double>& a1,
-                     const std::vector<double>& rate, double speed) const;
+    RayBounds bounds(const std::vector<double>& a0, const std::vector<double>& a1, const std::vector<double>& rate,
+                     double speed) const;
 
 private:
     void find_equal(const DensityTree& tree);

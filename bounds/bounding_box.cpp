@@ -59,8 +59,8 @@ Box without_empty_ends(const SolidTree& tree, Box box) {
     if (box.empty() || box.finite() || seen.empty() || !seen.finite()) return box;
     const Vec3 middle = 0.5 * (seen.lo + seen.hi), size = seen.hi - seen.lo;
     const double least = std::max({size.x, size.y, size.z}) * 0x1p-4;
-    constexpr double most = 0x1p40;    // times as far away as that
-    constexpr double closer = 0.98;    // ends are brought in as long as they come nearer by this
+    constexpr double most = 0x1p40;       // times as far away as that
+    constexpr double closer = 0.98;       // ends are brought in as long as they come nearer by this
     for (int pass = 0; pass < 2; ++pass)  // what is known of one axis helps with another
         for (int k = 0; k < 3; ++k)
             for (const bool upper : {false, true}) {

@@ -132,8 +132,7 @@ private:
             n.a = int(to_.half_spaces.size()) - 1;
             return add(n);
         }
-        if (n.op == Op::difference && is(n.a, 1))
-            return add({Op::complement, place_[std::size_t(n.b)], -1, 0, n.line});
+        if (n.op == Op::difference && is(n.a, 1)) return add({Op::complement, place_[std::size_t(n.b)], -1, 0, n.line});
         n.a = place_[std::size_t(n.a)];
         if (n.b >= 0) n.b = place_[std::size_t(n.b)];
         if (n.support >= 0) {

@@ -19,8 +19,7 @@ template <int N>
 class Ray {
 public:
     Ray(const ConvexView& density, const Vec3& origin, const Vec3& direction, std::uint64_t& evaluations)
-        : density_(density), evaluations_(evaluations),
-          level_(density.complement ? 0.5 - rounding : 0.5 + rounding) {
+        : density_(density), evaluations_(evaluations), level_(density.complement ? 0.5 - rounding : 0.5 + rounding) {
         // C lies where every factor is above ½, to within rounding.
         for (int i = 0; i < soft(); ++i) {
             const AlphaPlane& p = density.planes[i];
@@ -48,8 +47,7 @@ public:
         hi = end_of_change(lo, hi);
         if (misses(lo, hi, negligible)) return false;
         const double from = std::max(lo, in_), to = std::min(hi, out_);
-        if (at(0.5 * (from + to)).P > level_)
-            return in_ > lo || out_ <= hi || at(lo).P <= level_ || at(hi).P <= level_;
+        if (at(0.5 * (from + to)).P > level_) return in_ > lo || out_ <= hi || at(lo).P <= level_ || at(hi).P <= level_;
         return first(lo, hi, negligible).t < infinity;
     }
 
@@ -124,9 +122,7 @@ private:
         return p;
     }
 
-    ConvexCrossing found(double t, bool into_C, int plane) const {
-        return {t, into_C != density_.complement, plane};
-    }
+    ConvexCrossing found(double t, bool into_C, int plane) const { return {t, into_C != density_.complement, plane}; }
 
     int if_sharp(int plane) const { return plane >= soft() ? plane : -1; }
 
@@ -191,7 +187,8 @@ private:
 };
 
 template <class Ask>
-auto with_ray(const ConvexView& density, const Vec3& origin, const Vec3& direction, std::uint64_t& evaluations, Ask ask) {
+auto with_ray(const ConvexView& density, const Vec3& origin, const Vec3& direction, std::uint64_t& evaluations,
+              Ask ask) {
     switch (density.soft) {
         case 1: return ask(Ray<1>(density, origin, direction, evaluations));
         case 2: return ask(Ray<2>(density, origin, direction, evaluations));
@@ -202,20 +199,20 @@ auto with_ray(const ConvexView& density, const Vec3& origin, const Vec3& directi
 
 }  // namespace
 
-ConvexCrossing first_crossing(const ConvexView& density, const Vec3& origin, const Vec3& direction, double t0, double t1,
-                              double negligible, std::uint64_t& evaluations) {
+ConvexCrossing first_crossing(const ConvexView& density, const Vec3& origin, const Vec3& direction, double t0,
+                              double t1, double negligible, std::uint64_t& evaluations) {
     return with_ray(density, origin, direction, evaluations,
                     [&](const auto& ray) { return ray.first(t0, t1, negligible); });
 }
 
-bool any_crossing(const ConvexView& density, const Vec3& origin, const Vec3& direction, double t0, double t1, double negligible,
-                  std::uint64_t& evaluations) {
+bool any_crossing(const ConvexView& density, const Vec3& origin, const Vec3& direction, double t0, double t1,
+                  double negligible, std::uint64_t& evaluations) {
     return with_ray(density, origin, direction, evaluations,
                     [&](const auto& ray) { return ray.any(t0, t1, negligible); });
 }
 
-ConvexCrossings all_crossings(const ConvexView& density, const Vec3& origin, const Vec3& direction, double t0, double t1,
-                              double negligible, std::uint64_t& evaluations) {
+ConvexCrossings all_crossings(const ConvexView& density, const Vec3& origin, const Vec3& direction, double t0,
+                              double t1, double negligible, std::uint64_t& evaluations) {
     return with_ray(density, origin, direction, evaluations,
                     [&](const auto& ray) { return ray.all(t0, t1, negligible); });
 }

@@ -60,8 +60,8 @@ struct ConvexCrossing {
 };
 
 /// First crossing of ρ = ½ in [t0, t1] (not infinite), to within `negligible`.
-ConvexCrossing first_crossing(const ConvexView& density, const Vec3& origin, const Vec3& direction, double t0, double t1,
-                              double negligible, std::uint64_t& evaluations);
+ConvexCrossing first_crossing(const ConvexView& density, const Vec3& origin, const Vec3& direction, double t0,
+                              double t1, double negligible, std::uint64_t& evaluations);
 
 /// Whether there is a crossing in [t0, t1].
 bool any_crossing(const ConvexView& density, const Vec3& origin, const Vec3& direction, double t0, double t1,
@@ -74,8 +74,8 @@ struct ConvexCrossings {
 };
 
 /// All crossings in [t0, t1], in order.
-ConvexCrossings all_crossings(const ConvexView& density, const Vec3& origin, const Vec3& direction, double t0, double t1,
-                              double negligible, std::uint64_t& evaluations);
+ConvexCrossings all_crossings(const ConvexView& density, const Vec3& origin, const Vec3& direction, double t0,
+                              double t1, double negligible, std::uint64_t& evaluations);
 
 /// Unit normal of the surface at x, either way round; 0 where ρ is flat.
 Vec3 surface_normal(const ConvexView& density, const ConvexCrossing& crossing, const Vec3& x);

@@ -29,7 +29,8 @@ std::vector<Occurrence> occurrences(const std::vector<HalfSpace>& planes, double
             const HalfSpace& g = planes[j];
             if (all[j].variable != int(j) || std::abs(g.radius - h.radius) > slack * g.radius) continue;
             const double sign = glm::dot(g.normal, h.normal) < 0 ? -1 : 1;
-            if (glm::length(sign * h.normal - g.normal) <= slack && std::abs(sign * h.offset - g.offset) <= slack * scale)
+            if (glm::length(sign * h.normal - g.normal) <= slack &&
+                std::abs(sign * h.offset - g.offset) <= slack * scale)
                 l = {int(j), sign < 0};
         }
         all.push_back(l);

@@ -32,9 +32,7 @@ std::vector<Demand> demands(const DensityTree& tree, Demand root) {
                 outer ? ask({true, t}, {true, t}) : ask({false, (1 + t) / 2}, {false, (1 + t) / 2});
                 break;
             case Op::sum:  // theorems 2 and 4
-            case Op::disjunction:
-                outer ? ask({true, t / 2}, {true, t / 2}) : ask({false, t}, {false, t});
-                break;
+            case Op::disjunction: outer ? ask({true, t / 2}, {true, t / 2}) : ask({false, t}, {false, t}); break;
             case Op::difference:  // theorems 3 and 6
                 outer ? ask({true, t}, {false, 1 - t}) : ask({false, t}, {true, 0});
                 break;
@@ -58,12 +56,8 @@ public:
             const auto at = [&](int child) { return place[std::size_t(child)]; };
             const auto [outer, t] = asked[i];
             switch (n.op) {
-                case Op::constant:
-                    place[i] = constant(outer ? n.value > t : n.value >= t);
-                    break;
-                case Op::half_space:
-                    place[i] = plane(tree.half_spaces[std::size_t(n.a)], asked[i]);
-                    break;
+                case Op::constant: place[i] = constant(outer ? n.value > t : n.value >= t); break;
+                case Op::half_space: place[i] = plane(tree.half_spaces[std::size_t(n.a)], asked[i]); break;
                 case Op::product:
                 case Op::conjunction: place[i] = both(at(n.a), at(n.b)); break;
                 case Op::sum:
@@ -223,12 +217,13 @@ void SearchSpans::general(const BoundCsg& csg, Vec3 origin, Vec3 direction) {
                 break;
             case Kind::either:
                 for (std::size_t i = 0, j = 0; i < a().count || j < b().count;) {
-                    const bool from_a = j >= b().count ||
-                                        (i < a().count && pool_[a().first + i].lo <= pool_[b().first + j].lo);
+                    const bool from_a =
+                        j >= b().count || (i < a().count && pool_[a().first + i].lo <= pool_[b().first + j].lo);
                     const Span s = from_a ? pool_[a().first + i++] : pool_[b().first + j++];
                     if (pool_.size() > part.first && s.lo <= pool_.back().hi)
                         pool_.back().hi = std::max(pool_.back().hi, s.hi);
-                    else pool_.push_back(s);
+                    else
+                        pool_.push_back(s);
                 }
                 break;
             case Kind::complement: {
@@ -247,15 +242,17 @@ void SearchSpans::general(const BoundCsg& csg, Vec3 origin, Vec3 direction) {
     }
 }
 
-const std::vector<Span>& SearchSpans::between(const BoundCsg& outer, const BoundCsg& inner, Vec3 origin,
-                                              Vec3 direction, double t0, double t1) {
+const std::vector<Span>& SearchSpans::between(const BoundCsg& outer, const BoundCsg& inner, Vec3 origin, Vec3 direction,
+                                              double t0, double t1) {
     result_.clear();
     const auto add = [&](double lo, double hi) {
         lo = std::max(lo, t0);
         hi = std::min(hi, t1);
         if (lo > hi) return;
-        if (!result_.empty() && lo <= result_.back().hi) result_.back().hi = std::max(result_.back().hi, hi);
-        else result_.push_back({lo, hi});
+        if (!result_.empty() && lo <= result_.back().hi)
+            result_.back().hi = std::max(result_.back().hi, hi);
+        else
+            result_.push_back({lo, hi});
     };
     if (outer.convex && inner.convex) {
         const Span o = convex_span(outer, origin, direction);
@@ -271,8 +268,7 @@ const std::vector<Span>& SearchSpans::between(const BoundCsg& outer, const Bound
     }
     general(inner, origin, direction);
     const Part in = parts_.back();
-    inside_.assign(pool_.begin() + std::ptrdiff_t(in.first),
-                   pool_.begin() + std::ptrdiff_t(in.first + in.count));
+    inside_.assign(pool_.begin() + std::ptrdiff_t(in.first), pool_.begin() + std::ptrdiff_t(in.first + in.count));
     general(outer, origin, direction);
     const Part out = parts_.back();
     std::size_t next = 0;

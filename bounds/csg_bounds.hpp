@@ -53,8 +53,8 @@ struct Span {
 class SearchSpans {
 public:
     /// Stretches within [t0, t1], in order. Valid until the next call.
-    const std::vector<Span>& between(const BoundCsg& outer, const BoundCsg& inner, Vec3 origin,
-                                     Vec3 direction, double t0, double t1);
+    const std::vector<Span>& between(const BoundCsg& outer, const BoundCsg& inner, Vec3 origin, Vec3 direction,
+                                     double t0, double t1);
 
 private:
     struct Part {

@@ -62,8 +62,7 @@ private:
             std::sort(offsets[f].begin(), offsets[f].end());
             std::vector<double>& thresholds = diagram_.families[f].thresholds;
             for (const auto& [tau, half_space] : offsets[f]) {
-                if (thresholds.empty() || tau - thresholds.back() > same_threshold * scale)
-                    thresholds.push_back(tau);
+                if (thresholds.empty() || tau - thresholds.back() > same_threshold * scale) thresholds.push_back(tau);
                 literals_[std::size_t(half_space)].threshold = int(thresholds.size()) - 1;
             }
         }
@@ -145,7 +144,7 @@ private:
             const bool more_a = in_a && i < da.thresholds.size();
             const bool more_b = in_b && j < db.thresholds.size();
             if (!more_a && !more_b) break;
-            const int next = !more_b ? da.thresholds[i]
+            const int next = !more_b   ? da.thresholds[i]
                              : !more_a ? db.thresholds[j]
                                        : std::min(da.thresholds[i], db.thresholds[j]);
             node.thresholds.push_back(next);

@@ -57,12 +57,8 @@ Density Density::product(const std::vector<Density>& parts) {
 }
 
 Density Density::sum(Density a, Density b, int line) { return Density(make(Kind::sum, {a, b}, line)); }
-Density Density::product(Density a, Density b, int line) {
-    return Density(make(Kind::product, {a, b}, line));
-}
-Density Density::difference(Density a, Density b, int line) {
-    return Density(make(Kind::difference, {a, b}, line));
-}
+Density Density::product(Density a, Density b, int line) { return Density(make(Kind::product, {a, b}, line)); }
+Density Density::difference(Density a, Density b, int line) { return Density(make(Kind::difference, {a, b}, line)); }
 Density Density::disjunction(Density a, Density b) { return Density(make(Kind::disjunction, {a, b})); }
 Density Density::conjunction(Density a, Density b) { return Density(make(Kind::conjunction, {a, b})); }
 Density Density::complement(Density a) { return Density(make(Kind::complement, {a})); }

@@ -57,25 +57,15 @@ private:
 
 /// One step of the expression. Children are shared, so expressions are graphs without cycles.
 struct DensityNode {
-    enum class Kind {
-        half_space,
-        sum,
-        product,
-        difference,
-        disjunction,
-        conjunction,
-        complement,
-        radius,
-        transform
-    };
+    enum class Kind { half_space, sum, product, difference, disjunction, conjunction, complement, radius, transform };
     Kind kind = Kind::half_space;
     std::vector<Density> children;
-    Vec3 normal{0.0};     // half_space: unit
-    double value = 0.0;   // half_space: offset; radius: r
-    Affine map;           // transform
-    int line = 0;         // sum, product, difference: place in the scene
+    Vec3 normal{0.0};         // half_space: unit
+    double value = 0.0;       // half_space: offset; radius: r
+    Affine map;               // transform
+    int line = 0;             // sum, product, difference: place in the scene
     bool has_radius = false;  // radius, or anything below it
-    double leaves = 1.0;  // half-spaces below, counted once per use; may overflow to infinity
+    double leaves = 1.0;      // half-spaces below, counted once per use; may overflow to infinity
 
     DensityNode() = default;
     DensityNode(const DensityNode&) = delete;

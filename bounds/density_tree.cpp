@@ -52,8 +52,10 @@ public:
         while (!tasks_.empty()) {
             const Task task = tasks_.back();
             tasks_.pop_back();
-            if (task.node) open(task);
-            else combine(task);
+            if (task.node)
+                open(task);
+            else
+                combine(task);
         }
         return std::move(tree_);
     }
@@ -61,8 +63,10 @@ public:
 private:
     static const DensityNode& through_placements(const DensityNode* node, Placement& place) {
         while (node->kind == Kind::radius || node->kind == Kind::transform) {
-            if (node->kind == Kind::radius) place.radius = node->value;
-            else place.map = compose(place.map, node->map);
+            if (node->kind == Kind::radius)
+                place.radius = node->value;
+            else
+                place.map = compose(place.map, node->map);
             node = &node->children[0].node();
         }
         return *node;
@@ -77,8 +81,7 @@ private:
             return;
         }
         Op op = arithmetic(node.kind);
-        const bool boolean = task.boolean || op == Op::disjunction || op == Op::conjunction ||
-                             op == Op::complement;
+        const bool boolean = task.boolean || op == Op::disjunction || op == Op::conjunction || op == Op::complement;
         if (boolean) op = boolean_reading(op);
         if (boolean && op == Op::difference) {  // a ∧ ¬b
             tasks_.push_back({nullptr, {}, true, Op::conjunction, 2, node.line});

@@ -86,7 +86,7 @@ public:
     const Field* field = nullptr;
     Vec3 origin{0.0}, direction{0.0};
     double t0 = 0, t1 = 0;
-    double unit = 1;  // of f here, in f's own
+    double unit = 1;              // of f here, in f's own
     std::vector<double> numbers;  // the field's own
 };
 

@@ -35,9 +35,7 @@ Range positive_range(const Perturbation& p, const Box& box) {
     return q;
 }
 
-bool counts(const Perturbation& p, const Box& box) {
-    return p.factor != 0 && positive_range(p, box).hi > 0;
-}
+bool counts(const Perturbation& p, const Box& box) { return p.factor != 0 && positive_range(p, box).hi > 0; }
 
 // Sums of terms over a box, in steps of half of it.
 struct Taylor {

@@ -56,7 +56,9 @@ double bernstein_bound(const std::array<double, count>& c) {
 }
 
 // What a perturbation adds to the unit, where its Q is at most `most` and its terms add up to `magnitude`.
-double unit_of(const Perturbation& p, double most, double magnitude) { return 3 * std::abs(p.factor) * most * most * magnitude; }
+double unit_of(const Perturbation& p, double most, double magnitude) {
+    return 3 * std::abs(p.factor) * most * most * magnitude;
+}
 
 // The largest t where q = 0, or −infinity.
 double last_root(const Quadratic& q) {
@@ -82,8 +84,9 @@ double FreeForm::settled(Vec3 origin, Vec3 direction) const {
         if (std::isfinite(own)) last = std::max(last, own);
         const auto [a, b, c] = q;
         if (!(c > 0 || (c == 0 && b > 0) || (c == 0 && b == 0 && a > 0))) continue;
-        const double terms[7] = {a * a * a, 3 * a * a * b, 3 * a * (a * c + b * b), b * (b * b + 6 * a * c),
-                                 3 * c * (a * c + b * b), 3 * b * c * c, c * c * c};
+        const double terms[7] = {
+            a * a * a,     3 * a * a * b, 3 * a * (a * c + b * b), b * (b * b + 6 * a * c), 3 * c * (a * c + b * b),
+            3 * b * c * c, c * c * c};
         for (std::size_t k = 0; k < 7; ++k) sum[k] += p.factor * terms[k];
     }
     std::size_t degree = 6;
@@ -118,7 +121,9 @@ void FreeForm::prepare(FieldRay& ray) const {
 }
 
 double FreeForm::greatest_unit(const Box& box) const {
-    const auto magnitude = [&](const Quadric& q) { return q.magnitude(glm::max(glm::abs(box.lo - q.centre), glm::abs(box.hi - q.centre))); };
+    const auto magnitude = [&](const Quadric& q) {
+        return q.magnitude(glm::max(glm::abs(box.lo - q.centre), glm::abs(box.hi - q.centre)));
+    };
     double unit = magnitude(base_);
     for (const Perturbation& p : perturbations_) {
         const double most = p.quadric.range(box).hi;
@@ -169,8 +174,9 @@ RayBounds FreeForm::bounds(const FieldRay& ray, double t0, double t1) const {
         if (lo >= 0) {
             cubes = true;
             const double aa = a * a, bb = b * b, cc = c * c;
-            const double terms[7] = {aa * a, 3 * aa * b, 3 * a * (a * c + bb), b * (bb + 6 * a * c),
-                                     3 * c * (a * c + bb), 3 * b * cc, cc * c};
+            const double terms[7] = {
+                aa * a,     3 * aa * b, 3 * a * (a * c + bb), b * (bb + 6 * a * c), 3 * c * (a * c + bb),
+                3 * b * cc, cc * c};
             for (std::size_t k = 0; k < 7; ++k) sum[k] += f * terms[k];
         } else {
             const double slope = std::max(std::abs(b), std::abs(b + 2 * c));

@@ -99,8 +99,10 @@ std::vector<IllegalDensity> find_illegal(const DensityTree& tree, int boxes) {
         const auto same = std::find_if(found.begin(), found.end(), [&](const IllegalDensity& f) {
             return f.line == worst.line && f.op == worst.op;
         });
-        if (same == found.end()) found.push_back(worst);
-        else if (excess(worst.value) > excess(same->value)) *same = worst;
+        if (same == found.end())
+            found.push_back(worst);
+        else if (excess(worst.value) > excess(same->value))
+            *same = worst;
     }
     return found;
 }

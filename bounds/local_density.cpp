@@ -69,9 +69,12 @@ LocalDensity::LocalDensity(const DensityTree& tree) {
         bool operands = true;
         if (n.op != Op::half_space)
             for (const int child : {n.a, n.b}) operands &= child < 0 || positive[std::size_t(child)];
-        if (n.op == Op::constant) positive[i] = n.value >= 0;
-        else if (n.op == Op::sum || n.op == Op::product) positive[i] = operands;
-        else positive[i] = boolean[i];
+        if (n.op == Op::constant)
+            positive[i] = n.value >= 0;
+        else if (n.op == Op::sum || n.op == Op::product)
+            positive[i] = operands;
+        else
+            positive[i] = boolean[i];
         if (boolean[i]) {
             if (is_root[i]) place[i] = add_boolean(tree, int(i));
             continue;
@@ -154,9 +157,7 @@ ValueGradient operator*(const ValueGradient& a, const ValueGradient& b) {
 
 ValueSlope operator+(ValueSlope a, ValueSlope b) { return {a.value + b.value, a.slope + b.slope}; }
 ValueSlope operator-(ValueSlope a, ValueSlope b) { return {a.value - b.value, a.slope - b.slope}; }
-ValueSlope operator*(ValueSlope a, ValueSlope b) {
-    return {a.value * b.value, a.value * b.slope + b.value * a.slope};
-}
+ValueSlope operator*(ValueSlope a, ValueSlope b) { return {a.value * b.value, a.value * b.slope + b.value * a.slope}; }
 
 }  // namespace
 
@@ -272,8 +273,10 @@ void RayDensity::set(const LocalDensity& density, Vec3 origin, Vec3 direction) {
     lines_.clear();
     for (const HalfSpace& h : density.half_spaces_) {
         const double distance = h.distance(origin), rate = glm::dot(h.normal, direction);
-        if (h.radius > 0) lines_.push_back({distance, rate, distance / h.radius, rate / h.radius});
-        else lines_.push_back({distance, rate, distance <= 0 ? -2.0 : 2.0, 0});
+        if (h.radius > 0)
+            lines_.push_back({distance, rate, distance / h.radius, rate / h.radius});
+        else
+            lines_.push_back({distance, rate, distance <= 0 ? -2.0 : 2.0, 0});
     }
     leaf_.resize(lines_.size());
     leaf_bounds_.resize(lines_.size());
@@ -317,12 +320,14 @@ Vec3 RayDensity::gradient(double t) const {
             gradient += density_->half_spaces_[i].normal * (slopes_[i] / density_->half_spaces_[i].radius);
         return gradient;
     }
-    return run<ValueGradient>(density_->nodes_, density_->kids_, [&](std::size_t i) -> ValueGradient {
-               const double alpha = lines_[i].a + lines_[i].b * t;
-               const HalfSpace& h = density_->half_spaces_[i];
-               const double rate = h.radius > 0 ? profile_slope(alpha) / h.radius : 0.0;
-               return {profile(alpha), h.normal * rate};
-           }).gradient;
+    return run<ValueGradient>(density_->nodes_, density_->kids_,
+                              [&](std::size_t i) -> ValueGradient {
+                                  const double alpha = lines_[i].a + lines_[i].b * t;
+                                  const HalfSpace& h = density_->half_spaces_[i];
+                                  const double rate = h.radius > 0 ? profile_slope(alpha) / h.radius : 0.0;
+                                  return {profile(alpha), h.normal * rate};
+                              })
+        .gradient;
 }
 
 RayBounds RayDensity::bounds(double t0, double t1) const {

@@ -10,8 +10,10 @@ std::optional<LocalDensity::Product> LocalDensity::as_product() const {
     std::vector<std::optional<Product>> form;
     const auto complement = [](std::optional<Product> p) {
         if (!p) return p;
-        if (p->factors.size() == 1) p->factors[0].flipped = !p->factors[0].flipped;
-        else p->complement = !p->complement;
+        if (p->factors.size() == 1)
+            p->factors[0].flipped = !p->factors[0].flipped;
+        else
+            p->complement = !p->complement;
         return p;
     };
     const auto times = [](std::optional<Product> a, const std::optional<Product>& b) {
@@ -34,10 +36,14 @@ std::optional<LocalDensity::Product> LocalDensity::as_product() const {
                 if (n.b != 1) break;
                 const int below = kids_[std::size_t(n.a) + 1], above = kids_[std::size_t(n.a) + 2];
                 const Product F{{{kids_[std::size_t(n.a)], false}}}, G{{{kids_[std::size_t(n.a)], true}}};
-                if (is(above, 0)) p = times(F, at(below));
-                else if (is(below, 0)) p = times(G, at(above));
-                else if (is(below, 1)) p = complement(times(G, complement(at(above))));
-                else if (is(above, 1)) p = complement(times(F, complement(at(below))));
+                if (is(above, 0))
+                    p = times(F, at(below));
+                else if (is(below, 0))
+                    p = times(G, at(above));
+                else if (is(below, 1))
+                    p = complement(times(G, complement(at(above))));
+                else if (is(above, 1))
+                    p = complement(times(F, complement(at(below))));
                 break;
             }
             default: break;
@@ -113,8 +119,10 @@ public:
             for (std::size_t g = 0; g < 2 * n; ++g) {
                 const Extent F = factor(f), G = factor(g).along(F.normal);
                 if (G.normal != F.normal) continue;
-                if (F.some.lo >= G.full.lo && F.some.hi <= G.full.hi) relation_[2 * n * f + g] = Relation::within;
-                else if (F.some.lo >= G.some.hi || F.some.hi <= G.some.lo) relation_[2 * n * f + g] = Relation::apart;
+                if (F.some.lo >= G.full.lo && F.some.hi <= G.full.hi)
+                    relation_[2 * n * f + g] = Relation::within;
+                else if (F.some.lo >= G.some.hi || F.some.hi <= G.some.lo)
+                    relation_[2 * n * f + g] = Relation::apart;
             }
     }
 
@@ -151,9 +159,7 @@ private:
             return {n, {-some.hi, -some.lo}, {-full.hi, -full.lo}};
         }
     };
-    Relation relation(int f, int g) const {
-        return relation_[2 * first_.size() * std::size_t(f) + std::size_t(g)];
-    }
+    Relation relation(int f, int g) const { return relation_[2 * first_.size() * std::size_t(f) + std::size_t(g)]; }
 
     void multiply(Monomial& m, int f) const {
         for (const int g : m.factors) {

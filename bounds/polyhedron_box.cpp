@@ -98,8 +98,7 @@ Box polyhedron_box(const std::vector<BoundPlane>& planes) {
     for (const BoundPlane& p : planes) scale = std::max(scale, std::abs(p.offset));
     if (!(scale > 0)) scale = 1;
     std::vector<Constraint<3>> constraints;
-    for (const BoundPlane& p : planes)
-        constraints.push_back({{p.normal.x, p.normal.y, p.normal.z}, p.offset / scale});
+    for (const BoundPlane& p : planes) constraints.push_back({{p.normal.x, p.normal.y, p.normal.z}, p.offset / scale});
     // Any fixed disorder makes the expected time linear.
     std::uint64_t state = 1;
     for (std::size_t i = constraints.size(); i > 1; --i) {
@@ -115,8 +114,10 @@ Box polyhedron_box(const std::vector<BoundPlane>& planes) {
             if (!maximize<3>(constraints, goal, x)) return {};
             double value = x[std::size_t(k)];
             // An unbounded program ends at `far`, or beside it after projections.
-            if (sign * value > 0.5 * far) value = sign * infinity;
-            else value = (value + sign * 1e-9 * std::max(1.0, std::abs(value))) * scale;
+            if (sign * value > 0.5 * far)
+                value = sign * infinity;
+            else
+                value = (value + sign * 1e-9 * std::max(1.0, std::abs(value))) * scale;
             (sign > 0 ? box.hi : box.lo)[k] = value;
         }
     return box;

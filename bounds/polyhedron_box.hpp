@@ -15,9 +15,7 @@ struct GatheredBox {
     Box rest = Box::everything();
     std::vector<BoundPlane> planes;
 
-    Box box() const {
-        return planes.empty() || rest.empty() ? rest : intersection(rest, polyhedron_box(planes));
-    }
+    Box box() const { return planes.empty() || rest.empty() ? rest : intersection(rest, polyhedron_box(planes)); }
 };
 
 GatheredBox both(GatheredBox a, GatheredBox b);

@@ -27,7 +27,7 @@ public:
     struct Term {
         double weight;
         std::vector<std::uint8_t> factors;  // planes; one may occur twice
-        double reach;  // the surface is where some term with a finite one has no α beyond it
+        double reach;                       // the surface is where some term with a finite one has no α beyond it
     };
 
     /// The density in that form, if it has it: no half-space is sharp, and terms are few. `clear`: as
@@ -105,8 +105,8 @@ private:
 
 /// Whether a function with the signs and slopes of these ends, and with slopes between them in the
 /// range, has at most one root between them; as far as |f| > 2 · `faint`.
-bool at_most_one_root(const ProductSumRay::Point& a, const ProductSumRay::Point& b,
-                      ProductSumRay::SlopeRange slopes, double faint);
+bool at_most_one_root(const ProductSumRay::Point& a, const ProductSumRay::Point& b, ProductSumRay::SlopeRange slopes,
+                      double faint);
 
 template <class Visit>
 void ProductSumRay::crossings(double t0, double t1, double negligible, bool coarse, RootCounters& counters,
@@ -127,8 +127,7 @@ void ProductSumRay::crossings(double t0, double t1, double negligible, bool coar
                 continue;
             }
         }
-        if ((a.f > 0) != (b.f > 0) &&
-            !visit(Crossing{coarse ? b.t : root(a, b, negligible, counters), b.f > 0}))
+        if ((a.f > 0) != (b.f > 0) && !visit(Crossing{coarse ? b.t : root(a, b, negligible, counters), b.f > 0}))
             return;
         a = b;
         stack_.pop_back();

@@ -58,9 +58,12 @@ bool ProductSumRay::narrow(double& t0, double& t1) {
         double lo = t0, hi = t1;
         for (const int i : term.factors) {
             const double room = term.reach - a_[i];
-            if (b_[i] > 0) hi = std::min(hi, room / b_[i]);
-            else if (b_[i] < 0) lo = std::max(lo, room / b_[i]);
-            else if (room < 0) hi = -infinity;
+            if (b_[i] > 0)
+                hi = std::min(hi, room / b_[i]);
+            else if (b_[i] < 0)
+                lo = std::max(lo, room / b_[i]);
+            else if (room < 0)
+                hi = -infinity;
         }
         if (lo > hi) continue;
         begin = std::min(begin, lo);
@@ -196,14 +199,15 @@ ProductSumRay::SlopeRange ProductSumRay::slopes_near_zero(int k, const Point& a,
     for (int j = 0; j < term_[k].count; ++j) {
         const int i = term_[k].factors[j];
         const double rate = varying_b_[i];
-        all = product_bounds(all, half_space_bounds(varying_a_[i] + rate * a.t, varying_a_[i] + rate * b.t, std::abs(rate)));
+        all = product_bounds(all,
+                             half_space_bounds(varying_a_[i] + rate * a.t, varying_a_[i] + rate * b.t, std::abs(rate)));
     }
     // A logarithm that rises still has risen before.
     return {b.rate[k] > 0 ? 0 : -all.L, a.rate[k] < 0 ? 0 : all.L};
 }
 
-bool at_most_one_root(const ProductSumRay::Point& a, const ProductSumRay::Point& b,
-                      ProductSumRay::SlopeRange slopes, double faint) {
+bool at_most_one_root(const ProductSumRay::Point& a, const ProductSumRay::Point& b, ProductSumRay::SlopeRange slopes,
+                      double faint) {
     if (slopes.lo >= 0 || slopes.hi <= 0) return true;
     const double length = b.t - a.t;
     const bool faint_ends = std::abs(a.f) <= faint && std::abs(b.f) <= faint;
@@ -222,7 +226,7 @@ bool at_most_one_root(const ProductSumRay::Point& a, const ProductSumRay::Point&
 double ProductSumRay::root(Point a, Point b, double negligible, RootCounters& counters) const {
     const double sign = b.f > 0 ? 1 : -1;  // f·sign rises through 0 from a to b
     Point p = std::abs(a.f) < std::abs(b.f) ? a : b;
-    double last = b.t - a.t;  // step
+    double last = b.t - a.t;          // step
     constexpr int most_steps = 2000;  // halving doubles ends before
     for (int k = 0; k < most_steps && b.t - a.t > negligible; ++k) {
         if (p.f == 0) return p.t;

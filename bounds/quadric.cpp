@@ -96,7 +96,8 @@ Range Quadric::range_everywhere() const {
     Range sum{k, k};
     double size = std::abs(k);
     for (int i = 0; i < 3; ++i) {
-        const double square = rounded(squares[i], deburr::largest(squares)), linear = rounded(glm::dot(axes[i], b), deburr::largest(b));
+        const double square = rounded(squares[i], deburr::largest(squares)),
+                     linear = rounded(glm::dot(axes[i], b), deburr::largest(b));
         const Range own = parabola_range(linear, square, -infinity, infinity);
         sum = {sum.lo + own.lo, sum.hi + own.hi};
         if (square != 0) size += std::abs(linear * linear / (4 * square));
@@ -159,8 +160,9 @@ Box Quadric::extent() const {
         linear = std::max(linear, std::abs(b[i]));
         for (int j = 0; j < 3; ++j) square = std::max(square, std::abs(A[i][j]));
     }
-    double size = square > 0 ? std::max(std::sqrt(std::abs(k) / square), linear / square)
-                             : linear > 0 ? std::abs(k) / linear : 0;
+    double size = square > 0   ? std::max(std::sqrt(std::abs(k) / square), linear / square)
+                  : linear > 0 ? std::abs(k) / linear
+                               : 0;
     if (!(size > 0)) size = 1;  // a cone, or a plane through the centre: every size is the same
     return inflated({centre, centre}, 2 * size);
 }
@@ -179,7 +181,8 @@ Quadric quadric_from(const double (&c)[10]) {
 
 Quadric revolved(const Revolution& form, Vec3 centre, Vec3 axis, double radius, double height) {
     const Mat3 along = glm::outerProduct(axis, axis), across = Mat3(1.0) - along;
-    return {centre, (form.along_squared / (height * height)) * along + (form.across_squared / (radius * radius)) * across,
+    return {centre,
+            (form.along_squared / (height * height)) * along + (form.across_squared / (radius * radius)) * across,
             (form.along / height) * axis, form.constant};
 }
 

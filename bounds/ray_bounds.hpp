@@ -30,9 +30,7 @@ inline RayBounds half_space_bounds(double a0, double a1, double rate) {
 
 /// Printed differently: M(ρ₁ + ρ₂) = min(1, …) and M(ρ₁ − ρ₂) = M(ρ₁) hold for legal densities only;
 /// these hold for all.
-inline RayBounds sum_bounds(const RayBounds& a, const RayBounds& b) {
-    return {a.M + b.M, a.L + b.L, a.G + b.G};
-}
+inline RayBounds sum_bounds(const RayBounds& a, const RayBounds& b) { return {a.M + b.M, a.L + b.L, a.G + b.G}; }
 inline RayBounds difference_bounds(const RayBounds& a, const RayBounds& b, bool operands_positive) {
     return {operands_positive ? std::max(a.M, b.M) : a.M + b.M, a.L + b.L, a.G + b.G};
 }

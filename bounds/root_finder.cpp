@@ -37,8 +37,7 @@ double lobb_turning_distance(SegmentEnd end, RayBounds bounds) {
     return std::max(std::abs(end.f) / L, slope / G) + turn_around;
 }
 
-bool at_most_one_root(SegmentEnd start, SegmentEnd end, RayBounds bounds, double length,
-                      Criterion criterion) {
+bool at_most_one_root(SegmentEnd start, SegmentEnd end, RayBounds bounds, double length, Criterion criterion) {
     const auto distance = criterion == Criterion::exact ? least_turning_distance : lobb_turning_distance;
     return distance(start, bounds) + distance(end, bounds) > length;
 }

@@ -55,8 +55,7 @@ struct RootSettings {
 /// what is passed over is a ray's dip of 10⁻⁹ r, some 3·10⁻⁵ r long.
 inline bool is_faint(SegmentEnd start, SegmentEnd end, RayBounds bounds, double length, double faint) {
     // Off the chord by G·length²/8 at most.
-    return std::abs(start.f) <= faint && std::abs(end.f) <= faint &&
-           bounds.G * length * length <= 8 * faint;
+    return std::abs(start.f) <= faint && std::abs(end.f) <= faint && bounds.G * length * length <= 8 * faint;
 }
 
 struct Crossing {

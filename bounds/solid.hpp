@@ -50,10 +50,10 @@ struct SolidNode {
     double radius = 0.0;           // rounded
     bool convolved = false;        // rounded: truly
     std::shared_ptr<const Field> field;
-    int material = -1;             // material
-    Affine map;                    // transform
-    int line = 0;                  // rounded, field: place in the scene, 0 unknown
-    double leaves = 1.0;           // half-spaces below, and fields' sizes, counted once per use
+    int material = -1;    // material
+    Affine map;           // transform
+    int line = 0;         // rounded, field: place in the scene, 0 unknown
+    double leaves = 1.0;  // half-spaces below, and fields' sizes, counted once per use
 
     SolidNode() = default;
     SolidNode(const SolidNode&) = delete;

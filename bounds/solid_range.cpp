@@ -23,8 +23,7 @@ void classify_nodes(const SolidTree& tree, std::vector<Side>& sides, OfLeaf of_l
             case SolidOp::nothing: sides.push_back(Side::outside); break;
             case SolidOp::everything: sides.push_back(Side::inside); break;
             case SolidOp::leaf: sides.push_back(of_leaf(n.a)); break;
-            default:
-                sides.push_back(combine(n.op, sides[std::size_t(n.a)], sides[std::size_t(n.b)]));
+            default: sides.push_back(combine(n.op, sides[std::size_t(n.a)], sides[std::size_t(n.b)]));
         }
     }
 }

@@ -25,9 +25,7 @@ bool has_planes(const DensityTree& density) {
     return true;
 }
 
-bool is_operator(Kind kind) {
-    return kind == Kind::unite || kind == Kind::intersect || kind == Kind::subtract;
-}
+bool is_operator(Kind kind) { return kind == Kind::unite || kind == Kind::intersect || kind == Kind::subtract; }
 
 // As in density_tree.cpp, with stacks of its own.
 class Flattening {
@@ -37,8 +35,10 @@ public:
         while (!tasks_.empty()) {
             const Task task = tasks_.back();
             tasks_.pop_back();
-            if (task.node) open(task);
-            else combine(task);
+            if (task.node)
+                open(task);
+            else
+                combine(task);
         }
         return std::move(tree_);
     }
@@ -47,8 +47,10 @@ private:
     static const SolidNode& through_placements(Task& task) {
         const SolidNode* node = task.node;
         while (node->kind == Kind::material || node->kind == Kind::transform) {
-            if (node->kind == Kind::material) task.material = node->material;  // the innermost wins
-            else task.map = compose(task.map, node->map);
+            if (node->kind == Kind::material)
+                task.material = node->material;  // the innermost wins
+            else
+                task.map = compose(task.map, node->map);
             node = &node->children[0].node();
         }
         return *node;
@@ -86,8 +88,10 @@ private:
             open.pop_back();
             const SolidNode& it = through_placements(inner);
             inner.node = &it;
-            if (is_operator(it.kind) && it.kind == node.kind && op != SolidOp::subtract) expand(it, inner);
-            else operands.push_back(inner);
+            if (is_operator(it.kind) && it.kind == node.kind && op != SolidOp::subtract)
+                expand(it, inner);
+            else
+                operands.push_back(inner);
         }
         tasks_.push_back({nullptr, {}, 0, op, int(operands.size())});
         tasks_.insert(tasks_.end(), operands.rbegin(), operands.rend());
@@ -147,8 +151,7 @@ bool SolidTree::contains(Vec3 x) const {
 }
 
 SolidTree flatten(const Solid& solid) {
-    if (solid.node().leaves > most_half_spaces)
-        throw std::length_error("a solid has more than 4 million half-spaces");
+    if (solid.node().leaves > most_half_spaces) throw std::length_error("a solid has more than 4 million half-spaces");
     return Flattening().run(solid.node());
 }
 

@@ -27,9 +27,12 @@ void Truth::set(const BooleanFunction& function, const std::vector<Literal>& hal
                 const Literal l = half_spaces[std::size_t(n.a)];
                 const bool same = l.same != n.negated;
                 for (std::size_t w = 0; w < many; ++w) {
-                    if (l.variable < 0) to[w] = all(same);
-                    else if (l.variable < in_a_word) to[w] = assignments[l.variable] ^ all(!same);
-                    else to[w] = all((w >> (l.variable - in_a_word) & 1) == same);
+                    if (l.variable < 0)
+                        to[w] = all(same);
+                    else if (l.variable < in_a_word)
+                        to[w] = assignments[l.variable] ^ all(!same);
+                    else
+                        to[w] = all((w >> (l.variable - in_a_word) & 1) == same);
                 }
             } else if (n.op == Op::complement) {
                 for (std::size_t w = 0; w < many; ++w) to[w] = ~of(n.a)[w];

@@ -50,8 +50,8 @@ private:
     bool of_operands(std::size_t node) const;
 
     int count_ = 0;
-    std::size_t table_ = 0;    // of the root, in words_
-    std::uint64_t state_ = 0;  // the assignment's number
+    std::size_t table_ = 0;             // of the root, in words_
+    std::uint64_t state_ = 0;           // the assignment's number
     std::vector<std::uint64_t> words_;  // node after node
     // Beyond the table.
     std::vector<BooleanFunction::Node> nodes_;

@@ -69,9 +69,7 @@ struct Box {
 };
 
 inline Box hull(const Box& a, const Box& b) { return {glm::min(a.lo, b.lo), glm::max(a.hi, b.hi)}; }
-inline Box intersection(const Box& a, const Box& b) {
-    return {glm::max(a.lo, b.lo), glm::min(a.hi, b.hi)};
-}
+inline Box intersection(const Box& a, const Box& b) { return {glm::max(a.lo, b.lo), glm::min(a.hi, b.hi)}; }
 inline Box inflated(const Box& b, double by) { return {b.lo - Vec3(by), b.hi + Vec3(by)}; }
 
 /// Half the area of its surface; 0 if it is empty.

@@ -156,7 +156,8 @@ std::string find_scene_folder() {
         if (holds_scenes(folder / "scenes")) return (folder / "scenes").string();
         if (folder == folder.root_path()) break;
     }
-    throw UsageError(fmt::format("figures: expected the folder scenes beside '{}' or above it (see --scenes)", program.string()));
+    throw UsageError(
+        fmt::format("figures: expected the folder scenes beside '{}' or above it (see --scenes)", program.string()));
 }
 
 }  // namespace deburr

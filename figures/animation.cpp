@@ -14,8 +14,9 @@ namespace {
 std::string png_of(const Film& film) {
     ImageRaster image{film.width, film.height, film.window, {}, {}};
     for (int k = 0; k < 3; ++k)
-        image.channels.push_back(image_channel(std::string(1, "RGB"[k]), ChannelType::byte,
-                                               [&film, k](std::size_t i) { return srgb_byte(film.pixels[i].color[k]); }));
+        image.channels.push_back(image_channel(std::string(1, "RGB"[k]), ChannelType::byte, [&film, k](std::size_t i) {
+            return srgb_byte(film.pixels[i].color[k]);
+        }));
     return encode_png(image, {});
 }
 
@@ -73,8 +74,9 @@ std::string animated_png(const std::vector<Film>& frames, double seconds) {
         const double delay = i + 1 < frames.size() ? seconds : 1;
         const auto milliseconds = std::uint32_t(std::lround(1000 * delay));
         // Size, place, delay as a fraction; the frame replaces what was there.
-        out += chunk("fcTL", number(sequence++) + number(std::uint32_t(frames[i].window.width)) + number(std::uint32_t(frames[i].window.height)) +
-                                 number(0) + number(0) + number(milliseconds, 2) + number(1000, 2) + number(0, 1) + number(0, 1));
+        out += chunk("fcTL", number(sequence++) + number(std::uint32_t(frames[i].window.width)) +
+                                 number(std::uint32_t(frames[i].window.height)) + number(0) + number(0) +
+                                 number(milliseconds, 2) + number(1000, 2) + number(0, 1) + number(0, 1));
         for (const Chunk& c : chunks) {
             if (c.type != "IDAT") continue;
             out += i == 0 ? chunk("IDAT", c.data) : chunk("fdAT", number(sequence++) + c.data);

@@ -1,4 +1,5 @@
-// True convolution as a solid: rendered beside quasi-convolution, polygonized, and the distance between the two as a map.
+// True convolution as a solid: rendered beside quasi-convolution, polygonized, and the distance between the two as a
+// map.
 #include "bounds/bounding_box.hpp"
 #include "figures/figure.hpp"
 #include "figures/studio.hpp"
@@ -27,7 +28,8 @@ double distance_between(const OffsetField& other, Vec3 x, double reach) {
 
 void make(FigureContext& context) {
     const Scene scene = context.scene("convolution.lua");
-    context.picture(context.render(scene, {.width = 720, .height = 400, .spp = 10}), "Left quasi-convolution, right true convolution");
+    context.picture(context.render(scene, {.width = 720, .height = 400, .spp = 10}),
+                    "Left quasi-convolution, right true convolution");
     context.check_stop();
 
     const Solid &first = scene.solids.at(0), &second = scene.solids.at(1);
@@ -35,7 +37,8 @@ void make(FigureContext& context) {
         const Box box = bounding_box(flatten(solid));
         return 0.5 * (box.lo + box.hi);
     };
-    const SolidTree truth = flatten(second), quasi = flatten(first.transformed({Mat3(1.0), middle(second) - middle(first)}));
+    const SolidTree truth = flatten(second),
+                    quasi = flatten(first.transformed({Mat3(1.0), middle(second) - middle(first)}));
     const Box box = polygonization_box(truth);
     const double r = truth.leaves.at(0).density.half_spaces.at(0).radius;
     Mesh mesh = triage(truth, box, {.tolerance = 0.02 * r});
@@ -58,19 +61,25 @@ void make(FigureContext& context) {
     for (std::size_t i = 0; i < mesh.triangles.size(); ++i)
         mesh.triangles[i].material = std::min(shades - 1, int(shades * distances[i] / worst));
     const Camera camera = framing(box_of(mesh), {0.25, 1.1, 1}, 720, 400, 22);
-    context.picture(mesh_picture(context, mesh, palette(), camera, {.width = 720, .height = 400, .shading = Shading::smooth}),
-                    fmt::format("The true convolution, polygonized; red where quasi-convolution is farthest from it: {:.2f} r", worst / r));
-    context.measured(fmt::format(
-        "Triage polygonizes the true convolution too: {} triangles, {}, at their middles within {:.4f} r of its surface. Quasi-convolution is "
-        "{:.3f} r from it on average over the surface, and {:.2f} r at the most, in the acute tips.",
-        mesh.triangles.size(), shape.manifold() ? "closed and 2-manifold" : "not a closed 2-manifold", off / r, mean / area / r, worst / r));
+    context.picture(
+        mesh_picture(context, mesh, palette(), camera, {.width = 720, .height = 400, .shading = Shading::smooth}),
+        fmt::format("The true convolution, polygonized; red where quasi-convolution is farthest from it: {:.2f} r",
+                    worst / r));
+    context.measured(
+        fmt::format("Triage polygonizes the true convolution too: {} triangles, {}, at their middles within {:.4f} r "
+                    "of its surface. Quasi-convolution is "
+                    "{:.3f} r from it on average over the surface, and {:.2f} r at the most, in the acute tips.",
+                    mesh.triangles.size(), shape.manifold() ? "closed and 2-manifold" : "not a closed 2-manifold",
+                    off / r, mean / area / r, worst / r));
 }
 
 const RegisteredFigure registered{{
     .name = "beyond-convolution",
     .title = "True convolution, rendered and polygonized",
-    .shows = "A star rounded by the approximation of both papers and by what it approximates, with one radius; below, how far apart the two are.",
-    .claim = "The approximate isosurface should be fairly close to the true convolution around square edges and corners (Lobb §2.3.1); "
+    .shows = "A star rounded by the approximation of both papers and by what it approximates, with one radius; below, "
+             "how far apart the two are.",
+    .claim = "The approximate isosurface should be fairly close to the true convolution around square edges and "
+             "corners (Lobb §2.3.1); "
              "polygonizing a true convolution is future work (Triage §8).",
     .scenes = {"convolution.lua"},
     .seconds = 90,

@@ -7,8 +7,8 @@ namespace deburr {
 namespace {
 
 struct Summary {
-    double towards_180 = 0;    // quasi – truth
-    double most_fillet = 0;    // truth – fillet, from 60° on
+    double towards_180 = 0;             // quasi – truth
+    double most_fillet = 0;             // truth – fillet, from 60° on
     double nearest = infinity, at = 0;  // quasi – truth, and the angle in degrees
 };
 
@@ -44,17 +44,21 @@ Plot over_angles(Summary& summary) {
 void make(FigureContext& context) {
     Summary found;
     context.plot(over_angles(found));
-    context.measured(fmt::format("Quasi-convolution is nearest to the truth at about {:g}°: {:.3f} r. Towards 180° it lies {:.2f} r inside. The true "
-                                 "convolution is never more than {:.3f} r from the fillet from 60° on.",
-                                 found.at, found.nearest, found.towards_180, found.most_fillet));
+    context.measured(
+        fmt::format("Quasi-convolution is nearest to the truth at about {:g}°: {:.3f} r. Towards 180° it lies {:.2f} r "
+                    "inside. The true "
+                    "convolution is never more than {:.3f} r from the fillet from 60° on.",
+                    found.at, found.nearest, found.towards_180, found.most_fillet));
 }
 
 const RegisteredFigure registered{{
     .name = "beyond-edges",
     .title = "The distance between quasi-convolution and the truth over the dihedral angle",
-    .shows = "The greatest distance between the surfaces that quasi-convolution, true convolution and a cylindrical fillet make of one "
+    .shows = "The greatest distance between the surfaces that quasi-convolution, true convolution and a cylindrical "
+             "fillet make of one "
              "edge, over its angle.",
-    .claim = "The approximate isosurface should be fairly close to the true convolution around square edges; in the limit of a pair of identical "
+    .claim = "The approximate isosurface should be fairly close to the true convolution around square edges; in the "
+             "limit of a pair of identical "
              "half-spaces it is about a quarter of the radius inside (Lobb §2.3.1).",
     .plots = true,
     .seconds = 3,

@@ -34,7 +34,8 @@ CellDrawing::Point::On place_of(Vec3 x, const std::vector<std::vector<Vec3>>& wa
     bool on_face = false;
     for (const auto& wall : walls) {
         for (std::size_t k = 0; k < wall.size(); ++k)
-            if (distance_to_segment(x, wall[k], wall[(k + 1) % wall.size()]) < near) return CellDrawing::Point::On::edge;
+            if (distance_to_segment(x, wall[k], wall[(k + 1) % wall.size()]) < near)
+                return CellDrawing::Point::On::edge;
         const Vec3 normal = glm::normalize(glm::cross(wall[1] - wall[0], wall[2] - wall[0]));
         on_face |= std::abs(glm::dot(normal, x - wall[0])) < near;
     }
@@ -65,7 +66,8 @@ CellDrawing::CellDrawing(const Solid& solid, Vec3 seed, Plane cut, Vec3 eye_dire
         std::vector<int> corners;
         for (const int v : after.corners(f)) {
             const auto [at, is_new] = known.try_emplace(v, int(points_.size()));
-            if (is_new) points_.push_back({after.vertices[std::size_t(v)], place_of(after.vertices[std::size_t(v)], walls_)});
+            if (is_new)
+                points_.push_back({after.vertices[std::size_t(v)], place_of(after.vertices[std::size_t(v)], walls_)});
             corners.push_back(at->second);
         }
         for (std::size_t k = 0; k < corners.size(); ++k) {
@@ -77,7 +79,8 @@ CellDrawing::CellDrawing(const Solid& solid, Vec3 seed, Plane cut, Vec3 eye_dire
     if (next.empty()) throw std::logic_error("a drawing of a cell: the surface does not pass it");
     std::map<int, int> after_point;
     for (const auto& [ends, unused] : next) after_point[ends.first] = ends.second;
-    for (int p = after_point.begin()->first; loop_.empty() || p != loop_.front(); p = after_point.at(p)) loop_.push_back(p);
+    for (int p = after_point.begin()->first; loop_.empty() || p != loop_.front(); p = after_point.at(p))
+        loop_.push_back(p);
 }
 
 Vec2 CellDrawing::project(Vec3 x) const {
@@ -91,7 +94,8 @@ Curve CellDrawing::polygon(const std::vector<Vec3>& corners, const std::string& 
     return curve;
 }
 
-Curve CellDrawing::line(const std::vector<Vec3>& through, const std::string& color, double width, const std::string& dash) const {
+Curve CellDrawing::line(const std::vector<Vec3>& through, const std::string& color, double width,
+                        const std::string& dash) const {
     Curve curve{.points = {}, .color = color, .width = width, .dash = dash};
     for (const Vec3& x : through) curve.points.push_back(project(x));
     return curve;

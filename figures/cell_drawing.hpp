@@ -31,7 +31,8 @@ public:
     Plot plot(int width, int height) const;
     Vec2 project(Vec3 x) const;
     Curve polygon(const std::vector<Vec3>& corners, const std::string& color, double opacity) const;
-    Curve line(const std::vector<Vec3>& through, const std::string& color, double width, const std::string& dash = {}) const;
+    Curve line(const std::vector<Vec3>& through, const std::string& color, double width,
+               const std::string& dash = {}) const;
     Curve dots(const std::vector<Vec3>& at, const std::string& color) const;
 
 private:

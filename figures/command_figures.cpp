@@ -104,23 +104,29 @@ int run_figures(const FiguresOptions& o) {
                             std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count()));
         progress.advance(task.figure.seconds);
     }
-    if (code == 0) progress.finish();
-    else progress.stop();
+    if (code == 0)
+        progress.finish();
+    else
+        progress.stop();
     return code;
 }
 
 }  // namespace
 
 Command add_figures_command(CLI::App& program) {
-    CLI::App* command = program.add_subcommand("figures", "make the papers' figures and tables, with a page that shows them");
+    CLI::App* command =
+        program.add_subcommand("figures", "make the papers' figures and tables, with a page that shows them");
     const auto options = std::make_shared<FiguresOptions>();
     command->add_option("NAME", options->names, "figures, or papers for all of theirs; default: all")->type_name("");
-    command->add_option("-o,--output", options->folder, "the folder for pictures and page; what is there and unchanged stays")
+    command
+        ->add_option("-o,--output", options->folder,
+                     "the folder for pictures and page; what is there and unchanged stays")
         ->type_name("DIR");
     command->add_flag("--list", options->list, "only print the figures' names and titles");
     command->add_flag("--again", options->again, "make also what has not changed");
     command->add_flag("--draft", options->draft, "quick and rough");
-    command->add_option("--scenes", options->scenes, "the folder with the scenes; default: the program's own")->type_name("DIR");
+    command->add_option("--scenes", options->scenes, "the folder with the scenes; default: the program's own")
+        ->type_name("DIR");
     add_run_options(*command, *options);
     return {command, [options] { return run_figures(*options); }};
 }

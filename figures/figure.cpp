@@ -84,7 +84,8 @@ std::vector<Figure> find_figures(const std::vector<std::string>& words) {
             wanted[i] = found = true;
         }
         if (!found)
-            throw UsageError(fmt::format("figures: expected the name of a figure or of a paper (see deburr figures --list), got '{}'", word));
+            throw UsageError(fmt::format(
+                "figures: expected the name of a figure or of a paper (see deburr figures --list), got '{}'", word));
     }
     std::vector<Figure> figures;
     for (std::size_t i = 0; i < wanted.size(); ++i)

@@ -49,11 +49,12 @@ Film FigureContext::render(const Scene& scene, const RayTracer& tracer, const Fi
     const int height = std::max(1, (settings.height ? settings.height : scene.height) / shrink);
     const int spp = std::max(1, (settings.spp ? settings.spp : scene.spp) / fewer);
     const Integrator integrator(scene, tracer, {width, height, spp, 0});
-    Film film = deburr::render(Film(width, height, {0, 0, width, height}),
-                               [&](const Window& block, Pixel* pixels, PixelLayers* layers, TraceCounters& counters) {
-                                   integrator.block(block, pixels, layers, counters);
-                               },
-                               stop_)
+    Film film = deburr::render(
+                    Film(width, height, {0, 0, width, height}),
+                    [&](const Window& block, Pixel* pixels, PixelLayers* layers, TraceCounters& counters) {
+                        integrator.block(block, pixels, layers, counters);
+                    },
+                    stop_)
                     .film;
     check_stop();
     return film;

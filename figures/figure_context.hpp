@@ -25,7 +25,7 @@ struct FigureItem {
     std::string file;                 // PNG, "" for a table
     std::vector<std::string> others;  // the same in other formats
     std::string caption;
-    int width = 0;                    // on the page, pixels
+    int width = 0;  // on the page, pixels
     FigureTable table;
 };
 

@@ -27,7 +27,8 @@ class ScratchFolder {
 public:
     ScratchFolder() {
         std::string name = (fs::temp_directory_path() / "deburr-XXXXXX").string();
-        if (!mkdtemp(name.data())) throw WorkError(fmt::format("cannot make a folder '{}': {}", name, std::strerror(errno)));
+        if (!mkdtemp(name.data()))
+            throw WorkError(fmt::format("cannot make a folder '{}': {}", name, std::strerror(errno)));
         path_ = name;
     }
     ~ScratchFolder() {
@@ -90,7 +91,8 @@ std::string run_gnuplot(const std::string& terminal, const std::string& script) 
     const std::string picture = folder / "picture", log = folder / "log", file = folder / "script";
     std::string quoted;  // for gnuplot's single quotes
     for (const char c : picture) quoted += c == '\'' ? std::string("''") : std::string(1, c);
-    std::ofstream(file, std::ios::binary) << terminal << "set output '" << quoted << "'\n" << script << "unset output\n";
+    std::ofstream(file, std::ios::binary) << terminal << "set output '" << quoted << "'\n"
+                                          << script << "unset output\n";
     // Without the user's own settings: the pictures are the same everywhere.
     const int code = call({"gnuplot", "-d", file}, log);
     const std::string bytes = contents(picture);

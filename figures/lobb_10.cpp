@@ -56,9 +56,11 @@ void dot(Plot& plot, Vec2 at, const char* color) {
     plot.curves.push_back({.points = {at}, .color = color, .kind = Curve::Kind::points, .width = 2});
 }
 
-void upright(Plot& plot, double x, Vec2 range, const std::string& text, const char* color, double y, Label::Align align) {
+void upright(Plot& plot, double x, Vec2 range, const std::string& text, const char* color, double y,
+             Label::Align align) {
     plot.curves.push_back({.points = {{x, range.x}, {x, range.y}}, .color = color, .width = 1.3, .dash = "-"});
-    plot.labels.push_back({.at = {x + (align == Label::Align::right ? -0.06 : 0.06), y}, .text = text, .align = align, .color = color});
+    plot.labels.push_back(
+        {.at = {x + (align == Label::Align::right ? -0.06 : 0.06), y}, .text = text, .align = align, .color = color});
 }
 
 void make(FigureContext& context) {
@@ -73,12 +75,14 @@ void make(FigureContext& context) {
         Plot plot = panel("(a) towards the root", {0, 2.2}, y);
         Motion m = quickest(end.f, end.slope, bounds.G);
         plot.curves.push_back({.points = m.points, .color = house::blue, .width = 2.6});
-        plot.curves.push_back({.points = {{0, end.f}, {end.f / bounds.L, 0}}, .color = house::grey, .width = 1.4, .dash = "."});
+        plot.curves.push_back(
+            {.points = {{0, end.f}, {end.f / bounds.L, 0}}, .color = house::grey, .width = 1.4, .dash = "."});
         dot(plot, {0, end.f}, house::blue);
         dot(plot, {m.t, m.f}, house::blue);
         upright(plot, printed, y, "eq. 6", house::red, 0.53, Label::Align::left);
         upright(plot, exact, y, "exact", house::green, 0.46, Label::Align::left);
-        context.plot(plot, fmt::format("ρ₁ and ρ₁′ of different signs: at least {:.2f}, exactly {:.2f}", printed, exact));
+        context.plot(plot,
+                     fmt::format("ρ₁ and ρ₁′ of different signs: at least {:.2f}, exactly {:.2f}", printed, exact));
     }
     // (b) The slope points away: the turn-around.
     {
@@ -91,15 +95,20 @@ void make(FigureContext& context) {
         const double turn_around = 2 * end.slope / bounds.G;
         back.follow({{-bounds.G, turn_around}, {bounds.G, end.slope / bounds.G}});
         Motion m = quickest(end.f, end.slope, bounds.G);
-        plot.curves.push_back({.points = {{0, end.f}, {turn_around, end.f}}, .color = house::grey, .width = 1.2, .dash = "."});
-        plot.labels.push_back({.at = {0.5 * turn_around, end.f - 0.035}, .text = "turn-around", .align = Label::Align::centre, .color = house::grey});
+        plot.curves.push_back(
+            {.points = {{0, end.f}, {turn_around, end.f}}, .color = house::grey, .width = 1.2, .dash = "."});
+        plot.labels.push_back({.at = {0.5 * turn_around, end.f - 0.035},
+                               .text = "turn-around",
+                               .align = Label::Align::centre,
+                               .color = house::grey});
         plot.curves.push_back({.points = m.points, .color = house::blue, .width = 2.6});
         plot.curves.push_back({.points = back.points, .color = house::ink, .width = 1.4, .dash = "-"});
         dot(plot, {0, end.f}, house::blue);
         dot(plot, {m.t, m.f}, house::blue);
         upright(plot, printed, y, "eq. 6", house::red, 0.53, Label::Align::left);
         upright(plot, exact, y, "exact", house::green, 0.53, Label::Align::right);
-        context.plot(plot, fmt::format("Of one sign: eq. 6 says {:.2f}, but braking early needs {:.2f}", printed, exact));
+        context.plot(plot,
+                     fmt::format("Of one sign: eq. 6 says {:.2f}, but braking early needs {:.2f}", printed, exact));
     }
     // (c) A segment that eq. 6 accepts, with two roots: down to a lowest point in its middle, and back.
     double lowest = 0, length = 5.5;
@@ -125,11 +134,14 @@ void make(FigureContext& context) {
         dot(plot, {m.t, m.f}, house::blue);
         upright(plot, printed, y, "eq. 6", house::red, 0.6, Label::Align::right);
         upright(plot, exact, y, "exact", house::green, 0.6, Label::Align::right);
-        context.plot(plot, fmt::format("Length {:g}: eq. 6 accepts up to {:.2f}, the exact criterion up to {:.2f}", length, printed, exact));
+        context.plot(plot, fmt::format("Length {:g}: eq. 6 accepts up to {:.2f}, the exact criterion up to {:.2f}",
+                                       length, printed, exact));
     }
     context.measured(fmt::format(
-        "With L = G = 1, f = 0⁺ and slope 1 inwards at both ends, a segment of length {:g} is {} by eq. 6 as holding at most one root, and the "
-        "function drawn in (c), which keeps to the bounds, has {} (lowest value {:.3f}). The exact criterion {} it. Eq. 6 is not a safe "
+        "With L = G = 1, f = 0⁺ and slope 1 inwards at both ends, a segment of length {:g} is {} by eq. 6 as holding "
+        "at most one root, and the "
+        "function drawn in (c), which keeps to the bounds, has {} (lowest value {:.3f}). The exact criterion {} it. "
+        "Eq. 6 is not a safe "
         "bound; rendering uses the exact one.",
         length, printed_accepts ? "accepted" : "refused", roots, lowest, exact_accepts ? "accepts" : "refuses"));
 }
@@ -137,9 +149,12 @@ void make(FigureContext& context) {
 const RegisteredFigure registered{{
     .name = "lobb-10",
     .title = "Figure 10: ray segment length constraints for multiple roots",
-    .shows = "Blue the quickest function within the bounds |f′| ≤ L, |f″| ≤ G from a segment's end to a turning point beyond a root; red what "
-             "eq. 6 takes to be the least distance, green the exact one. Dashed in (b) the way that eq. 6 assumes: back to the start's density with the slope negated.",
-    .claim = "A segment that holds several roots is at least as long as eq. 6 says, with the turn-around distance added where density and "
+    .shows = "Blue the quickest function within the bounds |f′| ≤ L, |f″| ≤ G from a segment's end to a turning point "
+             "beyond a root; red what "
+             "eq. 6 takes to be the least distance, green the exact one. Dashed in (b) the way that eq. 6 assumes: "
+             "back to the start's density with the slope negated.",
+    .claim = "A segment that holds several roots is at least as long as eq. 6 says, with the turn-around distance "
+             "added where density and "
              "slope have the same sign (§3.4.2).",
     .plots = true,
     .seconds = 1,

@@ -15,8 +15,9 @@ void make(FigureContext& context) {
         for (const SolidLeaf& leaf : tree.leaves) half_spaces += leaf.density.half_spaces.size();
         bars += fmt::format("{}{} of {}", i > 1 ? ", " : "", half_spaces, tree.leaves.size());
     }
-    context.measured(fmt::format("One radius, {}, and no fillet modelled: the six objects are {} half-spaces and leaves of the primary tree.",
-                                 scene.parameters.at("r"), bars));
+    context.measured(fmt::format(
+        "One radius, {}, and no fillet modelled: the six objects are {} half-spaces and leaves of the primary tree.",
+        scene.parameters.at("r"), bars));
 }
 
 const RegisteredFigure registered{{

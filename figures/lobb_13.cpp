@@ -24,7 +24,8 @@ void make(FigureContext& context) {
 const RegisteredFigure registered{{
     .name = "lobb-13",
     .title = "Figure 13: increasing the radius of the smoothing filter",
-    .shows = "The cube with a rounded pit (obj4 of figure 12). From the back left the radii are 0.01, 0.05, 0.1, 0.2, 0.3 and 0.5.",
+    .shows = "The cube with a rounded pit (obj4 of figure 12). From the back left the radii are 0.01, 0.05, 0.1, 0.2, "
+             "0.3 and 0.5.",
     .claim = "A smooth transition from pure polyhedral modelling to \"blobby\" modelling (§4.1).",
     .scenes = {"variable_rounding.lua"},
     .seconds = 20,

@@ -27,25 +27,31 @@ void make(FigureContext& context) {
     context.picture(context.render(sum, size), "(b) left: the illegal sum of four cubes; right: their Boolean union");
 
     double illegal = 0, legal = 0;
-    const DensityTree summed = flatten(sum.solids.at(1)).leaves.at(0).density, united = flatten(sum.solids.at(2)).leaves.at(0).density;
+    const DensityTree summed = flatten(sum.solids.at(1)).leaves.at(0).density,
+                      united = flatten(sum.solids.at(2)).leaves.at(0).density;
     const Box box{{-2.6, 0, -1.2}, {2.6, 1, 1.2}};
     constexpr int steps = 104;
     for (int i = 0; i <= steps; ++i)
         for (int k = 0; k <= steps / 2; ++k) {
-            const Vec3 x(glm::mix(box.lo.x, box.hi.x, i / double(steps)), 0.5, glm::mix(box.lo.z, box.hi.z, k / (steps / 2.0)));
+            const Vec3 x(glm::mix(box.lo.x, box.hi.x, i / double(steps)), 0.5,
+                         glm::mix(box.lo.z, box.hi.z, k / (steps / 2.0)));
             illegal = std::max(illegal, summed.at(x));
             legal = std::max(legal, united.at(x));
         }
-    context.measured(fmt::format("(a) The rounds on the end faces differ from the ellipse by at most {:.1f} % of its axes. (b) The sum reaches ρ = {:.2f}, "
-                                 "the Boolean union {:.2f}, and has no seam: the low-cost automatic solution that the paper leaves to future work.",
-                                 100 * from_ellipse(), illegal, legal));
+    context.measured(
+        fmt::format("(a) The rounds on the end faces differ from the ellipse by at most {:.1f} % of its axes. (b) The "
+                    "sum reaches ρ = {:.2f}, "
+                    "the Boolean union {:.2f}, and has no seam: the low-cost automatic solution that the paper leaves "
+                    "to future work.",
+                    100 * from_ellipse(), illegal, legal));
 }
 
 const RegisteredFigure registered{{
     .name = "lobb-15",
     .title = "Figure 15: different radii on one cuboid, and an illegal sum",
     .shows = "",
-    .claim = "(a) The rounds on the end faces are almost ellipses with half axes of 0.3 and 0.03. (b) Densities of 2 and 4 where the cubes overlap "
+    .claim = "(a) The rounds on the end faces are almost ellipses with half axes of 0.3 and 0.03. (b) Densities of 2 "
+             "and 4 where the cubes overlap "
              "make a seam bulge (§4.2).",
     .scenes = {"variable_radius.lua", "illegal_sum.lua"},
     .seconds = 20,

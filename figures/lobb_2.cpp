@@ -42,7 +42,8 @@ void make(FigureContext& context) {
     Plot plot = drawing(700, 480);
     plot.x_range = Vec2(-0.8, 6.0);
     plot.y_range = Vec2(-0.75, 3.9);
-    for (const auto& line : lines) plot.curves.push_back({.points = line, .color = house::shade, .kind = Curve::Kind::fill, .width = 0});
+    for (const auto& line : lines)
+        plot.curves.push_back({.points = line, .color = house::shade, .kind = Curve::Kind::fill, .width = 0});
     std::vector<Vec2> outline = polygon;
     outline.push_back(outline.front());
 
@@ -63,18 +64,24 @@ void make(FigureContext& context) {
             for (const Vec2& x : line)
                 if (glm::length(x - near) < glm::length(c - near)) c = x;
         uneven = std::max(uneven, std::abs(share(c) - 0.5));
-        plot.curves.push_back({.points = clipped(polygon, circle(c, r)), .color = house::amber, .kind = Curve::Kind::fill, .width = 0, .opacity = 0.45});
+        plot.curves.push_back({.points = clipped(polygon, circle(c, r)),
+                               .color = house::amber,
+                               .kind = Curve::Kind::fill,
+                               .width = 0,
+                               .opacity = 0.45});
         plot.curves.push_back({.points = circle(c, r), .color = house::red, .width = 1.5});
         plot.curves.push_back({.points = circle(c, 0.035), .color = house::red, .kind = Curve::Kind::fill, .width = 0});
     }
     plot.curves.push_back({.points = outline, .color = house::ink, .width = 1.3, .dash = "-"});
     for (const auto& line : lines) plot.curves.push_back({.points = line, .color = house::blue, .width = 2.6});
     context.plot(plot);
-    context.measured(fmt::format(
-        "Of the circles drawn, ½ lies inside the polygon to {:.0e}, and so at all {} points of the outline to {:.0e}. The outline is "
-        "up to {:.2f} r within the polygon (at the sharpest corner) and up to {:.2f} r outside of it (in the notch): both less "
-        "than r, and the second is why a ray that misses the polygon can hit its smoothed version (§2.1).",
-        std::max(uneven, 1e-16), points, std::max(worst, 1e-16), in / r, out / r));
+    context.measured(
+        fmt::format("Of the circles drawn, ½ lies inside the polygon to {:.0e}, and so at all {} points of the outline "
+                    "to {:.0e}. The outline is "
+                    "up to {:.2f} r within the polygon (at the sharpest corner) and up to {:.2f} r outside of it (in "
+                    "the notch): both less "
+                    "than r, and the second is why a ray that misses the polygon can hit its smoothed version (§2.1).",
+                    std::max(uneven, 1e-16), points, std::max(worst, 1e-16), in / r, out / r));
 }
 
 const RegisteredFigure registered{{

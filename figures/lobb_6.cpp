@@ -29,18 +29,27 @@ void make(FigureContext& context) {
     plot.curves.push_back(square);
     for (const auto& [x, color] : {std::pair{0.0, house::blue}, std::pair{in, house::red}})
         plot.curves.push_back({.points = {{x, 0.5}}, .color = color, .kind = Curve::Kind::points, .width = 2});
-    plot.labels.push_back({.at = {in - 0.04, 0.05}, .text = fmt::format("{:.3f}", in), .align = Label::Align::right, .color = house::red});
-    plot.labels.push_back({.at = {1.47, 0.525}, .text = "the surface", .align = Label::Align::right, .color = house::grey});
+    plot.labels.push_back({.at = {in - 0.04, 0.05},
+                           .text = fmt::format("{:.3f}", in),
+                           .align = Label::Align::right,
+                           .color = house::red});
+    plot.labels.push_back(
+        {.at = {1.47, 0.525}, .text = "the surface", .align = Label::Align::right, .color = house::grey});
     context.plot(plot);
-    context.measured(fmt::format("Squared, the density is ½ at {:.4f} radii: the surface of two identical half-spaces lies {:.2f} r inside their plane.", in, -in));
+    context.measured(
+        fmt::format("Squared, the density is ½ at {:.4f} radii: the surface of two identical half-spaces lies {:.2f} r "
+                    "inside their plane.",
+                    in, -in));
 }
 
 const RegisteredFigure registered{{
     .name = "lobb-6",
     .title = "Figure 6: the density variation across a smoothed half-space, and the density squared",
-    .shows = "Blue the share of a ball on the inner side of a plane, over the distance of its centre; red and dashed its square, which "
+    .shows = "Blue the share of a ball on the inner side of a plane, over the distance of its centre; red and dashed "
+             "its square, which "
              "is what a product of two identical half-spaces has.",
-    .claim = "With a pair of identical half-spaces the entire isosurface is inside the planes by about one quarter of the filter radius (§2.3.1).",
+    .claim = "With a pair of identical half-spaces the entire isosurface is inside the planes by about one quarter of "
+             "the filter radius (§2.3.1).",
     .plots = true,
     .seconds = 1,
     .make = make,

@@ -38,8 +38,8 @@ void make(FigureContext& context) {
         return search.between(o, i, in_space(start), in_space(direction), 0, length);
     };
     const BoundCsg nothing{{}, {{BoundCsg::Kind::nothing}}, false};
-    const std::vector<Span> in_outer = spans(outer, nothing), in_inner = spans(inner, nothing), regions = spans(outer, inner),
-                            wide = spans(by_r, by_minus_r);
+    const std::vector<Span> in_outer = spans(outer, nothing), in_inner = spans(inner, nothing),
+                            regions = spans(outer, inner), wide = spans(by_r, by_minus_r);
     RayDensity ray;
     ray.set(density, in_space(start), in_space(direction));
     RootCounters counters;
@@ -63,7 +63,8 @@ void make(FigureContext& context) {
     for (const auto& line : level_lines([&](Vec2 x) { return density.at(in_space(x)); }, 0.5, lo, hi, 246, 123))
         plot.curves.push_back({.points = line, .color = house::blue, .width = 2.4});
     const auto at = [&](double t) { return start + t * direction; };
-    for (const Span& s : regions) plot.curves.push_back({.points = {at(s.lo), at(s.hi)}, .color = house::amber, .width = 6});
+    for (const Span& s : regions)
+        plot.curves.push_back({.points = {at(s.lo), at(s.hi)}, .color = house::amber, .width = 6});
     plot.arrows.push_back({.from = start, .to = end, .color = house::ink, .width = 1.6});
 
     // The ray's state, from outside (low) to inside (high).
@@ -79,7 +80,11 @@ void make(FigureContext& context) {
     const double a = -1.4, b = -2.2, c = -3.0;
     for (const Span& s : regions) {
         const double x0 = at(s.lo).x, x1 = at(s.hi).x;
-        plot.curves.push_back({.points = {{x0, c}, {x1, c}, {x1, c + 0.42}, {x0, c + 0.42}, {x0, c}}, .color = house::amber, .kind = Curve::Kind::fill, .width = 0, .opacity = 0.7});
+        plot.curves.push_back({.points = {{x0, c}, {x1, c}, {x1, c + 0.42}, {x0, c + 0.42}, {x0, c}},
+                               .color = house::amber,
+                               .kind = Curve::Kind::fill,
+                               .width = 0,
+                               .opacity = 0.7});
     }
     state(a, in_outer, "(a) expanded", house::blue);
     state(b, in_inner, "(b) contracted", house::blue);
@@ -94,7 +99,8 @@ void make(FigureContext& context) {
     }
     context.plot(plot);
     context.measured(fmt::format(
-        "The ray crosses the surface {} times, {} of them in the {} stretches that are searched. These are {:.1f} % of the ray; planes "
+        "The ray crosses the surface {} times, {} of them in the {} stretches that are searched. These are {:.1f} % of "
+        "the ray; planes "
         "moved by r and −r, which would do (§3.2), leave {:.1f} %.",
         roots.size(), held, regions.size(), 100 * length_of(regions) / length, 100 * length_of(wide) / length));
 }
@@ -102,9 +108,11 @@ void make(FigureContext& context) {
 const RegisteredFigure registered{{
     .name = "lobb-7",
     .title = "Figure 7: regions where a ray may cross the 0.5 isosurface",
-    .shows = "Pale the expanded object, darker the contracted one, blue the isosurface; below, where the ray is inside the one (a) and the "
+    .shows = "Pale the expanded object, darker the contracted one, blue the isosurface; below, where the ray is inside "
+             "the one (a) and the "
              "other (b), and in amber (c) the stretches in which roots (red) are searched.",
-    .claim = "Isosurface crossings are confined to where the ray is inside the expanded and outside the contracted object; expansion by r and "
+    .claim = "Isosurface crossings are confined to where the ray is inside the expanded and outside the contracted "
+             "object; expansion by r and "
              "−r would do, but much tighter bounds are possible (§3.2).",
     .plots = true,
     .seconds = 2,

@@ -39,8 +39,8 @@ void make(FigureContext& context) {
         const ImplicitTracer a(rounded.solids), b(sharp.solids);
         const Ratio ratio = ratio_of([&] { trace(rounded, a); }, [&] { trace(sharp, b); }, 5);
         ratios.push_back(ratio.value());
-        table.rows.push_back({row.figure, fmt::format("{:.2f}", ratio.a), fmt::format("{:.2f}", ratio.b), fmt::format("{:.2f}", ratio.value()),
-                              fmt::format("{:.1f}", row.paper)});
+        table.rows.push_back({row.figure, fmt::format("{:.2f}", ratio.a), fmt::format("{:.2f}", ratio.b),
+                              fmt::format("{:.2f}", ratio.value()), fmt::format("{:.1f}", row.paper)});
     }
     context.table(table);
     const auto [least, most] = std::minmax_element(ratios.begin(), ratios.end());
@@ -50,9 +50,11 @@ void make(FigureContext& context) {
 const RegisteredFigure registered{{
     .name = "lobb-table-1",
     .title = "Table 1: rendering times with and without rounding",
-    .shows = "600 × 380 pixels, one sample each; CPU seconds of tracing, medians of five, measured in turns. Printed as figures 10 to 12, the "
+    .shows = "600 × 380 pixels, one sample each; CPU seconds of tracing, medians of five, measured in turns. Printed "
+             "as figures 10 to 12, the "
              "scenes are those of figures 12 to 14.",
-    .claim = "The rounded images cost from 1.5 to 5 times as much as the unrounded ones (§4.3; the table's own ratios are 1.2, 5.3 and 3.4).",
+    .claim = "The rounded images cost from 1.5 to 5 times as much as the unrounded ones (§4.3; the table's own ratios "
+             "are 1.2, 5.3 and 3.4).",
     .scenes = {"csg_examples.lua", "variable_rounding.lua", "staplers.lua"},
     .seconds = 15,
     .make = make,

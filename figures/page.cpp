@@ -24,9 +24,7 @@ std::string picture_cell(const FigureItem& item, int width) {
     return cell;
 }
 
-std::string row(const std::vector<std::string>& cells) {
-    return fmt::format("| {} |\n", fmt::join(cells, " | "));
-}
+std::string row(const std::vector<std::string>& cells) { return fmt::format("| {} |\n", fmt::join(cells, " | ")); }
 
 std::string rule(std::size_t columns, const char* how) {
     std::string out = "|";
@@ -61,7 +59,8 @@ std::string items_of(const FigureResult& result) {
         const int width = page_width / int(columns);
         for (bool first = true; i < end; first = false) {
             std::vector<std::string> cells;
-            for (std::size_t k = 0; k < columns; ++k) cells.push_back(i < end ? picture_cell(result.items[i++], width) : "");
+            for (std::size_t k = 0; k < columns; ++k)
+                cells.push_back(i < end ? picture_cell(result.items[i++], width) : "");
             out += row(cells);
             if (first) out += rule(columns, ":-:");
         }
@@ -82,10 +81,12 @@ std::string scenes_of(const Figure& figure, const fs::path& scenes, const fs::pa
 
 }  // namespace
 
-std::string page_of(const std::vector<ShownFigure>& figures, const std::string& folder, const std::string& scene_folder) {
-    std::string out = "# Figures and tables of the papers\n\n"
-                      "Made by `deburr figures`, each from the program itself: *claim* is what the paper says, *measured* "
-                      "what the run that made the picture found. Times are CPU times, compared within that run.\n";
+std::string page_of(const std::vector<ShownFigure>& figures, const std::string& folder,
+                    const std::string& scene_folder) {
+    std::string out =
+        "# Figures and tables of the papers\n\n"
+        "Made by `deburr figures`, each from the program itself: *claim* is what the paper says, *measured* "
+        "what the run that made the picture found. Times are CPU times, compared within that run.\n";
     std::string paper;
     for (const auto& [figure, result] : figures) {
         if (paper_of(*figure) != paper) {

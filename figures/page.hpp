@@ -14,6 +14,7 @@ struct ShownFigure {
 };
 
 /// `folder` is where the page will be, for the links to scenes.
-std::string page_of(const std::vector<ShownFigure>& figures, const std::string& folder, const std::string& scene_folder);
+std::string page_of(const std::vector<ShownFigure>& figures, const std::string& folder,
+                    const std::string& scene_folder);
 
 }  // namespace deburr

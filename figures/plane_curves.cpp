@@ -26,7 +26,8 @@ double triangle_in_disc(Vec2 a, Vec2 b, double r) {
     const auto sector = [&](Vec2 p, Vec2 q) { return 0.5 * r * r * std::atan2(cross(p, q), glm::dot(p, q)); };
     if (dd == 0) return 0;
     if (disc <= 0) return sector(a, b);
-    const double t0 = std::clamp((-ad - std::sqrt(disc)) / dd, 0.0, 1.0), t1 = std::clamp((-ad + std::sqrt(disc)) / dd, 0.0, 1.0);
+    const double t0 = std::clamp((-ad - std::sqrt(disc)) / dd, 0.0, 1.0),
+                 t1 = std::clamp((-ad + std::sqrt(disc)) / dd, 0.0, 1.0);
     if (t0 == t1) return sector(a, b);
     const Vec2 p = a + t0 * d, q = a + t1 * d;
     return (t0 > 0 ? sector(a, p) : 0) + 0.5 * cross(p, q) + (t1 < 1 ? sector(q, b) : 0);
@@ -46,9 +47,12 @@ std::vector<std::vector<Vec2>> level_lines(const std::function<double(Vec2)>& f,
     const Vec2 step = (hi - lo) / Vec2(columns, rows);
     const auto corner = [&](int i, int j) { return lo + Vec2(i, j) * step; };
     std::vector<char> above(std::size_t(columns + 1) * std::size_t(rows + 1));
-    const auto is_above = [&](int i, int j) { return above[std::size_t(j) * std::size_t(columns + 1) + std::size_t(i)] != 0; };
+    const auto is_above = [&](int i, int j) {
+        return above[std::size_t(j) * std::size_t(columns + 1) + std::size_t(i)] != 0;
+    };
     for (int j = 0; j <= rows; ++j)
-        for (int i = 0; i <= columns; ++i) above[std::size_t(j) * std::size_t(columns + 1) + std::size_t(i)] = f(corner(i, j)) > level;
+        for (int i = 0; i <= columns; ++i)
+            above[std::size_t(j) * std::size_t(columns + 1) + std::size_t(i)] = f(corner(i, j)) > level;
 
     // A grid line's number: 2·corner for the one to the right, + 1 for the one upwards.
     const auto edge = [&](int i, int j, int upwards) { return 2 * (j * (columns + 1) + i) + upwards; };
@@ -62,7 +66,8 @@ std::vector<std::vector<Vec2>> level_lines(const std::function<double(Vec2)>& f,
             for (int k = 0; k < 4; ++k)
                 if (s[k] != s[(k + 1) % 4]) cut.push_back(e[k]);
             // Four: the corners that the middle belongs to are joined, the others cut off one by one.
-            if (cut.size() == 4 && (f(corner(i, j) + 0.5 * step) > level) != s[0]) std::rotate(cut.begin(), cut.begin() + 3, cut.end());
+            if (cut.size() == 4 && (f(corner(i, j) + 0.5 * step) > level) != s[0])
+                std::rotate(cut.begin(), cut.begin() + 3, cut.end());
             for (std::size_t k = 0; k + 1 < cut.size(); k += 2) {
                 joined[cut[k]].push_back(cut[k + 1]);
                 joined[cut[k + 1]].push_back(cut[k]);
@@ -84,8 +89,10 @@ std::vector<std::vector<Vec2>> level_lines(const std::function<double(Vec2)>& f,
                 for (const int n : joined[forward ? line.back() : line.front()]) {
                     if (done[n]) continue;
                     done[n] = grew = true;
-                    if (forward) line.push_back(n);
-                    else line.push_front(n);
+                    if (forward)
+                        line.push_back(n);
+                    else
+                        line.push_front(n);
                     break;
                 }
             }

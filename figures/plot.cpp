@@ -15,8 +15,10 @@ namespace {
 std::string quoted(const std::string& text) {
     std::string out = "'";
     for (const char c : text) {
-        if (c == '\'') out += "''";
-        else out += c == '\n' ? ' ' : c;
+        if (c == '\'')
+            out += "''";
+        else
+            out += c == '\n' ? ' ' : c;
     }
     return out + "'";
 }
@@ -53,13 +55,15 @@ std::string style_of(const Curve& c) {
     const std::string line = fmt::format("linecolor rgb {} linewidth {}{}", quoted(c.color), c.width, dash);
     switch (c.kind) {
         case Curve::Kind::line: return "with lines " + line;
-        case Curve::Kind::points: return fmt::format("with points pointtype 7 pointsize {} linecolor rgb {}", 0.3 * c.width, quoted(c.color));
+        case Curve::Kind::points:
+            return fmt::format("with points pointtype 7 pointsize {} linecolor rgb {}", 0.3 * c.width, quoted(c.color));
         case Curve::Kind::points_and_line: return "with linespoints pointtype 7 pointsize 0.6 " + line;
         case Curve::Kind::fill:
             return fmt::format("with filledcurves closed fillcolor rgb {} fillstyle {} {}", quoted(c.color),
                                c.opacity < 1 ? fmt::format("transparent solid {}", c.opacity) : "solid 1",
-                               c.width > 0 ? fmt::format("border linecolor rgb {} linewidth {}", quoted(house::ink), c.width)
-                                           : "noborder");
+                               c.width > 0
+                                   ? fmt::format("border linecolor rgb {} linewidth {}", quoted(house::ink), c.width)
+                                   : "noborder");
     }
     return {};
 }
@@ -77,8 +81,10 @@ std::string script_of(const PlotField& f) {
     out += fmt::format("set cbrange [{}:{}]\n", f.least, f.greatest);
     // From paper to deep blue: light for empty space, even in lightness.
     out += "set palette defined (0 '#ffffff', 0.25 '#d3e2ef', 0.5 '#8fb8d9', 0.75 '#4c86bd', 1 '#1f4e84')\n";
-    if (f.label.empty()) out += "unset colorbox\n";
-    else out += "set cblabel " + quoted(f.label) + "\nset cbtics nomirror\n";
+    if (f.label.empty())
+        out += "unset colorbox\n";
+    else
+        out += "set cblabel " + quoted(f.label) + "\nset cbtics nomirror\n";
     if (f.contours.empty()) return out;
     out += "set contour base\nunset surface\nset cntrparam levels discrete ";
     for (std::size_t i = 0; i < f.contours.size(); ++i) out += fmt::format("{}{}", i ? "," : "", f.contours[i]);
@@ -104,34 +110,42 @@ std::string gnuplot_script(const Plot& p) {
     std::string s = "set encoding utf8\nset clip one\nset clip two\n";
     s += fmt::format("set border 3 linecolor rgb {} linewidth 1\n", quoted(house::ink));
     s += fmt::format("set tics nomirror out scale 0.6 textcolor rgb {}\n", quoted(house::ink));
-    if (p.axes) s += fmt::format("set grid linecolor rgb {} linetype 1 linewidth 0.7\n", quoted(house::grid));
-    else s += "unset border\nunset tics\nset margins 0,0,0,0\n";
+    if (p.axes)
+        s += fmt::format("set grid linecolor rgb {} linetype 1 linewidth 0.7\n", quoted(house::grid));
+    else
+        s += "unset border\nunset tics\nset margins 0,0,0,0\n";
     if (!p.title.empty()) s += fmt::format("set title {} textcolor rgb {}\n", quoted(p.title), quoted(house::ink));
     if (!p.x_label.empty()) s += fmt::format("set xlabel {} textcolor rgb {}\n", quoted(p.x_label), quoted(house::ink));
     if (!p.y_label.empty()) s += fmt::format("set ylabel {} textcolor rgb {}\n", quoted(p.y_label), quoted(house::ink));
     if (!p.x_ticks.empty()) {
         s += "set xtics (";
-        for (std::size_t i = 0; i < p.x_ticks.size(); ++i) s += fmt::format("{}'{:g}' {:.10g}", i ? ", " : "", p.x_ticks[i], p.x_ticks[i]);
+        for (std::size_t i = 0; i < p.x_ticks.size(); ++i)
+            s += fmt::format("{}'{:g}' {:.10g}", i ? ", " : "", p.x_ticks[i], p.x_ticks[i]);
         s += ")\n";
     }
     if (p.log_x) s += "set logscale x\n";
     if (p.log_y) s += "set logscale y\n";
     if (p.equal_units) s += "set size ratio -1\n";
-    if (p.legend.empty()) s += "unset key\n";
-    else if (p.legend == "outside") s += "set key outside right top noenhanced samplen 2\nset key enhanced\n";
-    else s += fmt::format("set key {} samplen 2 spacing 1.2 opaque\n", p.legend);
+    if (p.legend.empty())
+        s += "unset key\n";
+    else if (p.legend == "outside")
+        s += "set key outside right top noenhanced samplen 2\nset key enhanced\n";
+    else
+        s += fmt::format("set key {} samplen 2 spacing 1.2 opaque\n", p.legend);
     for (const Arrow& a : p.arrows)
-        s += fmt::format("set arrow from {:.10g},{:.10g} to {:.10g},{:.10g} {} filled front linecolor rgb {} linewidth {}\n", a.from.x,
-                         a.from.y, a.to.x, a.to.y, a.both_ends ? "heads" : "head", quoted(a.color), a.width);
+        s += fmt::format(
+            "set arrow from {:.10g},{:.10g} to {:.10g},{:.10g} {} filled front linecolor rgb {} linewidth {}\n",
+            a.from.x, a.from.y, a.to.x, a.to.y, a.both_ends ? "heads" : "head", quoted(a.color), a.width);
     for (const Label& l : p.labels)
-        s += fmt::format("set label {} at {:.10g},{:.10g} {} front textcolor rgb {} font {}\n", quoted(l.text), l.at.x, l.at.y,
-                         word_of(l.align), quoted(l.color), quoted(fmt::format(",{}", l.size)));
+        s += fmt::format("set label {} at {:.10g},{:.10g} {} front textcolor rgb {} font {}\n", quoted(l.text), l.at.x,
+                         l.at.y, word_of(l.align), quoted(l.color), quoted(fmt::format(",{}", l.size)));
     std::vector<std::string> parts;
     if (p.field) {
         s += script_of(*p.field);
         parts.push_back("$field using 1:2:3 with image notitle");
         if (!p.field->contours.empty())
-            parts.push_back(fmt::format("$contours using 1:2 with lines linecolor rgb {} linewidth 2 notitle", quoted(p.field->contour_color)));
+            parts.push_back(fmt::format("$contours using 1:2 with lines linecolor rgb {} linewidth 2 notitle",
+                                        quoted(p.field->contour_color)));
     }
     // After the contours' table, which has no use for ranges.
     if (p.x_range) s += fmt::format("set xrange [{:.10g}:{:.10g}]\n", p.x_range->x, p.x_range->y);
@@ -150,10 +164,14 @@ PlotImages draw(const Plot& p) {
     const std::string script = gnuplot_script(p);
     const std::string font = fmt::format("{},{}", house::font, house::font_size);
     PlotImages images;
-    images.svg = run_gnuplot(fmt::format("set terminal svg size {},{} enhanced font '{}' background rgb 'white'\n", p.width,
-                                         p.height, font), script);
-    images.png = run_gnuplot(fmt::format("set terminal pngcairo size {},{} enhanced font '{}' fontscale 2 linewidth 2 pointscale 2 "
-                                         "background rgb 'white'\n", 2 * p.width, 2 * p.height, font), script);
+    images.svg = run_gnuplot(
+        fmt::format("set terminal svg size {},{} enhanced font '{}' background rgb 'white'\n", p.width, p.height, font),
+        script);
+    images.png = run_gnuplot(
+        fmt::format("set terminal pngcairo size {},{} enhanced font '{}' fontscale 2 linewidth 2 pointscale 2 "
+                    "background rgb 'white'\n",
+                    2 * p.width, 2 * p.height, font),
+        script);
     return images;
 }
 

@@ -32,9 +32,9 @@ struct Curve {
     std::string title = {};  // in the legend; "": not there
     std::string color = house::blue;
     Kind kind = Kind::line;
-    double width = 2;        // of the line or of points; fill: of its outline, 0 for none
-    std::string dash = {};   // "": solid, "-" dashed, "." dotted, "-." both
-    double opacity = 1;      // fill
+    double width = 2;       // of the line or of points; fill: of its outline, 0 for none
+    std::string dash = {};  // "": solid, "-" dashed, "." dotted, "-." both
+    double opacity = 1;     // fill
 };
 
 /// Points around a circle, closed.
@@ -75,8 +75,8 @@ struct Plot {
     std::optional<Vec2> x_range = {}, y_range = {};
     std::vector<double> x_ticks = {};  // empty: as gnuplot likes
     bool log_x = false, log_y = false;
-    bool equal_units = false;  // a circle looks round
-    bool axes = true;          // false: a drawing without a frame
+    bool equal_units = false;          // a circle looks round
+    bool axes = true;                  // false: a drawing without a frame
     std::string legend = "top right";  // "": none; "top left", "bottom right", "outside", …
     std::optional<PlotField> field = {};
     std::vector<Curve> curves = {};  // later ones over earlier ones

@@ -22,16 +22,20 @@ Scene bounded_part(Scene scene) {
 
 Film wire_picture(const FigureContext& context, const Scene& scene, const Mesh& mesh, const WirePicture& look) {
     const int shrink = context.draft() ? 2 : 1;
-    const int width = (look.width ? look.width : scene.width) / shrink, height = (look.height ? look.height : scene.height) / shrink;
+    const int width = (look.width ? look.width : scene.width) / shrink,
+              height = (look.height ? look.height : scene.height) / shrink;
     Film film(width, height, {0, 0, width, height});
     for (Pixel& p : film.pixels) p.color = Vec3(1.0);
     const MeshTracer tracer(mesh);
-    draw_strokes(film, wire_frame(mesh, mesh_edges(mesh, look.edges), tracer, PinholeCamera(scene.camera, width, height), width, height, look.mode),
+    draw_strokes(film,
+                 wire_frame(mesh, mesh_edges(mesh, look.edges), tracer, PinholeCamera(scene.camera, width, height),
+                            width, height, look.mode),
                  Vec3(0.02), look.line_width);
     return film;
 }
 
-Film gouraud_picture(const FigureContext& context, const Scene& scene, MeshSettings settings, const FigurePictureSettings& picture) {
+Film gouraud_picture(const FigureContext& context, const Scene& scene, MeshSettings settings,
+                     const FigurePictureSettings& picture) {
     settings.reach = rendering_reach;
     const SceneMesh mesh = mesh_scene(scene, settings);
     return context.render(scene, MeshTracer(mesh.mesh, mesh.near), picture);

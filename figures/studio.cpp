@@ -57,7 +57,8 @@ Camera framing(const Box& box, Vec3 direction, int width, int height, double fov
         const PinholeCamera pinhole(camera, width, height);
         Vec2 lo(1e9), hi(-1e9);
         for (int k = 0; k < 8; ++k) {
-            const Vec2 p(pinhole.project({k & 1 ? box.hi.x : box.lo.x, k & 2 ? box.hi.y : box.lo.y, k & 4 ? box.hi.z : box.lo.z}));
+            const Vec2 p(pinhole.project(
+                {k & 1 ? box.hi.x : box.lo.x, k & 2 ? box.hi.y : box.lo.y, k & 4 ? box.hi.z : box.lo.z}));
             lo = glm::min(lo, p);
             hi = glm::max(hi, p);
         }
@@ -92,7 +93,8 @@ Film mesh_picture(const FigureContext& context, const Mesh& mesh, const std::vec
     }
     if (look.lines)
         draw_strokes(film,
-                     wire_frame(mesh, mesh_edges(mesh, look.edges), tracer, PinholeCamera(camera, width, height), width, height, look.mode),
+                     wire_frame(mesh, mesh_edges(mesh, look.edges), tracer, PinholeCamera(camera, width, height), width,
+                                height, look.mode),
                      look.line_color, look.line_width);
     return film;
 }

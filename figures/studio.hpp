@@ -17,7 +17,7 @@ struct MeshLook {
     WireMode mode = WireMode::visible;
     double line_width = 1.0;  // pixels
     Vec3 line_color{0.02, 0.02, 0.03};
-    double gloss = 0.45;      // roughness of the plastic; 1: matte
+    double gloss = 0.45;  // roughness of the plastic; 1: matte
     int spp = 32;
 };
 

@@ -35,14 +35,16 @@ void make(FigureContext& context) {
         plot.curves.push_back({.points = circle(x, 0.035), .color = house::red, .kind = Curve::Kind::fill, .width = 0});
     }
     context.plot(plot);
-    context.measured(fmt::format("At {} points of the outline the share of the disc inside is ½ to {:.0e}.", points, std::max(worst, 1e-16)));
+    context.measured(fmt::format("At {} points of the outline the share of the disc inside is ½ to {:.0e}.", points,
+                                 std::max(worst, 1e-16)));
 }
 
 const RegisteredFigure registered{{
     .name = "triage-1",
     .title = "Figure 1: a convolutionally smoothed polygon",
     .shows = "Dashed the polygon, blue its smoothed version, red the test disc at three points of it.",
-    .claim = "The smoothed outline is where exactly half of the test volume lies inside the polygon (§2.1, after Colburn 1990).",
+    .claim = "The smoothed outline is where exactly half of the test volume lies inside the polygon (§2.1, after "
+             "Colburn 1990).",
     .plots = true,
     .seconds = 1,
     .make = make,

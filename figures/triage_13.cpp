@@ -73,9 +73,10 @@ void four_steps(FigureContext& context) {
 
     double worst = 0;
     for (const auto& p : cell.points()) worst = std::max(worst, std::abs(cell.density().at(p.x) - 0.5));
-    context.measured(fmt::format("{} intersections with edges, {} points on faces, {} inside, {} polygons; all points have ρ = ½ to {:.0e}.",
-                                 on(cell, On::edge).size(), on(cell, On::face).size(), on(cell, On::inside).size(), cell.faces().size(),
-                                 std::max(worst, 1e-16)));
+    context.measured(fmt::format(
+        "{} intersections with edges, {} points on faces, {} inside, {} polygons; all points have ρ = ½ to {:.0e}.",
+        on(cell, On::edge).size(), on(cell, On::face).size(), on(cell, On::inside).size(), cell.faces().size(),
+        std::max(worst, 1e-16)));
 }
 
 // The face of the cell, as a plane figure, in which the polygon's edge is refined most.
@@ -91,7 +92,8 @@ void refinement(FigureContext& context) {
         const double rise = glm::length(point(k).x - 0.5 * (point(k + loop.size() - 1).x + point(k + 1).x));
         if (rise > most) most = rise, best = k;
     }
-    const Vec3 a = point(best + loop.size() - 1).x, b = point(best + 1).x, refined = point(best).x, middle = 0.5 * (a + b);
+    const Vec3 a = point(best + loop.size() - 1).x, b = point(best + 1).x, refined = point(best).x,
+               middle = 0.5 * (a + b);
     const std::vector<Vec3>* wall = nullptr;
     Vec3 normal(0.0);
     for (const auto& w : cell.walls()) {
@@ -118,11 +120,14 @@ void refinement(FigureContext& context) {
     for (std::size_t k = 0; k < face.size(); ++k) {
         const Vec2 p = face[k], q = face[(k + 1) % face.size()], inward(p.y - q.y, q.x - p.x);
         const double speed = glm::dot(inward, g), at_zero = glm::dot(inward, -p);
-        if (speed > 0) t0 = std::max(t0, -at_zero / speed);
-        else if (speed < 0) t1 = std::min(t1, -at_zero / speed);
+        if (speed > 0)
+            t0 = std::max(t0, -at_zero / speed);
+        else if (speed < 0)
+            t1 = std::min(t1, -at_zero / speed);
     }
     const Vec2 start = t0 * g, end = t1 * g;
-    const auto level = level_lines([&](Vec2 p) { return cell.density().at(space(p)); }, 0.5, lo - 0.02, hi + 0.02, 160, 160);
+    const auto level =
+        level_lines([&](Vec2 p) { return cell.density().at(space(p)); }, 0.5, lo - 0.02, hi + 0.02, 160, 160);
 
     const auto draw = [&](int step) {
         Plot plot = drawing(330, 300);
@@ -146,10 +151,13 @@ void refinement(FigureContext& context) {
             plot.curves.push_back({.points = {p}, .color = color, .kind = Curve::Kind::points, .width = 3.2});
             if (*name) plot.labels.push_back({.at = p + shift * (hi - lo), .text = name, .size = 12});
         };
-        if (step < 3) plot.curves.push_back({.points = {flat(a), flat(b)}, .color = house::blue, .width = 2.4});
-        else plot.curves.push_back({.points = {flat(a), flat(refined), flat(b)}, .color = house::blue, .width = 2.4});
+        if (step < 3)
+            plot.curves.push_back({.points = {flat(a), flat(b)}, .color = house::blue, .width = 2.4});
+        else
+            plot.curves.push_back({.points = {flat(a), flat(refined), flat(b)}, .color = house::blue, .width = 2.4});
         if (step < 3) {
-            plot.curves.push_back({.points = {start, end}, .color = house::red, .width = 1.4, .dash = step == 1 ? "-" : ""});
+            plot.curves.push_back(
+                {.points = {start, end}, .color = house::red, .width = 1.4, .dash = step == 1 ? "-" : ""});
             dot(start, house::red, "{/:Italic s}_{start}", {-0.2, -0.02});
             dot(end, house::red, "{/:Italic s}_{end}", {0.0, 0.08});
             dot({0, 0}, house::ink, "{/:Italic p}_{mid}", {0.03, -0.07});
@@ -163,22 +171,24 @@ void refinement(FigureContext& context) {
     context.plot(draw(2), "(b) the root on it");
     context.plot(draw(3), "(c) the refined edge");
     const Vec2 r = flat(refined);
-    context.measured(fmt::format("The program's new vertex is {:.1e} r off the gradient's line, and the edge's distance from the isoline falls from "
-                                 "{:.3f} r to {:.3f} r.",
-                                 std::max(std::abs(r.x * g.y - r.y * g.x), 1e-16), most, [&] {
-                                     double worst = 0;
-                                     for (const auto& line : level)
-                                         for (const Vec2 p : line) {
-                                             double nearest = infinity;
-                                             for (const Vec3 end_point : {a, b}) {
-                                                 const Vec2 s = flat(end_point), d = r - s;
-                                                 const double t = glm::dot(p - s, d) / glm::dot(d, d);
-                                                 if (t >= 0 && t <= 1) nearest = std::min(nearest, glm::length(p - s - t * d));
-                                             }
-                                             if (nearest < infinity) worst = std::max(worst, nearest);
-                                         }
-                                     return worst;
-                                 }()));
+    context.measured(
+        fmt::format("The program's new vertex is {:.1e} r off the gradient's line, and the edge's distance from the "
+                    "isoline falls from "
+                    "{:.3f} r to {:.3f} r.",
+                    std::max(std::abs(r.x * g.y - r.y * g.x), 1e-16), most, [&] {
+                        double worst = 0;
+                        for (const auto& line : level)
+                            for (const Vec2 p : line) {
+                                double nearest = infinity;
+                                for (const Vec3 end_point : {a, b}) {
+                                    const Vec2 s = flat(end_point), d = r - s;
+                                    const double t = glm::dot(p - s, d) / glm::dot(d, d);
+                                    if (t >= 0 && t <= 1) nearest = std::min(nearest, glm::length(p - s - t * d));
+                                }
+                                if (nearest < infinity) worst = std::max(worst, nearest);
+                            }
+                        return worst;
+                    }()));
 }
 
 void two_half_spaces(FigureContext& context) {
@@ -220,7 +230,8 @@ const RegisteredFigure steps{{
     .name = "triage-13",
     .title = "Figure 13: subspace polygonization in four steps",
     .shows = "A cell at a block's rounded corner.",
-    .claim = "Points where edges meet the isosurface, a polygon through them, its edges refined by one point each, and planar polygons (§4.4).",
+    .claim = "Points where edges meet the isosurface, a polygon through them, its edges refined by one point each, and "
+             "planar polygons (§4.4).",
     .plots = true,
     .make = four_steps,
 }};
@@ -229,7 +240,8 @@ const RegisteredFigure refined{{
     .name = "triage-15",
     .title = "Figure 15: refinement of an edge",
     .shows = "A face of that cell. Dotted: the isosurface in it.",
-    .claim = "The line along the gradient through p_mid, projected into the face, is searched for a root from p_mid to its ends (§4.4.3).",
+    .claim = "The line along the gradient through p_mid, projected into the face, is searched for a root from p_mid to "
+             "its ends (§4.4.3).",
     .plots = true,
     .make = refinement,
 }};
@@ -238,7 +250,8 @@ const RegisteredFigure swept{{
     .name = "triage-16",
     .title = "Figure 16: a cell with an intersection of two half-spaces",
     .shows = "",
-    .claim = "Some 30 % of the unclassified cells hold two half-spaces only; their surface is swept, and the convex hull of the intersection points "
+    .claim = "Some 30 % of the unclassified cells hold two half-spaces only; their surface is swept, and the convex "
+             "hull of the intersection points "
              "gives fewer polygons than the general method (§4.5.2).",
     .plots = true,
     .make = two_half_spaces,

@@ -20,8 +20,8 @@ Box support_of(const SolidTree& solid) {
     return support >= 0 ? density.supports[std::size_t(support)] : bounding_box(solid);
 }
 
-Mesh cells_of(const Subdivision& s, const DensityTree& density, std::initializer_list<DensityClass> classes, double explode,
-              std::size_t& count) {
+Mesh cells_of(const Subdivision& s, const DensityTree& density, std::initializer_list<DensityClass> classes,
+              double explode, std::size_t& count) {
     Mesh mesh;
     const Vec3 middle = cell_middle(s.complex, 0);
     count = 0;
@@ -61,7 +61,8 @@ void make(FigureContext& context) {
     context.columns(4);
     context.picture(mesh_picture(context, low_cells, {studio::low, studio::low}, far, cells), "(a) low cells");
     context.picture(mesh_picture(context, high_cells, {studio::high, studio::high}, far, cells), "(b) high cells");
-    context.picture(mesh_picture(context, open_cells, {studio::unclassified, studio::unclassified}, camera, cells), "(c) unclassified cells");
+    context.picture(mesh_picture(context, open_cells, {studio::unclassified, studio::unclassified}, camera, cells),
+                    "(c) unclassified cells");
 
     Subspace subspace(subdivision);
     subspace.polygonize();
@@ -83,15 +84,17 @@ void make(FigureContext& context) {
     look.shading = Shading::smooth;
     look.lines = false;
     context.picture(mesh_picture(context, mesh, all(scene, studio::high), camera, look), "(h) Gouraud shaded");
-    context.measured(fmt::format("{} low, {} high and {} unclassified cells; {} triangles on planes, {} in unclassified cells.",
-                                 low, high, unclassified, tree.triangles.size(), curved.triangles.size()));
+    context.measured(
+        fmt::format("{} low, {} high and {} unclassified cells; {} triangles on planes, {} in unclassified cells.", low,
+                    high, unclassified, tree.triangles.size(), curved.triangles.size()));
 }
 
 const RegisteredFigure registered{{
     .name = "triage-4",
     .title = "Figure 4: the three steps of Triage Polygonization",
     .shows = "A cube with a pit. The planes of its half-spaces and their parallels at ±r cut space into low (a), high "
-             "(b) and unclassified cells (c). Between low and high cells lie the tree polygons (d), in unclassified cells the subspace "
+             "(b) and unclassified cells (c). Between low and high cells lie the tree polygons (d), in unclassified "
+             "cells the subspace "
              "polygons (e). Together they are the mesh (f) to (h).",
     .claim = "Unclassified cells are small; only in them an implicit surface must be polygonized (§4.1).",
     .scenes = {"csg_examples.lua"},

@@ -24,7 +24,8 @@ void make(FigureContext& context) {
     plane(0, "{/:Italic h}", "");
     plane(r, "{/:Italic h}_{/:Italic r}", "-");
     const auto region = [&](double x, const std::string& name, const std::string& range, const char* color) {
-        plot.labels.push_back({.at = {x, 0.1}, .text = name, .align = Label::Align::centre, .color = color, .size = 13});
+        plot.labels.push_back(
+            {.at = {x, 0.1}, .text = name, .align = Label::Align::centre, .color = color, .size = 13});
         plot.labels.push_back({.at = {x, -0.15}, .text = range, .align = Label::Align::centre, .color = color});
     };
     region(-1.6, "one", fmt::format("{:g}", profile(-1.6)), "#ffffff");

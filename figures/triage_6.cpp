@@ -45,7 +45,8 @@ void make(FigureContext& context) {
     // The four intervals of either half-space, from inside; the outermost reach beyond the picture.
     const double far = 8;
     const std::array<double, 5> a = {-far, -r1, 0, r1, far}, b = {-far, -r2, 0, r2, far};
-    const std::array<DensityClass, 4> classes = {DensityClass::one, DensityClass::high, DensityClass::low, DensityClass::zero};
+    const std::array<DensityClass, 4> classes = {DensityClass::one, DensityClass::high, DensityClass::low,
+                                                 DensityClass::zero};
     int open = 0, wrong = 0;
     std::array<int, 5> count{};
     for (std::size_t i = 0; i < 4; ++i)
@@ -53,20 +54,25 @@ void make(FigureContext& context) {
             const DensityClass c = combine(Op::product, classes[i], classes[j]);
             ++count[std::size_t(c)];
             open += c == DensityClass::unclassified;
-            std::vector<Vec2> corners = {meet(a[i], b[j]), meet(a[i + 1], b[j]), meet(a[i + 1], b[j + 1]), meet(a[i], b[j + 1])};
+            std::vector<Vec2> corners = {meet(a[i], b[j]), meet(a[i + 1], b[j]), meet(a[i + 1], b[j + 1]),
+                                         meet(a[i], b[j + 1])};
             plot.curves.push_back({.points = corners, .color = color_of(c), .kind = Curve::Kind::fill, .width = 0});
             // The class must hold what the density is.
             for (int u = 1; u < 20; ++u)
                 for (int v = 1; v < 20; ++v) {
-                    const double value = rho(meet(glm::mix(a[i], a[i + 1], u / 20.0), glm::mix(b[j], b[j + 1], v / 20.0)));
-                    wrong += c == DensityClass::low ? value >= 0.5 : c == DensityClass::high ? value < 0.5 : c == DensityClass::zero && value > 0;
+                    const double value =
+                        rho(meet(glm::mix(a[i], a[i + 1], u / 20.0), glm::mix(b[j], b[j + 1], v / 20.0)));
+                    wrong += c == DensityClass::low    ? value >= 0.5
+                             : c == DensityClass::high ? value < 0.5
+                                                       : c == DensityClass::zero && value > 0;
                 }
             // A name where the region is seen.
             Vec2 middle(0.0);
             int inside = 0;
             for (int u = 0; u < 60; ++u)
                 for (int v = 0; v < 60; ++v) {
-                    const Vec2 x = meet(glm::mix(a[i], a[i + 1], (u + 0.5) / 60), glm::mix(b[j], b[j + 1], (v + 0.5) / 60));
+                    const Vec2 x =
+                        meet(glm::mix(a[i], a[i + 1], (u + 0.5) / 60), glm::mix(b[j], b[j + 1], (v + 0.5) / 60));
                     if (x.x < lo.x || x.x > hi.x || x.y < lo.y || x.y > hi.y) continue;
                     middle += x;
                     ++inside;
@@ -76,16 +82,20 @@ void make(FigureContext& context) {
             if (c == DensityClass::unclassified) at -= Vec2(0.14, 0.1);  // off the curve
             plot.labels.push_back({.at = at, .text = name_of(c), .align = Label::Align::centre, .size = 9.5});
             if (i == 2 && j == 1)
-                plot.labels.push_back({.at = at + Vec2(0, 0.2), .text = "{/:Italic R}_1", .align = Label::Align::centre, .size = 12});
+                plot.labels.push_back(
+                    {.at = at + Vec2(0, 0.2), .text = "{/:Italic R}_1", .align = Label::Align::centre, .size = 12});
         }
     for (std::size_t i = 1; i < 4; ++i) {
         const char* dash = i == 2 ? "" : "-";
-        plot.curves.push_back({.points = {meet(a[i], -far), meet(a[i], far)}, .color = house::ink, .width = 1.3, .dash = dash});
-        plot.curves.push_back({.points = {meet(-far, b[i]), meet(far, b[i])}, .color = house::ink, .width = 1.3, .dash = dash});
+        plot.curves.push_back(
+            {.points = {meet(a[i], -far), meet(a[i], far)}, .color = house::ink, .width = 1.3, .dash = dash});
+        plot.curves.push_back(
+            {.points = {meet(-far, b[i]), meet(far, b[i])}, .color = house::ink, .width = 1.3, .dash = dash});
         const char* one[] = {"{/:Italic h}_{1,−{/:Italic r}_1}", "{/:Italic h}_1", "{/:Italic h}_{1,{/:Italic r}_1}"};
         const char* two[] = {"{/:Italic h}_{2,−{/:Italic r}_2}", "{/:Italic h}_2", "{/:Italic h}_{2,{/:Italic r}_2}"};
         plot.labels.push_back({.at = {a[i] + 0.06, hi.y + 0.08}, .text = one[i - 1], .size = 12});
-        plot.labels.push_back({.at = {lo.x + 0.06, meet(0, b[i]).y - n2.x / n2.y * lo.x + 0.12}, .text = two[i - 1], .size = 12});
+        plot.labels.push_back(
+            {.at = {lo.x + 0.06, meet(0, b[i]).y - n2.x / n2.y * lo.x + 0.12}, .text = two[i - 1], .size = 12});
     }
     for (const auto& line : level_lines(rho, 0.5, lo, hi, 250, 205))
         plot.curves.push_back({.points = line, .color = house::blue, .width = 3.2});
@@ -93,16 +103,18 @@ void make(FigureContext& context) {
     plot.curves.push_back({.points = circle(p1, 0.045), .color = house::ink, .kind = Curve::Kind::fill, .width = 0});
     plot.labels.push_back({.at = p1 + Vec2(0.08, -0.14), .text = "{/:Italic p}_1", .size = 13});
     context.plot(plot);
-    context.measured(fmt::format("ρ(p₁) = {:g}. Of 16 regions {} are unclassified, {} high or one, {} low, {} zero; of 5776 points none "
-                                 "may contradict its region's class, {} did.",
-                                 rho(p1), open, count[std::size_t(DensityClass::high)] + count[std::size_t(DensityClass::one)],
-                                 count[std::size_t(DensityClass::low)], count[std::size_t(DensityClass::zero)], wrong));
+    context.measured(fmt::format(
+        "ρ(p₁) = {:g}. Of 16 regions {} are unclassified, {} high or one, {} low, {} zero; of 5776 points none "
+        "may contradict its region's class, {} did.",
+        rho(p1), open, count[std::size_t(DensityClass::high)] + count[std::size_t(DensityClass::one)],
+        count[std::size_t(DensityClass::low)], count[std::size_t(DensityClass::zero)], wrong));
 }
 
 const RegisteredFigure registered{{
     .name = "triage-6",
     .title = "Figure 6: the intersection of two half-spaces, and its 16 regions",
-    .shows = "The classes that table 1 gives the regions, and in blue the isosurface: it keeps to the unclassified ones, and to the planes "
+    .shows = "The classes that table 1 gives the regions, and in blue the isosurface: it keeps to the unclassified "
+             "ones, and to the planes "
              "between high and low.",
     .claim = "ρ(p₁) = 0.5 · 1 = 0.5, and region R₁ is low (§4.2.1).",
     .plots = true,

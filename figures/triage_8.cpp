@@ -12,8 +12,8 @@ constexpr double r = 0.42;
 struct Block {
     Vec2 lo, hi;
     Density density() const {
-        return Density::half_space({1, 0, 0}, hi.x) * Density::half_space({-1, 0, 0}, -lo.x) * Density::half_space({0, 1, 0}, hi.y) *
-               Density::half_space({0, -1, 0}, -lo.y);
+        return Density::half_space({1, 0, 0}, hi.x) * Density::half_space({-1, 0, 0}, -lo.x) *
+               Density::half_space({0, 1, 0}, hi.y) * Density::half_space({0, -1, 0}, -lo.y);
     }
     std::vector<Vec2> outline() const { return {lo, {hi.x, lo.y}, hi, {lo.x, hi.y}}; }
 };
@@ -51,11 +51,14 @@ std::vector<double> planes(double a, double b) { return {a - r, a, a + r, b - r,
 // Table 1 in every region between the planes.
 void add_regions(Plot& plot, const Block& block) {
     const std::vector<double> x = planes(block.lo.x, block.hi.x), y = planes(block.lo.y, block.hi.y);
-    const std::vector<DensityClass> across = {DensityClass::low, DensityClass::high, DensityClass::one, DensityClass::high, DensityClass::low};
+    const std::vector<DensityClass> across = {DensityClass::low, DensityClass::high, DensityClass::one,
+                                              DensityClass::high, DensityClass::low};
     for (std::size_t i = 0; i + 1 < x.size(); ++i)
         for (std::size_t j = 0; j + 1 < y.size(); ++j)
             plot.curves.push_back({.points = {{x[i], y[j]}, {x[i + 1], y[j]}, {x[i + 1], y[j + 1]}, {x[i], y[j + 1]}},
-                                   .color = color_of(combine(Op::product, across[i], across[j])), .kind = Curve::Kind::fill, .width = 0.8});
+                                   .color = color_of(combine(Op::product, across[i], across[j])),
+                                   .kind = Curve::Kind::fill,
+                                   .width = 0.8});
 }
 
 // The cells' corners at the front, as they are seen along z.
@@ -102,7 +105,8 @@ Plot tree_of(const Subdivision& s, const std::vector<DensityClass>& classes) {
     place(0, 0);
     for (std::size_t k = 0; k < leaves.size(); ++k) {
         Curve dot{.points = {}, .color = color_of(of_leaf[k]), .kind = Curve::Kind::fill, .width = 0.7};
-        for (const Vec2 p : circle({0, 0}, 1, 24)) dot.points.push_back(leaves[k] + p * Vec2(0.42, 0.42 * deepest / double(leaves.size()) * 1.2));
+        for (const Vec2 p : circle({0, 0}, 1, 24))
+            dot.points.push_back(leaves[k] + p * Vec2(0.42, 0.42 * deepest / double(leaves.size()) * 1.2));
         plot.curves.push_back(dot);
     }
     plot.x_range = Vec2(-1, column);
@@ -120,10 +124,15 @@ void make(FigureContext& context) {
     Plot a = panel();
     for (std::size_t k = 0; k < level.size(); ++k) {
         double area = 0;
-        for (std::size_t i = 0; i + 1 < level[k].size(); ++i) area += level[k][i].x * level[k][i + 1].y - level[k][i].y * level[k][i + 1].x;
-        a.curves.push_back({.points = level[k], .color = std::abs(area) > 10 ? house::shade : "#ffffff", .kind = Curve::Kind::fill, .width = 0});
+        for (std::size_t i = 0; i + 1 < level[k].size(); ++i)
+            area += level[k][i].x * level[k][i + 1].y - level[k][i].y * level[k][i + 1].x;
+        a.curves.push_back({.points = level[k],
+                            .color = std::abs(area) > 10 ? house::shade : "#ffffff",
+                            .kind = Curve::Kind::fill,
+                            .width = 0});
     }
-    std::stable_sort(a.curves.begin(), a.curves.end(), [](const Curve& x, const Curve& y) { return x.color != "#ffffff" && y.color == "#ffffff"; });
+    std::stable_sort(a.curves.begin(), a.curves.end(),
+                     [](const Curve& x, const Curve& y) { return x.color != "#ffffff" && y.color == "#ffffff"; });
     for (const auto& line : level) a.curves.push_back({.points = line, .color = house::blue, .width = 2.4});
     Plot b = panel();
     outline(b, whole, house::ink, 2);
@@ -141,11 +150,16 @@ void make(FigureContext& context) {
     Plot d = panel();
     for (const Block& block : {whole, hole}) {
         const bool first = block.lo == whole.lo;
-        for (const auto& [values, k] : {std::pair{planes(block.lo.x, block.hi.x), 0}, {planes(block.lo.y, block.hi.y), 1}})
+        for (const auto& [values, k] :
+             {std::pair{planes(block.lo.x, block.hi.x), 0}, {planes(block.lo.y, block.hi.y), 1}})
             for (std::size_t i = 0; i < values.size(); ++i) {
                 const bool own = i == 1 || i == 4;
-                const Vec2 from = k == 0 ? Vec2(values[i], lo.y) : Vec2(lo.x, values[i]), to = k == 0 ? Vec2(values[i], hi.y) : Vec2(hi.x, values[i]);
-                d.curves.push_back({.points = {from, to}, .color = first ? house::blue : house::red, .width = own ? 1.8 : 1, .dash = own ? "" : "-"});
+                const Vec2 from = k == 0 ? Vec2(values[i], lo.y) : Vec2(lo.x, values[i]),
+                           to = k == 0 ? Vec2(values[i], hi.y) : Vec2(hi.x, values[i]);
+                d.curves.push_back({.points = {from, to},
+                                    .color = first ? house::blue : house::red,
+                                    .width = own ? 1.8 : 1,
+                                    .dash = own ? "" : "-"});
             }
     }
     Plot e = panel();
@@ -160,7 +174,10 @@ void make(FigureContext& context) {
     for (int cell = 0; cell < int(subdivision.complex.cells.size()); ++cell) {
         classes.push_back(cell_class(subdivision, cell, 0, density));
         ++count[std::size_t(classes.back())];
-        f.curves.push_back({.points = front_of(subdivision.complex, cell), .color = color_of(classes.back()), .kind = Curve::Kind::fill, .width = 0.8});
+        f.curves.push_back({.points = front_of(subdivision.complex, cell),
+                            .color = color_of(classes.back()),
+                            .kind = Curve::Kind::fill,
+                            .width = 0.8});
     }
     for (const auto& line : level) f.curves.push_back({.points = line, .color = house::blue, .width = 2.2});
     context.plot(a, "(a) the smoothed object");
@@ -171,17 +188,21 @@ void make(FigureContext& context) {
     context.plot(e2, "(e) B's regions");
     context.plot(f, "(f) Deburr's subdivision");
     context.plot(tree_of(subdivision, classes), "(g) its BSP tree");
-    context.measured(fmt::format("{} cells: {} unclassified, {} high, {} one, {} low, {} zero. Cells are not cut further once they are decided, so there are "
-                                 "fewer than all planes would make.",
-                                 classes.size(), count[std::size_t(DensityClass::unclassified)], count[std::size_t(DensityClass::high)],
-                                 count[std::size_t(DensityClass::one)], count[std::size_t(DensityClass::low)], count[std::size_t(DensityClass::zero)]));
+    context.measured(
+        fmt::format("{} cells: {} unclassified, {} high, {} one, {} low, {} zero. Cells are not cut further once they "
+                    "are decided, so there are "
+                    "fewer than all planes would make.",
+                    classes.size(), count[std::size_t(DensityClass::unclassified)],
+                    count[std::size_t(DensityClass::high)], count[std::size_t(DensityClass::one)],
+                    count[std::size_t(DensityClass::low)], count[std::size_t(DensityClass::zero)]));
 }
 
 const RegisteredFigure registered{{
     .name = "triage-8",
     .title = "Figure 8: from a CSG object to a classified density field",
     .shows = "White: zero; pale blue: low; yellow: unclassified; light and dark red: high and one.",
-    .claim = "The planes of every primitive, displaced by the radius, partition its density field; the BSP tree classifies that of the object (§4.2.3, §4.2.4).",
+    .claim = "The planes of every primitive, displaced by the radius, partition its density field; the BSP tree "
+             "classifies that of the object (§4.2.3, §4.2.4).",
     .plots = true,
     .seconds = 3,
     .make = make,

@@ -22,18 +22,22 @@ const FigurePictureSettings whole{.width = 720, .height = 456, .spp = 96};
 const FigurePictureSettings detail{.width = 420, .height = 300, .spp = 96};
 
 // (a) and (b) of a scene.
-void pair(FigureContext& context, const Scene& scene, const Mesh& lines, const FigurePictureSettings& size, const std::string& what) {
+void pair(FigureContext& context, const Scene& scene, const Mesh& lines, const FigurePictureSettings& size,
+          const std::string& what) {
     context.picture(wire_picture(context, scene, lines, {.width = size.width, .height = size.height}), "(a) " + what);
     context.picture(gouraud_picture(context, scene, {}, size), "(b) " + what);
 }
 
 void hole_punch(FigureContext& context, const std::string& softness) {
     context.columns(2);
-    const auto scene = [&](const char* closeup) { return context.scene("hole_punch.lua", {{"softness", softness}, {"closeup", closeup}}); };
+    const auto scene = [&](const char* closeup) {
+        return context.scene("hole_punch.lua", {{"softness", softness}, {"closeup", closeup}});
+    };
     const SceneMesh mesh = mesh_scene(object_of(scene("none"), false), {});
     pair(context, scene("none"), mesh.mesh, whole, softness == "0" ? "the unsmoothed hole punch" : "the hole punch");
     if (softness != "0")
-        for (const auto& [view, name] : {std::pair{"punch", "the punch"}, {"hinge", "part of the hinge"}, {"pins", "metal pins"}})
+        for (const auto& [view, name] :
+             {std::pair{"punch", "the punch"}, {"hinge", "part of the hinge"}, {"pins", "metal pins"}})
             pair(context, scene(view), mesh.mesh, detail, name);
     context.measured(fmt::format("{}.", count(mesh)));
 }
@@ -66,8 +70,11 @@ void csg_example(FigureContext& context) {
     const SceneMesh mesh = mesh_scene(objects, {});
     pair(context, scene, mesh.mesh, whole, "the six objects");
     // The scene's own places: object i stands in column (i − 1) mod 3 and row (i − 1) div 3.
-    const auto corner_of = [](int i) { return Vec3(1.8 * ((i - 1) % 3 - 1) - 0.5, 0, 2.1 * ((i - 1) / 3 - 0.5) - 0.5); };
-    pair(context, enlarged(scene, corner_of(3) + Vec3(0.5, 0.95, 0.5), 0.85), mesh.mesh, detail, "a clipped rounded box subtracted from a sharp cube");
+    const auto corner_of = [](int i) {
+        return Vec3(1.8 * ((i - 1) % 3 - 1) - 0.5, 0, 2.1 * ((i - 1) / 3 - 0.5) - 0.5);
+    };
+    pair(context, enlarged(scene, corner_of(3) + Vec3(0.5, 0.95, 0.5), 0.85), mesh.mesh, detail,
+         "a clipped rounded box subtracted from a sharp cube");
     const Vec3 concave = corner_of(6) + Vec3(0.75, 1, 0.75);
     pair(context, enlarged(scene, concave, 0.5), mesh.mesh, detail, "a concave corner of three planes");
     const double r = std::stod(scene.parameters.at("r"));
@@ -81,7 +88,8 @@ const RegisteredFigure figure_17{{
     .name = "triage-17",
     .title = "Figure 17: the unsmoothed hole punch",
     .shows = wire_and_gouraud,
-    .claim = "A simple CSG object with polyhedral primitives; with radius 0 the result is its boundary representation (§6.1, §6.2).",
+    .claim = "A simple CSG object with polyhedral primitives; with radius 0 the result is its boundary representation "
+             "(§6.1, §6.2).",
     .scenes = {"hole_punch.lua"},
     .seconds = 15,
     .make = [](FigureContext& context) { hole_punch(context, "0"); },
@@ -91,8 +99,10 @@ const RegisteredFigure figure_18{{
     .name = "triage-18",
     .title = "Figure 18: the hole punch, smoothed, with the punch, the hinge and metal pins enlarged",
     .shows = wire_and_gouraud,
-    .claim = "A few radii make it look much better. Most of the surface is large rectangles; a smoothed edge is two long ones, a corner 6 "
-             "triangles. The pin has a sharp edge at its top; cylindrical parts are rectangles, their ends triangles (§6.1).",
+    .claim = "A few radii make it look much better. Most of the surface is large rectangles; a smoothed edge is two "
+             "long ones, a corner 6 "
+             "triangles. The pin has a sharp edge at its top; cylindrical parts are rectangles, their ends triangles "
+             "(§6.1).",
     .scenes = {"hole_punch.lua"},
     .seconds = 40,
     .make = [](FigureContext& context) { hole_punch(context, "1"); },
@@ -112,7 +122,8 @@ const RegisteredFigure figure_20{{
     .name = "triage-20",
     .title = "Figure 20: the stapler, polygonized with Triage Polygonization",
     .shows = wire_and_gouraud,
-    .claim = "Wherever possible the method finds long triangles and rectangles; thin objects, as the side plates of the hinge, are no problem (§6.1).",
+    .claim = "Wherever possible the method finds long triangles and rectangles; thin objects, as the side plates of "
+             "the hinge, are no problem (§6.1).",
     .scenes = {"staplers.lua"},
     .seconds = 20,
     .make = [](FigureContext& context) { stapler(context, "rounded"); },

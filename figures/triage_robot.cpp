@@ -31,22 +31,27 @@ void make(FigureContext& context) {
         radii.push_back(r);
     }
     context.columns(4);
-    context.picture_bytes(animated_png(frames, 0.12), frames.at(0).width, fmt::format("animated: {} frames", frames.size()));
+    context.picture_bytes(animated_png(frames, 0.12), frames.at(0).width,
+                          fmt::format("animated: {} frames", frames.size()));
     // Seven of them, evenly from sharp to gone.
     for (int k = 0; k < 7; ++k) {
         const std::size_t i = std::size_t(std::lround(k * double(frames.size() - 2) / 6));
         context.picture(frames[i], fmt::format("r = {:.2f}", radii[i]));
     }
-    context.measured(fmt::format("{} radii from {:g} to {:.2f}: {} meshes, {} triangles in all and {} at most; {} of them closed 2-manifolds. {}", radii.size(),
-                                 radii.front(), radii.back(), radii.size(), triangles, most, radii.size() - open,
-                                 vanished > 0 ? fmt::format("The robot is gone at r = {:.2f}.", vanished) : std::string("The robot is still there.")));
+    context.measured(
+        fmt::format("{} radii from {:g} to {:.2f}: {} meshes, {} triangles in all and {} at most; {} of them closed "
+                    "2-manifolds. {}",
+                    radii.size(), radii.front(), radii.back(), radii.size(), triangles, most, radii.size() - open,
+                    vanished > 0 ? fmt::format("The robot is gone at r = {:.2f}.", vanished)
+                                 : std::string("The robot is still there.")));
 }
 
 const RegisteredFigure registered{{
     .name = "triage-robot",
     .title = "§6.4: a robot smoothed until it vanishes",
     .shows = "One sum of densities that touch, one radius, Gouraud-shaded meshes of Triage Polygonization.",
-    .claim = "The paper's implementation aborts where it cannot generate a continuous surface, but managed an animation of a robot smoothed "
+    .claim = "The paper's implementation aborts where it cannot generate a continuous surface, but managed an "
+             "animation of a robot smoothed "
              "with a larger and larger filter until it vanishes completely.",
     .scenes = {"melting_robot.lua"},
     .seconds = 30,

@@ -14,8 +14,9 @@ namespace {
 std::string times(double x) { return x >= 10 ? fmt::format("{:.0f}", x) : fmt::format("{:.1f}", x); }
 
 void against_marching_cubes(FigureContext& context) {
-    FigureTable table{{"r", "Triage, triangles", "ms", "largest distance / r", "marching cubes, triangles", "ms", "largest distance / r",
-                       "share of triangles", "times as fast", "at the same distance"}, {}};
+    FigureTable table{{"r", "Triage, triangles", "ms", "largest distance / r", "marching cubes, triangles", "ms",
+                       "largest distance / r", "share of triangles", "times as fast", "at the same distance"},
+                      {}};
     Plot plot;
     plot.x_label = "rounding radius (the cube's side is 1)";
     plot.y_label = "CPU time of marching cubes / of Triage";
@@ -24,7 +25,10 @@ void against_marching_cubes(FigureContext& context) {
     plot.x_range = Vec2(0.015, 0.32);
     plot.x_ticks = {0.02, 0.05, 0.1, 0.15, 0.2, 0.25};
     Curve as_is{.points = {}, .title = "as in the paper", .kind = Curve::Kind::points_and_line};
-    Curve equal{.points = {}, .title = "Triage refined to the same largest distance", .color = house::red, .kind = Curve::Kind::points_and_line};
+    Curve equal{.points = {},
+                .title = "Triage refined to the same largest distance",
+                .color = house::red,
+                .kind = Curve::Kind::points_and_line};
     double cross = infinity;
     for (const double r : {0.02, 0.035, 0.05, 0.1, 0.15, 0.2, 0.25}) {
         context.check_stop();
@@ -32,32 +36,39 @@ void against_marching_cubes(FigureContext& context) {
         const SolidTree tree = flatten(scene.solids.at(4));
         const Box box = polygonization_box(tree);
         Mesh plain, cubes, fine;
-        const Ratio ratio = ratio_of([&] { cubes = marching_cubes(tree, box, r / 2); }, [&] { plain = triage(tree, box); }, 3);
+        const Ratio ratio =
+            ratio_of([&] { cubes = marching_cubes(tree, box, r / 2); }, [&] { plain = triage(tree, box); }, 3);
         const MeshMetrics of_plain = measure(plain, tree), of_cubes = measure(cubes, tree);
         const double finer = median([&] {
             std::vector<double> times;
-            for (int k = 0; k < 3; ++k) times.push_back(cpu_seconds_of([&] { fine = triage(tree, box, {.tolerance = of_cubes.distance.max}); }));
+            for (int k = 0; k < 3; ++k)
+                times.push_back(
+                    cpu_seconds_of([&] { fine = triage(tree, box, {.tolerance = of_cubes.distance.max}); }));
             return times;
         }());
-        table.rows.push_back({fmt::format("{:g}", r), fmt::format("{}", plain.triangles.size()), fmt::format("{:.1f}", 1e3 * ratio.b),
-                              fmt::format("{:.3f}", of_plain.distance.max / r), fmt::format("{}", cubes.triangles.size()),
-                              fmt::format("{:.1f}", 1e3 * ratio.a), fmt::format("{:.3f}", of_cubes.distance.max / r),
-                              fmt::format("{:.1f} %", 100.0 * double(plain.triangles.size()) / double(cubes.triangles.size())),
-                              times(ratio.value()), times(ratio.a / finer)});
+        table.rows.push_back(
+            {fmt::format("{:g}", r), fmt::format("{}", plain.triangles.size()), fmt::format("{:.1f}", 1e3 * ratio.b),
+             fmt::format("{:.3f}", of_plain.distance.max / r), fmt::format("{}", cubes.triangles.size()),
+             fmt::format("{:.1f}", 1e3 * ratio.a), fmt::format("{:.3f}", of_cubes.distance.max / r),
+             fmt::format("{:.1f} %", 100.0 * double(plain.triangles.size()) / double(cubes.triangles.size())),
+             times(ratio.value()), times(ratio.a / finer)});
         as_is.points.push_back({r, ratio.value()});
         equal.points.push_back({r, ratio.a / finer});
         if (ratio.value() < 1) cross = std::min(cross, r);
     }
-    plot.curves = {{.points = {{0.015, 20}, {0.32, 20}}, .title = "the paper's 20 to 30", .color = house::grey, .dash = "-"},
-                   {.points = {{0.015, 30}, {0.32, 30}}, .color = house::grey, .dash = "-"},
-                   {.points = {{0.015, 1}, {0.32, 1}}, .color = house::ink, .width = 1},
-                   as_is, equal};
+    plot.curves = {
+        {.points = {{0.015, 20}, {0.32, 20}}, .title = "the paper's 20 to 30", .color = house::grey, .dash = "-"},
+        {.points = {{0.015, 30}, {0.32, 30}}, .color = house::grey, .dash = "-"},
+        {.points = {{0.015, 1}, {0.32, 1}}, .color = house::ink, .width = 1},
+        as_is,
+        equal};
     context.table(table);
     context.plot(plot);
-    context.measured(fmt::format("{} times as fast at r = {:g}, {} times at {:g}. {}", table.rows.front()[8], as_is.points.front().x,
-                                 table.rows.back()[8], as_is.points.back().x,
-                                 cross < infinity ? fmt::format("Marching cubes wins from r = {:g} on.", cross)
-                                                  : std::string("Marching cubes does not win up to a quarter of the object.")));
+    context.measured(fmt::format("{} times as fast at r = {:g}, {} times at {:g}. {}", table.rows.front()[8],
+                                 as_is.points.front().x, table.rows.back()[8], as_is.points.back().x,
+                                 cross < infinity
+                                     ? fmt::format("Marching cubes wins from r = {:g} on.", cross)
+                                     : std::string("Marching cubes does not win up to a quarter of the object.")));
 }
 
 // Rounded boxes on a cubic grid, six half-spaces each, as one Boolean density.
@@ -82,11 +93,12 @@ void growth(FigureContext& context) {
         std::size_t triangles = 0;
         std::vector<double> times;
         const int rounds = count < 200 ? 7 : 3;
-        for (int k = 0; k < rounds; ++k) times.push_back(cpu_seconds_of([&] { triangles = triage(tree, box).triangles.size(); }));
+        for (int k = 0; k < rounds; ++k)
+            times.push_back(cpu_seconds_of([&] { triangles = triage(tree, box).triangles.size(); }));
         const double n = 6.0 * count, seconds = median(times);
         measured.points.push_back({n, 1e3 * seconds});
-        table.rows.push_back({fmt::format("{:g}", n), fmt::format("{}", triangles), fmt::format("{:.2f}", 1e3 * seconds),
-                              fmt::format("{:.0f}", 1e6 * seconds / n)});
+        table.rows.push_back({fmt::format("{:g}", n), fmt::format("{}", triangles),
+                              fmt::format("{:.2f}", 1e3 * seconds), fmt::format("{:.0f}", 1e6 * seconds / n)});
     }
     // Least squares of log t = log c + p log n.
     double sx = 0, sy = 0, sxx = 0, sxy = 0;
@@ -102,10 +114,15 @@ void growth(FigureContext& context) {
     plot.y_label = "CPU time, ms";
     plot.log_x = plot.log_y = true;
     plot.legend = "top left";
-    plot.curves = {{.points = {first, {last.x, first.y * std::pow(last.x / first.x, 1.3)}}, .title = "{/:Italic n}^{1.3}, the paper's",
-                    .color = house::grey, .dash = "-"},
-                   {.points = {{first.x, factor * std::pow(first.x, power)}, {last.x, factor * std::pow(last.x, power)}},
-                    .title = fmt::format("fitted: {{/:Italic n}}^{{{:.2f}}}", power), .color = house::red}, measured};
+    plot.curves = {
+        {.points = {first, {last.x, first.y * std::pow(last.x / first.x, 1.3)}},
+         .title = "{/:Italic n}^{1.3}, the paper's",
+         .color = house::grey,
+         .dash = "-"},
+        {.points = {{first.x, factor * std::pow(first.x, power)}, {last.x, factor * std::pow(last.x, power)}},
+         .title = fmt::format("fitted: {{/:Italic n}}^{{{:.2f}}}", power),
+         .color = house::red},
+        measured};
     context.plot(plot);
     context.table(table);
     context.measured(fmt::format("Fitted exponent {:.2f} over {:g} to {:g} half-spaces.", power, first.x, last.x));
@@ -114,9 +131,12 @@ void growth(FigureContext& context) {
 const RegisteredFigure compared{{
     .name = "triage-table-6.2",
     .title = "§6.2: Triage against marching cubes",
-    .shows = "Lobb's obj4, the cube with a rounded pit, with marching cubes at half the radius. Distances are the largest at the triangles' "
-             "middles, by root search. The last column is for Triage refined by --tolerance until it is as near as marching cubes.",
-    .claim = "20 to 30 times faster and 1 to 2 % of the polygons on average; marching cubes becomes superior at about a quarter of the "
+    .shows = "Lobb's obj4, the cube with a rounded pit, with marching cubes at half the radius. Distances are the "
+             "largest at the triangles' "
+             "middles, by root search. The last column is for Triage refined by --tolerance until it is as near as "
+             "marching cubes.",
+    .claim = "20 to 30 times faster and 1 to 2 % of the polygons on average; marching cubes becomes superior at about "
+             "a quarter of the "
              "object's size.",
     .scenes = {"csg_examples.lua"},
     .plots = true,

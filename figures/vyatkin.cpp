@@ -50,7 +50,8 @@ Film cloud(const FigureContext& context, const Scene& scene, const Mesh& mesh, i
     for (std::size_t v = 0; v < mesh.positions.size(); ++v) {
         const Vec3 x = mesh.positions[v], eye = camera.eye();
         if (glm::dot(normal[v], eye - x) <= 0) continue;
-        const Vec3 start = x + 1e-3 * glm::length(eye - x) * glm::normalize(glm::normalize(normal[v]) + glm::normalize(eye - x));
+        const Vec3 start =
+            x + 1e-3 * glm::length(eye - x) * glm::normalize(glm::normalize(normal[v]) + glm::normalize(eye - x));
         TraceCounters unused;
         if (tracer.occluded({start, glm::normalize(eye - start)}, glm::length(eye - start), unused)) continue;
         const Vec2 p(camera.project(x));
@@ -85,21 +86,28 @@ void points(FigureContext& context) {
 void grid(FigureContext& context) {
     const Scene scene = context.scene("free_form.lua");
     const Mesh mesh = mesh_of(scene, 9000);
-    context.picture(wire_picture(context, scene, mesh, {.width = 600, .height = 600 * scene.height / scene.width, .edges = EdgeChoice::triangles, .line_width = 0.7}));
+    context.picture(wire_picture(
+        context, scene, mesh,
+        {.width = 600, .height = 600 * scene.height / scene.width, .edges = EdgeChoice::triangles, .line_width = 0.7}));
     context.measured(fmt::format("{}.", count(mesh)));
 }
 
 void cone(FigureContext& context, bool keep) {
     const Scene scene = context.scene("cone.lua");
     context.columns(2);
-    const MeshSettings settings{.method = MeshMethod::octree, .edge = size_of(scene) / 18, .hard_angle = keep ? OctreeOptions{}.hard_angle : 180};
+    const MeshSettings settings{.method = MeshMethod::octree,
+                                .edge = size_of(scene) / 18,
+                                .hard_angle = keep ? OctreeOptions{}.hard_angle : 180};
     const Mesh mesh = mesh_scene(bounded_part(scene), settings).mesh;
     const FigurePictureSettings size{.width = 480, .height = 480 * scene.height / scene.width, .spp = 24};
-    context.picture(wire_picture(context, scene, mesh, {.width = size.width, .height = size.height, .edges = EdgeChoice::triangles}), "the mesh");
+    context.picture(wire_picture(context, scene, mesh,
+                                 {.width = size.width, .height = size.height, .edges = EdgeChoice::triangles}),
+                    "the mesh");
     context.picture(shaded(context, scene, flat_shaded(mesh), size), "flat shaded");
     const SolidTree tree = flatten(bounded_part(scene).solids.at(0));
     const double exact = volume(octree(tree, polygonization_box(tree), {.edge = size_of(scene) / 200}));
-    context.measured(fmt::format("{}; {:.2f} % of the volume is missing.", count(mesh), 100 * (1 - volume(mesh) / exact)));
+    context.measured(
+        fmt::format("{}; {:.2f} % of the volume is missing.", count(mesh), 100 * (1 - volume(mesh) / exact)));
 }
 
 void figurine(FigureContext& context) {
@@ -118,37 +126,44 @@ void teapot(FigureContext& context) {
     const FigurePictureSettings size{.width = 480, .height = 480 * scene.height / scene.width, .spp = 32};
     const Mesh mesh = mesh_of(scene, 317188);
     context.picture(shaded(context, scene, mesh, size), "the polygons");
-    context.picture(wire_picture(context, scene, mesh_of(scene, 9000), {.width = size.width, .height = size.height, .edges = EdgeChoice::triangles, .line_width = 0.7}),
-                    "a coarser grid of it");
+    context.picture(
+        wire_picture(context, scene, mesh_of(scene, 9000),
+                     {.width = size.width, .height = size.height, .edges = EdgeChoice::triangles, .line_width = 0.7}),
+        "a coarser grid of it");
     context.measured(fmt::format("{}.", count(mesh)));
 }
 
-const RegisteredFigure figure_1{{.name = "vyatkin-1",
-                                 .title = "Figure 1: surfaces of second order",
-                                 .shows = "From the left: a cone and a paraboloid, an ellipsoid, a cylinder, hyperboloids of one and of two sheets.",
-                                 .claim = "A general function F(x, y, z) of second order is the base of free forms (§3.1).",
-                                 .scenes = {"quadric.lua"},
-                                 .seconds = 15,
-                                 .make = quadrics}};
-const RegisteredFigure figure_2{{.name = "vyatkin-2",
-                                 .title = "Figure 2: a free form based on a quadric",
-                                 .shows = "An ellipsoid, and the same with two bumps and a dent.",
-                                 .claim = "The surfaces are smooth, and complex forms need few perturbation functions: three here (§3.1).",
-                                 .scenes = {"free_form.lua"},
-                                 .seconds = 15,
-                                 .make = free_form}};
+const RegisteredFigure figure_1{
+    {.name = "vyatkin-1",
+     .title = "Figure 1: surfaces of second order",
+     .shows =
+         "From the left: a cone and a paraboloid, an ellipsoid, a cylinder, hyperboloids of one and of two sheets.",
+     .claim = "A general function F(x, y, z) of second order is the base of free forms (§3.1).",
+     .scenes = {"quadric.lua"},
+     .seconds = 15,
+     .make = quadrics}};
+const RegisteredFigure figure_2{
+    {.name = "vyatkin-2",
+     .title = "Figure 2: a free form based on a quadric",
+     .shows = "An ellipsoid, and the same with two bumps and a dent.",
+     .claim = "The surfaces are smooth, and complex forms need few perturbation functions: three here (§3.1).",
+     .scenes = {"free_form.lua"},
+     .seconds = 15,
+     .make = free_form}};
 const RegisteredFigure figure_3{{.name = "vyatkin-3",
                                  .title = "Figure 3: the cloud of points",
                                  .shows = "The points of the octree's cells on the front of the free form.",
-                                 .claim = "Subdivision of space down to the wanted resolution gives a cloud of points on the surface, without holes (§3.2).",
+                                 .claim = "Subdivision of space down to the wanted resolution gives a cloud of points "
+                                          "on the surface, without holes (§3.2).",
                                  .scenes = {"free_form.lua"},
                                  .make = points}};
-const RegisteredFigure figure_8{{.name = "vyatkin-8",
-                                 .title = "Figure 8: a grid of triangles",
-                                 .shows = "The points linked, hidden lines removed.",
-                                 .claim = "First a grid of quadrangles, then of triangles, in time linear in the number of points (§3.3).",
-                                 .scenes = {"free_form.lua"},
-                                 .make = grid}};
+const RegisteredFigure figure_8{
+    {.name = "vyatkin-8",
+     .title = "Figure 8: a grid of triangles",
+     .shows = "The points linked, hidden lines removed.",
+     .claim = "First a grid of quadrangles, then of triangles, in time linear in the number of points (§3.3).",
+     .scenes = {"free_form.lua"},
+     .make = grid}};
 const RegisteredFigure figure_10{{.name = "vyatkin-10",
                                   .title = "Figure 10: a cone's mesh with artifacts",
                                   .shows = "Hard edges are treated like smooth surface (--hard-edges 180).",
@@ -163,13 +178,14 @@ const RegisteredFigure figure_11{{.name = "vyatkin-11",
                                   .scenes = {"cone.lua"},
                                   .seconds = 8,
                                   .make = [](FigureContext& context) { cone(context, true); }}};
-const RegisteredFigure figure_14{{.name = "vyatkin-14",
-                                  .title = "Figures 14 and 15: a function-based object, and as polygons",
-                                  .shows = "An owl of one ellipsoid and 83 perturbation functions; the paper's model is not printed.",
-                                  .claim = "83 perturbation functions; 136306 faces and 68418 vertices.",
-                                  .scenes = {"figurine.lua"},
-                                  .seconds = 40,
-                                  .make = figurine}};
+const RegisteredFigure figure_14{
+    {.name = "vyatkin-14",
+     .title = "Figures 14 and 15: a function-based object, and as polygons",
+     .shows = "An owl of one ellipsoid and 83 perturbation functions; the paper's model is not printed.",
+     .claim = "83 perturbation functions; 136306 faces and 68418 vertices.",
+     .scenes = {"figurine.lua"},
+     .seconds = 40,
+     .make = figurine}};
 const RegisteredFigure figure_16{{.name = "vyatkin-16",
                                   .title = "Figure 16: a teapot",
                                   .shows = "",

@@ -6,9 +6,8 @@ namespace deburr {
 
 BoundaryPolygons::BoundaryPolygons(const Subspace& subspace, const SolidTree& solid)
     : subspace_(subspace), complex_(subspace.complex()), solid_(solid) {
-    one_material_ = std::all_of(solid.leaves.begin(), solid.leaves.end(), [&](const SolidLeaf& l) {
-        return l.material == solid.leaves[0].material;
-    });
+    one_material_ = std::all_of(solid.leaves.begin(), solid.leaves.end(),
+                                [&](const SolidLeaf& l) { return l.material == solid.leaves[0].material; });
     collect();
     pair();
     number_vertices();
@@ -35,12 +34,12 @@ void BoundaryPolygons::collect() {
         const bool back = face.back >= 0 && in[std::size_t(face.back)];
         const bool front = face.front >= 0 && in[std::size_t(face.front)];
         if (back == front) continue;
-        Polygon p{int(f), back ? face.back : face.front, back ? face.front : face.back,
-                  subspace_.leaf_of(int(f)), 0};
+        Polygon p{int(f), back ? face.back : face.front, back ? face.front : face.back, subspace_.leaf_of(int(f)), 0};
         p.material = material(int(f), p.inner, p.outer);
         p.first = int(steps_.size());
         p.count = int(face.loop.size());
-        if (back) steps_.insert(steps_.end(), face.loop.begin(), face.loop.end());
+        if (back)
+            steps_.insert(steps_.end(), face.loop.begin(), face.loop.end());
         else
             for (auto s = face.loop.end(); s != face.loop.begin();) steps_.push_back(*--s ^ 1);
         const Vec3 area = complex_.area_vector(int(f)) * (back ? 1.0 : -1.0);

@@ -8,11 +8,9 @@ namespace deburr {
 
 CellComplex::CellComplex(const Box& box, double tolerance) : tolerance(tolerance) {
     for (int k = 0; k < 8; ++k)
-        vertices.push_back({k & 1 ? box.hi.x : box.lo.x, k & 2 ? box.hi.y : box.lo.y,
-                            k & 4 ? box.hi.z : box.lo.z});
+        vertices.push_back({k & 1 ? box.hi.x : box.lo.x, k & 2 ? box.hi.y : box.lo.y, k & 4 ? box.hi.z : box.lo.z});
     // Counter-clockwise seen from inside, so that the box's cell is the front one.
-    constexpr int sides[6][4] = {{0, 1, 3, 2}, {4, 6, 7, 5}, {0, 4, 5, 1},
-                                 {2, 3, 7, 6}, {0, 2, 6, 4}, {1, 5, 7, 3}};
+    constexpr int sides[6][4] = {{0, 1, 3, 2}, {4, 6, 7, 5}, {0, 4, 5, 1}, {2, 3, 7, 6}, {0, 2, 6, 4}, {1, 5, 7, 3}};
     std::map<std::pair<int, int>, int> known;
     cells.emplace_back();
     for (const auto& side : sides) {
@@ -81,8 +79,7 @@ bool CellComplex::is_sound() const {
     for (std::size_t c = 0; c < cells.size(); ++c) {
         std::map<int, int> uses;  // of an edge; the sum of its directions, ×100
         for (const int f : cells[c])
-            for (const Step s : faces[f].loop)
-                uses[s >> 1] += 1 + ((s & 1) == (faces[f].front == int(c)) ? 100 : -100);
+            for (const Step s : faces[f].loop) uses[s >> 1] += 1 + ((s & 1) == (faces[f].front == int(c)) ? 100 : -100);
         for (const auto& [edge, sum] : uses)
             if (sum != 2) return false;
         if (vertices_of(int(c)).size() + cells[c].size() != uses.size() + 2) return false;
@@ -163,9 +160,9 @@ int CellComplex::split_cell(int cell, std::span<const Step> loop, int seed, std:
                 }
         }
     auto& old = cells[cell];
-    old.erase(std::remove_if(old.begin(), old.end(),
-                             [&](int f) { return faces[f].back != cell && faces[f].front != cell; }),
-              old.end());
+    old.erase(
+        std::remove_if(old.begin(), old.end(), [&](int f) { return faces[f].back != cell && faces[f].front != cell; }),
+        old.end());
     cells[fresh] = std::move(moved);
 
     // What was put in last is the first to be asked for.

@@ -58,9 +58,7 @@ public:
 
     int start(Step s) const { return (s & 1) ? edges[s >> 1].head : edges[s >> 1].tail; }
     int end(Step s) const { return (s & 1) ? edges[s >> 1].tail : edges[s >> 1].head; }
-    int neighbour(int face, int cell) const {
-        return faces[face].back == cell ? faces[face].front : faces[face].back;
-    }
+    int neighbour(int face, int cell) const { return faces[face].back == cell ? faces[face].front : faces[face].back; }
     /// The other face of `cell` at this edge.
     int across(int edge, int face, int cell) const;
     /// Each vertex of the cell once; until the next call, or change.
@@ -99,7 +97,7 @@ private:
     std::vector<signed char> side_;  // of a vertex, while a plane is cutting
     std::vector<Join> joins_;
     std::vector<Reach> reach_;
-    mutable std::vector<int> list_;           // what vertices_of was asked for last,
+    mutable std::vector<int> list_;                // what vertices_of was asked for last,
     mutable std::array<std::size_t, 4> listed_{};  // and when: the cell and how many there were of everything
     mutable std::vector<std::uint32_t> seen_;
     mutable std::uint32_t stamp_ = 0;

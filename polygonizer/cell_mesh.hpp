@@ -1,8 +1,8 @@
 // The cells of a subdivision as closed convex meshes, for pictures of it [Triage, figures 4, 8, 13].
 #pragma once
 #include "polygonizer/density_class.hpp"
-#include "polygonizer/subdivision.hpp"
 #include "polygonizer/mesh.hpp"
+#include "polygonizer/subdivision.hpp"
 
 namespace deburr {
 

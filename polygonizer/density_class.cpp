@@ -72,9 +72,7 @@ DensityClass class_of(ClassInterval i) {
     return lo >= 0.5 ? DensityClass::high : DensityClass::unclassified;
 }
 
-DensityClass combine(Op op, DensityClass a, DensityClass b) {
-    return table_of(op)[std::size_t(a)][std::size_t(b)];
-}
+DensityClass combine(Op op, DensityClass a, DensityClass b) { return table_of(op)[std::size_t(a)][std::size_t(b)]; }
 
 DensityClass complement(DensityClass a) {
     // 1 − low is (½, 1], inside high; 1 − high is [0, ½], whose end low does not reach.

@@ -15,9 +15,8 @@
 namespace deburr {
 
 enum class DensityClass : unsigned char { zero, low, unclassified, high, one };
-constexpr std::array<DensityClass, 5> density_classes = {DensityClass::zero, DensityClass::low,
-                                                         DensityClass::unclassified, DensityClass::high,
-                                                         DensityClass::one};
+constexpr std::array<DensityClass, 5> density_classes = {
+    DensityClass::zero, DensityClass::low, DensityClass::unclassified, DensityClass::high, DensityClass::one};
 
 /// Least and greatest densities of the class; `open_above`: the greatest is not reached.
 struct ClassInterval {

@@ -14,8 +14,7 @@ constexpr double along = 0.5;
 
 Vec3 area_vector(const std::vector<Vec3>& rim) {
     Vec3 sum(0.0);
-    for (std::size_t k = 1; k + 1 < rim.size(); ++k)
-        sum += glm::cross(rim[k] - rim[0], rim[k + 1] - rim[0]);
+    for (std::size_t k = 1; k + 1 < rim.size(); ++k) sum += glm::cross(rim[k] - rim[0], rim[k + 1] - rim[0]);
     return sum;
 }
 
@@ -57,7 +56,7 @@ bool strips(const std::vector<Vec3>& rim, Vec3 sweep, double tolerance, Disc& di
     if (!walk(1, right) || !walk(-1, left)) return false;
 
     CellComplex::Corners line{low};  // what the faces so far end at, from left to right
-    std::size_t i = 1, j = 1;    // the next ones
+    std::size_t i = 1, j = 1;        // the next ones
     const auto level = [&](int v) { return u[std::size_t(v)]; };
     const double top = level(high) - slack;
     while (true) {
@@ -105,8 +104,10 @@ bool displaced_centroid(const std::vector<Vec3>& rim, bool flat, const LocalDens
     double ahead = infinity, behind = -infinity;
     for (const Wall& w : walls) {
         const double gap = w.offset - glm::dot(w.normal, c), rate = glm::dot(w.normal, line);
-        if (rate > 1e-12) ahead = std::min(ahead, gap / rate);
-        else if (rate < -1e-12) behind = std::max(behind, gap / rate);
+        if (rate > 1e-12)
+            ahead = std::min(ahead, gap / rate);
+        else if (rate < -1e-12)
+            behind = std::max(behind, gap / rate);
     }
     constexpr int samples = 8;
     for (const double reach : {ahead, behind}) {
@@ -171,9 +172,11 @@ void span_loop(const std::vector<Vec3>& rim, const LocalDensity& density, const 
     const Vec3 area = area_vector(rim);
     const bool flat = glm::length(area) > 0 && is_flat(rim, glm::normalize(area), tolerance);
     Vec3 sweep;
-    if (n > 3 && !(flat && !follows(rim, density)) && is_swept(density, sweep) && strips(rim, sweep, tolerance, disc)) return;
+    if (n > 3 && !(flat && !follows(rim, density)) && is_swept(density, sweep) && strips(rim, sweep, tolerance, disc))
+        return;
     disc.faces.clear();
-    if (!displaced_centroid(rim, flat, density, walls, tolerance, disc.centre)) return fan_about_corner(rim, density, disc);
+    if (!displaced_centroid(rim, flat, density, walls, tolerance, disc.centre))
+        return fan_about_corner(rim, density, disc);
     const Vec3 c = std::accumulate(rim.begin(), rim.end(), Vec3(0.0)) / double(n);
     if (flat && glm::length(disc.centre - c) <= 2 * tolerance) return whole();
     disc.has_centre = true;

@@ -129,7 +129,8 @@ std::string glb(const Mesh& mesh, const MeshNotes& notes) {
     j["scenes"] = Json::array({Json{{"nodes", Json::array()}}});
     j["nodes"] = j["meshes"] = j["materials"] = j["accessors"] = j["bufferViews"] = Json::array();
     const auto view = [&](std::size_t from, int target) {
-        j["bufferViews"].push_back({{"buffer", 0}, {"byteOffset", from}, {"byteLength", data.size() - from}, {"target", target}});
+        j["bufferViews"].push_back(
+            {{"buffer", 0}, {"byteOffset", from}, {"byteLength", data.size() - from}, {"target", target}});
         return j["bufferViews"].size() - 1;
     };
     constexpr int array_buffer = 34962, element_array_buffer = 34963, is_float = 5126, is_uint = 5125;
@@ -144,9 +145,10 @@ std::string glb(const Mesh& mesh, const MeshNotes& notes) {
         }
         const auto [material, is_new] = material_of.try_emplace(key.second, j["materials"].size());
         if (is_new) {
-            const Vec3 c = std::size_t(key.second) < notes.colors.size() ? notes.colors[std::size_t(key.second)] : Vec3(0.8);
-            j["materials"].push_back({{"pbrMetallicRoughness",
-                                       {{"baseColorFactor", {c.x, c.y, c.z, 1.0}}, {"metallicFactor", 0.0}}}});
+            const Vec3 c =
+                std::size_t(key.second) < notes.colors.size() ? notes.colors[std::size_t(key.second)] : Vec3(0.8);
+            j["materials"].push_back(
+                {{"pbrMetallicRoughness", {{"baseColorFactor", {c.x, c.y, c.z, 1.0}}, {"metallicFactor", 0.0}}}});
         }
         Vec3 lo(infinity), hi(-infinity);
         std::size_t from = data.size();
@@ -157,19 +159,27 @@ std::string glb(const Mesh& mesh, const MeshNotes& notes) {
             put_floats(data, x);
         }
         const std::size_t positions = j["accessors"].size();
-        j["accessors"].push_back({{"bufferView", view(from, array_buffer)}, {"componentType", is_float},
-                                  {"count", p.vertices.size()}, {"type", "VEC3"},
-                                  {"min", {lo.x, lo.y, lo.z}}, {"max", {hi.x, hi.y, hi.z}}});
+        j["accessors"].push_back({{"bufferView", view(from, array_buffer)},
+                                  {"componentType", is_float},
+                                  {"count", p.vertices.size()},
+                                  {"type", "VEC3"},
+                                  {"min", {lo.x, lo.y, lo.z}},
+                                  {"max", {hi.x, hi.y, hi.z}}});
         from = data.size();
         for (const auto& [v, n] : p.vertices) put_floats(data, mesh.normals[std::size_t(n)]);
-        j["accessors"].push_back({{"bufferView", view(from, array_buffer)}, {"componentType", is_float},
-                                  {"count", p.vertices.size()}, {"type", "VEC3"}});
+        j["accessors"].push_back({{"bufferView", view(from, array_buffer)},
+                                  {"componentType", is_float},
+                                  {"count", p.vertices.size()},
+                                  {"type", "VEC3"}});
         from = data.size();
         for (const std::uint32_t i : p.indices) put_word(data, i);
-        j["accessors"].push_back({{"bufferView", view(from, element_array_buffer)}, {"componentType", is_uint},
-                                  {"count", p.indices.size()}, {"type", "SCALAR"}});
+        j["accessors"].push_back({{"bufferView", view(from, element_array_buffer)},
+                                  {"componentType", is_uint},
+                                  {"count", p.indices.size()},
+                                  {"type", "SCALAR"}});
         j["meshes"].back()["primitives"].push_back(
-            {{"attributes", {{"POSITION", positions}, {"NORMAL", positions + 1}}}, {"indices", positions + 2},
+            {{"attributes", {{"POSITION", positions}, {"NORMAL", positions + 1}}},
+             {"indices", positions + 2},
              {"material", material->second}});
     }
     j["buffers"] = Json::array({Json{{"byteLength", data.size()}}});
@@ -189,9 +199,11 @@ std::string glb(const Mesh& mesh, const MeshNotes& notes) {
     return out;
 }
 
-constexpr std::pair<const char*, MeshFormat> formats[] = {
-    {".obj", MeshFormat::obj}, {".ply", MeshFormat::ply}, {".stl", MeshFormat::stl}, {".glb", MeshFormat::glb},
-    {".ase", MeshFormat::ase}};
+constexpr std::pair<const char*, MeshFormat> formats[] = {{".obj", MeshFormat::obj},
+                                                          {".ply", MeshFormat::ply},
+                                                          {".stl", MeshFormat::stl},
+                                                          {".glb", MeshFormat::glb},
+                                                          {".ase", MeshFormat::ase}};
 
 }  // namespace
 

@@ -38,9 +38,11 @@ void put_object(Out to, const Mesh& mesh, std::size_t begin, std::size_t end, co
             }
     const auto at = [&](const Triangle& t, std::size_t k) { return number[std::size_t(t.vertex[k])]; };
     const std::string name = quoted(solid_name(notes, mesh.triangles[begin].solid));
-    fmt::format_to(to, "*GEOMOBJECT {{\n\t*NODE_NAME {0}\n\t*NODE_TM {{\n\t\t*NODE_NAME {0}\n{1}\t}}\n", name, identity);
-    fmt::format_to(to, "\t*MESH {{\n\t\t*TIMEVALUE 0\n\t\t*MESH_NUMVERTEX {}\n\t\t*MESH_NUMFACES {}\n\t\t*MESH_VERTEX_LIST {{\n",
-                   used.size(), end - begin);
+    fmt::format_to(to, "*GEOMOBJECT {{\n\t*NODE_NAME {0}\n\t*NODE_TM {{\n\t\t*NODE_NAME {0}\n{1}\t}}\n", name,
+                   identity);
+    fmt::format_to(
+        to, "\t*MESH {{\n\t\t*TIMEVALUE 0\n\t\t*MESH_NUMVERTEX {}\n\t\t*MESH_NUMFACES {}\n\t\t*MESH_VERTEX_LIST {{\n",
+        used.size(), end - begin);
     for (std::size_t v = 0; v < used.size(); ++v) {
         const Vec3 x = mesh.positions[std::size_t(used[v])];
         fmt::format_to(to, "\t\t\t*MESH_VERTEX {}\t{}\t{}\t{}\n", v, x.x, x.y, x.z);
@@ -48,8 +50,9 @@ void put_object(Out to, const Mesh& mesh, std::size_t begin, std::size_t end, co
     fmt::format_to(to, "\t\t}}\n\t\t*MESH_FACE_LIST {{\n");
     for (std::size_t i = begin; i < end; ++i) {
         const Triangle& t = mesh.triangles[i];
-        fmt::format_to(to, "\t\t\t*MESH_FACE {}: A: {} B: {} C: {} AB: 1 BC: 1 CA: 1 *MESH_SMOOTHING 1 *MESH_MTLID {}\n", i - begin,
-                       at(t, 0), at(t, 1), at(t, 2), t.material);
+        fmt::format_to(to,
+                       "\t\t\t*MESH_FACE {}: A: {} B: {} C: {} AB: 1 BC: 1 CA: 1 *MESH_SMOOTHING 1 *MESH_MTLID {}\n",
+                       i - begin, at(t, 0), at(t, 1), at(t, 2), t.material);
     }
     fmt::format_to(to, "\t\t}}\n\t\t*MESH_NORMALS {{\n");
     for (std::size_t i = begin; i < end; ++i) {
@@ -72,8 +75,12 @@ std::string encode_ase(const Mesh& mesh, const MeshNotes& notes) {
     const auto to = std::back_inserter(out);
     int last = 0;
     for (const Triangle& t : mesh.triangles) last = std::max(last, t.material);
-    fmt::format_to(to, "*3DSMAX_ASCIIEXPORT\t200\n*COMMENT \"Deburr\"\n*MATERIAL_LIST {{\n\t*MATERIAL_COUNT 1\n\t*MATERIAL 0 {{\n");
-    const auto color = [&](int m) { return std::size_t(m) < notes.colors.size() ? notes.colors[std::size_t(m)] : Vec3(0.8); };
+    fmt::format_to(
+        to,
+        "*3DSMAX_ASCIIEXPORT\t200\n*COMMENT \"Deburr\"\n*MATERIAL_LIST {{\n\t*MATERIAL_COUNT 1\n\t*MATERIAL 0 {{\n");
+    const auto color = [&](int m) {
+        return std::size_t(m) < notes.colors.size() ? notes.colors[std::size_t(m)] : Vec3(0.8);
+    };
     put_material(to, "\t\t", "materials", "Multi/Sub-Object", color(0));
     fmt::format_to(to, "\t\t*NUMSUBMTLS {}\n", last + 1);
     for (int m = 0; m <= last; ++m) {

@@ -43,9 +43,7 @@ FacetShape FacetJudge::shape(const Facets& facets, const Facet& f, double least)
     const Vec3 single = glm::cross(rounded(x[1]) - rounded(x[0]), rounded(x[2]) - rounded(x[0]));
     const double single_twice = glm::length(single);
     if (single_twice == 0) return {-1, -1, 0};
-    const auto cosine = [&](Vec3 n) {
-        return std::min(glm::dot(area, n) / twice, glm::dot(single, n) / single_twice);
-    };
+    const auto cosine = [&](Vec3 n) { return std::min(glm::dot(area, n) / twice, glm::dot(single, n) / single_twice); };
     const Offset o = solid_.at(middle);
     FacetShape s;
     s.distance = std::isfinite(o.distance) ? std::abs(o.distance) : 0;
@@ -62,8 +60,10 @@ FacetShape FacetJudge::shape(const Facets& facets, const Facet& f, double least)
     if (s.own < least) return s;
     const bool beside = s.distance > surfaces_.slack();
     const double nearest = o.normal != Vec3(0.0) && beside ? cosine(o.normal) : s.own;
-    if (nearest > 0 && beside) s.cosine = std::min(s.own, nearest);
-    else if (!faces_outward(solid_, middle, o, area / twice, normals, longest)) s.cosine = std::min(nearest, -1e-3);
+    if (nearest > 0 && beside)
+        s.cosine = std::min(s.own, nearest);
+    else if (!faces_outward(solid_, middle, o, area / twice, normals, longest))
+        s.cosine = std::min(nearest, -1e-3);
     return s;
 }
 

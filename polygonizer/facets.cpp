@@ -41,7 +41,8 @@ int Facets::place(int f, int vertex) const {
 }
 
 bool Facets::same_surface(const Facet& f, const Facet& g) const {
-    if (f.origin.leaf != g.origin.leaf || f.triangle.material != g.triangle.material || f.triangle.solid != g.triangle.solid)
+    if (f.origin.leaf != g.origin.leaf || f.triangle.material != g.triangle.material ||
+        f.triangle.solid != g.triangle.solid)
         return false;
     return f.origin.leaf >= 0 || glm::length(normal(f.triangle.normal[0]) - normal(g.triangle.normal[0])) < same_normal;
 }
@@ -80,7 +81,8 @@ std::optional<Change> Facets::flip(int f, std::size_t k, bool give) const {
 std::optional<Change> Facets::collapse(int u, int v) const {
     // Link condition: u and v have exactly the two opposite vertices in common.
     const Fan nu = neighbours(u), nv = neighbours(v);
-    const auto common = std::count_if(nu.begin(), nu.end(), [&](int w) { return std::find(nv.begin(), nv.end(), w) != nv.end(); });
+    const auto common =
+        std::count_if(nu.begin(), nu.end(), [&](int w) { return std::find(nv.begin(), nv.end(), w) != nv.end(); });
     if (common != 2 || (nu.size() == 3 && nv.size() == 3)) return {};
     Change change;
     for (const int f : around(u)) {

@@ -22,7 +22,7 @@ Offset LeafSurfaces::at(const SurfacePiece& piece, Vec3 x) const {
 }
 
 bool LeafSurfaces::project(Vec3& x, const std::vector<SurfacePiece>& pieces, double reach) const {
-    constexpr int steps = 30;        // of Newton's method, which takes 4
+    constexpr int steps = 30;         // of Newton's method, which takes 4
     constexpr double tangent = 1e-4;  // sine of an angle between surfaces that count as touching
     Vec3 at_x = x;
     double last = infinity;

@@ -10,8 +10,7 @@ namespace deburr {
 namespace {
 
 // Corner k of a cube lies at (k & 1, k >> 1 & 1, k >> 2 & 1). Faces counter-clockwise from outside.
-constexpr int face_corners[6][4] = {{0, 4, 6, 2}, {1, 3, 7, 5}, {0, 1, 5, 4},
-                                    {2, 6, 7, 3}, {0, 2, 3, 1}, {4, 5, 7, 6}};
+constexpr int face_corners[6][4] = {{0, 4, 6, 2}, {1, 3, 7, 5}, {0, 1, 5, 4}, {2, 6, 7, 3}, {0, 2, 3, 1}, {4, 5, 7, 6}};
 
 // Samples of the solid on a grid of corners, block by block, so that a block evaluates only what
 // matters there.
@@ -55,15 +54,15 @@ public:
             if (!b.values.empty() || b.all != first) return true;
         }
         // A block inside still borders on the outermost corners.
-        return first > 0 && (bx == 0 || by == 0 || bz == 0 || bx + 2 >= blocks_x_ || by + 2 >= blocks_y_ ||
-                             bz + 2 >= blocks_z_);
+        return first > 0 &&
+               (bx == 0 || by == 0 || bz == 0 || bx + 2 >= blocks_x_ || by + 2 >= blocks_y_ || bz + 2 >= blocks_z_);
     }
     int blocks(int axis) const { return axis == 0 ? blocks_x_ : axis == 1 ? blocks_y_ : blocks_z_; }
     static constexpr int block = 8;
 
 private:
     struct Block {
-        double all = 0;              // of every corner, if there are no values
+        double all = 0;  // of every corner, if there are no values
         std::vector<double> values;
     };
     std::size_t index(int x, int y, int z) const {
@@ -94,7 +93,11 @@ private:
 class March {
 public:
     March(const SolidTree& solid, const Box& box, double side, StopFlag stop)
-        : field_(solid, inflated(box, 2 * side)), box_(box), grid_(SurfaceOffset(solid), box, side, stop), side_(side), stop_(stop) {}
+        : field_(solid, inflated(box, 2 * side)),
+          box_(box),
+          grid_(SurfaceOffset(solid), box, side, stop),
+          side_(side),
+          stop_(stop) {}
 
     Mesh run() {
         constexpr int n = Grid::block;
@@ -105,8 +108,7 @@ public:
                     if (!grid_.is_open(bx, by, bz)) continue;
                     for (int z = bz * n; z < std::min((bz + 1) * n, grid_.size(2) - 1); ++z)
                         for (int y = by * n; y < std::min((by + 1) * n, grid_.size(1) - 1); ++y)
-                            for (int x = bx * n; x < std::min((bx + 1) * n, grid_.size(0) - 1); ++x)
-                                cube(x, y, z);
+                            for (int x = bx * n; x < std::min((bx + 1) * n, grid_.size(0) - 1); ++x) cube(x, y, z);
                 }
         mesh_.polygons = mesh_.triangles.size();
         return std::move(mesh_);
@@ -116,7 +118,9 @@ private:
     // Edges of the grid by their lower corner and axis.
     std::size_t edge_key(int x, int y, int z, int axis) const {
         return ((std::size_t(z) * std::size_t(grid_.size(1)) + std::size_t(y)) * std::size_t(grid_.size(0)) +
-                std::size_t(x)) * 3 + std::size_t(axis);
+                std::size_t(x)) *
+                   3 +
+               std::size_t(axis);
     }
 
     int vertex_on(int x, int y, int z, int a, int b) {
@@ -172,8 +176,10 @@ private:
                 if ((v[a] > 0) == (v[b] > 0)) continue;
                 const int vertex = vertex_on(x, y, z, a, b);
                 on_faces.push_back({vertex, f});
-                if (v[a] > 0) out[outs++] = vertex;
-                else in[ins++] = vertex;
+                if (v[a] > 0)
+                    out[outs++] = vertex;
+                else
+                    in[ins++] = vertex;
             }
             if (outs == 1) segments.push_back({in[0], out[0]});
             if (outs != 2) continue;
@@ -184,8 +190,7 @@ private:
             const bool joined = (first_in ? p : q) > (first_in ? q : p);  // saddle above 0
             // out[0] comes before in[0] if corner 0 is inside.
             const int own_in[2] = {first_in ? in[1] : in[0], first_in ? in[0] : in[1]};
-            for (int k = 0; k < 2; ++k)
-                segments.push_back({joined ? own_in[1 - k] : own_in[k], out[k]});
+            for (int k = 0; k < 2; ++k) segments.push_back({joined ? own_in[1 - k] : own_in[k], out[k]});
         }
         while (!segments.empty()) {
             std::vector<int> loop;
@@ -193,7 +198,8 @@ private:
             const int begin = at;
             do {
                 loop.push_back(at);
-                const auto s = std::find_if(segments.begin(), segments.end(), [&](const auto& e) { return e.first == at; });
+                const auto s =
+                    std::find_if(segments.begin(), segments.end(), [&](const auto& e) { return e.first == at; });
                 at = s->second;
                 segments.erase(s);
             } while (at != begin);

@@ -35,7 +35,8 @@ Topology topology(const Mesh& mesh) {
     std::vector<DirectedEdge> edges;
     for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
         for (int k = 0; k < 3; ++k) {
-            const int a = mesh.triangles[t].vertex[std::size_t(k)], b = mesh.triangles[t].vertex[std::size_t((k + 1) % 3)];
+            const int a = mesh.triangles[t].vertex[std::size_t(k)],
+                      b = mesh.triangles[t].vertex[std::size_t((k + 1) % 3)];
             edges.push_back({std::min(a, b), std::max(a, b), a < b, int(t)});
         }
     std::sort(edges.begin(), edges.end(), [](const DirectedEdge& x, const DirectedEdge& y) {
@@ -82,7 +83,8 @@ double mean_edge(const Mesh& mesh) {
     double sum = 0;
     for (const Triangle& t : mesh.triangles)
         for (std::size_t k = 0; k < 3; ++k)  // every edge in both of its triangles
-            sum += glm::length(mesh.positions[std::size_t(t.vertex[k])] - mesh.positions[std::size_t(t.vertex[(k + 1) % 3])]);
+            sum += glm::length(mesh.positions[std::size_t(t.vertex[k])] -
+                               mesh.positions[std::size_t(t.vertex[(k + 1) % 3])]);
     return mesh.triangles.empty() ? 0 : sum / (3 * double(mesh.triangles.size()));
 }
 

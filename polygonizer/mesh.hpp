@@ -34,12 +34,12 @@ struct Mesh {
 
 struct Topology {
     std::size_t vertices = 0, edges = 0, triangles = 0;  // vertices in use
-    std::size_t open_edges = 0;        // in one triangle only
-    std::size_t nonmanifold_edges = 0; // in more than two
-    std::size_t flipped_edges = 0;     // run through in one direction by both triangles
-    std::size_t nonmanifold_vertices = 0;  // whose triangles are not one fan
-    std::size_t shells = 0;            // connected components
-    long euler = 0;                    // vertices − edges + triangles
+    std::size_t open_edges = 0;                          // in one triangle only
+    std::size_t nonmanifold_edges = 0;                   // in more than two
+    std::size_t flipped_edges = 0;                       // run through in one direction by both triangles
+    std::size_t nonmanifold_vertices = 0;                // whose triangles are not one fan
+    std::size_t shells = 0;                              // connected components
+    long euler = 0;                                      // vertices − edges + triangles
 
     bool closed() const { return open_edges == 0 && nonmanifold_edges == 0; }
     bool manifold() const { return closed() && flipped_edges == 0 && nonmanifold_vertices == 0; }

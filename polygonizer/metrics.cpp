@@ -54,7 +54,8 @@ void measure_vertices(const Mesh& mesh, const OffsetField& field, MeshMetrics& m
         if (used[v]) distance.add(std::abs(field.at(mesh.positions[v]).distance));
     for (std::size_t n = 0; n < around.size(); ++n) {
         const double size = glm::length(around[n]);
-        if (size > 0) angle.add(std::acos(std::clamp(glm::dot(around[n], mesh.normals[n]) / size, -1.0, 1.0)) * degrees);
+        if (size > 0)
+            angle.add(std::acos(std::clamp(glm::dot(around[n], mesh.normals[n]) / size, -1.0, 1.0)) * degrees);
     }
     m.vertex_distance = distance.max;
     m.vertex_distance_mean = distance.spread().mean;
@@ -141,8 +142,7 @@ MeshMetrics combined(const std::vector<MeshMetrics>& parts) {
         all.edge_mean += share * m.edge_mean;
         squares += share * m.edge_mean * m.edge_mean * (1 + m.edge_spread * m.edge_spread);
     }
-    if (all.edge_mean > 0)
-        all.edge_spread = std::sqrt(std::max(0.0, squares / (all.edge_mean * all.edge_mean) - 1));
+    if (all.edge_mean > 0) all.edge_spread = std::sqrt(std::max(0.0, squares / (all.edge_mean * all.edge_mean) - 1));
     return all;
 }
 

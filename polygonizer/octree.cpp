@@ -54,8 +54,11 @@ struct Standing {
 class Polygonization {
 public:
     Polygonization(const SolidTree& solid, const Box& box, const OctreeOptions& options, double edge)
-        : options_(options), hard_cosine_(std::cos(options.hard_angle * radians)), tree_(solid, box, edge, spare_levels, options.stop),
-          has_forms_(solid.has_field()), looks_for_thin_(has_forms_) {}
+        : options_(options),
+          hard_cosine_(std::cos(options.hard_angle * radians)),
+          tree_(solid, box, edge, spare_levels, options.stop),
+          has_forms_(solid.has_field()),
+          looks_for_thin_(has_forms_) {}
 
     Mesh run(OctreeStatistics& statistics, std::vector<Origin>& origins) {
         // Each halving of cells quarters distances; what leans still is left to repair.
@@ -119,8 +122,9 @@ private:
         crossings_.clear();
         for (const Crossing& x : linking_.crossings) {
             throw_if_stopped(options_.stop);
-            const std::uint64_t key = (std::uint64_t(x.lo[0]) | std::uint64_t(x.lo[1]) << 20 | std::uint64_t(x.lo[2]) << 40) * 4 +
-                                      std::uint64_t(x.axis);
+            const std::uint64_t key =
+                (std::uint64_t(x.lo[0]) | std::uint64_t(x.lo[1]) << 20 | std::uint64_t(x.lo[2]) << 40) * 4 +
+                std::uint64_t(x.axis);
             const auto it = known.find(key);
             Vec3 lo = tree_.position(x.lo), hi = tree_.position(x.hi());
             CrossingPoint c{x.low_inside ? lo : hi, x.low_inside ? hi : lo, {}};
@@ -151,7 +155,8 @@ private:
         for (const Loop& loop : linking_.loops) {
             throw_if_stopped(options_.stop);
             mesh_.points.push_back(place(loop, true));
-            if (!tree_.box(tree_.cell(loop.leaf)).contains(mesh_.points.back().position)) tips.push_back(mesh_.points.size() - 1);
+            if (!tree_.box(tree_.cell(loop.leaf)).contains(mesh_.points.back().position))
+                tips.push_back(mesh_.points.size() - 1);
         }
         // A tip is one cell's, its own if that has found it.
         for (const std::size_t i : tips) {
@@ -159,7 +164,8 @@ private:
                 return &p != &mesh_.points[i] && p.hard() &&
                        glm::length(p.position - mesh_.points[i].position) < same_place * tree_.edge();
             };
-            if (std::any_of(mesh_.points.begin(), mesh_.points.end(), same)) mesh_.points[i] = place(linking_.loops[i], false);
+            if (std::any_of(mesh_.points.begin(), mesh_.points.end(), same))
+                mesh_.points[i] = place(linking_.loops[i], false);
         }
     }
 
@@ -183,7 +189,8 @@ private:
         }
         if (!x.low_inside) std::reverse(polygon.begin(), polygon.end());
         if (middles) {
-            const auto first = std::find_if(polygon.begin(), polygon.end(), [&](int v) { return v >= int(linking_.loops.size()); });
+            const auto first =
+                std::find_if(polygon.begin(), polygon.end(), [&](int v) { return v >= int(linking_.loops.size()); });
             std::rotate(polygon.begin(), first, polygon.end());
         }
     }
@@ -191,7 +198,8 @@ private:
     void make_triangles() {
         doubles_at_.clear();
         for (std::size_t d = 0; d < linking_.doubles.size(); ++d)
-            for (const int c : {linking_.doubles[d].crossing_a, linking_.doubles[d].crossing_b}) doubles_at_.emplace(c, int(d));
+            for (const int c : {linking_.doubles[d].crossing_a, linking_.doubles[d].crossing_b})
+                doubles_at_.emplace(c, int(d));
         for (const DoubleSegment& s : linking_.doubles) {
             const CrossingPoint &a = crossings_[std::size_t(s.crossing_a)], &b = crossings_[std::size_t(s.crossing_b)];
             const Vec3 middle = 0.5 * (a.position + b.position);
@@ -268,14 +276,16 @@ private:
         double cosine[4];
         for (int k = 0; k < 4; ++k) cosine[k] = cosine_to_points(t[k]);
         if (*std::min_element(cosine, cosine + 4) > alike)
-            return glm::length(mesh_.position(q[0]) - mesh_.position(q[2])) <= glm::length(mesh_.position(q[1]) - mesh_.position(q[3]));
+            return glm::length(mesh_.position(q[0]) - mesh_.position(q[2])) <=
+                   glm::length(mesh_.position(q[1]) - mesh_.position(q[3]));
         Standing s[4];
         for (int k = 0; k < 4; ++k) s[k] = standing(t[k]);
         const double first = std::min(s[0].cosine, s[1].cosine), second = std::min(s[2].cosine, s[3].cosine);
         if (first < least_cosine || second < least_cosine) return first >= second;
         const double one = std::max(s[0].distance, s[1].distance), other = std::max(s[2].distance, s[3].distance);
         if (std::abs(one - other) > 1e-6 * tree_.edge()) return one < other;
-        return glm::length(mesh_.position(q[0]) - mesh_.position(q[2])) <= glm::length(mesh_.position(q[1]) - mesh_.position(q[3]));
+        return glm::length(mesh_.position(q[0]) - mesh_.position(q[2])) <=
+               glm::length(mesh_.position(q[1]) - mesh_.position(q[3]));
     }
 
     void find_leaning(std::vector<int>& leaves) const {
@@ -285,8 +295,10 @@ private:
             const Standing s = standing(triangle);
             double longest = 0;
             for (std::size_t k = 0; k < 3; ++k)
-                longest = std::max(longest, glm::length(mesh_.position(triangle[k]) - mesh_.position(triangle[(k + 1) % 3])));
-            const bool leans = s.cosine < least_cosine && glm::length(mesh_.area_vector(triangle)) > sliver * longest * longest;
+                longest =
+                    std::max(longest, glm::length(mesh_.position(triangle[k]) - mesh_.position(triangle[(k + 1) % 3])));
+            const bool leans =
+                s.cosine < least_cosine && glm::length(mesh_.area_vector(triangle)) > sliver * longest * longest;
             if (!leans && s.distance <= std::min(options_.tolerance, has_forms_ ? off * longest : infinity)) continue;
             for (const int leaf : linking_.crossings[std::size_t(crossing_of_[t])].leaves) leaves.push_back(leaf);
         }
@@ -303,8 +315,8 @@ private:
     std::vector<CrossingPoint> crossings_;
     std::unordered_map<std::uint64_t, CrossingPoint> known_crossings_;
     PointMesh mesh_;
-    std::vector<int> crossing_of_;                // of each triangle
-    std::set<std::pair<int, int>> diagonals_;     // taken, where they may be asked for twice
+    std::vector<int> crossing_of_;             // of each triangle
+    std::set<std::pair<int, int>> diagonals_;  // taken, where they may be asked for twice
 };
 
 // An edge that is not between two triangles that run through it in turn, for the message.
@@ -332,9 +344,10 @@ void check(const Mesh& mesh) {
     if (t.manifold()) return;
     std::string where;
     if (const auto x = first_fault(mesh)) where = fmt::format(", first at ({:.6g}, {:.6g}, {:.6g})", x->x, x->y, x->z);
-    throw OpenMeshError(fmt::format(
-        "the mesh does not close: {} edges in one triangle, {} in more than two, {} turned, {} points of several fans{}",
-        t.open_edges, t.nonmanifold_edges, t.flipped_edges, t.nonmanifold_vertices, where));
+    throw OpenMeshError(
+        fmt::format("the mesh does not close: {} edges in one triangle, {} in more than two, {} turned, {} points of "
+                    "several fans{}",
+                    t.open_edges, t.nonmanifold_edges, t.flipped_edges, t.nonmanifold_vertices, where));
 }
 
 }  // namespace

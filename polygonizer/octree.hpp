@@ -31,7 +31,7 @@ struct OctreeOptions {
 };
 
 struct OctreeStatistics {
-    int level = 0;                  // 2^level cells across the root
+    int level = 0;  // 2^level cells across the root
     double edge = 0;
     std::size_t range_tests = 0, cells = 0, open_cells = 0;  // of the smallest cells, may the surface pass
     std::size_t hard_points = 0, partitions = 0;             // on hard edges; edges of these that were divided

@@ -83,7 +83,8 @@ int CellTree::find(const Corner& unit, int size) const {
     while (cell(at).children >= 0 && cell(at).size > size) {
         const OctreeCell& c = cell(at);
         const int half = c.size / 2;
-        at = c.children + (unit[0] >= c.at[0] + half) + 2 * (unit[1] >= c.at[1] + half) + 4 * (unit[2] >= c.at[2] + half);
+        at = c.children + (unit[0] >= c.at[0] + half) + 2 * (unit[1] >= c.at[1] + half) +
+             4 * (unit[2] >= c.at[2] + half);
     }
     return at;
 }
@@ -91,7 +92,8 @@ int CellTree::find(const Corner& unit, int size) const {
 int CellTree::find(Vec3 x) const {
     Corner unit;
     for (int k = 0; k < 3; ++k)
-        unit[std::size_t(k)] = int(std::clamp(std::floor((x[k] - origin_[k]) / unit_), 0.0, double(cells_[0].size - 1)));
+        unit[std::size_t(k)] =
+            int(std::clamp(std::floor((x[k] - origin_[k]) / unit_), 0.0, double(cells_[0].size - 1)));
     return find(unit);
 }
 

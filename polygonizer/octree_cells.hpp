@@ -22,10 +22,10 @@ namespace deburr {
 using Corner = std::array<int, 3>;
 
 struct OctreeCell {
-    Corner at;        // lower corner
-    int size;         // in units
+    Corner at;          // lower corner
+    int size;           // in units
     int children = -1;  // the first of eight; −1: a leaf
-    int solid = 0;    // what to evaluate in it
+    int solid = 0;      // what to evaluate in it
     bool open = false;  // the surface may pass
 };
 

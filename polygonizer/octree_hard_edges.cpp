@@ -62,10 +62,13 @@ public:
         const std::size_t before = mesh_.triangles.size();
         for (std::size_t t = 0; t < before; ++t) {
             const Corners corners = mesh_.triangles[t];
-            if (!mesh_.point(corners[0]).hard() || !mesh_.point(corners[1]).hard() || !mesh_.point(corners[2]).hard()) continue;
+            if (!mesh_.point(corners[0]).hard() || !mesh_.point(corners[1]).hard() || !mesh_.point(corners[2]).hard())
+                continue;
             if (share_face(corners)) continue;
-            const std::vector<Vec3> points{mesh_.position(corners[0]), mesh_.position(corners[1]), mesh_.position(corners[2])};
-            const auto point = cut_off_point(*tree_.solid(inflated(mesh_.box(corners), tree_.edge())), points, mesh_.middle(corners), hard_cosine_);
+            const std::vector<Vec3> points{mesh_.position(corners[0]), mesh_.position(corners[1]),
+                                           mesh_.position(corners[2])};
+            const auto point = cut_off_point(*tree_.solid(inflated(mesh_.box(corners), tree_.edge())), points,
+                                             mesh_.middle(corners), hard_cosine_);
             if (!point) continue;
             mesh_.divide(int(t), *point);
             ++count;
@@ -76,7 +79,8 @@ public:
 private:
     bool bends(int p, int q) const {
         const SurfacePoint &a = mesh_.point(p), &b = mesh_.point(q);
-        if (a.faces.size() == 1 && b.faces.size() == 1) return glm::dot(a.faces[0].normal, b.faces[0].normal) < hard_cosine_;
+        if (a.faces.size() == 1 && b.faces.size() == 1)
+            return glm::dot(a.faces[0].normal, b.faces[0].normal) < hard_cosine_;
         for (const Face& f : a.faces)
             for (const Face& g : b.faces)
                 if (glm::dot(f.normal, g.normal) >= hard_cosine_) return false;
@@ -89,7 +93,8 @@ private:
         for (const Face& f : mesh_.point(t[0]).faces) {
             const auto alike = [&](const Face& g) { return glm::dot(f.normal, g.normal) >= hard_cosine_; };
             const auto &second = mesh_.point(t[1]).faces, &third = mesh_.point(t[2]).faces;
-            if (std::any_of(second.begin(), second.end(), alike) && std::any_of(third.begin(), third.end(), alike) && accept(f.normal))
+            if (std::any_of(second.begin(), second.end(), alike) && std::any_of(third.begin(), third.end(), alike) &&
+                accept(f.normal))
                 return true;
         }
         return false;
@@ -115,11 +120,13 @@ private:
         const Vec3 p = mesh_.position(e.p), q = mesh_.position(e.q);
         const double length = glm::length(p - q);
         const auto solid = tree_.solid(inflated(hull({p, p}, {q, q}), length));
-        const auto from_p = cut_off_point(*solid, {p, q}, p, hard_cosine_), from_q = cut_off_point(*solid, {p, q}, q, hard_cosine_);
+        const auto from_p = cut_off_point(*solid, {p, q}, p, hard_cosine_),
+                   from_q = cut_off_point(*solid, {p, q}, q, hard_cosine_);
         const double to_p = from_p ? glm::length(from_p->position - p) : infinity;
         const double to_q = from_q ? glm::length(from_q->position - q) : infinity;
         for (const bool first : {to_p <= to_q, to_p > to_q})
-            if ((first ? to_p : to_q) < near_end * length && move(first ? e.p : e.q, first ? *from_p : *from_q)) return true;
+            if ((first ? to_p : to_q) < near_end * length && move(first ? e.p : e.q, first ? *from_p : *from_q))
+                return true;
         const auto point = cut_off_point(*solid, {p, q}, 0.5 * (p + q), hard_cosine_);
         if (!point) return false;
         std::array<std::pair<Corners, Vec3>, 2> before;

@@ -84,8 +84,10 @@ private:
             std::size_t end = i;
             while (end < all.size() && all[end].a == all[i].a && all[end].b == all[i].b) ++end;
             if ((end - i) % 2) throw std::logic_error("a cross-section's border does not close");
-            if (end - i == 2) add_segment(all[i], all[i].crossing, all[i + 1].crossing);
-            else join_many({all.begin() + std::ptrdiff_t(i), all.begin() + std::ptrdiff_t(end)});
+            if (end - i == 2)
+                add_segment(all[i], all[i].crossing, all[i + 1].crossing);
+            else
+                join_many({all.begin() + std::ptrdiff_t(i), all.begin() + std::ptrdiff_t(end)});
             i = end;
         }
     }

@@ -42,7 +42,8 @@ Vec3 clamped(Vec3 x, const Box& cell) {
 }
 
 // Where all pieces are 0, by Gauss and Newton's method.
-std::optional<Vec3> meeting_point(const SurfaceOffset& solid, const std::vector<SmoothPiece>& pieces, Vec3 x, const Box& within) {
+std::optional<Vec3> meeting_point(const SurfaceOffset& solid, const std::vector<SmoothPiece>& pieces, Vec3 x,
+                                  const Box& within) {
     // Two tangent planes that bend by 1° share all but this much of what they say.
     constexpr double least_share = 1e-5;
     const double size = size_of(within);
@@ -105,14 +106,16 @@ std::optional<SurfacePoint> tip_point(const SurfaceOffset& solid, const Box& cel
     const double size = size_of(cell);
     for (const TangentPlane& p : seen.planes)
         if (std::abs(glm::dot(p.normal, x - mean) - p.offset) > nearly_on_surface * size) return std::nullopt;
-    if (!inflated(cell, cell.hi.x - cell.lo.x).contains(x) || !(std::abs(solid.at(x).distance) < nearly_on_surface * size))
+    if (!inflated(cell, cell.hi.x - cell.lo.x).contains(x) ||
+        !(std::abs(solid.at(x).distance) < nearly_on_surface * size))
         return std::nullopt;
     return SurfacePoint{x, seen.faces};  // it faces all ways at once
 }
 
 // From x in the cell to the surface, by Newton's method; if that leads out of the cell, straight to
 // the nearest end of a crossing on the other side.
-Vec3 taken_to_surface(const SurfaceOffset& solid, const Box& cell, const std::vector<CrossingPoint>& crossings, Vec3 start) {
+Vec3 taken_to_surface(const SurfaceOffset& solid, const Box& cell, const std::vector<CrossingPoint>& crossings,
+                      Vec3 start) {
     const double size = size_of(cell);
     Vec3 x = start;
     for (int step = 0; step < most_steps && cell.contains(x); ++step) {
@@ -178,7 +181,8 @@ SurfacePoint surface_point(const SurfaceOffset& solid, const Box& cell, const st
     Vec3 start = mean;
     const bool bent = is_hard(seen.faces, hard_cosine);
     if (bent && seen.pieces.size() == 1)
-        if (const auto tip = tip_point(solid, cell, mean, seen); tip && (tip_may_stick_out || cell.contains(tip->position)))
+        if (const auto tip = tip_point(solid, cell, mean, seen);
+            tip && (tip_may_stick_out || cell.contains(tip->position)))
             return *tip;
     if (bent) {
         // Below this share of the planes' agreement lies what a hard edge of some 10° leaves open.
@@ -205,7 +209,8 @@ SurfacePoint surface_point(const SurfaceOffset& solid, const Box& cell, const st
 
 namespace {
 
-std::vector<SmoothPiece> pieces_through(const SurfaceOffset& solid, const std::vector<SmoothPiece>& all, Vec3 x, double tolerance) {
+std::vector<SmoothPiece> pieces_through(const SurfaceOffset& solid, const std::vector<SmoothPiece>& all, Vec3 x,
+                                        double tolerance) {
     std::vector<SmoothPiece> through;
     for (const SmoothPiece& p : all)
         if (std::abs(solid.piece_at(p, x).distance) < tolerance) through.push_back(p);
@@ -238,7 +243,8 @@ std::optional<SurfacePoint> hard_edge_point(const SurfaceOffset& solid, Vec3 x, 
     return pieces.size() == 2 ? meeting_near(solid, x, pieces, reach, hard_cosine) : std::nullopt;
 }
 
-std::optional<SurfacePoint> cut_off_point(const SurfaceOffset& solid, const std::vector<Vec3>& points, Vec3 x, double hard_cosine) {
+std::optional<SurfacePoint> cut_off_point(const SurfaceOffset& solid, const std::vector<Vec3>& points, Vec3 x,
+                                          double hard_cosine) {
     const auto all = solid.pieces();
     double apart = 0;
     for (const Vec3 point : points) apart = std::max(apart, glm::length(point - points[0]));

@@ -17,7 +17,7 @@ namespace deburr {
 struct Face {
     Vec3 normal{0.0};  // unit, outward
     int material = 0;
-    int leaf = -1;     // by its number in the whole solid; −1: a plane
+    int leaf = -1;  // by its number in the whole solid; −1: a plane
 };
 
 /// The face of a point on the surface, given what SurfaceOffset says there.
@@ -49,6 +49,7 @@ std::optional<SurfacePoint> hard_edge_point(const SurfaceOffset& solid, Vec3 x, 
 
 /// Where the pieces that pass these two or three points meet, if no piece passes all: the point of a
 /// hard edge, or the corner, that their mesh cuts off. Near x, no farther than they are apart.
-std::optional<SurfacePoint> cut_off_point(const SurfaceOffset& solid, const std::vector<Vec3>& points, Vec3 x, double hard_cosine);
+std::optional<SurfacePoint> cut_off_point(const SurfaceOffset& solid, const std::vector<Vec3>& points, Vec3 x,
+                                          double hard_cosine);
 
 }  // namespace deburr

@@ -18,7 +18,8 @@ struct Unseen {
 
 class ThinSearch {
 public:
-    ThinSearch(CellTree& tree, const Linking& linking, const PointMesh& mesh) : tree_(tree), linking_(linking), mesh_(mesh) {}
+    ThinSearch(CellTree& tree, const Linking& linking, const PointMesh& mesh)
+        : tree_(tree), linking_(linking), mesh_(mesh) {}
 
     bool split_unseen() {
         std::vector<Unseen> unseen;

@@ -13,7 +13,8 @@ std::vector<PointMesh::Edge> PointMesh::paired(std::vector<Directed> all) {
     std::vector<Edge> edges;
     for (std::size_t i = 0; i + 1 < all.size(); ++i) {
         const Directed &a = all[i], &b = all[i + 1];
-        if (a.lo == b.lo && a.hi == b.hi && a.forward && !b.forward) edges.push_back({a.lo, a.hi, a.triangle, b.triangle});
+        if (a.lo == b.lo && a.hi == b.hi && a.forward && !b.forward)
+            edges.push_back({a.lo, a.hi, a.triangle, b.triangle});
     }
     return edges;
 }

@@ -27,8 +27,7 @@ bool segments_meet(const Point& a, const Point& b, const Point& c, const Point& 
 }
 
 // Joins a hole by the shortest pair of edges that meets no other edge.
-void join(std::vector<Point>& outer, const std::vector<Point>& hole,
-          const std::vector<std::vector<Point>>& others) {
+void join(std::vector<Point>& outer, const std::vector<Point>& hole, const std::vector<std::vector<Point>>& others) {
     struct Bridge {
         double length;
         std::size_t i, j;
@@ -43,8 +42,7 @@ void join(std::vector<Point>& outer, const std::vector<Point>& hole,
     const auto blocked = [&](const Point& a, const Point& b, const std::vector<Point>& loop) {
         for (std::size_t k = 0; k < loop.size(); ++k) {
             const Point &c = loop[k], &d = loop[(k + 1) % loop.size()];
-            if (c.vertex == a.vertex || c.vertex == b.vertex || d.vertex == a.vertex || d.vertex == b.vertex)
-                continue;
+            if (c.vertex == a.vertex || c.vertex == b.vertex || d.vertex == a.vertex || d.vertex == b.vertex) continue;
             if (segments_meet(a, b, c, d)) return true;
         }
         return false;
@@ -53,8 +51,7 @@ void join(std::vector<Point>& outer, const std::vector<Point>& hole,
     const auto enters = [](const std::vector<Point>& loop, std::size_t k, const Point& to) {
         const std::size_t n = loop.size();
         const Point &before = loop[(k + n - 1) % n], &at = loop[k], &after = loop[(k + 1) % n];
-        if (cross(before, at, after) >= 0)
-            return cross(at, after, to) >= 0 && cross(before, at, to) >= 0;
+        if (cross(before, at, after) >= 0) return cross(at, after, to) >= 0 && cross(before, at, to) >= 0;
         return cross(at, after, to) >= 0 || cross(before, at, to) >= 0;
     };
     Bridge best = bridges[0];
@@ -62,8 +59,7 @@ void join(std::vector<Point>& outer, const std::vector<Point>& hole,
         const Point &from = outer[b.i], &to = hole[b.j];
         if (!enters(outer, b.i, to) || !enters(hole, b.j, from)) continue;
         if (blocked(from, to, outer) || blocked(from, to, hole)) continue;
-        if (std::any_of(others.begin(), others.end(), [&](const auto& o) { return blocked(from, to, o); }))
-            continue;
+        if (std::any_of(others.begin(), others.end(), [&](const auto& o) { return blocked(from, to, o); })) continue;
         best = b;
         break;
     }

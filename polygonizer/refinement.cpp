@@ -16,9 +16,8 @@ struct Part {
 
 // Of each cell the most needed.
 void worst_of_each(std::vector<Cut>& cuts) {
-    std::sort(cuts.begin(), cuts.end(), [](const Cut& a, const Cut& b) {
-        return a.cell != b.cell ? a.cell < b.cell : a.error > b.error;
-    });
+    std::sort(cuts.begin(), cuts.end(),
+              [](const Cut& a, const Cut& b) { return a.cell != b.cell ? a.cell < b.cell : a.error > b.error; });
     cuts.erase(std::unique(cuts.begin(), cuts.end(), [](const Cut& a, const Cut& b) { return a.cell == b.cell; }),
                cuts.end());
 }
@@ -159,7 +158,8 @@ std::vector<int> with_neighbours(const CellComplex& complex, const std::vector<i
         for (const int f : complex.cells[std::size_t(c)])
             for (const CellComplex::Step s : complex.faces[std::size_t(f)].loop)
                 for (const int around : complex.edges[std::size_t(s >> 1)].faces)
-                    for (const int beside : {complex.faces[std::size_t(around)].back, complex.faces[std::size_t(around)].front})
+                    for (const int beside :
+                         {complex.faces[std::size_t(around)].back, complex.faces[std::size_t(around)].front})
                         if (beside >= 0) all.push_back(beside);
     std::sort(all.begin(), all.end());
     all.erase(std::unique(all.begin(), all.end()), all.end());

@@ -34,8 +34,12 @@ struct Verdict {
 class Repair {
 public:
     Repair(Mesh& mesh, std::vector<Origin>& origins, const FacetJudge& judge)
-        : facets_(mesh, origins), judge_(judge), solid_(judge.solid()), surfaces_(judge.surfaces()),
-          shapes_(facets_.size()), first_made_(facets_.vertices()) {}
+        : facets_(mesh, origins),
+          judge_(judge),
+          solid_(judge.solid()),
+          surfaces_(judge.surfaces()),
+          shapes_(facets_.size()),
+          first_made_(facets_.vertices()) {}
 
     FacetShape shape(const Facet& f) const { return judge_.shape(facets_, f); }
     const FacetShape& shape(int f) {
@@ -152,7 +156,8 @@ public:
             // A fold may have to be unrolled step by step. What has no area may not become a fold.
             constexpr double less = 0.999, least_fold = 0.01;
             const bool may_add = limits_.unfold && &count == &statistics.collapses;
-            const bool unrolls = (is.wrong == was.wrong || may_add) && &count != &statistics.splits && is.inverted < less * was.inverted;
+            const bool unrolls =
+                (is.wrong == was.wrong || may_add) && &count != &statistics.splits && is.inverted < less * was.inverted;
             if (is.wrong >= was.wrong && !unrolls) return;
             if (is.inverted > was.inverted + least_fold * longest * longest) return;
             if (is.distance > std::max(limits_.farther * was.distance, limits_.of_longest * longest)) return;
@@ -285,14 +290,16 @@ public:
                 add_piece(pieces, facets_.at(f));
                 for (std::size_t k = 0; k < 3; ++k)
                     if (facets_.at(f).triangle.vertex[k] != v)
-                        shortest = std::min(shortest, glm::length(facets_.position(v) - facets_.position(facets_.at(f).triangle.vertex[k])));
+                        shortest = std::min(shortest, glm::length(facets_.position(v) -
+                                                                  facets_.position(facets_.at(f).triangle.vertex[k])));
             }
             Vec3 x = facets_.position(v);
             const bool on_seam = surfaces_.project(x, pieces, shortest) && on_surface(x);
             if (!on_seam) {
                 x = facets_.position(v);
                 if (!onto_solid(x, shortest)) {
-                    beside_[std::size_t(v)] = !(std::abs(solid_.at(facets_.position(v)).distance) <= nearly_on_surface());
+                    beside_[std::size_t(v)] =
+                        !(std::abs(solid_.at(facets_.position(v)).distance) <= nearly_on_surface());
                     continue;
                 }
             }

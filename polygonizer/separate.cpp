@@ -121,7 +121,8 @@ std::size_t separate_touching(Mesh& mesh, double step) {
     std::vector<int> left = touching;
     for (std::size_t round = 0; round < std::size(shares) && !left.empty(); ++round) {
         for (std::size_t k = 0; k < left.size(); ++k) {
-            const std::size_t at = std::size_t(std::lower_bound(touching.begin(), touching.end(), left[k]) - touching.begin());
+            const std::size_t at =
+                std::size_t(std::lower_bound(touching.begin(), touching.end(), left[k]) - touching.begin());
             if (at == touching.size() || touching[at] != left[k]) continue;  // came to lie on one that does not move
             // From the second time on every other one of those that still coincide.
             if (round > 0 && k % 2 == 0) continue;

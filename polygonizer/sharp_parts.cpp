@@ -77,18 +77,16 @@ public:
         if (root.op == Op::complement) return join(SolidOp::subtract, add({SolidOp::everything}), part(leaf, root.a));
         const DensityTree a = subtree(leaf.density, root.a), b = subtree(leaf.density, root.b);
         if (!kinds(a).rounded || !kinds(b).rounded) {
-            const SolidOp op = root.op == Op::difference                              ? SolidOp::subtract
+            const SolidOp op = root.op == Op::difference                          ? SolidOp::subtract
                                : root.op == Op::sum || root.op == Op::disjunction ? SolidOp::unite
-                                                                                      : SolidOp::intersect;
+                                                                                  : SolidOp::intersect;
             return join(op, part(leaf, root.a), part(leaf, root.b));
         }
         return decide(leaf);
     }
 
 private:
-    int part(const SolidLeaf& leaf, int root) {
-        return run({subtree(leaf.density, root), leaf.material, leaf.line});
-    }
+    int part(const SolidLeaf& leaf, int root) { return run({subtree(leaf.density, root), leaf.material, leaf.line}); }
 
     int decide(const SolidLeaf& leaf) {
         std::vector<Range> ranges;

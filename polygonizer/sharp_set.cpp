@@ -49,8 +49,10 @@ public:
         if (to_.nodes.size() > most_nodes) return {};
         if (root < 0 || root != to_.root()) {
             // The root is last.
-            if (root < 0) to_.nodes.push_back({Op::constant, -1, -1, root == everything ? 1.0 : 0.0});
-            else to_.nodes.push_back(TreeNode(to_.nodes[std::size_t(root)]));
+            if (root < 0)
+                to_.nodes.push_back({Op::constant, -1, -1, root == everything ? 1.0 : 0.0});
+            else
+                to_.nodes.push_back(TreeNode(to_.nodes[std::size_t(root)]));
         }
         return std::move(to_);
     }
@@ -99,8 +101,10 @@ private:
                 break;
             }
             case Op::product:
-                if (k > 0) set = either(product(n, k, false), product(n, k, true));
-                else set = complement(negative_product(n, 1 - k));
+                if (k > 0)
+                    set = either(product(n, k, false), product(n, k, true));
+                else
+                    set = complement(negative_product(n, 1 - k));
                 break;
             default: break;
         }

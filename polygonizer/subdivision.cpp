@@ -9,8 +9,7 @@
 
 namespace deburr {
 
-Subdivision::Subdivision(const SolidTree& solid, const Box& box)
-    : complex(box, 1e-9 * glm::length(box.hi - box.lo)) {
+Subdivision::Subdivision(const SolidTree& solid, const Box& box) : complex(box, 1e-9 * glm::length(box.hi - box.lo)) {
     Place whole;
     whole.solid = solid.nodes;
     for (std::size_t k = 0; k < solid.leaves.size(); ++k)
@@ -92,8 +91,10 @@ int Subdivision::new_place(int parent, int cell) {
     for (const OpenLeaf& leaf : places[std::size_t(parent)].open) {
         Side side;
         OpenLeaf local = localize(leaf, side);
-        if (side == Side::straddling) place.open.push_back(std::move(local));
-        else place.decided.push_back({leaf.leaf, side});
+        if (side == Side::straddling)
+            place.open.push_back(std::move(local));
+        else
+            place.decided.push_back({leaf.leaf, side});
     }
     place.side = fold(place.solid, [&](int leaf) {
         for (const auto& [decided, side] : place.decided)
@@ -148,8 +149,10 @@ void Subdivision::subdivide(int cell) {
                 if (!leaf.density) leaf.density = std::make_shared<LocalDensity>(*leaf.tree);
             continue;
         }
-        if (halve(current_, plane)) todo.push_back(int(complex.cells.size()) - 1);
-        else refused_[std::size_t(current_)].push_back(plane);
+        if (halve(current_, plane))
+            todo.push_back(int(complex.cells.size()) - 1);
+        else
+            refused_[std::size_t(current_)].push_back(plane);
         todo.push_back(current_);
     }
 }

@@ -27,10 +27,10 @@ struct OpenLeaf {
 /// A node of the binary space partition.
 struct Place {
     int parent = -1;
-    Side side = Side::straddling;                // of the solid
-    std::vector<OpenLeaf> open;                  // leaves that are undecided, and matter
-    std::vector<std::pair<int, Side>> decided;   // leaves decided here but not in the parent, sorted
-    std::vector<SolidTreeNode> solid;            // what the open leaves decide
+    Side side = Side::straddling;               // of the solid
+    std::vector<OpenLeaf> open;                 // leaves that are undecided, and matter
+    std::vector<std::pair<int, Side>> decided;  // leaves decided here but not in the parent, sorted
+    std::vector<SolidTreeNode> solid;           // what the open leaves decide
 };
 
 class Subdivision {
@@ -85,12 +85,12 @@ private:
     void look_at(int cell);
 
     std::pair<int, std::size_t> looked_at_{-1, 0};  // a cell, and how many there were
-    std::vector<Vec3> corners_;                // of that cell
-    std::vector<Extent> extents_;              // of them, along normals that were asked for
-    std::vector<Reach> reach_;                 // of its densities' half-spaces, leaf by leaf
-    std::vector<Candidate> candidates_;        // planes that may cut the cell
-    Vec3 turned_to_{0.0};                      // the normal of planes that are being considered
-    std::vector<std::vector<Plane>> refused_;  // by cell
+    std::vector<Vec3> corners_;                     // of that cell
+    std::vector<Extent> extents_;                   // of them, along normals that were asked for
+    std::vector<Reach> reach_;                      // of its densities' half-spaces, leaf by leaf
+    std::vector<Candidate> candidates_;             // planes that may cut the cell
+    Vec3 turned_to_{0.0};                           // the normal of planes that are being considered
+    std::vector<std::vector<Plane>> refused_;       // by cell
     int current_ = 0;
     std::vector<Range> ranges_;
     std::vector<Side> sides_;           // of open leaves

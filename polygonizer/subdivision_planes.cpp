@@ -91,8 +91,7 @@ bool Subdivision::choose(const Place& place, Plane& plane) {
         const auto& planes = leaf.density->half_spaces();
         if (is_parallel_family(*leaf.density)) {
             const Range s = extent(planes[0].normal);
-            for (const Plane& p : level_planes(*leaf.density, s, complex.tolerance).planes)
-                consider(p, s, 0);
+            for (const Plane& p : level_planes(*leaf.density, s, complex.tolerance).planes) consider(p, s, 0);
             continue;
         }
         for (const HalfSpace& h : planes) {
@@ -140,10 +139,9 @@ bool Subdivision::choose_neutral(const Place& place, Plane& plane) const {
             if (h.radius > 0) least = std::min(least, h.radius);
     // Where many half-spaces vary together in a cell smaller than their filter, halving no longer
     // tells them apart.
-    constexpr double smallest = 0.5;      // in radii
+    constexpr double smallest = 0.5;        // in radii
     constexpr double sharp_smallest = 1e5;  // in tolerances
-    if (size[axis] <= (least < infinity ? smallest * least : sharp_smallest * complex.tolerance))
-        return false;
+    if (size[axis] <= (least < infinity ? smallest * least : sharp_smallest * complex.tolerance)) return false;
     const double middle = 0.5 * (box.lo[axis] + box.hi[axis]);
     plane.normal = Vec3(0.0);
     plane.normal[axis] = 1;

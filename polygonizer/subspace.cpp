@@ -34,8 +34,11 @@ Vec3 root_between(const LocalDensity& density, Vec3 a, double fa, Vec3 b, double
 }
 
 Subspace::Subspace(const Subdivision& subdivision)
-    : subdivision_(subdivision), complex_(subdivision.complex), leaf_of_face_(complex_.faces.size(), -1),
-      next_of_origin_(complex_.cells.size(), -1), resolved_(complex_.cells.size()) {
+    : subdivision_(subdivision),
+      complex_(subdivision.complex),
+      leaf_of_face_(complex_.faces.size(), -1),
+      next_of_origin_(complex_.cells.size(), -1),
+      resolved_(complex_.cells.size()) {
     for (std::size_t c = 0; c < complex_.cells.size(); ++c) origin_.push_back(int(c));
 }
 
@@ -152,8 +155,7 @@ Subspace::Sign Subspace::edge_sign(int edge, const LocalDensity& density) {
     if (a != Sign::none && b != Sign::none) return a == b ? a : Sign::unknown;  // unknown: a root
     if (a != Sign::none) return a;
     if (b != Sign::none) return b;
-    return point_sign(0.5 * (complex_.vertices[std::size_t(e.tail)] + complex_.vertices[std::size_t(e.head)]),
-                      density);
+    return point_sign(0.5 * (complex_.vertices[std::size_t(e.tail)] + complex_.vertices[std::size_t(e.head)]), density);
 }
 
 void Subspace::split_edges(int face, const LocalDensity& density) {
@@ -224,8 +226,7 @@ void Subspace::find_loops(int cell) {
 
 int Subspace::owner(int face, std::span<const int> family) const {
     for (const int c : family)
-        if (complex_.faces[std::size_t(face)].back == c || complex_.faces[std::size_t(face)].front == c)
-            return c;
+        if (complex_.faces[std::size_t(face)].back == c || complex_.faces[std::size_t(face)].front == c) return c;
     return family[0];
 }
 
@@ -238,8 +239,9 @@ void Subspace::span(int cell, const LocalDensity& density) {
             const Vec3 area = complex_.area_vector(f);
             if (glm::length(area) <= 0) continue;
             const Vec3 n = glm::normalize(area) * (complex_.faces[std::size_t(f)].front == cell ? -1.0 : 1.0);
-            walls_.push_back({n, glm::dot(n, complex_.vertices[std::size_t(
-                                                 complex_.start(complex_.faces[std::size_t(f)].loop[0]))])});
+            walls_.push_back(
+                {n,
+                 glm::dot(n, complex_.vertices[std::size_t(complex_.start(complex_.faces[std::size_t(f)].loop[0]))])});
         }
     CellComplex::List<4> family{cell};
     for (Loop& loop : loops_) {
@@ -249,8 +251,10 @@ void Subspace::span(int cell, const LocalDensity& density) {
                                   complex_.vertices[std::size_t(complex_.end(2 * e))]);
             complex_.split_edge(e, x);
             const int half = int(complex_.edges.size()) - 1;
-            if (loop.steps[0] & 1) loop.steps = {2 * half + 1, 2 * e + 1, loop.steps[1]};
-            else loop.steps = {2 * e, 2 * half, loop.steps[1]};
+            if (loop.steps[0] & 1)
+                loop.steps = {2 * half + 1, 2 * e + 1, loop.steps[1]};
+            else
+                loop.steps = {2 * e, 2 * half, loop.steps[1]};
         }
         rim_.clear();
         points_.clear();

@@ -103,7 +103,7 @@ private:
     CellComplex complex_;
     int leaf_ = 0;
     std::vector<int> leaf_of_face_, origin_;
-    std::vector<int> next_of_origin_;  // of a cell: another that was cut from the same, or −1
+    std::vector<int> next_of_origin_;               // of a cell: another that was cut from the same, or −1
     std::vector<ShortList<Resolved, 2>> resolved_;  // by cell
     Signs vertex_signs_, edge_signs_, face_labels_;
     Signs sides_;  // of cells: above, below, none for straddling

@@ -164,8 +164,8 @@ Vec3 Subspace::on_seam(std::span<const int> faces, Vec3 start, double reach, con
 }
 
 // The surface nearest to `middle` on a line in the face: ahead if it is there, else behind.
-bool Subspace::search(int face, Vec3 middle, Vec3 line, Vec3 normal, double length,
-                      const LocalDensity& density, Vec3& root) const {
+bool Subspace::search(int face, Vec3 middle, Vec3 line, Vec3 normal, double length, const LocalDensity& density,
+                      Vec3& root) const {
     const double f = density.at(middle) - 0.5;
     double ahead = infinity, behind = -infinity;
     const Vec3 across = glm::cross(normal, line);
@@ -175,8 +175,10 @@ bool Subspace::search(int face, Vec3 middle, Vec3 line, Vec3 normal, double leng
         const double sp = glm::dot(across, p), sq = glm::dot(across, q);
         if ((sp < 0) == (sq < 0)) continue;
         const double t = glm::dot(line, p + (q - p) * (sp / (sp - sq)));
-        if (t > 1e-9 * length) ahead = std::min(ahead, t);
-        else if (t < -1e-9 * length) behind = std::max(behind, t);
+        if (t > 1e-9 * length)
+            ahead = std::min(ahead, t);
+        else if (t < -1e-9 * length)
+            behind = std::max(behind, t);
     }
     constexpr int samples = 8;
     for (const double reach : {ahead, behind}) {

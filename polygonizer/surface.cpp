@@ -83,7 +83,9 @@ private:
         }
     }
 
-    bool is_border(int h) { return group_.find(owner_[std::size_t(h)]) != group_.find(owner_[std::size_t(twin_[std::size_t(h)])]); }
+    bool is_border(int h) {
+        return group_.find(owner_[std::size_t(h)]) != group_.find(owner_[std::size_t(twin_[std::size_t(h)])]);
+    }
 
     // Half-edges between groups, each with the next one around its group.
     void trace() {
@@ -124,7 +126,7 @@ private:
                 const int a = vertex_[h], b = head(n);
                 const int hb = twin_[h], nb = twin_[std::size_t(n)];
                 if (degree[std::size_t(v)] != 2 || a == b || next_[std::size_t(nb)] != hb) break;
-                if (next_[std::size_t(next_[std::size_t(n)])] == int(h)) break;     // a triangle stays one
+                if (next_[std::size_t(next_[std::size_t(n)])] == int(h)) break;  // a triangle stays one
                 if (next_[std::size_t(next_[std::size_t(hb)])] == nb) break;
                 const Vec3 line = positions_[std::size_t(b)] - positions_[std::size_t(a)];
                 const Vec3 x = positions_[std::size_t(v)] - positions_[std::size_t(a)];
@@ -154,7 +156,8 @@ private:
         }
         for (const int h : doubles) {
             const int t = twin_[std::size_t(h)], middle = int(positions_.size());
-            positions_.push_back(middle_of(vertex_[std::size_t(h)], head(h), owner_[std::size_t(h)], owner_[std::size_t(t)]));
+            positions_.push_back(
+                middle_of(vertex_[std::size_t(h)], head(h), owner_[std::size_t(h)], owner_[std::size_t(t)]));
             const int second = insert_after(h, middle), back = insert_after(t, middle);
             twin_[std::size_t(h)] = back;
             twin_[std::size_t(back)] = h;
@@ -213,8 +216,10 @@ private:
         std::sort(uses.begin(), uses.end());
         std::size_t kept = 0;
         for (std::size_t k = 0; k < uses.size(); ++k)
-            if (kept > 0 && uses[kept - 1].first == uses[k].first) ++uses[kept - 1].second;
-            else uses[kept++] = uses[k];
+            if (kept > 0 && uses[kept - 1].first == uses[k].first)
+                ++uses[kept - 1].second;
+            else
+                uses[kept++] = uses[k];
         uses.resize(kept);
         for (std::size_t i = 0; i < triangles.size(); ++i)
             for (std::size_t k = 0; k < 3; ++k) {
@@ -349,14 +354,14 @@ private:
         return mesh;
     }
 
-    UnionFind group_;                  // polygons
-    std::vector<int> next_, before_;   // around a group; −1: within it
-    EdgeSet borders_, diagonals_;      // edges of polygons; of triangles within
-    int building_ = -1;                // a group
+    UnionFind group_;                                        // polygons
+    std::vector<int> next_, before_;                         // around a group; −1: within it
+    EdgeSet borders_, diagonals_;                            // edges of polygons; of triangles within
+    int building_ = -1;                                      // a group
     std::vector<std::pair<std::pair<int, int>, int>> uses_;  // of edges, in its triangles
     std::vector<Corner> corners_;
     std::vector<MeshVertex> mesh_vertices_;
-    std::vector<int> next_normal_;     // at the same vertex
+    std::vector<int> next_normal_;  // at the same vertex
 };
 
 }  // namespace

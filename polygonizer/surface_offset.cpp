@@ -73,7 +73,8 @@ double SurfaceOffset::leaf_value(std::size_t leaf, Vec3 x) const {
 }
 
 bool SurfaceOffset::inside(Vec3 x) const {
-    if (solid_.nodes.size() == 1 && solid_.nodes[0].op == SolidOp::leaf) return leaf_value(std::size_t(solid_.nodes[0].a), x) > 0;
+    if (solid_.nodes.size() == 1 && solid_.nodes[0].op == SolidOp::leaf)
+        return leaf_value(std::size_t(solid_.nodes[0].a), x) > 0;
     thread_local std::vector<double> done;  // of the sign that at(x).distance has there
     done.clear();
     for (const SolidTreeNode& n : solid_.nodes) {
@@ -98,8 +99,10 @@ Offset SurfaceOffset::leaf_at(std::size_t leaf, Vec3 x) const {
     } else {
         const ValueGradient v = field ? field->at(x) : density(leaf).gradient_at(x);
         const double slope = glm::length(v.gradient), f = field ? v.value : above_level(v.value);
-        if (slope > 0) o = {f / slope, -v.gradient / slope};
-        else o.distance = f > 0 ? infinity : f < 0 ? -infinity : 0;
+        if (slope > 0)
+            o = {f / slope, -v.gradient / slope};
+        else
+            o.distance = f > 0 ? infinity : f < 0 ? -infinity : 0;
     }
     o.leaf = int(leaf);
     return o;
@@ -127,7 +130,8 @@ std::vector<SmoothPiece> SurfaceOffset::pieces() const {
             if (part.op == Op::half_space) all.push_back({n.a, part.a, side_of_part[j]});
             if (part.a < 0 || part.op == Op::half_space) continue;
             side_of_part[std::size_t(part.a)] = part.op == Op::complement ? -side_of_part[j] : side_of_part[j];
-            if (part.b >= 0) side_of_part[std::size_t(part.b)] = part.op == Op::difference ? -side_of_part[j] : side_of_part[j];
+            if (part.b >= 0)
+                side_of_part[std::size_t(part.b)] = part.op == Op::difference ? -side_of_part[j] : side_of_part[j];
         }
     }
     return all;
@@ -145,7 +149,8 @@ Offset SurfaceOffset::piece_at(const SmoothPiece& piece, Vec3 x) const {
 }
 
 Offset SurfaceOffset::at(Vec3 x) const {
-    if (solid_.nodes.size() == 1 && solid_.nodes[0].op == SolidOp::leaf) return leaf_at(std::size_t(solid_.nodes[0].a), x);
+    if (solid_.nodes.size() == 1 && solid_.nodes[0].op == SolidOp::leaf)
+        return leaf_at(std::size_t(solid_.nodes[0].a), x);
     thread_local std::vector<Offset> done;
     done.clear();
     for (const SolidTreeNode& n : solid_.nodes) {
@@ -188,9 +193,7 @@ double search_along_normal(const Field& field, Vec3 x, double reach) {
 
 }  // namespace
 
-double SurfaceOffset::distance_along_normal(Vec3 x, double reach) const {
-    return search_along_normal(*this, x, reach);
-}
+double SurfaceOffset::distance_along_normal(Vec3 x, double reach) const { return search_along_normal(*this, x, reach); }
 
 std::size_t SurfaceOffset::half_spaces() const {
     std::size_t count = 0;
@@ -204,9 +207,7 @@ OffsetField::OffsetField(const SolidTree& solid, const Box& box, double margin)
     : root_(std::make_unique<Node>(box, SurfaceOffset(solid), 0)),
       margin_(std::max(margin, 1e-6 * glm::length(box.hi - box.lo))) {}
 
-double OffsetField::distance_along_normal(Vec3 x, double reach) const {
-    return search_along_normal(*this, x, reach);
-}
+double OffsetField::distance_along_normal(Vec3 x, double reach) const { return search_along_normal(*this, x, reach); }
 
 const SurfaceOffset& OffsetField::near(Vec3 x) const {
     // Boxes stop where splitting pays no more, or does not help.

@@ -1,8 +1,8 @@
 // How far a point is from the surface of a solid, to first order, and which way the surface faces.
 //
-// For a rounded density that is (ρ − ½)/|∇ρ|; for a field f/|∇f|; for a sharp density the planes' distances under min and
-// max; for the primary CSG tree min and max again. Exact on the surface, right to first order near
-// it; ±infinity where a density is saturated.
+// For a rounded density that is (ρ − ½)/|∇ρ|; for a field f/|∇f|; for a sharp density the planes' distances under min
+// and max; for the primary CSG tree min and max again. Exact on the surface, right to first order near it; ±infinity
+// where a density is saturated.
 #pragma once
 #include <memory>
 

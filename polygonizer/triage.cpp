@@ -26,9 +26,12 @@ Box polygonization_box(const SolidTree& solid) {
     constexpr double reach = 10;
     for (int k = 0; k < 3; ++k) {
         const bool lo = std::isfinite(box.lo[k]), hi = std::isfinite(box.hi[k]);
-        if (!lo && !hi) box.lo[k] = -reach * size, box.hi[k] = reach * size;
-        else if (!lo) box.lo[k] = box.hi[k] - reach * size;
-        else if (!hi) box.hi[k] = box.lo[k] + reach * size;
+        if (!lo && !hi)
+            box.lo[k] = -reach * size, box.hi[k] = reach * size;
+        else if (!lo)
+            box.lo[k] = box.hi[k] - reach * size;
+        else if (!hi)
+            box.hi[k] = box.lo[k] + reach * size;
         else {
             box.lo[k] -= 0.05 * size;
             box.hi[k] += 0.05 * size;

@@ -84,8 +84,9 @@ int BoxTree::Builder::split(std::vector<int>& order, std::size_t first, std::siz
     }
     std::size_t middle_one = first + (end - first) / 2;  // where all middles are one, or too deep
     if (best_axis >= 0) {
-        const auto upper = std::stable_partition(order.begin() + std::ptrdiff_t(first), order.begin() + std::ptrdiff_t(end),
-                                                 [&](int part) { return bin_of(part, best_axis) < best_bin; });
+        const auto upper =
+            std::stable_partition(order.begin() + std::ptrdiff_t(first), order.begin() + std::ptrdiff_t(end),
+                                  [&](int part) { return bin_of(part, best_axis) < best_bin; });
         middle_one = std::size_t(upper - order.begin());
     }
     Part to{{}, 0, 0};

@@ -56,8 +56,8 @@ public:
     const Box& box() const { return box_; }
     bool empty() const { return nodes_.empty(); }
 
-    /// The ray is within box() in [t0, t1], or nearly; `inverse`: reciprocal(direction). Calls visit(number of an item) for those whose
-    /// boxes the ray may meet in [t0, t1], the nearest first but where boxes overlap. It returns the
+    /// The ray is within box() in [t0, t1], or nearly; `inverse`: reciprocal(direction). Calls visit(number of an item)
+    /// for those whose boxes the ray may meet in [t0, t1], the nearest first but where boxes overlap. It returns the
     /// distance up to which it goes on; a negative one ends it.
     template <class Visit>
     void visit(const Vec3& origin, const Vec3& direction, const Vec3& inverse, double t0, double t1, Visit visit) const;
@@ -73,7 +73,9 @@ public:
     void visit_together(const Beam& beam, Visit visit) const;
 
     /// Items from `number` on lie at `first`, so many bytes apart: they are fetched before they are visited.
-    void items_lie_at(std::uint32_t number, const void* first, std::size_t apart) { items_ = {number, static_cast<const char*>(first), apart}; }
+    void items_lie_at(std::uint32_t number, const void* first, std::size_t apart) {
+        items_ = {number, static_cast<const char*>(first), apart};
+    }
 
     /// Calls visit(number of an item) for those whose boxes may meet this one.
     template <class Visit>
@@ -121,7 +123,8 @@ inline double reciprocal(double d) { return std::abs(d) > 1e-300 ? 1 / d : std::
 inline Vec3 reciprocal(Vec3 d) { return {reciprocal(d.x), reciprocal(d.y), reciprocal(d.z)}; }
 
 /// Of a box that is not empty.
-[[gnu::always_inline]] inline BoxSpan span_in(const Box& box, const Vec3& origin, const Vec3& inverse, double t0, double t1) {
+[[gnu::always_inline]] inline BoxSpan span_in(const Box& box, const Vec3& origin, const Vec3& inverse, double t0,
+                                              double t1) {
     for (int k = 0; k < 3; ++k) {
         const double a = (box.lo[k] - origin[k]) * inverse[k], b = (box.hi[k] - origin[k]) * inverse[k];
         const double lo = a < b ? a : b, hi = a < b ? b : a;
@@ -159,8 +162,10 @@ template <class Meet, class Visit>
                     for (; place > first && stack[place - 1].t < t[k]; --place) stack[place] = stack[place - 1];
                     stack[place] = {n.child[k], t[k]};
                     // It is looked at soon, if not next.
-                    if (n.child[k] >= 0) __builtin_prefetch(&nodes_[std::size_t(n.child[k])]);
-                    else fetch_item(std::uint32_t(~n.child[k]));
+                    if (n.child[k] >= 0)
+                        __builtin_prefetch(&nodes_[std::size_t(n.child[k])]);
+                    else
+                        fetch_item(std::uint32_t(~n.child[k]));
                 } while (met != 0);
                 now = stack[--top].child;
                 continue;
@@ -183,7 +188,8 @@ inline float BoxTree::inverse_of(double x) {
 }
 
 template <class Visit>
-void BoxTree::visit(const Vec3& origin, const Vec3& direction, const Vec3& reciprocals, double t0, double t1, Visit visit) const {
+void BoxTree::visit(const Vec3& origin, const Vec3& direction, const Vec3& reciprocals, double t0, double t1,
+                    Visit visit) const {
     const Vec3 start = frame_.place(origin + direction * t0);
     float inverse[3];
     int near[3];
@@ -191,7 +197,8 @@ void BoxTree::visit(const Vec3& origin, const Vec3& direction, const Vec3& recip
         inverse[k] = inverse_of(reciprocals[k]);
         near[k] = inverse[k] < 0 ? 4 : 0;
     }
-    const Float4 ox(float(start.x)), oy(float(start.y)), oz(float(start.z)), ix(inverse[0]), iy(inverse[1]), iz(inverse[2]);
+    const Float4 ox(float(start.x)), oy(float(start.y)), oz(float(start.z)), ix(inverse[0]), iy(inverse[1]),
+        iz(inverse[2]);
     walk(
         frame_.distance(t1 - t0),
         [&](const Node& n, float end, float* t) __attribute__((always_inline)) {
@@ -230,9 +237,13 @@ void BoxTree::visit_together(const Beam& beam, Visit visit) const {
     for (int k = 0; k < 3; ++k) {
         const double least = beam.least_direction[k], most = beam.most_direction[k];
         const float a = float(start[k]), b = float(other_start[k]);
-        if (least > 0) directed[directed_axes++] = {k, 0, b, a, inverse_of(reciprocal(most)), inverse_of(reciprocal(least))};
-        else if (most < 0) directed[directed_axes++] = {k, 4, a, b, inverse_of(reciprocal(most)), inverse_of(reciprocal(least))};
-        else undirected[undirected_axes++] = {k, float(std::max(a + least * way, -2.0)), float(std::min(b + most * way, 2.0))};
+        if (least > 0)
+            directed[directed_axes++] = {k, 0, b, a, inverse_of(reciprocal(most)), inverse_of(reciprocal(least))};
+        else if (most < 0)
+            directed[directed_axes++] = {k, 4, a, b, inverse_of(reciprocal(most)), inverse_of(reciprocal(least))};
+        else
+            undirected[undirected_axes++] = {k, float(std::max(a + least * way, -2.0)),
+                                             float(std::min(b + most * way, 2.0))};
     }
     walk(
         frame_.distance(beam.longest),
@@ -250,7 +261,8 @@ void BoxTree::visit_together(const Beam& beam, Visit visit) const {
             unsigned met = not_above(lo, hi);
             for (int i = 0; i < undirected_axes; ++i) {
                 const Undirected& u = undirected[i];
-                met &= not_above(Float4::load(n.side[u.axis]), Float4(u.hi)) & not_above(Float4(u.lo), Float4::load(n.side[u.axis] + 4));
+                met &= not_above(Float4::load(n.side[u.axis]), Float4(u.hi)) &
+                       not_above(Float4(u.lo), Float4::load(n.side[u.axis] + 4));
             }
             return met;
         },
@@ -272,8 +284,10 @@ void BoxTree::meeting(const Box& box, Visit visit) const {
             bool meets = true;
             for (int k = 0; k < 3; ++k) meets &= double(n.side[k][i]) <= hi[k] && double(n.side[k][i + 4]) >= lo[k];
             if (!meets) continue;
-            if (n.child[i] < 0) visit(std::uint32_t(~n.child[i]));
-            else open.push_back(n.child[i]);
+            if (n.child[i] < 0)
+                visit(std::uint32_t(~n.child[i]));
+            else
+                open.push_back(n.child[i]);
         }
     }
 }

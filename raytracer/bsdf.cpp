@@ -39,9 +39,7 @@ double fresnel_dielectric(double cosine, double ior) {
     return 0.5 * (s * s + p * p);
 }
 
-Vec3 fresnel_schlick(Vec3 f0, double cosine) {
-    return f0 + (1.0 - f0) * power5(1 - glm::clamp(cosine, 0.0, 1.0));
-}
+Vec3 fresnel_schlick(Vec3 f0, double cosine) { return f0 + (1.0 - f0) * power5(1 - glm::clamp(cosine, 0.0, 1.0)); }
 
 Vec3 reflected(Vec3 to_eye, Vec3 normal) { return 2 * glm::dot(to_eye, normal) * normal - to_eye; }
 
@@ -106,8 +104,7 @@ SurfaceLayer::SurfaceLayer(const Material& material)
     : kind_(material.kind), ggx_{material.roughness * material.roughness}, ior_(material.ior) {
     smooth_ = kind_ == Material::Kind::mirror || !(ggx_.alpha >= smooth_alpha);
     if (kind_ == Material::Kind::glass) return;
-    for (int i = 0; i <= steps; ++i)
-        albedo_[std::size_t(i)] = integrate(double(i) * i / (double(steps) * steps));
+    for (int i = 0; i <= steps; ++i) albedo_[std::size_t(i)] = integrate(double(i) * i / (double(steps) * steps));
     // With cosine = t² and E linear in t between nodes, 2 E cosine d cosine = 4 E t³ dt, which
     // Gauss' rule of three points integrates exactly.
     constexpr double weights[3] = {5.0 / 18, 8.0 / 18, 5.0 / 18};
@@ -154,14 +151,10 @@ double SurfaceLayer::albedo(double cosine) const {
 
 Vec3 SurfaceLayer::fresnel(Vec3 color, double cosine) const {
     switch (kind_) {
-        case Material::Kind::mirror:
-            return color;
-        case Material::Kind::metal:
-            return fresnel_schlick(color, cosine);
-        case Material::Kind::matte:
-            return Vec3(0.0);
-        default:
-            return Vec3(fresnel_dielectric(cosine, ior_));
+        case Material::Kind::mirror: return color;
+        case Material::Kind::metal: return fresnel_schlick(color, cosine);
+        case Material::Kind::matte: return Vec3(0.0);
+        default: return Vec3(fresnel_dielectric(cosine, ior_));
     }
 }
 
@@ -200,8 +193,7 @@ Bsdf::Value Bsdf::value(Vec3 to_light) const {
     if (layer_.smooth()) return v;
     const Vec3 half = glm::normalize(to_eye_ + to_light);
     v.layer = layer_.fresnel(color_, glm::dot(half, to_light)) *
-              (ggx_.distribution(glm::dot(half, normal_)) * ggx_.visibility(cos_light, cos_eye_) *
-               cos_light);
+              (ggx_.distribution(glm::dot(half, normal_)) * ggx_.visibility(cos_light, cos_eye_) * cos_light);
     return v;
 }
 
@@ -222,8 +214,7 @@ bool Bsdf::sample_layer(Vec2 u, Vec3& to_light, Vec3& weight) const {
     to_light = glm::normalize(reflected(to_eye_, facet));
     const double cos_light = glm::dot(to_light, normal_);
     if (!(cos_light > 0)) return false;
-    weight = layer_.fresnel(color_, glm::dot(facet, to_light)) *
-             ggx_.shadowing(cos_light, cos_eye_);
+    weight = layer_.fresnel(color_, glm::dot(facet, to_light)) * ggx_.shadowing(cos_light, cos_eye_);
     return true;
 }
 

@@ -14,9 +14,9 @@ namespace deburr {
 
 struct BspStatistics {
     std::size_t cells = 0, empty_cells = 0, flat_cells = 0;
-    std::size_t half_spaces = 0;  // that the cells were made of
-    std::size_t spaces = 0;       // BSPs, each of a space or of a part of one
-    std::size_t placements = 0;   // of these in others
+    std::size_t half_spaces = 0;        // that the cells were made of
+    std::size_t spaces = 0;             // BSPs, each of a space or of a part of one
+    std::size_t placements = 0;         // of these in others
     double mean_local_half_spaces = 0;  // in the cells that hold a surface
     int depth = 0;
 };
@@ -30,7 +30,8 @@ public:
     Hit first_hit(const Ray& ray, double t_max, TraceCounters& counters) const override;
     bool occluded(const Ray& ray, double t_max, TraceCounters& counters) const override;
     void first_hits(std::span<const Ray> rays, Hit* hits, TraceCounters& counters) const override;
-    void occlusions(std::span<const Ray> rays, std::span<const double> t_max, bool* occluded, TraceCounters& counters) const override;
+    void occlusions(std::span<const Ray> rays, std::span<const double> t_max, bool* occluded,
+                    TraceCounters& counters) const override;
     BspStatistics statistics() const;
 
 private:

@@ -62,8 +62,11 @@ template <bool Any>
         search.look_at(i);
         return search.enough() ? -1.0 : search.end();
     };
-    if (!embree_) boxes_.visit(ray.origin, ray.direction, search.inverse(), span.lo, span.hi, look);
-    else embree_->visit(ray.origin, ray.direction, span.lo, span.hi, Any ? EmbreeBoxes::Order::any : EmbreeBoxes::Order::nearest_first, look);
+    if (!embree_)
+        boxes_.visit(ray.origin, ray.direction, search.inverse(), span.lo, span.hi, look);
+    else
+        embree_->visit(ray.origin, ray.direction, span.lo, span.hi,
+                       Any ? EmbreeBoxes::Order::any : EmbreeBoxes::Order::nearest_first, look);
     if (!bounded_ && !search.enough() && search.end() > span.hi) walk(search, span.hi, search.end());
     return search.found();
 }
@@ -80,7 +83,8 @@ void BspTracer::walk(SurfaceSearch<Any>& search, double t0, double t1) const {
     });
 }
 
-FoundSurface BspTracer::find(const Ray& ray, double t_max, TraceCounters& counters, const Others* others, double end) const {
+FoundSurface BspTracer::find(const Ray& ray, double t_max, TraceCounters& counters, const Others* others,
+                             double end) const {
     SurfaceSearch<false> s(surfaces_, ray, t_max, end, counters, others);
     return search(s) ? s.surface() : FoundSurface{};
 }
@@ -99,9 +103,11 @@ constexpr std::size_t fewest_together = 4;
 
 bool BspTracer::leads_together(std::size_t rays) const { return rays >= fewest_together && bounded_ && !embree_; }
 
-void BspTracer::find(const SeveralRays& rays, FoundSurface* found, TraceCounters& counters, const Others* others) const {
+void BspTracer::find(const SeveralRays& rays, FoundSurface* found, TraceCounters& counters,
+                     const Others* others) const {
     if (!leads_together(rays.size())) {
-        for (std::size_t k = 0; k < rays.size(); ++k) found[k] = find(rays.rays[k], rays.t_max[k], counters, others, rays.end[k]);
+        for (std::size_t k = 0; k < rays.size(); ++k)
+            found[k] = find(rays.rays[k], rays.t_max[k], counters, others, rays.end[k]);
         return;
     }
     PacketSearch<false> packet(surfaces_, rays, counters, others);
@@ -112,7 +118,8 @@ void BspTracer::find(const SeveralRays& rays, FoundSurface* found, TraceCounters
 Lanes BspTracer::any(const SeveralRays& rays, TraceCounters& counters, const Others* others) const {
     Lanes found = 0;
     if (!leads_together(rays.size())) {
-        for (std::size_t k = 0; k < rays.size(); ++k) found |= Lanes(any(rays.rays[k], rays.t_max[k], counters, others)) << k;
+        for (std::size_t k = 0; k < rays.size(); ++k)
+            found |= Lanes(any(rays.rays[k], rays.t_max[k], counters, others)) << k;
         return found;
     }
     PacketSearch<true> packet(surfaces_, rays, counters, others);
@@ -206,8 +213,10 @@ BspTracer::BspTracer(std::vector<NamedBsp> bsps, const std::vector<Box>& others,
             const int solid = name(local);
             pieces.add(std::move(local), around, solid);
             boxes.push_back(pieces.surface_box(boxes.size(), bsp.tree.tolerances.margin()));
-            if (boxes.back().finite()) world = hull(world, boxes.back());
-            else bounded_ = false;
+            if (boxes.back().finite())
+                world = hull(world, boxes.back());
+            else
+                bounded_ = false;
         }
     }
     BoxTree::Builder builder;
@@ -233,8 +242,10 @@ BspTracer::BspTracer(std::vector<NamedBsp> bsps, const std::vector<Box>& others,
         parts.push_back(builder.item(first++, box));
     }
     for (const NumberedBox& item : items) around_ = hull(around_, item.box);
-    if (accel == Accel::embree && items.size() > few) embree_.emplace(items);
-    else boxes_ = BoxTree(builder, builder.join_by_area(std::move(parts)));
+    if (accel == Accel::embree && items.size() > few)
+        embree_.emplace(items);
+    else
+        boxes_ = BoxTree(builder, builder.join_by_area(std::move(parts)));
 }
 
 }  // namespace deburr

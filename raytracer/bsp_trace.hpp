@@ -26,7 +26,8 @@ public:
     /// Of one BSP, with its numbers.
     BspTracer(BspTree&& tree, Criterion criterion, Accel accel = Accel::bsp);
     /// Of several, of which but the first must be bounded, and of others' boxes.
-    BspTracer(std::vector<NamedBsp> bsps, const std::vector<Box>& others, Criterion criterion, Accel accel = Accel::bsp);
+    BspTracer(std::vector<NamedBsp> bsps, const std::vector<Box>& others, Criterion criterion,
+              Accel accel = Accel::bsp);
 
     /// First crossing along the ray in [0, t_max]; none is needed beyond `end`. `others` are asked by the
     /// number of their box.
@@ -35,14 +36,17 @@ public:
     /// Whether there is one.
     bool any(const Ray& ray, double t_max, TraceCounters& counters, const Others* others = nullptr) const;
     /// The same for at most RayPacket::size rays, to the bit.
-    void find(const SeveralRays& rays, FoundSurface* found, TraceCounters& counters, const Others* others = nullptr) const;
+    void find(const SeveralRays& rays, FoundSurface* found, TraceCounters& counters,
+              const Others* others = nullptr) const;
     Lanes any(const SeveralRays& rays, TraceCounters& counters, const Others* others = nullptr) const;
 
     /// Others lie at `first`, so many bytes apart, as long as rays are traced.
-    void others_lie_at(const void* first, std::size_t apart) { boxes_.items_lie_at(std::uint32_t(surfaces_.pieces.size()), first, apart); }
+    void others_lie_at(const void* first, std::size_t apart) {
+        boxes_.items_lie_at(std::uint32_t(surfaces_.pieces.size()), first, apart);
+    }
 
     const std::vector<BspTree>& trees() const { return trees_; }  // without their LocalSolids
-    const Surfaces& surfaces() const { return surfaces_; }  // what these were, one tree's after the other's
+    const Surfaces& surfaces() const { return surfaces_; }        // what these were, one tree's after the other's
 
 private:
     template <bool Any>

@@ -162,7 +162,7 @@ private:
         Split best;
         if (depth < deepest_ && here > cost_node + cost_flat) {
             best = half_spaces <= few_half_spaces || items.size() == 1 ? best_local(cell, items)
-                                                                      : best_of_boxes(cell, items);
+                                                                       : best_of_boxes(cell, items);
         }
         if (best.cost >= here && (half_spaces <= many_half_spaces || patient.splits-- == 0)) best.axis = -1;
         if (best.axis < 0) {
@@ -190,7 +190,8 @@ private:
         };
         const auto descend = [&](int upper) {
             to.child[upper] = std::make_unique<Branch>();
-            split(*to.child[upper], side(cell, best.axis, best.position, upper), std::move(inside[upper]), depth + 1, patient);
+            split(*to.child[upper], side(cell, best.axis, best.position, upper), std::move(inside[upper]), depth + 1,
+                  patient);
         };
         if (half_spaces < half_spaces_of_a_task) {
             half(0);
@@ -256,8 +257,7 @@ private:
         const double hi = std::min(cell.hi[axis], world_.hi[axis]) - smallest_;
         std::erase_if(at, [&](double x) { return !(x > lo && x < hi); });
         std::sort(at.begin(), at.end());
-        at.erase(std::unique(at.begin(), at.end(), [&](double a, double b) { return b - a < smallest_; }),
-                 at.end());
+        at.erase(std::unique(at.begin(), at.end(), [&](double a, double b) { return b - a < smallest_; }), at.end());
         return at;
     }
 

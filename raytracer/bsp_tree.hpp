@@ -29,7 +29,7 @@ struct BspTree {
     std::vector<LocalSolid> locals;
     std::vector<LocalSolid> planes;  // solids that are one half-space: not in the cells
     std::vector<Box> boxes;          // around each solid's surface, for the solids in the cells
-    std::size_t half_spaces = 0;  // of all solids
+    std::size_t half_spaces = 0;     // of all solids
     int depth = 0;
 };
 

@@ -35,9 +35,7 @@ PinholeCamera::PinholeCamera(const Camera& camera, int width, int height)
     corner_ = forward_ - 0.5 * (double(width) * dx_ + double(height) * dy_);
 }
 
-Ray PinholeCamera::ray(double x, double y) const {
-    return {eye_, glm::normalize(corner_ + x * dx_ + y * dy_)};
-}
+Ray PinholeCamera::ray(double x, double y) const { return {eye_, glm::normalize(corner_ + x * dx_ + y * dy_)}; }
 
 Vec3 PinholeCamera::project(Vec3 point) const {
     const Vec3 d = point - eye_;

@@ -30,22 +30,24 @@ struct CompareOptions : Options {
 };
 
 Film trace(const Scene& scene, const RayTracer& tracer, Size size, int spp, std::uint64_t seed,
-              const std::atomic<bool>& stop) {
+           const std::atomic<bool>& stop) {
     const Integrator integrator(scene, tracer, {size.width, size.height, spp, seed, false});
-    return render(Film(size.width, size.height, {0, 0, size.width, size.height}, compared_layers()),
-                  [&](const Window& block, Pixel* pixels, PixelLayers* layers, TraceCounters& counters) {
-                      integrator.block(block, pixels, layers, counters);
-                  }, stop)
+    return render(
+               Film(size.width, size.height, {0, 0, size.width, size.height}, compared_layers()),
+               [&](const Window& block, Pixel* pixels, PixelLayers* layers, TraceCounters& counters) {
+                   integrator.block(block, pixels, layers, counters);
+               },
+               stop)
         .film;
 }
 
 Json json_of(const DifferenceFigures& f) { return {{"mean", f.mean}, {"p99", f.p99}, {"max", f.max}}; }
 
 Json json_of(const PictureDifference& d) {
-    const double missed = d.on_object ? 100.0 * double(d.only_first + d.only_second + d.other_solid) / double(d.on_object) : 0;
-    Json j = {{"pixels", d.pixels},       {"pixels_on_object", d.on_object},
-              {"only_first", d.only_first}, {"only_second", d.only_second},
-              {"other_solid", d.other_solid}, {"missed_percent", missed}};
+    const double missed =
+        d.on_object ? 100.0 * double(d.only_first + d.only_second + d.other_solid) / double(d.on_object) : 0;
+    Json j = {{"pixels", d.pixels},           {"pixels_on_object", d.on_object}, {"only_first", d.only_first},
+              {"only_second", d.only_second}, {"other_solid", d.other_solid},    {"missed_percent", missed}};
     if (d.distance) {
         j["distance_unit"] = d.in_radii ? "radius" : "scene";
         j["distance"] = json_of(*d.distance);
@@ -83,9 +85,8 @@ int run_compare(const CompareOptions& o) {
         a = read_picture(o.scene);
         b = read_picture(o.second);
         if (a.window != b.window)
-            throw UsageError(fmt::format("compare: expected pictures of one size, got {}x{} and {}x{}",
-                                         a.window.width, a.window.height, b.window.width,
-                                         b.window.height));
+            throw UsageError(fmt::format("compare: expected pictures of one size, got {}x{} and {}x{}", a.window.width,
+                                         a.window.height, b.window.width, b.window.height));
         j["first"] = o.scene;
         j["second"] = o.second;
     } else {
@@ -116,9 +117,12 @@ int run_compare(const CompareOptions& o) {
             if (value.is_object())
                 fmt::print("{:<20}mean {:.6g}, 99 % {:.6g}, max {:.6g}\n", name, value["mean"].get<double>(),
                            value["p99"].get<double>(), value["max"].get<double>());
-            else if (value.is_number_float()) fmt::print("{:<20}{:.6g}\n", name, value.get<double>());
-            else if (value.is_string()) fmt::print("{:<20}{}\n", name, value.get<std::string>());
-            else fmt::print("{:<20}{}\n", name, value.is_null() ? "infinite" : value.dump());
+            else if (value.is_number_float())
+                fmt::print("{:<20}{:.6g}\n", name, value.get<double>());
+            else if (value.is_string())
+                fmt::print("{:<20}{}\n", name, value.get<std::string>());
+            else
+                fmt::print("{:<20}{}\n", name, value.is_null() ? "infinite" : value.dump());
         }
     return within ? 0 : 1;
 }
@@ -134,10 +138,18 @@ Command add_compare_command(CLI::App& program) {
         ->type_name("");
     add_output_option(*command, *options, known_extensions());
     add_picture_options(*command, *options);
-    command->add_option("--via", options->via, mesh_method_names() + "; default: triage, and octree for solids with free forms")->type_name("NAME");
-    command->add_option("--tolerance", options->tolerance, "of the mesh, as for mesh; default: 0.03 of each solid's least radius")->type_name("D");
+    command
+        ->add_option("--via", options->via,
+                     mesh_method_names() + "; default: triage, and octree for solids with free forms")
+        ->type_name("NAME");
+    command
+        ->add_option("--tolerance", options->tolerance,
+                     "of the mesh, as for mesh; default: 0.03 of each solid's least radius")
+        ->type_name("D");
     command->add_option("--json", options->json, "write the figures as JSON")->type_name("FILE");
-    command->add_option("--max-missed", options->most_missed, "exit code 1 if more pixels, in percent of the object's, see another solid or none")
+    command
+        ->add_option("--max-missed", options->most_missed,
+                     "exit code 1 if more pixels, in percent of the object's, see another solid or none")
         ->type_name("P");
     command->add_option("--max-distance", options->most_distance, "exit code 1 if not 99 % of the hits are nearer")
         ->type_name("D");

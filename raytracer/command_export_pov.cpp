@@ -27,7 +27,8 @@ int run_export_pov(const ExportPovOptions& o) {
             throw UsageError(fmt::format("-o: expected a name that ends in .pov, got '{}'", path));
     check_distinct(o.outputs);
     if (o.surface.sharp && (o.surface.max_gradient > 0 || o.surface.accuracy > 0 || o.surface.min_max))
-        throw UsageError("--sharp: expected neither --max-gradient, --accuracy nor --min-max, which are for isosurfaces");
+        throw UsageError(
+            "--sharp: expected neither --max-gradient, --accuracy nor --min-max, which are for isosurfaces");
 
     const Scene scene = load_scene(o);
     for (const std::string& path : o.outputs) check_writable(path);
@@ -50,11 +51,13 @@ Command add_export_pov_command(CLI::App& program) {
     add_output_option(*command, o, ".pov");
     add_size_option(*command, o);
     command->add_flag("--sharp", o.surface.sharp, "sharp edges: CSG of planes and boxes, no isosurfaces");
-    command->add_flag("--min-max", o.surface.min_max,
-                      "the profile with min and max, as a formula has it; default: by cases, in half of POV-Ray's time");
+    command->add_flag(
+        "--min-max", o.surface.min_max,
+        "the profile with min and max, as a formula has it; default: by cases, in half of POV-Ray's time");
     command
         ->add_option_function<std::string>(
-            "--max-gradient", [&o](const std::string& text) { o.surface.max_gradient = parse_positive("--max-gradient", text); },
+            "--max-gradient",
+            [&o](const std::string& text) { o.surface.max_gradient = parse_positive("--max-gradient", text); },
             "of every isosurface; default: proved for each")
         ->type_name("G");
     command

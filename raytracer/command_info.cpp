@@ -21,28 +21,20 @@ struct InfoOptions : Options {
 
 const char* name_of(Material::Kind kind) {
     switch (kind) {
-        case Material::Kind::matte:
-            return "matte";
-        case Material::Kind::plastic:
-            return "plastic";
-        case Material::Kind::metal:
-            return "metal";
-        case Material::Kind::mirror:
-            return "mirror";
-        case Material::Kind::glass:
-            return "glass";
+        case Material::Kind::matte: return "matte";
+        case Material::Kind::plastic: return "plastic";
+        case Material::Kind::metal: return "metal";
+        case Material::Kind::mirror: return "mirror";
+        case Material::Kind::glass: return "glass";
     }
     return "";
 }
 
 const char* name_of(Light::Kind kind) {
     switch (kind) {
-        case Light::Kind::point:
-            return "point";
-        case Light::Kind::directional:
-            return "directional";
-        case Light::Kind::area:
-            return "area";
+        case Light::Kind::point: return "point";
+        case Light::Kind::directional: return "directional";
+        case Light::Kind::area: return "area";
     }
     return "";
 }
@@ -103,8 +95,7 @@ Json describe(const Scene& scene, Size size) {
     j["quadrics"] = parts.quadrics;
     j["bounds"] = json_of(all);
     j["materials"] = Json::array();
-    for (const Material& material : scene.materials)
-        j["materials"].push_back(name_of(material.kind));
+    for (const Material& material : scene.materials) j["materials"].push_back(name_of(material.kind));
     j["lights"] = Json::array();
     for (const Light& light : scene.lights)
         j["lights"].push_back({{"kind", name_of(light.kind)}, {"power", light.power}});
@@ -127,9 +118,9 @@ std::string text_of_box(const Json& box) {
     std::string text;
     for (std::size_t k = 0; k < 3; ++k) {
         const Json &lo = box["lo"][k], &hi = box["hi"][k];
-        text += fmt::format("{}[{}, {}]", k ? " x " : "",
-                            lo.is_null() ? "-inf" : fmt::format("{:.6g}", lo.get<double>()),
-                            hi.is_null() ? "inf" : fmt::format("{:.6g}", hi.get<double>()));
+        text +=
+            fmt::format("{}[{}, {}]", k ? " x " : "", lo.is_null() ? "-inf" : fmt::format("{:.6g}", lo.get<double>()),
+                        hi.is_null() ? "inf" : fmt::format("{:.6g}", hi.get<double>()));
     }
     return text;
 }
@@ -140,16 +131,13 @@ std::string some(const Json& count, const char* of_what) {
 }
 
 void print(const Json& j) {
-    const auto row = [](const std::string& name, const std::string& value) {
-        fmt::print("{:<14}{}\n", name, value);
-    };
+    const auto row = [](const std::string& name, const std::string& value) { fmt::print("{:<14}{}\n", name, value); };
     row("scene", j["scene"].get<std::string>());
     row("image", fmt::format("{}x{}, {} samples per pixel", j["image"]["width"].get<int>(),
                              j["image"]["height"].get<int>(), j["image"]["spp"].get<int>()));
     const Json& camera = j["camera"];
-    row("camera",
-        fmt::format("eye {}; target {}; up {}; fov {:g}", text_of(camera["eye"]),
-                    text_of(camera["target"]), text_of(camera["up"]), camera["fov"].get<double>()));
+    row("camera", fmt::format("eye {}; target {}; up {}; fov {:g}", text_of(camera["eye"]), text_of(camera["target"]),
+                              text_of(camera["up"]), camera["fov"].get<double>()));
     for (const auto& [name, value] : j["parameters"].items())
         row("parameter", fmt::format("{} = {}", name, value.get<std::string>()));
     row("bounds", text_of_box(j["bounds"]));
@@ -167,8 +155,7 @@ void print(const Json& j) {
         row(fmt::format("  {}", i), j["materials"][i].get<std::string>());
     row("lights", fmt::format("{}", j["lights"].size()));
     for (const Json& light : j["lights"])
-        row("", fmt::format("{}, power {:g}", light["kind"].get<std::string>(),
-                            light["power"].get<double>()));
+        row("", fmt::format("{}, power {:g}", light["kind"].get<std::string>(), light["power"].get<double>()));
     if (!j.contains("illegal_densities")) return;
     const Json& illegal = j["illegal_densities"];
     row("densities", illegal.empty() ? "legal" : fmt::format("{} illegal", illegal.size()));
@@ -188,8 +175,7 @@ int run_info(const InfoOptions& o) {
 }  // namespace
 
 Command add_info_command(CLI::App& program) {
-    CLI::App* command = program.add_subcommand(
-        "info", "say what is in a scene, and whether its densities are legal");
+    CLI::App* command = program.add_subcommand("info", "say what is in a scene, and whether its densities are legal");
     const auto options = std::make_shared<InfoOptions>();
     add_scene_options(*command, *options);
     command->add_flag("--json", options->json, "as JSON");

@@ -73,8 +73,7 @@ int run(CLI::App& program, const std::vector<Command>& commands, int argc, char*
     }
     refuse_rest(program, "deburr", "unknown command");
     std::string names;
-    for (const Command& command : commands)
-        names += (names.empty() ? "" : ", ") + command.app->get_name();
+    for (const Command& command : commands) names += (names.empty() ? "" : ", ") + command.app->get_name();
     throw UsageError(fmt::format("expected a command: {} (see deburr --help)", names));
 }
 
@@ -93,8 +92,7 @@ int run_program(int argc, char** argv, const std::vector<Command (*)(CLI::App&)>
         for (const auto add : more) commands.push_back(add(program));
         for (const Command& command : commands) command.app->allow_extras();
         const int code = run(program, commands, argc, argv);
-        if (std::fflush(stdout) != 0 || std::ferror(stdout))
-            return fail(1, "cannot write to the standard output");
+        if (std::fflush(stdout) != 0 || std::ferror(stdout)) return fail(1, "cannot write to the standard output");
         return code;
     } catch (const Stopped&) {
         return fail(interrupted_exit_code, "interrupted: nothing is written");

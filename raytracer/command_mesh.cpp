@@ -36,12 +36,15 @@ MeshSettings settings(const MeshCommandOptions& o) {
     if (!o.level.empty()) s.level = int(parse_whole("--level", o.level, 1, 12));
     if (!o.hard_angle.empty()) {
         s.hard_angle = parse_positive("--hard-edges", o.hard_angle);
-        if (s.hard_angle > 180) throw UsageError(fmt::format("--hard-edges: expected degrees up to 180, got '{}'", o.hard_angle));
+        if (s.hard_angle > 180)
+            throw UsageError(fmt::format("--hard-edges: expected degrees up to 180, got '{}'", o.hard_angle));
     }
-    if (!o.edge.empty() && !o.level.empty()) throw UsageError("--edge: expected it without --level, which says the same");
+    if (!o.edge.empty() && !o.level.empty())
+        throw UsageError("--edge: expected it without --level, which says the same");
     const auto only = [&](const char* option, const std::string& given, MeshMethod method) {
         if (!given.empty() && s.method != method)
-            throw UsageError(fmt::format("{}: expected --method {}, got '{}'", option, mesh_method_name(method), o.method));
+            throw UsageError(
+                fmt::format("{}: expected --method {}, got '{}'", option, mesh_method_name(method), o.method));
     };
     if (!o.tolerance.empty() && s.method == MeshMethod::marching_cubes)
         throw UsageError("--tolerance: expected --method triage or octree, got 'marching-cubes'");
@@ -83,9 +86,12 @@ Json json_of(const MeshMetrics& m) {
 
 void print_table(const Json& j, const std::string& prefix = "") {
     for (const auto& [name, value] : j.items()) {
-        if (value.is_object()) print_table(value, prefix + name + " ");
-        else if (value.is_number_float()) fmt::print("{:<40}{:.6g}\n", prefix + name, value.get<double>());
-        else if (!value.is_array()) fmt::print("{:<40}{}\n", prefix + name, value.is_string() ? value.get<std::string>() : value.dump());
+        if (value.is_object())
+            print_table(value, prefix + name + " ");
+        else if (value.is_number_float())
+            fmt::print("{:<40}{:.6g}\n", prefix + name, value.get<double>());
+        else if (!value.is_array())
+            fmt::print("{:<40}{}\n", prefix + name, value.is_string() ? value.get<std::string>() : value.dump());
     }
 }
 
@@ -95,8 +101,8 @@ int run_mesh(const MeshCommandOptions& o) {
         throw UsageError("mesh: expected an output file, -o FILE");
     for (const std::string& path : o.outputs)
         if (!mesh_format(path))
-            throw UsageError(fmt::format("-o: expected a name that ends in one of {}, got '{}'",
-                                         known_mesh_extensions(), path));
+            throw UsageError(
+                fmt::format("-o: expected a name that ends in one of {}, got '{}'", known_mesh_extensions(), path));
     std::vector<std::string> files = o.outputs;
     if (!o.stats_json.empty()) files.push_back(o.stats_json);
     check_distinct(files);
@@ -123,8 +129,10 @@ int run_mesh(const MeshCommandOptions& o) {
     }
     clock.end();
     constexpr double worth_a_line = 1;  // second
-    if (clock.wall("polygonize") < worth_a_line) progress.stop();
-    else progress.finish();
+    if (clock.wall("polygonize") < worth_a_line)
+        progress.stop();
+    else
+        progress.finish();
     for (const std::string& warning : mesh.warnings)
         if (!o.quiet) fmt::print(stderr, "deburr: {}\n", warning);
     if (o.verbose && !o.quiet)
@@ -134,8 +142,7 @@ int run_mesh(const MeshCommandOptions& o) {
     clock.begin("write");
     MeshNotes notes{scene.names, {}};
     for (const Material& m : scene.materials) notes.colors.push_back(m.color.a);
-    for (const std::string& path : o.outputs)
-        write_whole_file(path, encode(mesh.mesh, *mesh_format(path), notes));
+    for (const std::string& path : o.outputs) write_whole_file(path, encode(mesh.mesh, *mesh_format(path), notes));
     clock.end();
 
     if (o.stats || !o.stats_json.empty()) {
@@ -148,12 +155,17 @@ int run_mesh(const MeshCommandOptions& o) {
         j["parameters"] = scene.parameters;
         j["mesh"] = json_of(metrics);
         if (mesh.triage.cells)
-            j["triage"] = {{"cells", mesh.triage.cells}, {"open_cells", mesh.triage.open_cells}, {"rounds", mesh.triage.rounds}};
+            j["triage"] = {
+                {"cells", mesh.triage.cells}, {"open_cells", mesh.triage.open_cells}, {"rounds", mesh.triage.rounds}};
         if (const OctreeStatistics& t = mesh.octree; t.cells)
-            j["octree"] = {{"level", t.level},           {"edge", t.edge},
-                           {"range_tests", t.range_tests}, {"cells", t.cells},
-                           {"open_cells", t.open_cells}, {"hard_points", t.hard_points},
-                           {"partitions", t.partitions}, {"rounds", t.rounds}};
+            j["octree"] = {{"level", t.level},
+                           {"edge", t.edge},
+                           {"range_tests", t.range_tests},
+                           {"cells", t.cells},
+                           {"open_cells", t.open_cells},
+                           {"hard_points", t.hard_points},
+                           {"partitions", t.partitions},
+                           {"rounds", t.rounds}};
         for (const PhaseTime& t : clock.times()) j["seconds"][t.name] = t.wall;
         if (o.stats) print_table(j);
         if (!o.stats_json.empty())
@@ -169,17 +181,25 @@ Command add_mesh_command(CLI::App& program) {
     const auto options = std::make_shared<MeshCommandOptions>();
     add_scene_options(*command, *options);
     add_output_option(*command, *options, known_mesh_extensions());
-    command->add_option("--method", options->method, mesh_method_names() + "; default: triage, and octree for solids with free forms")->type_name("NAME");
-    command->add_option("--tolerance", options->tolerance,
-                        "triage, octree: refine until no point of the mesh is farther from the surface")
+    command
+        ->add_option("--method", options->method,
+                     mesh_method_names() + "; default: triage, and octree for solids with free forms")
+        ->type_name("NAME");
+    command
+        ->add_option("--tolerance", options->tolerance,
+                     "triage, octree: refine until no point of the mesh is farther from the surface")
         ->type_name("D");
     command->add_option("--grid", options->grid, "marching-cubes: side of a cube; default: half the least radius")
         ->type_name("H");
-    command->add_option("--edge", options->edge, "octree: side of a cell, nearly the mean length of edges")->type_name("L");
+    command->add_option("--edge", options->edge, "octree: side of a cell, nearly the mean length of edges")
+        ->type_name("L");
     command->add_option("--level", options->level, "octree: 2^N cells along each solid's longest side")->type_name("N");
-    command->add_option("--hard-edges", options->hard_angle, "octree: degrees between faces from which their edge is kept; default: 15")
+    command
+        ->add_option("--hard-edges", options->hard_angle,
+                     "octree: degrees between faces from which their edge is kept; default: 15")
         ->type_name("A");
-    command->add_option("--faces", options->faces, "as near to this number of triangles as the method comes")->type_name("N");
+    command->add_option("--faces", options->faces, "as near to this number of triangles as the method comes")
+        ->type_name("N");
     add_run_options(*command, *options);
     add_statistics_options(*command, *options);
     return {command, [options] { return run_mesh(*options); }};

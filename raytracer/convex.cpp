@@ -24,8 +24,7 @@ Vec3 without_negative_zero(Vec3 v) { return v + Vec3(0.0); }
 // The point of `points` for which `measure` is largest.
 template <class Measure>
 Vec3 farthest(const std::vector<Vec3>& points, Measure measure) {
-    return *std::max_element(points.begin(), points.end(),
-                             [&](Vec3 a, Vec3 b) { return measure(a) < measure(b); });
+    return *std::max_element(points.begin(), points.end(), [&](Vec3 a, Vec3 b) { return measure(a) < measure(b); });
 }
 
 // Three points far from each other: the plane through them is as accurate as the points.
@@ -51,16 +50,13 @@ double size_of(const std::vector<Vec3>& points) {
 
 void check_volume(const std::vector<Vec3>& points) {
     if (points.size() < 4)
-        throw std::runtime_error(
-            fmt::format("expected at least 4 different points, got {}", points.size()));
+        throw std::runtime_error(fmt::format("expected at least 4 different points, got {}", points.size()));
     const double size = size_of(points);
     const Triangle base(points);
     const Vec3 normal = base.normal();
     const double area = glm::length(normal);
-    const Vec3 top =
-        farthest(points, [&](Vec3 p) { return std::abs(glm::dot(normal, p - base.a)); });
-    if (!(area > flatness * size * size) ||
-        !(std::abs(glm::dot(normal / area, top - base.a)) > flatness * size))
+    const Vec3 top = farthest(points, [&](Vec3 p) { return std::abs(glm::dot(normal, p - base.a)); });
+    if (!(area > flatness * size * size) || !(std::abs(glm::dot(normal / area, top - base.a)) > flatness * size))
         throw std::runtime_error("expected points that span a volume, got points in one plane");
 }
 
@@ -105,19 +101,15 @@ std::vector<HullFace> convex_hull(std::vector<Vec3> points) {
     Hull hull;
     qhT* qh = hull.qh.get();  // the name that qhull's macros use
     char command[] = "qhull";
-    if (qh_new_qhull(qh, 3, int(points.size()), coordinates.data(), False, command, nullptr,
-                     hull.log))
-        throw std::runtime_error(
-            "expected points that span a volume, got points too nearly in one plane");
+    if (qh_new_qhull(qh, 3, int(points.size()), coordinates.data(), False, command, nullptr, hull.log))
+        throw std::runtime_error("expected points that span a volume, got points too nearly in one plane");
 
     std::vector<HullFace> faces;
     const facetT* facet = nullptr;
     FORALLfacets {
         std::vector<Vec3> corners;
         vertexT *vertex = nullptr, **vertexp = nullptr;
-        FOREACHvertex_(facet->vertices) {
-            corners.push_back(points[std::size_t(qh_pointid(qh, vertex->point))]);
-        }
+        FOREACHvertex_(facet->vertices) { corners.push_back(points[std::size_t(qh_pointid(qh, vertex->point))]); }
         std::sort(corners.begin(), corners.end(), before);
         const Vec3 outward(facet->normal[0], facet->normal[1], facet->normal[2]);
         const Vec3 normal = Triangle(corners).normal();
@@ -135,22 +127,19 @@ std::vector<HullFace> convex_hull(std::vector<Vec3> points) {
         };
         // Sorted by x first: only the latest can be near.
         auto other = merged.rbegin();
-        while (other != merged.rend() && face.normal.x - other->normal.x < flatness &&
-               !same(*other))
-            ++other;
+        while (other != merged.rend() && face.normal.x - other->normal.x < flatness && !same(*other)) ++other;
         if (other == merged.rend() || !same(*other)) merged.push_back(face);
     }
     return merged;
 }
 
 std::vector<HullFace> prism(std::vector<glm::dvec2> polygon, double y0, double y1) {
-    if (!(y0 < y1))
-        throw std::runtime_error(fmt::format("expected y0 < y1, got {} and {}", y0, y1));
+    if (!(y0 < y1)) throw std::runtime_error(fmt::format("expected y0 < y1, got {} and {}", y0, y1));
     polygon.erase(std::unique(polygon.begin(), polygon.end()), polygon.end());
     while (polygon.size() > 1 && polygon.front() == polygon.back()) polygon.pop_back();
     if (polygon.size() < 3)
-        throw std::runtime_error(fmt::format(
-            "expected a polygon of at least 3 different points, got {}", polygon.size()));
+        throw std::runtime_error(
+            fmt::format("expected a polygon of at least 3 different points, got {}", polygon.size()));
 
     const auto cross = [](glm::dvec2 a, glm::dvec2 b) { return a.x * b.y - a.y * b.x; };
     const std::size_t n = polygon.size();
@@ -165,24 +154,20 @@ std::vector<HullFace> prism(std::vector<glm::dvec2> polygon, double y0, double y
     if (area < 0) std::reverse(polygon.begin(), polygon.end());
     // The start does not matter: begin at the least point, which is a corner whatever lies on
     // sides.
-    std::rotate(
-        polygon.begin(),
-        std::min_element(polygon.begin(), polygon.end(),
-                         [](auto a, auto b) { return std::tie(a.x, a.y) < std::tie(b.x, b.y); }),
-        polygon.end());
+    std::rotate(polygon.begin(),
+                std::min_element(polygon.begin(), polygon.end(),
+                                 [](auto a, auto b) { return std::tie(a.x, a.y) < std::tie(b.x, b.y); }),
+                polygon.end());
 
     std::vector<HullFace> faces{{Vec3(0, 1, 0), y1}, {Vec3(0, -1, 0), -y0 + 0.0}};
     for (std::size_t i = 0; i < n; ++i) {
         const glm::dvec2 a = polygon[i], side = polygon[(i + 1) % n] - a;
         // Convex where no point is outside of any side: this also finds stars, which turn one way.
-        const auto outside = [&](glm::dvec2 p) {
-            return cross(side, p - a) < -flatness * size * glm::length(side);
-        };
+        const auto outside = [&](glm::dvec2 p) { return cross(side, p - a) < -flatness * size * glm::length(side); };
         if (outside(polygon[(i + 2) % n])) {
             const glm::dvec2 corner = polygon[(i + 1) % n];
             throw std::runtime_error(
-                fmt::format("expected a convex polygon, got a corner to the inside at ({}, {})",
-                            corner.x, corner.y));
+                fmt::format("expected a convex polygon, got a corner to the inside at ({}, {})", corner.x, corner.y));
         }
         if (std::any_of(polygon.begin(), polygon.end(), outside))
             throw std::runtime_error("expected a convex polygon, got one whose sides cross");

@@ -28,7 +28,9 @@ template <int N>
 class Convex {
 public:
     HWY_INLINE Convex(const ConvexView& density, const Rays& rays, std::uint64_t& evaluations)
-        : soft_(N > 0 ? N : density.soft), evaluations_(evaluations), level_(number(density.complement ? 0.5 - rounding : 0.5 + rounding)) {
+        : soft_(N > 0 ? N : density.soft),
+          evaluations_(evaluations),
+          level_(number(density.complement ? 0.5 - rounding : 0.5 + rounding)) {
         in_ = number(-infinity);
         out_ = number(infinity);
         rates_ = hn::Zero(d);
@@ -39,7 +41,8 @@ public:
             clip(a_[i], b_[i], i);
             rates_ = rates_ + b_[i] * b_[i];
         }
-        for (int i = soft(); i < soft() + density.sharp; ++i) clip(rays.distance(density.planes[i]), rays.rate(density.planes[i]), i);
+        for (int i = soft(); i < soft() + density.sharp; ++i)
+            clip(rays.distance(density.planes[i]), rays.rate(density.planes[i]), i);
     }
 
     // What is found in [lo, hi]: rays' t and plane where it is, and whether they go into C.
@@ -119,7 +122,7 @@ private:
 
     HWY_INLINE void clip(V a, V b, int plane) {
         const V t = hn::Neg(a) / b, zero = hn::Zero(d);
-        const M later = both(b < zero, t > in_), sooner = both(b > zero, t < out_);
+        const M later = both(b<zero, t> in_), sooner = both(b > zero, t < out_);
         in_ = select(later, t, in_);
         plane_in_ = select(later, number(plane), plane_in_);
         out_ = select(sooner, t, out_);
@@ -147,7 +150,8 @@ private:
 
     HWY_INLINE M is_alone(V plane, V t) const {
         M alone = plane < number(soft());
-        for (int i = 0; i < soft(); ++i) alone = both(alone, either(plane == number(i), a_[i] + b_[i] * t <= number(-1)));
+        for (int i = 0; i < soft(); ++i)
+            alone = both(alone, either(plane == number(i), a_[i] + b_[i] * t <= number(-1)));
         return alone;
     }
 
@@ -164,7 +168,8 @@ private:
             const V step = p.P * (three * (one - x * x)) / (p.slope * (one + x * (four + x)));
             s = select(run, s + step, s);
             run = but(run, s > to);
-            const M close = both(run, either(step <= negligible, number(2.25) * rates_ * p.P * step * step <= negligible * p.slope));
+            const M close = both(
+                run, either(step <= negligible, number(2.25) * rates_ * p.P * step * step <= negligible * p.slope));
             found = either(found, close);
             run = but(run, close);
             if (none(run)) return found;
@@ -181,8 +186,8 @@ private:
 };
 
 template <int N, bool Any>
-Lanes crossings_of(const ConvexView& density, const RayPacket& rays, Lanes lanes, const PacketSpans& spans, double scale,
-                   PacketCrossings* found, std::uint64_t& evaluations) {
+Lanes crossings_of(const ConvexView& density, const RayPacket& rays, Lanes lanes, const PacketSpans& spans,
+                   double scale, PacketCrossings* found, std::uint64_t& evaluations) {
     Lanes crossed = 0, entering = 0;
     for (std::size_t first = 0; first < RayPacket::size; first += hn::Lanes(d)) {
         const Lanes part = part_of(lanes, first);
@@ -207,8 +212,8 @@ Lanes crossings_of(const ConvexView& density, const RayPacket& rays, Lanes lanes
 }
 
 template <bool Any>
-Lanes crossings_of(const ConvexView& density, const RayPacket& rays, Lanes lanes, const PacketSpans& spans, double scale,
-                   PacketCrossings* found, std::uint64_t& evaluations) {
+Lanes crossings_of(const ConvexView& density, const RayPacket& rays, Lanes lanes, const PacketSpans& spans,
+                   double scale, PacketCrossings* found, std::uint64_t& evaluations) {
     switch (density.soft) {
         case 1: return crossings_of<1, Any>(density, rays, lanes, spans, scale, found, evaluations);
         case 2: return crossings_of<2, Any>(density, rays, lanes, spans, scale, found, evaluations);

@@ -6,7 +6,9 @@ namespace deburr {
 namespace {
 
 EmbreeLibrary load() {
-    const auto fail = [] { throw UnsupportedError(std::string("meshes and --accel embree need " DEBURR_EMBREE_LIBRARY ": ") + dlerror()); };
+    const auto fail = [] {
+        throw UnsupportedError(std::string("meshes and --accel embree need " DEBURR_EMBREE_LIBRARY ": ") + dlerror());
+    };
     void* library = dlopen(DEBURR_EMBREE_LIBRARY, RTLD_NOW | RTLD_LOCAL);
     if (!library) fail();
     EmbreeLibrary e{};

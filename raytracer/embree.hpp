@@ -74,7 +74,8 @@ public:
     /// `what` is in it, if it does not fit.
     void commit(const std::string& what) {
         library_.commit_scene(scene_);
-        if (library_.device_error(device_.get()) != RTC_ERROR_NONE) throw WorkError("Embree cannot hold " + what + ": out of memory");
+        if (library_.device_error(device_.get()) != RTC_ERROR_NONE)
+            throw WorkError("Embree cannot hold " + what + ": out of memory");
     }
 
 #if RTC_VERSION_MAJOR >= 4

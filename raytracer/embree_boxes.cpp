@@ -30,18 +30,22 @@ struct Query : EmbreeContext {
 
     void look(std::uint32_t item, RTCRay& ray) const {
         const double until = call(visit, numbers[item]);
-        if (until < 0) ray.tfar = -std::numeric_limits<float>::infinity();
-        else if (until < infinity) ray.tfar = std::min(ray.tfar, frame->distance(until - t0));
+        if (until < 0)
+            ray.tfar = -std::numeric_limits<float>::infinity();
+        else if (until < infinity)
+            ray.tfar = std::min(ray.tfar, frame->distance(until - t0));
     }
 };
 
 // There is one ray in them, as there is in the queries.
 void on_intersect(const RTCIntersectFunctionNArguments* a) {
-    static_cast<const Query*>(static_cast<EmbreeContext*>(a->context))->look(a->primID, reinterpret_cast<RTCRayHit*>(a->rayhit)->ray);
+    static_cast<const Query*>(static_cast<EmbreeContext*>(a->context))
+        ->look(a->primID, reinterpret_cast<RTCRayHit*>(a->rayhit)->ray);
 }
 
 void on_occluded(const RTCOccludedFunctionNArguments* a) {
-    static_cast<const Query*>(static_cast<EmbreeContext*>(a->context))->look(a->primID, *reinterpret_cast<RTCRay*>(a->ray));
+    static_cast<const Query*>(static_cast<EmbreeContext*>(a->context))
+        ->look(a->primID, *reinterpret_cast<RTCRay*>(a->ray));
 }
 
 }  // namespace
@@ -63,7 +67,8 @@ struct EmbreeBoxes::Embree {
         embree().set_bounds_function(
             geometry,
             [](const RTCBoundsFunctionArguments* a) {
-                const auto& [frame, boxes] = *static_cast<const std::pair<const BoxFrame*, const NumberedBox*>*>(a->geometryUserPtr);
+                const auto& [frame, boxes] =
+                    *static_cast<const std::pair<const BoxFrame*, const NumberedBox*>*>(a->geometryUserPtr);
                 const Box& box = boxes[a->primID].box;
                 const Vec3 lo = frame->place(box.lo) - slack, hi = frame->place(box.hi) + slack;
                 *a->bounds_o = {float(lo.x), float(lo.y), float(lo.z), 0, float(hi.x), float(hi.y), float(hi.z), 0};
@@ -82,7 +87,8 @@ EmbreeBoxes::EmbreeBoxes(EmbreeBoxes&&) noexcept = default;
 EmbreeBoxes& EmbreeBoxes::operator=(EmbreeBoxes&&) noexcept = default;
 EmbreeBoxes::~EmbreeBoxes() = default;
 
-void EmbreeBoxes::run(const Vec3& origin, const Vec3& direction, double t0, double t1, Order order, Call call, void* visit) const {
+void EmbreeBoxes::run(const Vec3& origin, const Vec3& direction, double t0, double t1, Order order, Call call,
+                      void* visit) const {
     const Embree& e = *embree_;
     Query query;
     query.numbers = e.numbers.data();

@@ -28,13 +28,16 @@ public:
     /// ends it.
     template <class Visit>
     void visit(const Vec3& origin, const Vec3& direction, double t0, double t1, Order order, Visit visit) const {
-        run(origin, direction, t0, t1, order, [](void* v, std::uint32_t i) { return (*static_cast<Visit*>(v))(i); }, &visit);
+        run(
+            origin, direction, t0, t1, order, [](void* v, std::uint32_t i) { return (*static_cast<Visit*>(v))(i); },
+            &visit);
     }
 
 private:
     struct Embree;
     using Call = double (*)(void* visit, std::uint32_t number);
-    void run(const Vec3& origin, const Vec3& direction, double t0, double t1, Order order, Call call, void* visit) const;
+    void run(const Vec3& origin, const Vec3& direction, double t0, double t1, Order order, Call call,
+             void* visit) const;
 
     std::unique_ptr<Embree> embree_;
 };

@@ -46,7 +46,8 @@ void Film::set_layers(const Window& block, const PixelLayers* layers) {
 
 double Film::bytes_per_pixel(const std::vector<ImageLayer>& layers) {
     double bytes = sizeof(Pixel);
-    for (const ImageLayer layer : std::set<ImageLayer>(layers.begin(), layers.end())) bytes += double(components(layer)) * sizeof(double);
+    for (const ImageLayer layer : std::set<ImageLayer>(layers.begin(), layers.end()))
+        bytes += double(components(layer)) * sizeof(double);
     return bytes;
 }
 

@@ -30,10 +30,10 @@ struct Pixel {
 /// Of one ray through the pixel's centre, so that two renderers can be compared ray by ray; albedo
 /// and cost, of all samples.
 struct PixelLayers {
-    Vec3 position{0.0};  // world, of the first hit
-    Vec3 normal{0.0};    // unit, out of the solid
-    double z = infinity; // distance along the camera's axis
-    Vec3 albedo{0.0};    // averaged
+    Vec3 position{0.0};    // world, of the first hit
+    Vec3 normal{0.0};      // unit, out of the solid
+    double z = infinity;   // distance along the camera's axis
+    Vec3 albedo{0.0};      // averaged
     std::uint32_t id = 0;  // 1 + index of the solid; 0: nothing was hit
     double cost = 0.0;     // density evaluations
 };
@@ -41,7 +41,8 @@ struct PixelLayers {
 /// One layer of a film; i counts the window's pixels, row by row.
 class LayerPlane {
 public:
-    LayerPlane(ImageLayer layer, std::size_t pixels) : components_(std::size_t(components(layer))), values_(pixels * components_) {}
+    LayerPlane(ImageLayer layer, std::size_t pixels)
+        : components_(std::size_t(components(layer))), values_(pixels * components_) {}
 
     double at(std::size_t i, int component = 0) const { return values_[i * components_ + std::size_t(component)]; }
     /// Of a layer with three components.
@@ -54,9 +55,9 @@ private:
 };
 
 struct Film {
-    int width = 0, height = 0;  // the whole picture (display window)
-    Window window;              // the part that is held (data window)
-    bool complete = true;       // false: interrupted, some pixels are still empty
+    int width = 0, height = 0;                     // the whole picture (display window)
+    Window window;                                 // the part that is held (data window)
+    bool complete = true;                          // false: interrupted, some pixels are still empty
     std::vector<Pixel, LargePages<Pixel>> pixels;  // window.width * window.height, row by row
 
     Film() = default;

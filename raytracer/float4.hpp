@@ -52,14 +52,24 @@ struct Float4 {
     float v[4];
     Float4() = default;
     explicit Float4(float x) : v{x, x, x, x} {}
-    static Float4 load(const float* p) { return each([&](int k) { return p[k]; }); }
+    static Float4 load(const float* p) {
+        return each([&](int k) { return p[k]; });
+    }
     void store(float* p) const {
         for (int k = 0; k < 4; ++k) p[k] = v[k];
     }
-    friend Float4 operator-(Float4 a, Float4 b) { return each([&](int k) { return a.v[k] - b.v[k]; }); }
-    friend Float4 operator*(Float4 a, Float4 b) { return each([&](int k) { return a.v[k] * b.v[k]; }); }
-    friend Float4 min(Float4 a, Float4 b) { return each([&](int k) { return a.v[k] < b.v[k] ? a.v[k] : b.v[k]; }); }
-    friend Float4 max(Float4 a, Float4 b) { return each([&](int k) { return a.v[k] > b.v[k] ? a.v[k] : b.v[k]; }); }
+    friend Float4 operator-(Float4 a, Float4 b) {
+        return each([&](int k) { return a.v[k] - b.v[k]; });
+    }
+    friend Float4 operator*(Float4 a, Float4 b) {
+        return each([&](int k) { return a.v[k] * b.v[k]; });
+    }
+    friend Float4 min(Float4 a, Float4 b) {
+        return each([&](int k) { return a.v[k] < b.v[k] ? a.v[k] : b.v[k]; });
+    }
+    friend Float4 max(Float4 a, Float4 b) {
+        return each([&](int k) { return a.v[k] > b.v[k] ? a.v[k] : b.v[k]; });
+    }
     friend unsigned not_above(Float4 a, Float4 b) {
         unsigned bits = 0;
         for (int k = 0; k < 4; ++k) bits |= unsigned(a.v[k] <= b.v[k]) << k;

@@ -69,7 +69,9 @@ std::vector<ImageChannel> channels(const Film& film, ImageKind kind, const Image
     const Pixel* pixels = film.pixels.data();
     const auto add_color = [&](ChannelType type, auto value_of) {
         for (int k = 0; k < 3; ++k)
-            list.push_back(image_channel(std::string(1, "RGB"[k]), type, [pixels, k, value_of](std::size_t i) { return value_of(glm::value_ptr(pixels[i].color)[k]); }));
+            list.push_back(image_channel(std::string(1, "RGB"[k]), type, [pixels, k, value_of](std::size_t i) {
+                return value_of(glm::value_ptr(pixels[i].color)[k]);
+            }));
     };
     const auto as_it_is = [](double value) { return value; };
     if (kind == ImageKind::display) {
@@ -86,7 +88,8 @@ std::vector<ImageChannel> channels(const Film& film, ImageKind kind, const Image
     for (const auto& [layer, names, type] : layer_channels) {
         if (!film.keeps(layer)) continue;
         for (int k = 0; k < components(layer); ++k)
-            list.push_back(image_channel(names[std::size_t(k)], type, [&plane = film.layer(layer), k](std::size_t i) { return plane.at(i, k); }));
+            list.push_back(image_channel(names[std::size_t(k)], type,
+                                         [&plane = film.layer(layer), k](std::size_t i) { return plane.at(i, k); }));
     }
     return list;
 }
@@ -105,8 +108,10 @@ std::vector<ImageAttribute> attributes(const Film& film, const ImageNotes& notes
     }
     for (const auto& [name, value] : notes.attributes) all.push_back({"deburr." + name, value});
     if (!film.complete) {
-        if (exr) all.push_back({"deburr.incomplete", 1});
-        else all.push_back({"deburr.incomplete", "1"});  // other formats keep text only
+        if (exr)
+            all.push_back({"deburr.incomplete", 1});
+        else
+            all.push_back({"deburr.incomplete", "1"});  // other formats keep text only
     }
     return all;
 }
@@ -136,7 +141,8 @@ void write_image(const std::string& path, const Film& film, const ImageFormat& f
     const auto kind = image_kind(path);
     if (!kind) throw WorkError(fmt::format("cannot write '{}': unknown image format", path));
     const bool exr = *kind == ImageKind::exr;
-    write_raster(path, {film.width, film.height, film.window, channels(film, *kind, format), attributes(film, notes, exr)},
+    write_raster(path,
+                 {film.width, film.height, film.window, channels(film, *kind, format), attributes(film, notes, exr)},
                  format.threads, done);
 }
 

@@ -36,10 +36,10 @@ struct ImageFormat {
     int threads = 1;           // EXR: that compress
 };
 
-/// Writes the whole file or nothing; throws WorkError. An EXR gets all layers that the film keeps. The format follows from the name, which
-/// image_kind() must know. `done` is told the share of it, from 0 to 1, as it proceeds.
-void write_image(const std::string& path, const Film& film, const ImageFormat& format,
-                 const ImageNotes& notes, const ShareDone& done = {});
+/// Writes the whole file or nothing; throws WorkError. An EXR gets all layers that the film keeps. The format follows
+/// from the name, which image_kind() must know. `done` is told the share of it, from 0 to 1, as it proceeds.
+void write_image(const std::string& path, const Film& film, const ImageFormat& format, const ImageNotes& notes,
+                 const ShareDone& done = {});
 /// The same for any raster of the kind that the format holds.
 void write_raster(const std::string& path, const ImageRaster& image, int threads = 1, const ShareDone& done = {});
 

@@ -33,8 +33,10 @@ std::optional<ImageKind> image_kind(const std::string& path) {
     const std::string extension = image_extension(path);
     for (const Extension& known : extensions) {
         if (known.name != extension) continue;
-        if (extension == ".exr") exr_encoder();  // or the lack of it is known when the work is done
-        else if (extension != ".png" && !image_module().writes(extension)) return std::nullopt;
+        if (extension == ".exr")
+            exr_encoder();  // or the lack of it is known when the work is done
+        else if (extension != ".png" && !image_module().writes(extension))
+            return std::nullopt;
         return known.kind;
     }
     return std::nullopt;

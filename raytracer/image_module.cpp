@@ -11,7 +11,8 @@ const ImageModule& image_module() {
 }
 
 ExrEncoder* exr_encoder() {
-    static ExrEncoder* const encoder = module_function<ExrModuleEntry>(DEBURR_EXR_MODULE, exr_module_entry, "EXR pictures")();
+    static ExrEncoder* const encoder =
+        module_function<ExrModuleEntry>(DEBURR_EXR_MODULE, exr_module_entry, "EXR pictures")();
     return encoder;
 }
 

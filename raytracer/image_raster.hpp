@@ -21,7 +21,7 @@ enum class ChannelType {
     byte,        // 8 bit; the value is 0 … 255
     half_float,  // of what is brighter, the largest finite one
     single_float,
-    whole,       // 32 bit, unsigned
+    whole,  // 32 bit, unsigned
 };
 
 constexpr std::size_t size_of(ChannelType type) {
@@ -52,7 +52,8 @@ ImageChannel image_channel(std::string name, ChannelType type, Value value) {
         };
     };
     switch (type) {
-        case ChannelType::byte: return {std::move(name), type, write_as([](auto v) { return static_cast<unsigned char>(v); })};
+        case ChannelType::byte:
+            return {std::move(name), type, write_as([](auto v) { return static_cast<unsigned char>(v); })};
         case ChannelType::half_float: return {std::move(name), type, write_as([](auto v) { return half_bits(v); })};
         case ChannelType::single_float: return {std::move(name), type, write_as([](auto v) { return float(v); })};
         case ChannelType::whole: return {std::move(name), type, write_as([](auto v) { return std::uint32_t(v); })};
@@ -63,8 +64,8 @@ ImageChannel image_channel(std::string name, ChannelType type, Value value) {
 using ImageAttribute = std::pair<std::string, std::variant<int, float, std::string, Matrix44>>;
 
 struct ImageRaster {
-    int width = 0, height = 0;  // the whole picture
-    Window window;              // the part that is there
+    int width = 0, height = 0;           // the whole picture
+    Window window;                       // the part that is there
     std::vector<ImageChannel> channels;  // of one type each, for PNG and what is for the screen
     std::vector<ImageAttribute> attributes;
 };

@@ -13,9 +13,11 @@ class Placed final : public Others {
 public:
     Placed(const std::vector<Space>& all, const Space& space) : all_(all), space_(space) {}
 
-    FoundSurface find(std::uint32_t number, const Ray& ray, double t_max, double end, TraceCounters& counters) const override;
+    FoundSurface find(std::uint32_t number, const Ray& ray, double t_max, double end,
+                      TraceCounters& counters) const override;
     bool any(std::uint32_t number, const Ray& ray, double t_max, TraceCounters& counters) const override;
-    void find_together(std::uint32_t number, const SeveralRays& rays, FoundSurface* found, TraceCounters& counters) const override;
+    void find_together(std::uint32_t number, const SeveralRays& rays, FoundSurface* found,
+                       TraceCounters& counters) const override;
     Lanes any_together(std::uint32_t number, const SeveralRays& rays, TraceCounters& counters) const override;
 
 private:
@@ -28,7 +30,9 @@ private:
 // A placement that rays enter.
 struct Placed::Entered {
     Entered(const Placed& around, std::uint32_t number, std::size_t rays, TraceCounters& counters)
-        : p(around.space_.placements[number]), bsp(around.all_[std::size_t(p.space)].bsp), others(around.all_, around.all_[std::size_t(p.space)]) {
+        : p(around.space_.placements[number]),
+          bsp(around.all_[std::size_t(p.space)].bsp),
+          others(around.all_, around.all_[std::size_t(p.space)]) {
         counters.placements += rays;
     }
 
@@ -77,14 +81,16 @@ struct InsideTogether {
 FoundSurface outside(FoundSurface found, const Placement& p, const Ray& ray, double rate) {
     if (!(found.crossing.t < infinity)) return {};
     found.crossing.t /= rate;
-    if (!p.only_moved) found.crossing.normal = glm::normalize(found.crossing.normal * p.into.linear);  // by the transpose
+    if (!p.only_moved)
+        found.crossing.normal = glm::normalize(found.crossing.normal * p.into.linear);  // by the transpose
     if (found.crossing.material < 0) found.crossing.material = p.material;
     found.solid = p.solid;
     found.error = found.error * p.stretch + 4 * epsilon * (largest(ray.origin) + found.crossing.t);
     return found;
 }
 
-FoundSurface Placed::find(std::uint32_t number, const Ray& ray, double t_max, double end, TraceCounters& counters) const {
+FoundSurface Placed::find(std::uint32_t number, const Ray& ray, double t_max, double end,
+                          TraceCounters& counters) const {
     const Entered e(*this, number, 1, counters);
     const Inside in(e.p, ray);
     return outside(e.bsp.find(in.ray, t_max * in.rate, counters, &e.others, in.end(end)), e.p, ray, in.rate);
@@ -96,7 +102,8 @@ bool Placed::any(std::uint32_t number, const Ray& ray, double t_max, TraceCounte
     return e.bsp.any(in.ray, t_max * in.rate, counters, &e.others);
 }
 
-void Placed::find_together(std::uint32_t number, const SeveralRays& rays, FoundSurface* found, TraceCounters& counters) const {
+void Placed::find_together(std::uint32_t number, const SeveralRays& rays, FoundSurface* found,
+                           TraceCounters& counters) const {
     const Entered e(*this, number, rays.size(), counters);
     const InsideTogether in(e.p, rays);
     e.bsp.find(in.several(), found, counters, &e.others);
@@ -160,7 +167,8 @@ void ImplicitTracer::first_hits(std::span<const Ray> rays, Hit* hits, TraceCount
     }
 }
 
-void ImplicitTracer::occlusions(std::span<const Ray> rays, std::span<const double> t_max, bool* occluded, TraceCounters& counters) const {
+void ImplicitTracer::occlusions(std::span<const Ray> rays, std::span<const double> t_max, bool* occluded,
+                                TraceCounters& counters) const {
     counters.shadow_rays += rays.size();
     const Placed placed(spaces_->all, spaces_->all[0]);
     for (std::size_t first = 0; first < rays.size(); first += RayPacket::size) {

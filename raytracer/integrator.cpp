@@ -29,9 +29,7 @@ constexpr double caustic_alpha = 0.5;
 // with the other no sharper than this many times the one's α hardly looks different.
 constexpr double blur_in_blur = 2.0;
 
-Vec3 towards_ray(Vec3 normal, Vec3 direction) {
-    return glm::dot(normal, direction) > 0 ? -normal : normal;
-}
+Vec3 towards_ray(Vec3 normal, Vec3 direction) { return glm::dot(normal, direction) > 0 ? -normal : normal; }
 
 double layer_share(double layer, double base) {
     if (layer <= 0) return 0.0;
@@ -51,20 +49,18 @@ Integrator::Integrator(const Scene& scene, const RayTracer& tracer, RenderSettin
     for (const Material& m : scene.materials) {
         std::size_t first = 0;  // with this layer
         while (first < layers_.size() && !SurfaceLayer::same(scene.materials[first], m)) ++first;
-        if (first < layers_.size()) layers_.push_back(layers_[first]);
-        else layers_.emplace_back(m);
+        if (first < layers_.size())
+            layers_.push_back(layers_[first]);
+        else
+            layers_.emplace_back(m);
         glass_ = glass_ || m.kind == Material::Kind::glass;
     }
     for (const Light& light : scene.lights) lights_.emplace_back(light);
 }
 
-const Material& Integrator::material(const Hit& hit) const {
-    return scene_.materials[std::size_t(hit.material)];
-}
+const Material& Integrator::material(const Hit& hit) const { return scene_.materials[std::size_t(hit.material)]; }
 
-Vec3 Integrator::texture_color(const Hit& hit) const {
-    return color_at(material(hit).color, hit.position, hit.normal);
-}
+Vec3 Integrator::texture_color(const Hit& hit) const { return color_at(material(hit).color, hit.position, hit.normal); }
 
 Vec3 Integrator::color_along(const Ray& ray, const Path& path) const {
     const Hit hit = tracer_.first_hit(ray, infinity, path.counters);
@@ -90,7 +86,8 @@ Vec3 Integrator::scattered(const Surface& surface, const Incident& light, int sa
     const Bsdf::Value value = bsdf.value(light.direction);
     Vec3 sum = value.base;
     if (surface.layer_share > 0 && light.density < infinity)
-        sum += value.layer / (1 + surface.layer_share * bsdf.layer_density(light.direction) / (samples * light.density));
+        sum +=
+            value.layer / (1 + surface.layer_share * bsdf.layer_density(light.direction) / (samples * light.density));
     else
         sum += value.layer;
     return sum * light.irradiance;
@@ -113,15 +110,14 @@ Vec3 Integrator::lit(const Surface& surface, const Path& path) const {
     return sum;
 }
 
-Incident Integrator::incident(const LightSource& source, const Hit& hit, const Sampler& sampler, std::uint32_t dimension, int k,
-                              int samples) {
+Incident Integrator::incident(const LightSource& source, const Hit& hit, const Sampler& sampler,
+                              std::uint32_t dimension, int k, int samples) {
     return source.at(hit.position, source.extended() ? sampler.square(dimension, k, samples) : Vec2(0.5));
 }
 
 Vec3 Integrator::transmittance(const Hit& hit, const Incident& light, const Path& path) const {
     Ray ray = leave(hit, light.direction);
-    if (!glass_)
-        return tracer_.occluded(ray, light.distance, path.counters) ? Vec3(0.0) : Vec3(1.0);
+    if (!glass_) return tracer_.occluded(ray, light.distance, path.counters) ? Vec3(0.0) : Vec3(1.0);
     Vec3 share(1.0);
     double left = light.distance;
     for (int i = 0; i < glass_in_shadow; ++i) {
@@ -138,7 +134,8 @@ Vec3 Integrator::transmittance(const Hit& hit, const Incident& light, const Path
 
 Integrator::Surface::Surface(const Integrator& in, const Hit& hit, Vec3 color_here, Vec3 direction, const Path& path)
     : hit(hit),
-      bsdf(in.layers_[std::size_t(hit.material)], color_here, towards_ray(hit.normal, direction), -direction, path.blur),
+      bsdf(in.layers_[std::size_t(hit.material)], color_here, towards_ray(hit.normal, direction), -direction,
+           path.blur),
       last(path.without_noise || path.scattered || path.depth >= in.scene_.bounces) {
     if (last) return;
     base = in.sky_.black() ? 0.0 : brightest(bsdf.base_albedo());
@@ -163,8 +160,7 @@ Vec3 Integrator::color_of(const Surface& s, Vec3 lit, const Path& path) const {
     const double chosen = s.both ? 0.0 : path.sampler.line(path.dimension(choice));
     Vec3 color = ambient + lit;
     Vec3 way, weight;
-    if (chosen < share &&
-        bsdf.sample_layer(path.sampler.square(path.dimension(layer_turn)), way, weight)) {
+    if (chosen < share && bsdf.sample_layer(path.sampler.square(path.dimension(layer_turn)), way, weight)) {
         const SurfaceLayer& layer = bsdf.layer();
         Path next = path.reflected(share * bsdf.layer_density(way));
         if (!layer.smooth()) next.blur = std::min(caustic_alpha, std::max(path.blur, blur_in_blur * layer.ggx().alpha));
@@ -187,8 +183,7 @@ Vec3 Integrator::reflected_without_noise(const Bsdf& bsdf, const Hit& hit, const
     const SurfaceLayer& layer = bsdf.layer();
     if (layer.kind() == Material::Kind::matte) return base;
     const double alpha = layer.smooth() ? 0.0 : std::min(1.0, layer.ggx().alpha);
-    const bool polished =
-        layer.smooth() || (layer.kind() == Material::Kind::metal && alpha <= polished_alpha);
+    const bool polished = layer.smooth() || (layer.kind() == Material::Kind::metal && alpha <= polished_alpha);
     const Vec3 way = reflected(bsdf.to_eye(), bsdf.normal());
     const Vec3 albedo = bsdf.layer_albedo();
     if (!polished || path.depth >= scene_.bounces)
@@ -218,8 +213,7 @@ Vec3 Integrator::color_of_glass(const Hit& hit, Vec3 tint, Vec3 direction, const
     const bool passes = refracted(to_eye, facet, ior, through);
     const double share = passes ? fresnel_dielectric(glm::dot(to_eye, facet), ior) : 1.0;
     if (path.depth >= scene_.bounces)
-        return share * sky_.towards(back) +
-               (passes ? (1 - share) * tint * sky_.towards(through) : Vec3(0.0));
+        return share * sky_.towards(back) + (passes ? (1 - share) * tint * sky_.towards(through) : Vec3(0.0));
 
     // `side` is 1 for a reflection, -1 for light that passes.
     auto along = [&](Vec3 way, double side, const Path& next) {

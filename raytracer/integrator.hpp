@@ -43,7 +43,7 @@ struct RenderSettings {
     int width = 0, height = 0;  // of the whole picture
     int spp = 1;                // 1: one ray through the pixel's centre
     std::uint64_t seed = 0;
-    bool cost = true;           // PixelLayers::cost is asked for: then no two pixels' rays are traced together
+    bool cost = true;  // PixelLayers::cost is asked for: then no two pixels' rays are traced together
 };
 
 /// Ray through a point of the picture, in pixels: (x + ½, y + ½) is the centre of pixel (x, y).
@@ -81,7 +81,8 @@ private:
     Vec3 color_of_glass(const Hit& hit, Vec3 tint, Vec3 direction, const Path& path) const;
     Vec3 color_of(const Surface& surface, Vec3 lit, const Path& path) const;
     Vec3 lit(const Surface& surface, const Path& path) const;
-    static Incident incident(const LightSource& source, const Hit& hit, const Sampler& sampler, std::uint32_t dimension, int k, int samples);
+    static Incident incident(const LightSource& source, const Hit& hit, const Sampler& sampler, std::uint32_t dimension,
+                             int k, int samples);
     Vec3 scattered(const Surface& surface, const Incident& light, int samples) const;
     Vec3 reflected_without_noise(const Bsdf& bsdf, const Hit& hit, const Path& path) const;
     Vec3 transmittance(const Hit& hit, const Incident& light, const Path& path) const;

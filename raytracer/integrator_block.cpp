@@ -41,7 +41,8 @@ public:
         std::unique_ptr<bool[]> hidden{new bool[most_rays]};
     };
 
-    CameraRays(const Integrator& integrator, Pixel* pixels, PixelLayers* layers, TraceCounters& counters, Memory& memory)
+    CameraRays(const Integrator& integrator, Pixel* pixels, PixelLayers* layers, TraceCounters& counters,
+               Memory& memory)
         : in_(integrator), pixels_(pixels), layers_(layers), counters_(counters), m_(memory) {
         clear();
     }
@@ -110,7 +111,8 @@ private:
     // What lit() says of each surface, light by light.
     void light() {
         if (in_.glass_) {  // shadow rays go on through it
-            for (std::size_t j = 0; j < m_.surfaces.size(); ++j) m_.lit[j] = in_.lit(m_.surfaces[j], path(m_.seen_by[j]));
+            for (std::size_t j = 0; j < m_.surfaces.size(); ++j)
+                m_.lit[j] = in_.lit(m_.surfaces[j], path(m_.seen_by[j]));
             return;
         }
         std::uint32_t number = first_light;
@@ -118,7 +120,8 @@ private:
             std::fill_n(m_.here.begin(), m_.surfaces.size(), Vec3(0.0));
             for (int k = 0; k < source.samples(); ++k) light(source, number, k);
             const double share = double(source.samples());
-            for (std::size_t j = 0; j < m_.surfaces.size(); ++j) m_.lit[j] += share == 1 ? m_.here[j] : m_.here[j] / share;
+            for (std::size_t j = 0; j < m_.surfaces.size(); ++j)
+                m_.lit[j] += share == 1 ? m_.here[j] : m_.here[j] / share;
             ++number;
         }
     }
@@ -129,7 +132,8 @@ private:
         m_.unhidden.clear();
         for (std::uint32_t j = 0; j < m_.surfaces.size(); ++j) {
             const Surface& surface = m_.surfaces[j];
-            const Incident light = incident(source, surface.hit, m_.uses[m_.seen_by[j]].sampler, number, k, source.samples());
+            const Incident light =
+                incident(source, surface.hit, m_.uses[m_.seen_by[j]].sampler, number, k, source.samples());
             const Vec3 scattered = in_.scattered(surface, light, source.samples());
             if (!(brightest(scattered) > 0)) continue;
             m_.shadows.push_back(leave(surface.hit, light.direction));
@@ -161,7 +165,8 @@ void Integrator::block(const Window& block, Pixel* pixels, PixelLayers* layers, 
         const auto i = std::uint32_t(y * block.width + x);
         x += block.x;
         y += block.y;
-        if (spp == 1 || layers) rays.add(camera_.ray(x + 0.5, y + 0.5), {Sampler(settings_.seed, x, y, 0), i, true, spp == 1});
+        if (spp == 1 || layers)
+            rays.add(camera_.ray(x + 0.5, y + 0.5), {Sampler(settings_.seed, x, y, 0), i, true, spp == 1});
         for (int s = 0; spp > 1 && s < spp; ++s) {
             const Sampler sampler(settings_.seed, x, y, s);
             const Vec2 offset = filter_offset(sampler.square(lens));

@@ -15,8 +15,7 @@ std::atomic<bool> stop{false};
 std::atomic<bool> announced{false};
 static_assert(std::atomic<bool>::is_always_lock_free);  // or a handler might deadlock
 
-constexpr std::string_view message =
-    "\ndeburr: stopping after the work in hand; once more stops at once\n";
+constexpr std::string_view message = "\ndeburr: stopping after the work in hand; once more stops at once\n";
 
 // Only what is safe in a signal handler.
 void handle(int) {

@@ -29,8 +29,10 @@ struct LargePages {
         return static_cast<T*>(memory);
     }
     void deallocate(T* memory, std::size_t count) {
-        if (large(count)) std::free(memory);
-        else std::allocator<T>().deallocate(memory, count);
+        if (large(count))
+            std::free(memory);
+        else
+            std::allocator<T>().deallocate(memory, count);
     }
     bool operator==(const LargePages&) const = default;
 

@@ -38,7 +38,8 @@ private:
             if (node.kind == Kind::disjunction || node.kind == Kind::conjunction || node.kind == Kind::complement)
                 continue;  // all below is read as a Boolean function
             for (const Density& child : node.children)
-                if (!without_sum_.count(&child.node()) && met.insert(&child.node()).second) all.push_back(&child.node());
+                if (!without_sum_.count(&child.node()) && met.insert(&child.node()).second)
+                    all.push_back(&child.node());
         }
         without_sum_.merge(met);
         return false;
@@ -74,10 +75,10 @@ std::vector<std::string> illegal_densities(const Scene& scene, int boxes) {
             const char* why = d.op == Op::sum ? "its parts overlap: use |"
                               : above         ? "what it subtracts from is illegal"
                                               : "what it subtracts sticks out: clip it, or use & ~";
-            lines.push_back(fmt::format("{}: {}: expected a density of at {}, got {:.4g} at ({:.4g}, {:.4g}, {:.4g}); {}",
-                                        where, d.op == Op::sum ? "sum" : "difference",
-                                        above ? "most 1" : "least 0", d.value, d.point.x, d.point.y,
-                                        d.point.z, why));
+            lines.push_back(
+                fmt::format("{}: {}: expected a density of at {}, got {:.4g} at ({:.4g}, {:.4g}, {:.4g}); {}", where,
+                            d.op == Op::sum ? "sum" : "difference", above ? "most 1" : "least 0", d.value, d.point.x,
+                            d.point.y, d.point.z, why));
         }
     return lines;
 }

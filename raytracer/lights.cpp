@@ -14,9 +14,7 @@ LightSource::LightSource(const Light& light)
       v_(light.v),
       emitted_(light.color * light.power) {
     switch (kind_) {
-        case Light::Kind::point:
-            emitted_ /= 4 * pi;
-            break;
+        case Light::Kind::point: emitted_ /= 4 * pi; break;
         case Light::Kind::directional: {
             const double length = glm::length(light.direction);
             if (length > 0) direction_ = light.direction / length;
@@ -101,11 +99,9 @@ double mean_zenith_share(double c) {
 
 SkyLight::SkyLight(const Background& background) : background_(background) {
     const Vec3 none(0.0);
-    black_ = background.sky ? background.horizon == none && background.zenith == none
-                            : background.color == none;
+    black_ = background.sky ? background.horizon == none && background.zenith == none : background.color == none;
     if (!background.sky) return;
-    for (int i = 0; i <= steps; ++i)
-        zenith_share_[std::size_t(i)] = mean_zenith_share(2.0 * i / steps - 1);
+    for (int i = 0; i <= steps; ++i) zenith_share_[std::size_t(i)] = mean_zenith_share(2.0 * i / steps - 1);
 }
 
 Vec3 SkyLight::mean(Vec3 normal) const {

@@ -32,8 +32,7 @@ FlatDensity flat_density(const LocalDensity& density) {
 
 }  // namespace
 
-LocalSolid::LocalSolid(int solid, const SolidTree& tree, const Box& box, const Tolerances& tolerances,
-                       Search search)
+LocalSolid::LocalSolid(int solid, const SolidTree& tree, const Box& box, const Tolerances& tolerances, Search search)
     : solid_(solid), scale_(tolerances.scale) {
     std::vector<int> place(tree.nodes.size(), -1);
     for (std::size_t i = 0; i < tree.nodes.size(); ++i) {
@@ -41,8 +40,10 @@ LocalSolid::LocalSolid(int solid, const SolidTree& tree, const Box& box, const T
         if (n.op == SolidOp::leaf) {
             std::optional<bool> constant;
             add_leaf(tree.leaves[std::size_t(n.a)], box, tolerances, search, constant);
-            if (constant) n = {*constant ? SolidOp::everything : SolidOp::nothing};
-            else n.a = int(leaves_.size()) - 1;
+            if (constant)
+                n = {*constant ? SolidOp::everything : SolidOp::nothing};
+            else
+                n.a = int(leaves_.size()) - 1;
         }
         nodes_.push_back(n);  // children keep their numbers
     }
@@ -52,8 +53,10 @@ LocalSolid::LocalSolid(int solid, const SolidTree& tree, const Box& box, const T
         // One leaf under operators with constants is that leaf, or its complement, or nothing.
         std::vector<char> state;
         const bool without = evaluate(state, {false}), with = evaluate(state, {true});
-        if (without == with) has_surface_ = false;
-        else if (with) nodes_ = {{SolidOp::leaf, 0}};
+        if (without == with)
+            has_surface_ = false;
+        else if (with)
+            nodes_ = {{SolidOp::leaf, 0}};
         else if (leaves_[0].soft < 0) {  // the plane's other side
             leaves_[0].normal = -leaves_[0].normal;
             leaves_[0].offset = -leaves_[0].offset;
@@ -62,8 +65,8 @@ LocalSolid::LocalSolid(int solid, const SolidTree& tree, const Box& box, const T
     }
 }
 
-void LocalSolid::add_leaf(const SolidLeaf& leaf, const Box& box, const Tolerances& tolerances,
-                          Search search, std::optional<bool>& constant) {
+void LocalSolid::add_leaf(const SolidLeaf& leaf, const Box& box, const Tolerances& tolerances, Search search,
+                          std::optional<bool>& constant) {
     if (leaf.field) {  // pruned to where it straddles
         leaves_.push_back({Vec3(0.0), 0, int(softs_.size()), leaf.material});
         const Box seen = intersection(box, inflated(leaf.field->bounding_box(), tolerances.margin()));
@@ -111,8 +114,13 @@ void LocalSolid::add_leaf(const SolidLeaf& leaf, const Box& box, const Tolerance
         const double clear = tolerances.clear();
         const auto is_sharp = [](const HalfSpace& h) { return h.radius == 0; };
         const bool all_sharp = std::all_of(density.half_spaces().begin(), density.half_spaces().end(), is_sharp);
-        softs_.push_back({std::move(density), {}, {}, outer_bound(leaf.density, 0.5, clear),
-                          inner_bound(leaf.density, 0.5, clear), bounds_hold(leaf.density, box), all_sharp});
+        softs_.push_back({std::move(density),
+                          {},
+                          {},
+                          outer_bound(leaf.density, 0.5, clear),
+                          inner_bound(leaf.density, 0.5, clear),
+                          bounds_hold(leaf.density, box),
+                          all_sharp});
     }
     leaves_.push_back(to);
 }

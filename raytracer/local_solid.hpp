@@ -113,11 +113,11 @@ private:
     std::optional<ConvexDensity> intersection_of_leaves(unsigned positive) const;
     bool evaluate(std::vector<char>& state, const std::vector<char>& inside) const;
     template <class Visit>
-    void field_crossings(const Field& field, double greatest_unit, const Vec3& origin, const Vec3& direction, double t0, double t1,
-                         CrossingScratch& scratch, bool* start_inside, Visit visit) const;
+    void field_crossings(const Field& field, double greatest_unit, const Vec3& origin, const Vec3& direction, double t0,
+                         double t1, CrossingScratch& scratch, bool* start_inside, Visit visit) const;
     template <class Visit>
-    void sum_crossings(const ProductSum& sum, const Vec3& origin, const Vec3& direction, double t0, double t1, bool coarse,
-                       CrossingScratch& scratch, bool* start_inside, Visit visit) const;
+    void sum_crossings(const ProductSum& sum, const Vec3& origin, const Vec3& direction, double t0, double t1,
+                       bool coarse, CrossingScratch& scratch, bool* start_inside, Visit visit) const;
     template <class Visit>
     void soft_crossings(const Soft& soft, const Vec3& origin, const Vec3& direction, double t0, double t1,
                         CrossingScratch& scratch, bool* start_inside, Visit visit) const;

@@ -9,8 +9,7 @@ namespace {
 class Stretch {
 public:
     Stretch(const RayDensity& density, CrossingScratch& scratch, double negligible)
-        : density_(density), scratch_(scratch),
-          finder_({scratch.criterion, negligible}, scratch.counters.roots) {}
+        : density_(density), scratch_(scratch), finder_({scratch.criterion, negligible}, scratch.counters.roots) {}
 
     // visit(t, entering) → go on?
     template <class Visit>
@@ -71,8 +70,9 @@ bool clip(const Box& box, const Vec3& origin, const Vec3& direction, double& t0,
 
 // visit(t, entering, normal) → go on?
 template <class Visit>
-void LocalSolid::field_crossings(const Field& field, double greatest_unit, const Vec3& origin, const Vec3& direction, double t0,
-                                 double t1, CrossingScratch& scratch, bool* start_inside, Visit visit) const {
+void LocalSolid::field_crossings(const Field& field, double greatest_unit, const Vec3& origin, const Vec3& direction,
+                                 double t0, double t1, CrossingScratch& scratch, bool* start_inside,
+                                 Visit visit) const {
     // What is passed over as a mere touch; f is in the ray's unit, of which rounding is all the noise.
     constexpr double faint = 2 * RootFinder::rounding;
     constexpr double farthest = 1e30;  // squares and cubes are far from overflowing there
@@ -116,21 +116,21 @@ void LocalSolid::field_crossings(const Field& field, double greatest_unit, const
 
 // visit(t, entering, normal; 0 where t is `coarse`) → go on?
 template <class Visit>
-void LocalSolid::sum_crossings(const ProductSum& sum, const Vec3& origin, const Vec3& direction, double t0, double t1, bool coarse,
-                               CrossingScratch& scratch, bool* start_inside, Visit visit) const {
+void LocalSolid::sum_crossings(const ProductSum& sum, const Vec3& origin, const Vec3& direction, double t0, double t1,
+                               bool coarse, CrossingScratch& scratch, bool* start_inside, Visit visit) const {
     ProductSumRay& ray = scratch.sum;
     ray.set(sum, origin, direction);
     if (start_inside) *start_inside = ray.inside(t0);
-    ray.crossings(t0, t1, 8 * epsilon * (scale_ + t0), coarse, scratch.counters.roots, [&](Crossing c) {
-        return visit(c.t, c.entering, coarse ? Vec3(0.0) : unit(ray.gradient(c.t)));
-    });
+    ray.crossings(t0, t1, 8 * epsilon * (scale_ + t0), coarse, scratch.counters.roots,
+                  [&](Crossing c) { return visit(c.t, c.entering, coarse ? Vec3(0.0) : unit(ray.gradient(c.t))); });
 }
 
 // visit(t, entering, normal or 0: not known yet) → go on?
 template <class Visit>
 void LocalSolid::soft_crossings(const Soft& soft, const Vec3& origin, const Vec3& direction, double t0, double t1,
                                 CrossingScratch& scratch, bool* start_inside, Visit visit) const {
-    if (soft.field) return field_crossings(*soft.field, soft.unit, origin, direction, t0, t1, scratch, start_inside, visit);
+    if (soft.field)
+        return field_crossings(*soft.field, soft.unit, origin, direction, t0, t1, scratch, start_inside, visit);
     if (soft.convex) {
         const ConvexView view = ConvexView::of(*soft.convex);
         const ConvexCrossings all = all_crossings(view, origin, direction, t0, t1, 8 * epsilon * (scale_ + t0),
@@ -168,8 +168,7 @@ void LocalSolid::soft_crossings(const Soft& soft, const Vec3& origin, const Vec3
             hi = lo;
             for (std::size_t i = 0; i < density.size(); ++i) {
                 const double rate = density.distance_rate(i), reach = soft.density.half_spaces()[i].radius;
-                if (rate != 0)
-                    hi = std::max(hi, (std::abs(density.distance0(i)) + reach + scale_) / std::abs(rate));
+                if (rate != 0) hi = std::max(hi, (std::abs(density.distance0(i)) + reach + scale_) / std::abs(rate));
             }
             if (!(hi < 1e300)) hi = 1e300;
         }
@@ -240,12 +239,11 @@ SurfaceCrossing LocalSolid::first_crossing(const Vec3& origin, const Vec3& direc
                           });
             return result;
         }
-        soft_crossings(soft, origin, direction, t0, t1, scratch, nullptr,
-                       [&](double t, bool entering, Vec3 normal) {
-                           if (normal == Vec3(0.0)) normal = unit(scratch.density.gradient(t));
-                           found(t, entering, normal, leaf.material, scratch.error);
-                           return false;
-                       });
+        soft_crossings(soft, origin, direction, t0, t1, scratch, nullptr, [&](double t, bool entering, Vec3 normal) {
+            if (normal == Vec3(0.0)) normal = unit(scratch.density.gradient(t));
+            found(t, entering, normal, leaf.material, scratch.error);
+            return false;
+        });
         return result;
     }
 
@@ -258,8 +256,10 @@ SurfaceCrossing LocalSolid::first_crossing(const Vec3& origin, const Vec3& direc
             const double rate = glm::dot(leaf.normal, direction);
             const double room = leaf.offset - glm::dot(leaf.normal, origin);
             const double t = room / rate;
-            if (rate == 0) scratch.inside[i] = room >= 0;
-            else scratch.inside[i] = rate > 0 ? t0 < t : t0 >= t;
+            if (rate == 0)
+                scratch.inside[i] = room >= 0;
+            else
+                scratch.inside[i] = rate > 0 ? t0 < t : t0 >= t;
             if (rate != 0 && t > t0 && t <= t1) events.push_back({t, int(i), rate < 0, leaf.normal, 0});
             continue;
         }
@@ -273,9 +273,8 @@ SurfaceCrossing LocalSolid::first_crossing(const Vec3& origin, const Vec3& direc
                        });
         scratch.inside[i] = start;
     }
-    std::sort(events.begin(), events.end(), [](const auto& a, const auto& b) {
-        return a.t != b.t ? a.t < b.t : a.leaf < b.leaf;
-    });
+    std::sort(events.begin(), events.end(),
+              [](const auto& a, const auto& b) { return a.t != b.t ? a.t < b.t : a.leaf < b.leaf; });
     const bool before = evaluate(scratch.state, scratch.inside);
     // Faces that coincide are crossed at the same t but for rounding: only what has changed after
     // all of them counts.

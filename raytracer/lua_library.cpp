@@ -64,8 +64,7 @@ void wrap(lua_State* lua, const char* name, lua_CFunction wrapper) {
 }
 
 std::int64_t as_work(double amount) {
-    return amount < 1e18 ? std::int64_t(std::max(amount, 0.0))
-                         : std::numeric_limits<std::int64_t>::max();
+    return amount < 1e18 ? std::int64_t(std::max(amount, 0.0)) : std::numeric_limits<std::int64_t>::max();
 }
 
 int print(lua_State* lua) {
@@ -85,8 +84,7 @@ int set_metatable(lua_State* lua) {
     if (lua_istable(lua, 2)) {
         lua_pushliteral(lua, "__gc");
         if (lua_rawget(lua, 2) != LUA_TNIL)
-            return luaL_error(lua,
-                              "setmetatable: expected no __gc, which is not available in a scene");
+            return luaL_error(lua, "setmetatable: expected no __gc, which is not available in a scene");
         lua_pop(lua, 1);
     }
     return call_original(lua);
@@ -115,8 +113,7 @@ int repeat_string(lua_State* lua) {
 // Table functions believe a __len, and loop that often in C; so they take plain tables only.
 void check_plain(lua_State* lua, int index) {
     luaL_checktype(lua, index, LUA_TTABLE);
-    if (lua_getmetatable(lua, index))
-        luaL_error(lua, "expected a table without metatable, got one that has it");
+    if (lua_getmetatable(lua, index)) luaL_error(lua, "expected a table without metatable, got one that has it");
 }
 
 int over_whole_table(lua_State* lua) {  // concat, unpack, insert and remove at a place
@@ -148,8 +145,7 @@ int sort_table(lua_State* lua) {
 int move_range(lua_State* lua) {
     check_plain(lua, 1);
     if (!lua_isnoneornil(lua, 5)) check_plain(lua, 5);
-    Sandbox::spend(lua,
-                   as_work(double(luaL_checkinteger(lua, 3)) - double(luaL_checkinteger(lua, 2))));
+    Sandbox::spend(lua, as_work(double(luaL_checkinteger(lua, 3)) - double(luaL_checkinteger(lua, 2))));
     return call_original(lua);
 }
 
@@ -227,9 +223,8 @@ int pairs(lua_State* lua) {
                 key.number = lua_toboolean(lua, -2);
                 break;
             default:
-                return luaL_error(
-                    lua, "pairs: expected keys that have an order (numbers, strings), got a %s",
-                    luaL_typename(lua, -2));
+                return luaL_error(lua, "pairs: expected keys that have an order (numbers, strings), got a %s",
+                                  luaL_typename(lua, -2));
         }
         keys[filled++] = key;
     }

@@ -127,8 +127,7 @@ int Sandbox::State::body(lua_State* lua) {
     open_library(lua);
     if (state.prepare) state.prepare(lua);
     const char name[] = {'=', file_mark, 0};
-    if (luaL_loadbufferx(lua, state.text, state.text_size, name, "t") != LUA_OK)
-        return lua_error(lua);
+    if (luaL_loadbufferx(lua, state.text, state.text_size, name, "t") != LUA_OK) return lua_error(lua);
     lua_call(lua, 0, 1);
     return 1;
 }
@@ -141,8 +140,8 @@ int Sandbox::State::placed_error(lua_State* lua) {
     if (is_text || lua_type(lua, 1) == LUA_TNUMBER)
         lua_pushfstring(lua, "%c:%d: %s", file_mark, line, lua_tostring(lua, 1));
     else
-        lua_pushfstring(lua, "%c:%d: expected an error with a message, got one with a %s value",
-                        file_mark, line, luaL_typename(lua, 1));
+        lua_pushfstring(lua, "%c:%d: expected an error with a message, got one with a %s value", file_mark, line,
+                        luaL_typename(lua, 1));
     return 1;
 }
 
@@ -181,24 +180,19 @@ void Sandbox::allow_abandoning(lua_State* lua, bool allowed) { State::of(lua).ar
 static std::string reason(const SandboxLimits& limits, Spent spent) {
     switch (spent) {
         case Spent::memory:
-            return fmt::format(
-                "expected a scene that needs at most {} MiB, got one that needs more",
-                limits.memory >> 20);
+            return fmt::format("expected a scene that needs at most {} MiB, got one that needs more",
+                               limits.memory >> 20);
         case Spent::time:
-            return fmt::format("expected a scene that is ready within {} s, got one that is not",
-                               limits.seconds);
+            return fmt::format("expected a scene that is ready within {} s, got one that is not", limits.seconds);
         default:
-            return fmt::format(
-                "expected a scene that ends within {} instructions, got one that does not",
-                limits.work);
+            return fmt::format("expected a scene that ends within {} instructions, got one that does not", limits.work);
     }
 }
 
 // The error at the top of the stack, whatever its type.
 static std::string error_text(lua_State* lua) {
     if (lua_type(lua, -1) != LUA_TSTRING)
-        return fmt::format("expected an error with a message, got one with a {} value",
-                           luaL_typename(lua, -1));
+        return fmt::format("expected an error with a message, got one with a {} value", luaL_typename(lua, -1));
     std::size_t size = 0;
     const char* text = lua_tolstring(lua, -1, &size);
     return std::string(text, size);
@@ -210,8 +204,7 @@ lua_State* Sandbox::run(const std::string& text, const std::string& file, Prepar
     state_->prepare = prepare;
     const int status = state_->execute();
     if (state_->spent != Spent::nothing) {
-        const std::string place =
-            state_->line > 0 ? fmt::format("{}:{}: ", file_mark, state_->line) : std::string();
+        const std::string place = state_->line > 0 ? fmt::format("{}:{}: ", file_mark, state_->line) : std::string();
         throw SceneError(one_line(place + reason(state_->limits, state_->spent), file));
     }
     if (status != LUA_OK) throw SceneError(one_line(error_text(state_->lua), file));

@@ -30,34 +30,26 @@ struct Reader {
 
 LuaValue Reader::read(int index, const std::string& place, int depth) {
     ++total;
-    if (++count > most_values)
-        throw BadValue(place, fmt::format("expected at most {} values, got more", most_values));
+    if (++count > most_values) throw BadValue(place, fmt::format("expected at most {} values, got more", most_values));
     switch (lua_type(lua, index)) {
         case LUA_TNONE:
-        case LUA_TNIL:
-            return {};
-        case LUA_TBOOLEAN:
-            return lua_toboolean(lua, index) != 0;
-        case LUA_TNUMBER:
-            return lua_tonumber(lua, index);
+        case LUA_TNIL: return {};
+        case LUA_TBOOLEAN: return lua_toboolean(lua, index) != 0;
+        case LUA_TNUMBER: return lua_tonumber(lua, index);
         case LUA_TSTRING: {
             std::size_t size = 0;
             const char* text = lua_tolstring(lua, index, &size);
             return std::string(text, size);
         }
-        case LUA_TLIGHTUSERDATA:
-            return static_cast<const SceneObject*>(lua_touserdata(lua, index));
-        case LUA_TTABLE:
-            return read_table(lua_absindex(lua, index), place, depth);
-        default:
-            return LuaOther{lua_typename(lua, lua_type(lua, index))};
+        case LUA_TLIGHTUSERDATA: return static_cast<const SceneObject*>(lua_touserdata(lua, index));
+        case LUA_TTABLE: return read_table(lua_absindex(lua, index), place, depth);
+        default: return LuaOther{lua_typename(lua, lua_type(lua, index))};
     }
 }
 
 LuaValue Reader::read_table(int index, const std::string& place, int depth) {
     if (depth == deepest)
-        throw BadValue(place,
-                       fmt::format("expected tables nested at most {} deep, got deeper", deepest));
+        throw BadValue(place, fmt::format("expected tables nested at most {} deep, got deeper", deepest));
     // Lua's order of keys differs from run to run, and with it the error that is met first. So keys
     // are sorted; those that are names wait on the stack, as pushing one anew might not return.
     std::vector<lua_Integer> numbers;
@@ -96,9 +88,8 @@ LuaValue Reader::read_table(int index, const std::string& place, int depth) {
     for (const lua_Integer key : numbers) {
         const auto next = lua_Integer(table->list.size()) + 1;
         if (key != next)
-            throw BadValue(place,
-                           fmt::format("expected a list without holes, got item {} but no item {}",
-                                       numbers.back(), next));
+            throw BadValue(
+                place, fmt::format("expected a list without holes, got item {} but no item {}", numbers.back(), next));
         lua_rawgeti(lua, index, key);
         table->list.push_back(read(-1, place, depth + 1));
         lua_pop(lua, 1);
@@ -120,9 +111,7 @@ std::string described(const LuaValue& value) {
     struct Describe {
         std::string operator()(std::monostate) const { return "nothing"; }
         std::string operator()(bool b) const { return b ? "true" : "false"; }
-        std::string operator()(double x) const {
-            return std::isnan(x) ? "nan" : fmt::format("{}", x);
-        }
+        std::string operator()(double x) const { return std::isnan(x) ? "nan" : fmt::format("{}", x); }
         std::string operator()(const std::string& s) const {
             constexpr std::size_t longest = 40;
             return s.size() <= longest ? "'" + s + "'" : "'" + s.substr(0, longest) + "…'";
@@ -134,8 +123,7 @@ std::string described(const LuaValue& value) {
             constexpr std::size_t longest = 4;
             std::string list;
             for (std::size_t i = 0; i < table->list.size(); ++i) {
-                if (i == longest || as_table(table->list[i]))
-                    return fmt::format("a list of {}", table->list.size());
+                if (i == longest || as_table(table->list[i])) return fmt::format("a list of {}", table->list.size());
                 list += (i ? ", " : "{") + described(table->list[i]);
             }
             return list + "}";
@@ -225,8 +213,7 @@ Vec3 direction(const LuaValue& value, const std::string& place) {
 
 Vec3 color(const LuaValue& value, const std::string& place, double most) {
     const auto in_range = [&](double x) { return x >= 0 && x <= most; };
-    if (finite_number(value) && in_range(std::get<double>(value)))
-        return Vec3(std::get<double>(value));
+    if (finite_number(value) && in_range(std::get<double>(value))) return Vec3(std::get<double>(value));
     if (three_numbers(value)) {
         const Vec3 c = vector(value, place);
         if (in_range(c.x) && in_range(c.y) && in_range(c.z)) return c;
@@ -240,12 +227,11 @@ Vec3 color(const LuaValue& value, const std::string& place, double most) {
 Fields::Fields(const LuaValue& value, std::string place, std::initializer_list<const char*> known)
     : place_(std::move(place)) {
     if (const auto* table = std::get_if<std::shared_ptr<const LuaTable>>(&value)) table_ = *table;
-    if (!table_ || !table_->list.empty())
-        expected(place_.empty() ? "scene" : place_, "a table of named fields", value);
+    if (!table_ || !table_->list.empty()) expected(place_.empty() ? "scene" : place_, "a table of named fields", value);
     for (const auto& [name, field] : table_->fields) {
         if (std::find(known.begin(), known.end(), name) != known.end()) continue;
-        throw BadValue(this->place(name), fmt::format("expected one of the fields {}, got '{}'",
-                                                      fmt::join(known, ", "), name));
+        throw BadValue(this->place(name),
+                       fmt::format("expected one of the fields {}, got '{}'", fmt::join(known, ", "), name));
     }
 }
 
@@ -259,8 +245,6 @@ const LuaValue& Fields::get(const std::string& name) const {
     return value ? *value : nil_value;
 }
 
-std::string Fields::place(const std::string& name) const {
-    return place_.empty() ? name : place_ + "." + name;
-}
+std::string Fields::place(const std::string& name) const { return place_.empty() ? name : place_ + "." + name; }
 
 }  // namespace deburr

@@ -47,8 +47,7 @@ constexpr int read_value_slots = 40;
 /// The value at `index`. Throws BadValue at tables with holes, other keys than names and 1, 2, …,
 /// and at those nested so deep that they may contain themselves.
 /// `count`, if given, grows by the number of values read, also when it throws.
-LuaValue read_value(lua_State* lua, int index, const std::string& place,
-                    std::int64_t* count = nullptr);
+LuaValue read_value(lua_State* lua, int index, const std::string& place, std::int64_t* count = nullptr);
 
 /// As in "got a density".
 std::string described(const LuaValue& value);

@@ -38,8 +38,8 @@ MeshSettings picture_mesh_settings(const std::string& via, const std::string& to
     if (tolerance.empty()) {
         settings.tolerance_in_radii = rendering_tolerance;
         settings.tolerance_in_sizes = rendering_tolerance_in_sizes;
-    }
-    else settings.tolerance = parse_tolerance(tolerance);
+    } else
+        settings.tolerance = parse_tolerance(tolerance);
     return settings;
 }
 

@@ -24,15 +24,15 @@ inline constexpr double rendering_tolerance = 0.03;
 struct MeshSettings {
     /// None: triage, and the octree for solids that hold what triage cannot follow, free forms.
     std::optional<MeshMethod> method = {};
-    double tolerance = infinity;  // triage, octree
-    double tolerance_in_radii = infinity;  // the same, of each solid's least radius, if less
-    double tolerance_in_sizes = infinity;  // octree, without a radius: of each solid's size, if less
-    double grid = 0;              // marching cubes; 0: half the least radius
-    double edge = 0;              // octree: side of a cell; 0: by the solid's size and radius
-    int level = 0;                // octree: 2^level cells along the solid's longest side, if not 0
+    double tolerance = infinity;                     // triage, octree
+    double tolerance_in_radii = infinity;            // the same, of each solid's least radius, if less
+    double tolerance_in_sizes = infinity;            // octree, without a radius: of each solid's size, if less
+    double grid = 0;                                 // marching cubes; 0: half the least radius
+    double edge = 0;                                 // octree: side of a cell; 0: by the solid's size and radius
+    int level = 0;                                   // octree: 2^level cells along the solid's longest side, if not 0
     double hard_angle = OctreeOptions{}.hard_angle;  // octree
-    double coarseness = 1;        // multiplies each solid's grid, edge or tolerance
-    double reach = 8;             // infinite solids end this many sizes of the finite ones away
+    double coarseness = 1;                           // multiplies each solid's grid, edge or tolerance
+    double reach = 8;                                // infinite solids end this many sizes of the finite ones away
 };
 
 /// --tolerance: a number > 0, or inf for the paper's one refinement of each edge.

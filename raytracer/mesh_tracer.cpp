@@ -56,9 +56,8 @@ private:
         RTCGeometry geometry = scene.new_geometry(RTC_GEOMETRY_TYPE_TRIANGLE);
         auto* vertices = static_cast<float*>(embree().set_new_geometry_buffer(
             geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, 3 * sizeof(float), mesh.positions.size()));
-        auto* indices = static_cast<unsigned*>(
-            embree().set_new_geometry_buffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
-                                    3 * sizeof(unsigned), mesh.triangles.size()));
+        auto* indices = static_cast<unsigned*>(embree().set_new_geometry_buffer(
+            geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, 3 * sizeof(unsigned), mesh.triangles.size()));
         if (vertices && indices) {
             for (const Vec3& x : mesh.positions)
                 for (int k = 0; k < 3; ++k) *vertices++ = float(x[k]);
@@ -96,7 +95,8 @@ Hit MeshTracer::first_hit(const Ray& ray, double t_max, TraceCounters& counters)
     // Near an outline the normal between corners may look away though the facet does not; it is
     // turned until it is seen from the side, or the outline would be black.
     const double away = glm::dot(hit.normal, ray.direction);
-    if (away * glm::dot(facet, ray.direction) < 0) hit.normal = glm::normalize(hit.normal - (1 + least_tilt) * away * ray.direction);
+    if (away * glm::dot(facet, ray.direction) < 0)
+        hit.normal = glm::normalize(hit.normal - (1 + least_tilt) * away * ray.direction);
     hit.t = std::max(glm::dot(hit.position - ray.origin, ray.direction), double(std::numeric_limits<float>::min()));
     hit.solid = t.solid;
     hit.material = t.material;

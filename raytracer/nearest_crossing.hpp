@@ -49,7 +49,8 @@ public:
 
 private:
     bool take(double t, int solid, std::uint32_t number) {
-        if (!(t < end_) && !(t == end_ && (!found_ || solid < solid_ || (solid == solid_ && number < number_)))) return false;
+        if (!(t < end_) && !(t == end_ && (!found_ || solid < solid_ || (solid == solid_ && number < number_))))
+            return false;
         found_ = true;
         end_ = t;
         solid_ = solid;

@@ -14,8 +14,7 @@
 namespace deburr {
 namespace {
 
-[[noreturn]] void expected(std::string_view option, const std::string& what,
-                           std::string_view found) {
+[[noreturn]] void expected(std::string_view option, const std::string& what, std::string_view found) {
     throw UsageError(fmt::format("{}: expected {}, got '{}'", option, what, found));
 }
 
@@ -54,8 +53,7 @@ std::optional<Size> sides(std::string_view text) {
 
 }  // namespace
 
-std::int64_t parse_whole(std::string_view option, std::string_view text, std::int64_t least,
-                         std::int64_t most) {
+std::int64_t parse_whole(std::string_view option, std::string_view text, std::int64_t least, std::int64_t most) {
     if (const auto value = whole(text, least, most)) return *value;
     expected(option, fmt::format("a whole number from {} to {}", least, most), text);
 }
@@ -99,8 +97,7 @@ Window parse_crop(std::string_view option, std::string_view text) {
 
 void check_crop(std::string_view option, const Window& crop, Size picture) {
     if (crop.x + crop.width > picture.width || crop.y + crop.height > picture.height)
-        expected(option,
-                 fmt::format("a window within the picture of {}x{}", picture.width, picture.height),
+        expected(option, fmt::format("a window within the picture of {}x{}", picture.width, picture.height),
                  fmt::format("{}x{}+{}+{}", crop.width, crop.height, crop.x, crop.y));
 }
 
@@ -132,38 +129,29 @@ Accel parse_accel(std::string_view option, std::string_view text) {
     expected(option, "bsp or embree", text);
 }
 
-void parse_define(std::string_view option, std::string_view text,
-                  std::map<std::string, std::string>& defines) {
-    const auto letter = [](char c) {
-        return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_';
-    };
+void parse_define(std::string_view option, std::string_view text, std::map<std::string, std::string>& defines) {
+    const auto letter = [](char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_'; };
     const std::size_t equals = text.find('=');
-    bool fine = equals != std::string_view::npos && equals > 0 && equals + 1 < text.size() &&
-                letter(text[0]);
-    for (std::size_t i = 1; fine && i < equals; ++i)
-        fine = letter(text[i]) || (text[i] >= '0' && text[i] <= '9');
+    bool fine = equals != std::string_view::npos && equals > 0 && equals + 1 < text.size() && letter(text[0]);
+    for (std::size_t i = 1; fine && i < equals; ++i) fine = letter(text[i]) || (text[i] >= '0' && text[i] <= '9');
     if (!fine) expected(option, "name=value", text);
     const std::string name(text.substr(0, equals)), value(text.substr(equals + 1));
-    if (!defines.emplace(name, value).second)
-        expected(option, fmt::format("'{}' once", name), text);
+    if (!defines.emplace(name, value).second) expected(option, fmt::format("'{}' once", name), text);
 }
 
 void check_image_names(std::string_view option, const std::vector<std::string>& paths) {
     for (const std::string& path : paths)
-        if (!image_kind(path))
-            expected(option, "a file name that ends in " + known_extensions(), path);
+        if (!image_kind(path)) expected(option, "a file name that ends in " + known_extensions(), path);
     check_distinct(paths);
 }
 
 void check_distinct(const std::vector<std::string>& paths) {
     std::set<std::filesystem::path> seen;
     for (const std::string& path : paths) {
-        std::error_code
-            error;  // a folder that cannot be looked into is found when it is written to
+        std::error_code error;  // a folder that cannot be looked into is found when it is written to
         auto canonical = std::filesystem::weakly_canonical(path, error);
         if (error) canonical = path;
-        if (!seen.insert(std::filesystem::absolute(canonical)).second)
-            expected("outputs", "different files", path);
+        if (!seen.insert(std::filesystem::absolute(canonical)).second) expected("outputs", "different files", path);
     }
 }
 

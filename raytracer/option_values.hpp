@@ -23,8 +23,7 @@ struct Size {
 constexpr int largest_side = 65536;
 constexpr std::int64_t most_pixels = std::int64_t(1) << 28;
 
-std::int64_t parse_whole(std::string_view option, std::string_view text, std::int64_t least,
-                         std::int64_t most);
+std::int64_t parse_whole(std::string_view option, std::string_view text, std::int64_t least, std::int64_t most);
 /// A number > 0.
 double parse_positive(std::string_view option, std::string_view text);
 /// A number >= 0.
@@ -40,8 +39,7 @@ std::vector<ImageLayer> parse_layers(std::string_view option, std::string_view t
 Criterion parse_criterion(std::string_view option, std::string_view text);
 Accel parse_accel(std::string_view option, std::string_view text);
 /// name=value, added to `defines`.
-void parse_define(std::string_view option, std::string_view text,
-                  std::map<std::string, std::string>& defines);
+void parse_define(std::string_view option, std::string_view text, std::map<std::string, std::string>& defines);
 /// Throws unless every name is that of an image and no file is named twice.
 void check_image_names(std::string_view option, const std::vector<std::string>& paths);
 /// Throws if one file is named twice, be it in different words.

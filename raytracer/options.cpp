@@ -20,10 +20,8 @@ constexpr int most_threads = 1024;
 
 // An option whose text goes to a function; CLI11's own conversions know nothing of our ranges.
 template <class Function>
-void add(CLI::App& command, const char* name, const char* type, const std::string& help,
-         Function take) {
-    command
-        .add_option_function<std::string>(name, std::function<void(const std::string&)>(take), help)
+void add(CLI::App& command, const char* name, const char* type, const std::string& help, Function take) {
+    command.add_option_function<std::string>(name, std::function<void(const std::string&)>(take), help)
         ->type_name(type);
 }
 
@@ -55,11 +53,8 @@ void add_size_option(CLI::App& command, Options& o) {
 
 void add_picture_options(CLI::App& command, Options& o) {
     add_size_option(command, o);
-    add(command, "--spp", "N",
-        "samples per pixel, 1: one ray through its centre; default: the scene's",
-        [&o](const std::string& text) {
-            o.spp = int(parse_whole("--spp", text, 1, most_samples));
-        });
+    add(command, "--spp", "N", "samples per pixel, 1: one ray through its centre; default: the scene's",
+        [&o](const std::string& text) { o.spp = int(parse_whole("--spp", text, 1, most_samples)); });
     add(command, "--crop", "WxH+X+Y", "only this part of the picture",
         [&o](const std::string& text) { o.crop = parse_crop("--crop", text); });
     add(command, "--seed", "N", "seed of all random numbers; default: 0",
@@ -67,16 +62,13 @@ void add_picture_options(CLI::App& command, Options& o) {
     add(command, "--aov", "LIST", "further layers of an EXR: some of P,N,Z,albedo,id,cost",
         [&o](const std::string& text) { o.layers = parse_layers("--aov", text); });
     command.add_flag("--float", o.float_color, "32 bits for the colour of an EXR, not 16");
-    add(command, "--criterion", "exact|lobb",
-        "when a ray's segment has one root at most; default: exact",
+    add(command, "--criterion", "exact|lobb", "when a ray's segment has one root at most; default: exact",
         [&o](const std::string& text) { o.criterion = parse_criterion("--criterion", text); });
 }
 
 void add_run_options(CLI::App& command, Options& o) {
     add(command, "--threads", "N", "default: as many as there are processors",
-        [&o](const std::string& text) {
-            o.threads = int(parse_whole("--threads", text, 1, most_threads));
-        });
+        [&o](const std::string& text) { o.threads = int(parse_whole("--threads", text, 1, most_threads)); });
     command.add_flag("-q,--quiet", o.quiet, "say nothing but errors");
     command.add_flag("-v,--verbose", o.verbose, "say what is done");
 }
@@ -109,7 +101,8 @@ void check_placements(const Scene& scene) {
         if (fine && ordinary.count(&leaf.node())) return;
         const SolidTree tree = flatten(leaf.transformed(map));
         bool all = fine;
-        for (const HalfSpace& h : tree.leaves[0].density.half_spaces) all &= is_ordinary(h.offset) && is_ordinary(h.radius);
+        for (const HalfSpace& h : tree.leaves[0].density.half_spaces)
+            all &= is_ordinary(h.offset) && is_ordinary(h.radius);
         if (all) ordinary.insert(&leaf.node());
     };
     try {
@@ -118,8 +111,7 @@ void check_placements(const Scene& scene) {
             for_each_leaf(solid, check);
         }
     } catch (const SingularPlacement& error) {
-        const std::string where =
-            error.line > 0 ? fmt::format("{}:{}", scene.file, error.line) : scene.file;
+        const std::string where = error.line > 0 ? fmt::format("{}:{}", scene.file, error.line) : scene.file;
         throw SceneError(fmt::format("{}: {}", where, error.what()));
     }
 }
@@ -136,8 +128,7 @@ Scene load_scene(const Options& o) {
     for (const auto& [name, value] : o.defines) {
         if (scene.parameters.count(name)) continue;
         std::string known;
-        for (const auto& [has, unused] : scene.parameters)
-            known += (known.empty() ? "" : ", ") + has;
+        for (const auto& [has, unused] : scene.parameters) known += (known.empty() ? "" : ", ") + has;
         throw UsageError(fmt::format("-D: expected a parameter of '{}' ({}), got '{}'", o.scene,
                                      known.empty() ? "it has none" : known, name));
     }

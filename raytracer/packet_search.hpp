@@ -14,7 +14,11 @@ class PacketSearch {
 public:
     /// Of at most RayPacket::size rays.
     PacketSearch(const Surfaces& surfaces, const SeveralRays& rays, TraceCounters& counters, const Others* others)
-        : surfaces_(surfaces), rays_(rays.rays), counters_(counters), others_(others), lanes_((Lanes(1) << rays.size()) - 1) {
+        : surfaces_(surfaces),
+          rays_(rays.rays),
+          counters_(counters),
+          others_(others),
+          lanes_((Lanes(1) << rays.size()) - 1) {
         for (std::size_t k = 0; k < RayPacket::size; ++k) {
             const std::size_t i = k < rays.size() ? k : 0;  // so that there are numbers everywhere
             for (int axis = 0; axis < 3; ++axis) {
@@ -33,7 +37,8 @@ public:
         if (boxes.empty() || lanes_ == 0) return;
         lanes_ = packet_functions.enter(boxes.box(), packet_, lanes_, entry_);
         if (lanes_ == 0) return;
-        const BoxTree::Beam beam{entry_.least_point, entry_.most_point, entry_.least_direction, entry_.most_direction, longest_way()};
+        const BoxTree::Beam beam{entry_.least_point, entry_.most_point, entry_.least_direction, entry_.most_direction,
+                                 longest_way()};
         boxes.visit_together(beam, [&](std::uint32_t i) {
             if (!look_at(i)) return infinity;
             return lanes_ == 0 ? -1.0 : longest_way();
@@ -56,7 +61,8 @@ private:
             spans.from[k] = 0;
             spans.to[k] = packet_.t_max[k];
         }
-        for (std::size_t i = 0; i < surfaces_.planes.size(); ++i) look(surfaces_.planes, std::uint32_t(i), lanes_, spans);
+        for (std::size_t i = 0; i < surfaces_.planes.size(); ++i)
+            look(surfaces_.planes, std::uint32_t(i), lanes_, spans);
     }
 
     // Whether anything was found.
@@ -75,8 +81,9 @@ private:
             return found(pieces.occlusions(p, packet_, lanes, spans, counters_));
         } else {
             PacketCrossings c;
-            return found(pieces.crossings(p, packet_, lanes, spans, c, counters_),
-                         [&](int k) { nearest_[k].offer(pieces, i, {c.t[k], bool(c.entering >> k & 1), int(c.plane[k])}); });
+            return found(pieces.crossings(p, packet_, lanes, spans, c, counters_), [&](int k) {
+                nearest_[k].offer(pieces, i, {c.t[k], bool(c.entering >> k & 1), int(c.plane[k])});
+            });
         }
     }
 
@@ -84,8 +91,8 @@ private:
         Lanes crossed = 0;
         for_each_lane(lanes, [&](int k) {
             NearestCrossing& nearest = nearest_[Any ? 0 : k];  // of no use where that there is one is all that is asked
-            const bool crosses = look_at_piece<Any>(pieces, i, rays_[std::size_t(k)], spans.from[k], spans.to[k], packet_.reach[k],
-                                                    nearest, counters_);
+            const bool crosses = look_at_piece<Any>(pieces, i, rays_[std::size_t(k)], spans.from[k], spans.to[k],
+                                                    packet_.reach[k], nearest, counters_);
             crossed |= Lanes(crosses) << k;
         });
         return found(crossed);
@@ -136,7 +143,9 @@ private:
         }
         return crossed != 0;
     }
-    bool found(Lanes crossed) { return found(crossed, [](int) {}); }
+    bool found(Lanes crossed) {
+        return found(crossed, [](int) {});
+    }
 
     const Surfaces& surfaces_;
     std::span<const Ray> rays_;

@@ -25,9 +25,7 @@ struct Integrator::Path {
     double density = infinity;   // of that reflection, per solid angle
     double blur = 0.0;           // least α of the highlights that it sees
 
-    std::uint32_t dimension(std::uint32_t purpose) const {
-        return std::uint32_t(depth) * purposes + purpose;
-    }
+    std::uint32_t dimension(std::uint32_t purpose) const { return std::uint32_t(depth) * purposes + purpose; }
     Path on(double share = 1.0) const {
         Path p = *this;
         ++p.depth;
@@ -49,10 +47,11 @@ struct Integrator::Surface {
 
     const Hit& hit;
     Bsdf bsdf;
-    bool last;                 // no ray goes on to be sampled
-    bool both = false;         // layer and base are both followed
-    double base = 0.0;         // what the base returns, at most
-    double layer_share = 0.0;  // probability with which the layer's reflection is sampled too; 0: light is found here only
+    bool last;          // no ray goes on to be sampled
+    bool both = false;  // layer and base are both followed
+    double base = 0.0;  // what the base returns, at most
+    double layer_share =
+        0.0;  // probability with which the layer's reflection is sampled too; 0: light is found here only
 };
 
 }  // namespace deburr

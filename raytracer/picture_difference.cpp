@@ -23,9 +23,7 @@ DifferenceFigures figures(std::vector<double>& values) {
     return f;
 }
 
-double angle(Vec3 a, Vec3 b) {
-    return std::atan2(glm::length(glm::cross(a, b)), glm::dot(a, b)) * degrees;
-}
+double angle(Vec3 a, Vec3 b) { return std::atan2(glm::length(glm::cross(a, b)), glm::dot(a, b)) * degrees; }
 
 ReadImage colors(const Film& film) {
     ReadImage image{film.width, film.height, film.window, {"R", "G", "B"}, {}};
@@ -50,8 +48,12 @@ public:
         if (in_a != in_b) return in_a ? 1 : 2;
         return both_keep(ImageLayer::id) && id(a_, i) != id(b_, i) ? 3 : 0;
     }
-    double distance(std::size_t i) const { return glm::length(vec(a_, ImageLayer::position, i) - vec(b_, ImageLayer::position, i)); }
-    double angle(std::size_t i) const { return deburr::angle(vec(a_, ImageLayer::normal, i), vec(b_, ImageLayer::normal, i)); }
+    double distance(std::size_t i) const {
+        return glm::length(vec(a_, ImageLayer::position, i) - vec(b_, ImageLayer::position, i));
+    }
+    double angle(std::size_t i) const {
+        return deburr::angle(vec(a_, ImageLayer::normal, i), vec(b_, ImageLayer::normal, i));
+    }
 
     static std::uint32_t id(const Film& film, std::size_t i) {
         return film.keeps(ImageLayer::id) ? std::uint32_t(film.layer(ImageLayer::id).at(i)) : 0;
@@ -68,7 +70,8 @@ std::vector<ImageLayer> compared_layers() { return {ImageLayer::position, ImageL
 
 PictureDifference difference(const Film& a, const Film& b, const std::vector<double>& radii) {
     const Compared both(a, b);
-    const bool distances_known = both.both_keep(ImageLayer::position), angles_known = both.both_keep(ImageLayer::normal);
+    const bool distances_known = both.both_keep(ImageLayer::position),
+               angles_known = both.both_keep(ImageLayer::normal);
     PictureDifference d;
     d.pixels = a.pixels.size();
     d.in_radii = !radii.empty();
@@ -127,8 +130,10 @@ void write_difference(const std::string& path, const Film& a, const Film& b) {
     add_color("B", 2);
     if (exr) {
         const auto same = [both](std::size_t i) { return both.hit(i) == 0 && both.first().pixels[i].alpha > 0; };
-        if (both.both_keep(ImageLayer::position)) add("distance", [=](std::size_t i) { return same(i) ? both.distance(i) : 0.0; });
-        if (both.both_keep(ImageLayer::normal)) add("angle", [=](std::size_t i) { return same(i) ? both.angle(i) : 0.0; });
+        if (both.both_keep(ImageLayer::position))
+            add("distance", [=](std::size_t i) { return same(i) ? both.distance(i) : 0.0; });
+        if (both.both_keep(ImageLayer::normal))
+            add("angle", [=](std::size_t i) { return same(i) ? both.angle(i) : 0.0; });
         add("hit", [both](std::size_t i) { return double(both.hit(i)); });
     }
     write_raster(path, image);
@@ -149,7 +154,8 @@ Film read_picture(const std::string& path) {
         const auto at = std::find(image.channels.begin(), image.channels.end(), name);
         return at == image.channels.end() ? -1 : int(at - image.channels.begin());
     };
-    const int rgb[3] = {std::max(0, channel("R")), channel("G"), channel("B")}, alpha = channel("A"), id = channel("id");
+    const int rgb[3] = {std::max(0, channel("R")), channel("G"), channel("B")}, alpha = channel("A"),
+              id = channel("id");
     const int position[3] = {channel("P.X"), channel("P.Y"), channel("P.Z")};
     const int normal[3] = {channel("N.X"), channel("N.Y"), channel("N.Z")};
     std::vector<ImageLayer> kept;

@@ -17,14 +17,14 @@ struct DifferenceFigures {
 
 struct PictureDifference {
     std::size_t pixels = 0;
-    std::size_t on_object = 0;      // pixels where either ray hit a solid that counts
+    std::size_t on_object = 0;  // pixels where either ray hit a solid that counts
     std::size_t only_first = 0, only_second = 0, other_solid = 0;
     std::optional<DifferenceFigures> distance;  // of the hits, in radii where they are known
     bool in_radii = false;
     std::optional<DifferenceFigures> normal_degrees;
-    double rmse = 0;                // of linear R, G, B
-    double psnr = infinity;         // dB against 1
-    double perceptual_fails = 0;    // pixels visibly different, after Yee 1999, as OpenImageIO has it
+    double rmse = 0;              // of linear R, G, B
+    double psnr = infinity;       // dB against 1
+    double perceptual_fails = 0;  // pixels visibly different, after Yee 1999, as OpenImageIO has it
 };
 
 /// `radii`: by solid, the unit of distances; empty: the scene's own unit. Solids whose radius is 0

@@ -50,8 +50,8 @@ std::size_t Pieces::half_spaces(std::size_t i) const {
     }
 }
 
-Lanes Pieces::crossings(const Piece& p, const RayPacket& rays, Lanes lanes, const PacketSpans& spans, PacketCrossings& found,
-                        TraceCounters& counters) const {
+Lanes Pieces::crossings(const Piece& p, const RayPacket& rays, Lanes lanes, const PacketSpans& spans,
+                        PacketCrossings& found, TraceCounters& counters) const {
     if (p.kind == Piece::Kind::convex)
         return packet_functions.convex_crossings(view(p), rays, lanes, spans, scale_, found, counters.evaluations);
     const Lanes crossed = packet_functions.plane_crossings(planes_[p.first], rays, lanes, spans, found);
@@ -59,14 +59,16 @@ Lanes Pieces::crossings(const Piece& p, const RayPacket& rays, Lanes lanes, cons
     return crossed;
 }
 
-Lanes Pieces::occlusions(const Piece& p, const RayPacket& rays, Lanes lanes, const PacketSpans& spans, TraceCounters& counters) const {
-    if (p.kind == Piece::Kind::convex) return packet_functions.convex_occlusions(view(p), rays, lanes, spans, scale_, counters.evaluations);
+Lanes Pieces::occlusions(const Piece& p, const RayPacket& rays, Lanes lanes, const PacketSpans& spans,
+                         TraceCounters& counters) const {
+    if (p.kind == Piece::Kind::convex)
+        return packet_functions.convex_occlusions(view(p), rays, lanes, spans, scale_, counters.evaluations);
     PacketCrossings found;
     return crossings(p, rays, lanes, spans, found, counters);
 }
 
-SurfaceCrossing Pieces::general_crossing(const Piece& p, const Vec3& origin, const Vec3& direction, double t0, double t1,
-                                         bool any, TraceCounters& counters) const {
+SurfaceCrossing Pieces::general_crossing(const Piece& p, const Vec3& origin, const Vec3& direction, double t0,
+                                         double t1, bool any, TraceCounters& counters) const {
     CrossingScratch& memory = scratch();
     memory.criterion = criterion_;
     memory.counters = {};
@@ -113,8 +115,10 @@ void cut(Box& box, const AlphaPlane& p, bool both) {
         if (s == 0) continue;
         const Extent others = extent(p.slope, box, k);
         const double most = (-p.base - others.lo) / s, least = (-p.base - others.hi) / s;
-        if (std::isfinite(most)) (s > 0 ? box.hi[k] : box.lo[k]) = s > 0 ? std::min(box.hi[k], most) : std::max(box.lo[k], most);
-        if (both && std::isfinite(least)) (s > 0 ? box.lo[k] : box.hi[k]) = s > 0 ? std::max(box.lo[k], least) : std::min(box.hi[k], least);
+        if (std::isfinite(most))
+            (s > 0 ? box.hi[k] : box.lo[k]) = s > 0 ? std::min(box.hi[k], most) : std::max(box.lo[k], most);
+        if (both && std::isfinite(least))
+            (s > 0 ? box.lo[k] : box.hi[k]) = s > 0 ? std::max(box.lo[k], least) : std::min(box.hi[k], least);
     }
 }
 
@@ -122,8 +126,10 @@ bool surely_within(ConvexView d, const Box& box) {
     double P = 1;
     for (int i = 0; i < d.soft + d.sharp; ++i) {
         const double alpha = extent(d.planes[i].slope, box, -1).hi + d.planes[i].base;
-        if (i >= d.soft) P *= alpha < 0;
-        else P *= profile(alpha);
+        if (i >= d.soft)
+            P *= alpha < 0;
+        else
+            P *= profile(alpha);
     }
     return P > 0.5;
 }

@@ -16,7 +16,7 @@ namespace deburr {
 struct Piece {
     enum class Kind : std::uint8_t { plane, convex, general };
 
-    Box box;  // the cell; beyond it the piece is not valid
+    Box box;                  // the cell; beyond it the piece is not valid
     std::uint32_t first = 0;  // in Pieces::planes; general: in Pieces::locals
     std::int32_t solid = 0, material = 0;
     std::uint8_t soft = 0, sharp = 0;  // factors
@@ -28,8 +28,7 @@ static_assert(sizeof(Piece) == 64);  // a cache line
 class Pieces {
 public:
     Pieces() = default;
-    Pieces(const Tolerances& tolerances, Criterion criterion)
-        : scale_(tolerances.scale), criterion_(criterion) {}
+    Pieces(const Tolerances& tolerances, Criterion criterion) : scale_(tolerances.scale), criterion_(criterion) {}
 
     /// `box`: the cell; `solid`: the number of its solid here.
     void add(LocalSolid&& local, const Box& box, int solid);
@@ -55,13 +54,15 @@ public:
     /// Whether packets may ask for piece i.
     bool for_packets(std::size_t i) const {
         const Piece& p = pieces_[i];
-        return p.kind == Piece::Kind::plane || (p.kind == Piece::Kind::convex && p.soft <= most_packet_factors && p.box.finite());
+        return p.kind == Piece::Kind::plane ||
+               (p.kind == Piece::Kind::convex && p.soft <= most_packet_factors && p.box.finite());
     }
     /// First crossings of rays of a packet with such a piece, in their spans; those that have one.
-    Lanes crossings(const Piece& p, const RayPacket& rays, Lanes lanes, const PacketSpans& spans, PacketCrossings& found,
-                    TraceCounters& counters) const;
+    Lanes crossings(const Piece& p, const RayPacket& rays, Lanes lanes, const PacketSpans& spans,
+                    PacketCrossings& found, TraceCounters& counters) const;
     /// Those that cross it.
-    Lanes occlusions(const Piece& p, const RayPacket& rays, Lanes lanes, const PacketSpans& spans, TraceCounters& counters) const;
+    Lanes occlusions(const Piece& p, const RayPacket& rays, Lanes lanes, const PacketSpans& spans,
+                     TraceCounters& counters) const;
     /// First crossing of a general one; `any`: that there is one will do, and its t means nothing.
     SurfaceCrossing general_crossing(const Piece& p, const Vec3& origin, const Vec3& direction, double t0, double t1,
                                      bool any, TraceCounters& counters) const;

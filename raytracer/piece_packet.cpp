@@ -83,7 +83,8 @@ double longest_way(const RayPacket& rays, Lanes lanes, const PacketEntry& entry)
     for (std::size_t first = 0; first < RayPacket::size; first += hn::Lanes(d)) {
         const Lanes part = part_of(lanes, first);
         if (part == 0) continue;
-        const V way = hn::Min(hn::Load(d, entry.hi + first), hn::Load(d, rays.end + first)) - hn::Load(d, entry.lo + first);
+        const V way =
+            hn::Min(hn::Load(d, entry.hi + first), hn::Load(d, rays.end + first)) - hn::Load(d, entry.lo + first);
         most = select(mask_of(part), hn::Max(most, way), most);
     }
     return hn::GetLane(hn::MaxOfLanes(d, most));
@@ -105,7 +106,8 @@ Lanes spans_in_cell(const Box& cell, const RayPacket& rays, Lanes lanes, PacketS
     return in;
 }
 
-Lanes plane_crossings(const AlphaPlane& plane, const RayPacket& rays, Lanes lanes, const PacketSpans& spans, PacketCrossings& found) {
+Lanes plane_crossings(const AlphaPlane& plane, const RayPacket& rays, Lanes lanes, const PacketSpans& spans,
+                      PacketCrossings& found) {
     Lanes crossed = 0;
     for (std::size_t first = 0; first < RayPacket::size; first += hn::Lanes(d)) {
         const Lanes part = part_of(lanes, first);
@@ -114,23 +116,25 @@ Lanes plane_crossings(const AlphaPlane& plane, const RayPacket& rays, Lanes lane
         const V t = hn::Neg(r.distance(plane)) / r.rate(plane);
         hn::Store(t, d, found.t + first);
         hn::Store(number(-1), d, found.plane + first);
-        const M within = both(both(t >= hn::Load(d, spans.from + first), t <= hn::Load(d, spans.to + first)), t < number(infinity));
+        const M within =
+            both(both(t >= hn::Load(d, spans.from + first), t <= hn::Load(d, spans.to + first)), t < number(infinity));
         crossed |= (bits_of(within) & part) << first;
     }
     return crossed;
 }
 
-Lanes convex_crossings(const ConvexView& density, const RayPacket& rays, Lanes lanes, const PacketSpans& spans, double scale,
-                       PacketCrossings& found, std::uint64_t& evaluations) {
+Lanes convex_crossings(const ConvexView& density, const RayPacket& rays, Lanes lanes, const PacketSpans& spans,
+                       double scale, PacketCrossings& found, std::uint64_t& evaluations) {
     return crossings_of<false>(density, rays, lanes, spans, scale, &found, evaluations);
 }
 
-Lanes convex_occlusions(const ConvexView& density, const RayPacket& rays, Lanes lanes, const PacketSpans& spans, double scale,
-                        std::uint64_t& evaluations) {
+Lanes convex_occlusions(const ConvexView& density, const RayPacket& rays, Lanes lanes, const PacketSpans& spans,
+                        double scale, std::uint64_t& evaluations) {
     return crossings_of<true>(density, rays, lanes, spans, scale, nullptr, evaluations);
 }
 
-const PacketFunctions functions{prepare, enter, longest_way, spans_in_cell, plane_crossings, convex_crossings, convex_occlusions};
+const PacketFunctions functions{prepare,          enter, longest_way, spans_in_cell, plane_crossings, convex_crossings,
+                                convex_occlusions};
 
 }  // namespace HWY_NAMESPACE
 }  // namespace deburr
@@ -152,7 +156,8 @@ std::vector<PacketInstructions> packet_instructions() {
         there.push_back({"AVX2", &N_AVX2::functions});
 #endif
 #if HWY_TARGETS & HWY_SSE4
-    if (__builtin_cpu_supports("sse4.2") && __builtin_cpu_supports("pclmul")) there.push_back({"SSE4", &N_SSE4::functions});
+    if (__builtin_cpu_supports("sse4.2") && __builtin_cpu_supports("pclmul"))
+        there.push_back({"SSE4", &N_SSE4::functions});
 #endif
     there.push_back({"baseline", &HWY_STATIC_DISPATCH(functions)});
     return there;

@@ -63,8 +63,7 @@ std::string box_of(const std::vector<BoundPlane>& planes, const Slab (&slabs)[3]
     // A box of the coordinates uᵢ = nᵢ·x, brought to x.
     const Mat3 back = glm::inverse(glm::transpose(normals));
     std::string rows;
-    for (int i = 0; i < 3; ++i)
-        rows += fmt::format("{}, {}, {}, ", back[i].x, back[i].y, back[i].z);
+    for (int i = 0; i < 3; ++i) rows += fmt::format("{}, {}, {}, ", back[i].x, back[i].y, back[i].z);
     return fmt::format("box {{ {}, {} matrix <{}0, 0, 0> }}", pov_vector(lo), pov_vector(hi), rows);
 }
 
@@ -204,8 +203,10 @@ std::string PovCsg::text(const std::string& modifiers) const {
     }
     std::string whole = parts[0];
     if (parts.size() > 1)
-        whole = braces("intersection", parts,
-                       bounded ? fmt::format("bounded_by {{ box {{ {}, {} }} }}", pov_vector(bounds.lo), pov_vector(bounds.hi)) : "");
+        whole = braces(
+            "intersection", parts,
+            bounded ? fmt::format("bounded_by {{ box {{ {}, {} }} }}", pov_vector(bounds.lo), pov_vector(bounds.hi))
+                    : "");
     if (taken.empty()) return with(whole, modifiers);
     taken.insert(taken.begin(), whole);
     return braces("difference", taken, modifiers);

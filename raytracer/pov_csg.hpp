@@ -37,9 +37,9 @@ private:
     PovCsg without_planes_of(const PovCsg& whole) const;
 
     Kind kind_;
-    std::vector<BoundPlane> planes_;   // both
+    std::vector<BoundPlane> planes_;    // both
     std::vector<std::string> objects_;  // both, either
-    std::vector<PovCsg> taken_;        // both: what is subtracted
+    std::vector<PovCsg> taken_;         // both: what is subtracted
 };
 
 }  // namespace deburr

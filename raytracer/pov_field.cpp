@@ -21,9 +21,11 @@ namespace deburr {
 // and max csg_examples takes 2.3 times as long.
 std::string pov_profile(bool by_cases) {
     const std::string text = "// Density of a half-space at the distance a, in radii, from its plane.\n";
-    if (by_cases) return text + "#declare Rho = function(a) { select(a + 1, 1, select(1 - a, 0, 0.5 + a*(a*a - 3)*0.25)) }\n";
-    return text + "#declare Cubic = function(a) { 0.5 + a*(a*a - 3)*0.25 }\n"
-                  "#declare Rho = function(a) { Cubic(min(max(a, -1), 1)) }\n";
+    if (by_cases)
+        return text + "#declare Rho = function(a) { select(a + 1, 1, select(1 - a, 0, 0.5 + a*(a*a - 3)*0.25)) }\n";
+    return text +
+           "#declare Cubic = function(a) { 0.5 + a*(a*a - 3)*0.25 }\n"
+           "#declare Rho = function(a) { Cubic(min(max(a, -1), 1)) }\n";
 }
 
 namespace {
@@ -97,10 +99,14 @@ PovField::PovField(const DensityTree& tree, int line) : line_(line), half_spaces
         if (!arithmetic[i]) continue;
         const TreeNode& n = tree.nodes[i];
         const Step step = n.op == Op::sum ? Step::sum : n.op == Op::product ? Step::product : Step::difference;
-        if (n.op == Op::constant) place[i] = add({Step::constant, n.value, -1, -1, {}, {}});
-        else if (n.op == Op::half_space) place[i] = add({Step::half_space, 0, n.a, -1, {}, {}});
-        else if (is_arithmetic(n.op)) place[i] = add({step, 0, place[std::size_t(n.a)], place[std::size_t(n.b)], {}, {}});
-        else place[i] = add_boolean(tree, int(i));
+        if (n.op == Op::constant)
+            place[i] = add({Step::constant, n.value, -1, -1, {}, {}});
+        else if (n.op == Op::half_space)
+            place[i] = add({Step::half_space, 0, n.a, -1, {}, {}});
+        else if (is_arithmetic(n.op))
+            place[i] = add({step, 0, place[std::size_t(n.a)], place[std::size_t(n.b)], {}, {}});
+        else
+            place[i] = add_boolean(tree, int(i));
     }
 }
 
@@ -164,9 +170,9 @@ std::string PovField::formula() const {
         terms.push_back(count);
     }
     if (terms.back() > most_terms)
-        throw UnsupportedError(fmt::format(
-            "{}expected a formula of at most {:.0f} half-spaces for POV-Ray, got {:.3g}",
-            line_ > 0 ? fmt::format("the solid of line {}: ", line_) : "", most_terms, terms.back()));
+        throw UnsupportedError(fmt::format("{}expected a formula of at most {:.0f} half-spaces for POV-Ray, got {:.3g}",
+                                           line_ > 0 ? fmt::format("the solid of line {}: ", line_) : "", most_terms,
+                                           terms.back()));
 
     std::vector<std::string> done;
     for (const Node& n : nodes_) {

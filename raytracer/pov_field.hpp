@@ -31,8 +31,8 @@ private:
     enum class Step : unsigned char { constant, half_space, sum, product, difference, decide };
     struct Node {
         Step step = Step::constant;
-        double value = 0;       // constant
-        int a = -1, b = -1;     // operands; half_space: a is its index
+        double value = 0;                   // constant
+        int a = -1, b = -1;                 // operands; half_space: a is its index
         std::vector<int> planes, children;  // decide: as in Decision, planes by index
     };
     struct Slopes;

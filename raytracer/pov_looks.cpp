@@ -45,7 +45,8 @@ std::string pigment(const Texture& t) {
 // width has the exponent 2/α² − 2.
 std::string highlight(double alpha, double f0) {
     alpha = std::max(alpha, least_alpha);
-    return fmt::format("specular {} roughness {}", f0 / (4 * alpha * alpha), 1 / std::max(1.0, 2 / (alpha * alpha) - 2));
+    return fmt::format("specular {} roughness {}", f0 / (4 * alpha * alpha),
+                       1 / std::max(1.0, 2 / (alpha * alpha) - 2));
 }
 
 }  // namespace
@@ -66,15 +67,14 @@ std::string pov_camera(const Camera& camera, Size size) {
     };
     const Vec3 corner = at(0, 0);
     return fmt::format("camera {{\n  perspective\n  location {}\n  direction {}\n  right {}\n  up {}\n}}\n",
-                       pov_vector(camera.eye), pov_vector(pinhole.forward()),
-                       pov_vector(at(size.width, 0) - corner), pov_vector(corner - at(0, size.height)));
+                       pov_vector(camera.eye), pov_vector(pinhole.forward()), pov_vector(at(size.width, 0) - corner),
+                       pov_vector(corner - at(0, size.height)));
 }
 
 std::string pov_background(const Background& b) {
     if (!b.sky) return fmt::format("background {{ {} }}\n", pov_color(b.color));
-    return fmt::format(
-        "sky_sphere {{ pigment {{ function {{ sqrt(max(0, y)) }} color_map {{ [0 {}] [1 {}] }} }} }}\n",
-        pov_color(b.horizon), pov_color(b.zenith));
+    return fmt::format("sky_sphere {{ pigment {{ function {{ sqrt(max(0, y)) }} color_map {{ [0 {}] [1 {}] }} }} }}\n",
+                       pov_color(b.horizon), pov_color(b.zenith));
 }
 
 std::string pov_light(const Light& light, const Scene& scene) {

@@ -45,11 +45,13 @@ PovScene pov_scene(const Scene& scene, Size size, PovSurface surface) {
         if (solid.cut) out.warnings.push_back(fmt::format("solid {} is unbounded: it is cut off", i + 1));
         if (solid.text.empty()) continue;
         const std::string name = i < scene.names.size() ? scene.names[i] : "";
-        solids += fmt::format("\n// Solid {}{}\n{}\n", i + 1, name.empty() ? "" : fmt::format(": {}", in_one_line(name)), solid.text);
+        solids += fmt::format("\n// Solid {}{}\n{}\n", i + 1,
+                              name.empty() ? "" : fmt::format(": {}", in_one_line(name)), solid.text);
     }
 
-    out.text = fmt::format("// {}, for POV-Ray 3.7, by Deburr " DEBURR_VERSION ": povray +W{} +H{} FILE\n#version 3.7;\n",
-                           in_one_line(scene.file), size.width, size.height);
+    out.text =
+        fmt::format("// {}, for POV-Ray 3.7, by Deburr " DEBURR_VERSION ": povray +W{} +H{} FILE\n#version 3.7;\n",
+                    in_one_line(scene.file), size.width, size.height);
     out.text += pov_settings(scene) + pov_camera(scene.camera, size) + pov_background(scene.background);
     for (const Light& light : scene.lights) out.text += pov_light(light, scene);
     out.text += "\n";

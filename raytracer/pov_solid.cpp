@@ -54,7 +54,8 @@ public:
         : surface_(surface), leaf_(leaf), all_roots_(in_csg) {}
 
     PovCsg csg() {
-        if (leaf_.field) throw UnsupportedError(of_leaf("expected rounded densities for POV-Ray, got another function"));
+        if (leaf_.field)
+            throw UnsupportedError(of_leaf("expected rounded densities for POV-Ray, got another function"));
         if (leaf_.density.nodes.back().op == Op::ball_share && !surface_.sharp)
             throw UnsupportedError(of_leaf("expected rounded densities for POV-Ray, got a true convolution"));
         return csg(leaf_.density);
@@ -74,9 +75,8 @@ private:
         all_roots_ = true;
         const BoundPlane plane{first_sharp->normal, first_sharp->offset};
         const std::size_t index = std::size_t(first_sharp - tree.half_spaces.begin());
-        return PovCsg::unite(
-            PovCsg::intersect(PovCsg::plane(plane), divided(tree, index, 1)),
-            PovCsg::intersect(PovCsg::plane({-plane.normal, -plane.offset}), divided(tree, index, 0)));
+        return PovCsg::unite(PovCsg::intersect(PovCsg::plane(plane), divided(tree, index, 1)),
+                             PovCsg::intersect(PovCsg::plane({-plane.normal, -plane.offset}), divided(tree, index, 0)));
     }
 
     // The tree where a half-space's density is `value`.
@@ -111,7 +111,8 @@ private:
         for (const HalfSpace& h : tree.half_spaces) radius = std::min(radius, h.radius);
         const PovField field(tree, leaf_.line);
         std::string text = fmt::format(
-            "isosurface {{\n  function {{ 0.5 - {} }}\n  contained_by {{ box {{ {}, {} }} }}\n  max_gradient {}\n  accuracy {}\n",
+            "isosurface {{\n  function {{ 0.5 - {} }}\n  contained_by {{ box {{ {}, {} }} }}\n  max_gradient {}\n  "
+            "accuracy {}\n",
             field.formula(), pov_vector(box.lo), pov_vector(box.hi),
             surface_.max_gradient > 0 ? surface_.max_gradient : field.greatest_slope(box),
             surface_.accuracy > 0 ? surface_.accuracy : default_accuracy * radius);

@@ -9,16 +9,16 @@
 namespace deburr {
 
 struct PovSurface {
-    bool sharp = false;         // every radius 0: CSG of planes and boxes, and no isosurface
-    bool min_max = false;       // the profile is clamped by min and max instead of by cases: a slower field
-    double max_gradient = 0;    // 0: what is proved of each density
-    double accuracy = 0;        // 0: a ten-thousandth of each density's least radius
+    bool sharp = false;             // every radius 0: CSG of planes and boxes, and no isosurface
+    bool min_max = false;           // the profile is clamped by min and max instead of by cases: a slower field
+    double max_gradient = 0;        // 0: what is proved of each density
+    double accuracy = 0;            // 0: a ten-thousandth of each density's least radius
     Box limit = Box::everything();  // what is infinite ends here; finite
 };
 
 struct PovSolid {
-    std::string text;   // empty: there is nothing of the solid
-    bool cut = false;   // it was infinite, and ends at the limit now
+    std::string text;  // empty: there is nothing of the solid
+    bool cut = false;  // it was infinite, and ends at the limit now
 };
 
 /// `material` names the modifiers of a leaf's surface. Where sharp and rounded half-spaces meet in one

@@ -10,10 +10,10 @@
 namespace deburr {
 namespace {
 
-constexpr double bar_interval = 0.1;    // seconds: looks smooth and costs nothing
-constexpr double line_interval = 10;    // seconds: a log shows that the work goes on
-constexpr int line_percent = 10;        // or every so many percent
-constexpr double first_line_after = 1;  // seconds: short work needs no account of itself
+constexpr double bar_interval = 0.1;                // seconds: looks smooth and costs nothing
+constexpr double line_interval = 10;                // seconds: a log shows that the work goes on
+constexpr int line_percent = 10;                    // or every so many percent
+constexpr double first_line_after = 1;              // seconds: short work needs no account of itself
 constexpr int narrowest_bar = 10, widest_bar = 50;  // columns
 
 }  // namespace
@@ -27,8 +27,7 @@ std::string clock_time(double seconds) {
 Progress::Output Progress::standard_error(bool quiet) {
     Output output;
     output.now = [] {
-        return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch())
-            .count();
+        return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
     };
     output.print = [](std::string_view text) {
         std::fwrite(text.data(), 1, text.size(), stderr);
@@ -37,8 +36,7 @@ Progress::Output Progress::standard_error(bool quiet) {
     if (quiet) return output;
     output.style = isatty(STDERR_FILENO) ? Style::bar : Style::lines;
     winsize size{};
-    if (ioctl(STDERR_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 0)
-        output.columns = size.ws_col;
+    if (ioctl(STDERR_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 0) output.columns = size.ws_col;
     return output;
 }
 
@@ -66,8 +64,7 @@ void Progress::show(double now) {
         rest = clock_time(elapsed * (1 / share - 1)) + " left";
     if (output_.style == Style::bar) {
         if (open_ && !finished_ && now - shown_at_ < bar_interval) return;
-        const int room =
-            output_.columns - 1 - int(std::string_view("[] 100 %  00:00:00 left").size());
+        const int room = output_.columns - 1 - int(std::string_view("[] 100 %  00:00:00 left").size());
         const int bar = std::clamp(room, narrowest_bar, widest_bar);
         const int full = int(share * bar);
         // To the end of the line, to cover what a longer text has left there.
@@ -75,8 +72,7 @@ void Progress::show(double now) {
                                   std::string(std::size_t(bar - full), '.'), percent, rest));
         open_ = true;
     } else {
-        const bool due = percent / line_percent > shown_percent_ / line_percent ||
-                         now - shown_at_ >= line_interval;
+        const bool due = percent / line_percent > shown_percent_ / line_percent || now - shown_at_ >= line_interval;
         if (!finished_ && (!due || elapsed < first_line_after)) return;
         output_.print(fmt::format("{:3} %  {}\n", percent, rest));
     }

@@ -18,7 +18,8 @@ void RayTracer::first_hits(std::span<const Ray> rays, Hit* hits, TraceCounters& 
     for (std::size_t k = 0; k < rays.size(); ++k) hits[k] = first_hit(rays[k], infinity, counters);
 }
 
-void RayTracer::occlusions(std::span<const Ray> rays, std::span<const double> t_max, bool* occluded, TraceCounters& counters) const {
+void RayTracer::occlusions(std::span<const Ray> rays, std::span<const double> t_max, bool* occluded,
+                           TraceCounters& counters) const {
     for (std::size_t k = 0; k < rays.size(); ++k) occluded[k] = this->occluded(rays[k], t_max[k], counters);
 }
 

@@ -14,12 +14,12 @@ struct Ray {
 };
 
 struct Hit {
-    double t = infinity;       // distance along the ray; infinity: nothing was hit
+    double t = infinity;  // distance along the ray; infinity: nothing was hit
     Vec3 position{0.0};
-    Vec3 normal{0.0};          // unit, out of the solid (it may point along the ray: we are inside)
-    int solid = -1;            // index in Scene::solids
-    int material = 0;          // index in Scene::materials
-    double offset = 0.0;       // how far along ±normal a new ray must start to leave this surface
+    Vec3 normal{0.0};     // unit, out of the solid (it may point along the ray: we are inside)
+    int solid = -1;       // index in Scene::solids
+    int material = 0;     // index in Scene::materials
+    double offset = 0.0;  // how far along ±normal a new ray must start to leave this surface
 
     explicit operator bool() const { return t < infinity; }
 };
@@ -42,7 +42,8 @@ public:
 
     /// The same for many rays, to the bit: the sooner the closer neighbours run to each other.
     virtual void first_hits(std::span<const Ray> rays, Hit* hits, TraceCounters& counters) const;
-    virtual void occlusions(std::span<const Ray> rays, std::span<const double> t_max, bool* occluded, TraceCounters& counters) const;
+    virtual void occlusions(std::span<const Ray> rays, std::span<const double> t_max, bool* occluded,
+                            TraceCounters& counters) const;
 };
 
 /// The ray's origin lifted off the surface it was found on, to the side that `direction` leads to.

@@ -39,7 +39,8 @@ Rendering render(Film film, const BlockFunction& block, const std::atomic<bool>&
         if (with_layers) work.layers_in_hand.resize(work.pixels_in_hand.size());
         block(part, work.pixels_in_hand.data(), with_layers ? work.layers_in_hand.data() : nullptr, work.counters);
         for (int y = 0; y < part.height; ++y)
-            std::copy_n(&work.pixels_in_hand[std::size_t(y * part.width)], part.width, &result.film.at(part.x, part.y + y));
+            std::copy_n(&work.pixels_in_hand[std::size_t(y * part.width)], part.width,
+                        &result.film.at(part.x, part.y + y));
         if (with_layers) result.film.set_layers(part, work.layers_in_hand.data());
         const std::int64_t pixels = std::int64_t(part.width) * part.height;
         work.pixels += pixels;
@@ -63,8 +64,7 @@ Rendering render(Film film, const BlockFunction& block, const std::atomic<bool>&
         result.counters += part.counters;
         result.pixels_done += part.pixels;
     }
-    result.film.complete =
-        result.pixels_done == std::int64_t(window.width) * std::int64_t(window.height);
+    result.film.complete = result.pixels_done == std::int64_t(window.width) * std::int64_t(window.height);
     return result;
 }
 

@@ -24,7 +24,8 @@ Window tile(const Window& window, std::int64_t index);
 
 /// Sets all pixels of a block of the picture, row by row, and, unless null, their layers; a block is
 /// a tile or a part of one. Called from many threads at once.
-using BlockFunction = std::function<void(const Window& block, Pixel* pixels, PixelLayers* layers, TraceCounters& counters)>;
+using BlockFunction =
+    std::function<void(const Window& block, Pixel* pixels, PixelLayers* layers, TraceCounters& counters)>;
 
 /// Told the number of pixels that were just finished; called from many threads at once.
 using PixelsDone = std::function<void(std::int64_t pixels)>;
@@ -35,8 +36,8 @@ struct Rendering {
     std::int64_t pixels_done = 0;
 };
 
-/// Fills an empty film. Tiles start from the top. Once `stop` is set no further tile starts; those in hand are finished.
-/// What `block` throws comes through.
+/// Fills an empty film. Tiles start from the top. Once `stop` is set no further tile starts; those in hand are
+/// finished. What `block` throws comes through.
 Rendering render(Film film, const BlockFunction& block, const std::atomic<bool>& stop, const PixelsDone& done = {});
 
 }  // namespace deburr

@@ -57,8 +57,7 @@ double unit(std::uint32_t x) { return x * 0x1p-32; }
 }  // namespace
 
 Sampler::Sampler(std::uint64_t seed, int x, int y, int sample)
-    : pixel_(
-          mixed(mixed(seed + golden) ^ (std::uint64_t(std::uint32_t(x)) << 32 | std::uint32_t(y)))),
+    : pixel_(mixed(mixed(seed + golden) ^ (std::uint64_t(std::uint32_t(x)) << 32 | std::uint32_t(y)))),
       sample_(std::uint32_t(sample)) {}
 
 Vec2 Sampler::square(std::uint32_t dimension, int part, int parts) const {
@@ -67,8 +66,7 @@ Vec2 Sampler::square(std::uint32_t dimension, int part, int parts) const {
     const std::uint32_t index = sample_ * std::uint32_t(parts) + std::uint32_t(part);
     const std::uint32_t shuffled = reversed(nested(reversed(index), key));
     const std::uint64_t key_x = mixed(key + golden), key_y = mixed(key + 2 * golden);
-    return {unit(reversed(nested(shuffled, key_x))),
-            unit(reversed(nested(pascal(shuffled), key_y)))};
+    return {unit(reversed(nested(shuffled, key_x))), unit(reversed(nested(pascal(shuffled), key_y)))};
 }
 
 namespace {
@@ -80,8 +78,7 @@ constexpr std::array<double, 4> window = {0.35875, 0.48829, 0.14128, 0.01168};
 double filter_area(double x) {
     const double turn = std::numbers::pi * x / filter_radius;  // from -π to π
     double sum = 0.5 * window[0] * (turn / std::numbers::pi + 1.0);
-    for (int k = 1; k < 4; ++k)
-        sum += window[std::size_t(k)] * std::sin(k * turn) / (2 * std::numbers::pi * k);
+    for (int k = 1; k < 4; ++k) sum += window[std::size_t(k)] * std::sin(k * turn) / (2 * std::numbers::pi * k);
     return sum / window[0];
 }
 

@@ -34,8 +34,8 @@ struct Material {
 struct Light {
     enum class Kind { point, directional, area };
     Kind kind = Kind::point;
-    Vec3 position{0.0};         // point; area: its centre
-    Vec3 direction{0, -1, 0};   // directional: the way the light travels, unit
+    Vec3 position{0.0};           // point; area: its centre
+    Vec3 direction{0, -1, 0};     // directional: the way the light travels, unit
     Vec3 u{1, 0, 0}, v{0, 0, 1};  // area: its two sides; it shines towards u × v
     Vec3 color{1.0};
     double power = 1.0;
@@ -49,8 +49,8 @@ struct Camera {
 
 /// What rays that hit nothing see; also the ambient light.
 struct Background {
-    bool sky = false;                       // a gradient from horizon to zenith, by direction.y
-    Vec3 color{0.0};                        // one colour where there is no sky
+    bool sky = false;  // a gradient from horizon to zenith, by direction.y
+    Vec3 color{0.0};   // one colour where there is no sky
     Vec3 horizon{0.8, 0.85, 0.9}, zenith{0.3, 0.5, 0.8};
 
     Vec3 towards(Vec3 unit_direction) const {
@@ -63,12 +63,12 @@ struct Scene {
     std::string file;                               // as the user named it
     std::map<std::string, std::string> parameters;  // every param() the scene read, with its value
     int width = 600, height = 380;
-    int spp = 1;           // samples per pixel
-    int bounces = 4;       // depth of mirror and glass paths
+    int spp = 1;      // samples per pixel
+    int bounces = 4;  // depth of mirror and glass paths
     Camera camera;
     std::vector<Light> lights;
     Background background;
-    Vec3 ambient{0.0};     // constant radiance from all around, seen by diffuse surfaces only
+    Vec3 ambient{0.0};                // constant radiance from all around, seen by diffuse surfaces only
     std::vector<Material> materials;  // never empty: index 0 is for solids that name none
     std::vector<Solid> solids;        // separate objects; ids are 1, 2, … in this order
     std::vector<std::string> names;   // of the solids, "" where they have none

@@ -47,7 +47,9 @@ SceneResult quadric(SceneCall& call) {
     }
     const Quadric result = quadric_from(c);
     if (result.is_constant())
-        throw BadValue(call.name, fmt::format("expected a surface: a coefficient besides c that is not 0, got only c = {:g}", c[9]));
+        throw BadValue(
+            call.name,
+            fmt::format("expected a surface: a coefficient besides c that is not 0, got only c = {:g}", c[9]));
     return call.make(result);
 }
 
@@ -131,7 +133,8 @@ SceneResult freeform(SceneCall& call) {
     const LuaTable* given = as_table(call.argument(1));
     if (!given || !given->fields.empty()) expected(call.name, "a list of perturbations", call.argument(1));
     if (given->list.size() > most_perturbations)
-        throw BadValue(call.name, fmt::format("expected at most {} perturbations, got {}", most_perturbations, given->list.size()));
+        throw BadValue(call.name, fmt::format("expected at most {} perturbations, got {}", most_perturbations,
+                                              given->list.size()));
     std::vector<Perturbation> perturbations;
     for (const LuaValue& item : given->list) {
         const SceneObject* object = as_object(item);
@@ -146,10 +149,12 @@ SceneResult freeform(SceneCall& call) {
 
 }  // namespace
 
-Solid solid_of_form(const std::string& function, const Quadric& base, std::vector<Perturbation> perturbations, int line) {
+Solid solid_of_form(const std::string& function, const Quadric& base, std::vector<Perturbation> perturbations,
+                    int line) {
     const Range q = base.range_everywhere();
     const auto some = [&](double sign) {
-        return std::any_of(perturbations.begin(), perturbations.end(), [&](const Perturbation& p) { return sign * p.factor > 0; });
+        return std::any_of(perturbations.begin(), perturbations.end(),
+                           [&](const Perturbation& p) { return sign * p.factor > 0; });
     };
     if (q.hi <= 0 && !some(1)) throw BadValue(function, "expected a surface, got a quadric that is <= 0 everywhere");
     if (q.lo >= 0 && !some(-1)) throw BadValue(function, "expected a surface, got a quadric that is >= 0 everywhere");
@@ -169,14 +174,10 @@ const Quadric& ordinary(const Quadric& quadric, const char* function) {
 const std::vector<SceneFunction>& form_functions() {
     using Place = SceneFunction::Place;
     static const std::vector<SceneFunction> functions = {
-        {Place::global, "quadric", "", quadric},
-        {Place::global, "ellipsoid", "", ellipsoid},
-        {Place::global, "cylinder", "", cylinder},
-        {Place::global, "cone", "", cone},
-        {Place::global, "paraboloid", "", paraboloid},
-        {Place::global, "hyperboloid", "", hyperboloid},
-        {Place::global, "perturbation", "", perturbation},
-        {Place::global, "freeform", "", freeform},
+        {Place::global, "quadric", "", quadric},           {Place::global, "ellipsoid", "", ellipsoid},
+        {Place::global, "cylinder", "", cylinder},         {Place::global, "cone", "", cone},
+        {Place::global, "paraboloid", "", paraboloid},     {Place::global, "hyperboloid", "", hyperboloid},
+        {Place::global, "perturbation", "", perturbation}, {Place::global, "freeform", "", freeform},
     };
     return functions;
 }

@@ -26,19 +26,17 @@ std::string kind_of(const SceneObject& object) {
 
 void SceneBuilder::check_size(double half_spaces) {
     if (half_spaces > most_half_spaces)
-        throw std::runtime_error(
-            fmt::format("expected at most {} half-spaces, got {}", most_half_spaces, half_spaces));
+        throw std::runtime_error(fmt::format("expected at most {} half-spaces, got {}", most_half_spaces, half_spaces));
 }
 
 void SceneBuilder::spend(std::size_t steps) {
     steps_ += steps;
     if (steps_ > most_steps)
-        throw std::runtime_error(fmt::format(
-            "expected a scene that makes at most {} parts, got one that makes more", most_steps));
+        throw std::runtime_error(
+            fmt::format("expected a scene that makes at most {} parts, got one that makes more", most_steps));
 }
 
-const SceneObject* SceneBuilder::make(decltype(SceneObject::is) object, int line,
-                                      std::string name) {
+const SceneObject* SceneBuilder::make(decltype(SceneObject::is) object, int line, std::string name) {
     spend(2);
     if (const auto* density = std::get_if<Density>(&object)) check_size(density->node().leaves);
     if (const auto* solid = std::get_if<Solid>(&object)) check_size(solid->node().leaves);
@@ -86,8 +84,7 @@ SceneResult SceneBuilder::parameter(const std::string& name, const LuaValue& fal
     }
     const std::string& given = define->second;
     const auto wrong = [&](const char* what) {
-        return BadValue(place,
-                        fmt::format("expected {} after -D {}=, got '{}'", what, name, given));
+        return BadValue(place, fmt::format("expected {} after -D {}=, got '{}'", what, name, given));
     };
     parameters_[name] = given;
     if (is_number) {
@@ -111,8 +108,8 @@ const LuaValue& SceneCall::argument(std::size_t index) const {
 
 void SceneCall::at_most(std::size_t count) const {
     if (arguments.size() <= count) return;
-    throw BadValue(name, fmt::format("expected at most {} argument{}, got {}", count,
-                                     count == 1 ? "" : "s", arguments.size()));
+    throw BadValue(
+        name, fmt::format("expected at most {} argument{}, got {}", count, count == 1 ? "" : "s", arguments.size()));
 }
 
 namespace {
@@ -127,8 +124,7 @@ bool call_body(lua_State* lua, SceneBuilder& builder, const SceneFunction& funct
     builder.values = builder.work = 0;
     const auto fail = [&](const char* what) {
         if (line > 0)
-            std::snprintf(builder.message, sizeof builder.message, "%c:%d: %s", file_mark, line,
-                          what);
+            std::snprintf(builder.message, sizeof builder.message, "%c:%d: %s", file_mark, line, what);
         else
             std::snprintf(builder.message, sizeof builder.message, "%c: %s", file_mark, what);
         return false;
@@ -153,22 +149,11 @@ bool call_body(lua_State* lua, SceneBuilder& builder, const SceneFunction& funct
 
 int push_result(lua_State* lua, const SceneResult& result) {
     switch (result.index()) {
-        case 0:
-            lua_pushvalue(lua, std::get<Argument>(result).index);
-            return 1;
-        case 1:
-            lua_pushlightuserdata(lua,
-                                  const_cast<SceneObject*>(std::get<const SceneObject*>(result)));
-            return 1;
-        case 2:
-            lua_pushboolean(lua, std::get<bool>(result));
-            return 1;
-        case 3:
-            lua_pushnumber(lua, std::get<double>(result));
-            return 1;
-        case 4:
-            lua_pushinteger(lua, std::get<long long>(result));
-            return 1;
+        case 0: lua_pushvalue(lua, std::get<Argument>(result).index); return 1;
+        case 1: lua_pushlightuserdata(lua, const_cast<SceneObject*>(std::get<const SceneObject*>(result))); return 1;
+        case 2: lua_pushboolean(lua, std::get<bool>(result)); return 1;
+        case 3: lua_pushnumber(lua, std::get<double>(result)); return 1;
+        case 4: lua_pushinteger(lua, std::get<long long>(result)); return 1;
         default: {
             const auto& text = std::get<std::string>(result);
             lua_pushlstring(lua, text.data(), text.size());
@@ -179,8 +164,7 @@ int push_result(lua_State* lua, const SceneResult& result) {
 
 // No object with a destructor here: what follows the body may raise.
 int call_from_lua(lua_State* lua) {
-    const auto* function =
-        static_cast<const SceneFunction*>(lua_touserdata(lua, lua_upvalueindex(1)));
+    const auto* function = static_cast<const SceneFunction*>(lua_touserdata(lua, lua_upvalueindex(1)));
     auto* builder = static_cast<SceneBuilder*>(Sandbox::host(lua));
     luaL_checkstack(lua, read_value_slots, "too many arguments");
     Sandbox::allow_abandoning(lua, false);
@@ -197,13 +181,11 @@ int find_method(lua_State* lua) {
     lua_settop(lua, 2);
     lua_pushvalue(lua, 2);
     if (lua_rawget(lua, lua_upvalueindex(1)) != LUA_TNIL) return 1;
-    const char* name =
-        lua_type(lua, 2) == LUA_TSTRING ? lua_tostring(lua, 2) : luaL_typename(lua, 2);
-    return luaL_error(
-        lua,
-        "expected a method (translate, scale, rotate, mirror, radius, material, name), "
-        "got '%s'",
-        name);
+    const char* name = lua_type(lua, 2) == LUA_TSTRING ? lua_tostring(lua, 2) : luaL_typename(lua, 2);
+    return luaL_error(lua,
+                      "expected a method (translate, scale, rotate, mirror, radius, material, name), "
+                      "got '%s'",
+                      name);
 }
 
 int object_text(lua_State* lua) {  // without the address, which differs from run to run
@@ -228,15 +210,9 @@ void open_scene_functions(lua_State* lua) {
         for (const SceneFunction& function : *functions) {
             push_function(lua, function);
             switch (function.place) {
-                case SceneFunction::Place::global:
-                    lua_setglobal(lua, function.name);
-                    break;
-                case SceneFunction::Place::method:
-                    lua_setfield(lua, methods, function.name);
-                    break;
-                case SceneFunction::Place::metamethod:
-                    lua_setfield(lua, meta, function.symbol);
-                    break;
+                case SceneFunction::Place::global: lua_setglobal(lua, function.name); break;
+                case SceneFunction::Place::method: lua_setfield(lua, methods, function.name); break;
+                case SceneFunction::Place::metamethod: lua_setfield(lua, meta, function.symbol); break;
             }
         }
     lua_pushcclosure(lua, find_method, 1);

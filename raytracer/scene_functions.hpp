@@ -34,8 +34,7 @@ constexpr std::size_t most_steps = 4'000'000;
 struct Argument {  // the argument with this number, counted from 1
     int index;
 };
-using SceneResult =
-    std::variant<Argument, const SceneObject*, bool, double, long long, std::string>;
+using SceneResult = std::variant<Argument, const SceneObject*, bool, double, long long, std::string>;
 
 class SceneBuilder {
 public:
@@ -108,7 +107,8 @@ const std::vector<SceneFunction>& look_functions();
 const Quadric& ordinary(const Quadric& quadric, const char* function);
 
 /// Q + Σ fᵢRᵢ as a solid. Throws where Q's sign is everywhere the same, and no perturbation could change it.
-Solid solid_of_form(const std::string& function, const Quadric& base, std::vector<Perturbation> perturbations, int line);
+Solid solid_of_form(const std::string& function, const Quadric& base, std::vector<Perturbation> perturbations,
+                    int line);
 
 /// Registers all functions; the sandbox's host must be a SceneBuilder. May raise Lua errors.
 void open_scene_functions(lua_State* lua);

@@ -50,8 +50,7 @@ SceneResult plastic(SceneCall& call) {
     read_texture(fields, m.color);
     if (const auto* given = fields.find("roughness"))
         m.roughness = number_between(*given, fields.place("roughness"), 0, 1);
-    if (const auto* given = fields.find("ior"))
-        m.ior = number_between(*given, fields.place("ior"), 1, largest_ior);
+    if (const auto* given = fields.find("ior")) m.ior = number_between(*given, fields.place("ior"), 1, largest_ior);
     return call.make(m);
 }
 
@@ -77,16 +76,14 @@ SceneResult glass(SceneCall& call) {
     read_texture(fields, m.color);
     if (const auto* given = fields.find("roughness"))
         m.roughness = number_between(*given, fields.place("roughness"), 0, 1);
-    if (const auto* given = fields.find("ior"))
-        m.ior = number_between(*given, fields.place("ior"), 1, largest_ior);
+    if (const auto* given = fields.find("ior")) m.ior = number_between(*given, fields.place("ior"), 1, largest_ior);
     return call.make(m);
 }
 
 void read_pattern(const Fields& fields, Texture& texture) {
     read_color(fields, "a", texture.a, 1);
     read_color(fields, "b", texture.b, 1);
-    if (const auto* given = fields.find("scale"))
-        texture.scale = number_above(*given, fields.place("scale"), 0);
+    if (const auto* given = fields.find("scale")) texture.scale = number_above(*given, fields.place("scale"), 0);
     read_vector(fields, "origin", texture.origin);
 }
 
@@ -105,15 +102,13 @@ SceneResult wood(SceneCall& call) {
     texture.a = {0.72, 0.48, 0.27};
     texture.b = {0.45, 0.25, 0.12};
     read_pattern(fields, texture);
-    if (const auto* given = fields.find("axis"))
-        texture.axis = direction(*given, fields.place("axis"));
+    if (const auto* given = fields.find("axis")) texture.axis = direction(*given, fields.place("axis"));
     return call.make(texture);
 }
 
 void read_power(const Fields& fields, Light& light) {
     read_color(fields, "color", light.color, infinity);
-    if (const auto* given = fields.find("power"))
-        light.power = number_at_least(*given, fields.place("power"), 0);
+    if (const auto* given = fields.find("power")) light.power = number_at_least(*given, fields.place("power"), 0);
 }
 
 SceneResult point_light(SceneCall& call) {
@@ -134,8 +129,7 @@ SceneResult directional_light(SceneCall& call) {
 }
 
 SceneResult area_light(SceneCall& call) {
-    const Fields fields(fields_argument(call), call.name,
-                        {"position", "u", "v", "color", "power", "samples"});
+    const Fields fields(fields_argument(call), call.name, {"position", "u", "v", "color", "power", "samples"});
     Light light;
     light.kind = Light::Kind::area;
     light.position = vector(fields.get("position"), fields.place("position"));
@@ -143,8 +137,8 @@ SceneResult area_light(SceneCall& call) {
     light.v = vector(fields.get("v"), fields.place("v"));
     const double area = glm::length(glm::cross(light.u, light.v));
     if (!(area > 0 && std::isfinite(area)))
-        throw BadValue(fields.place("v"), "expected a side that spans an area with u, got " +
-                                              described(fields.get("v")));
+        throw BadValue(fields.place("v"),
+                       "expected a side that spans an area with u, got " + described(fields.get("v")));
     if (const auto* given = fields.find("samples"))
         light.samples = integer(*given, fields.place("samples"), 1, most_shadow_rays);
     read_power(fields, light);

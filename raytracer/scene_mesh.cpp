@@ -42,7 +42,8 @@ Box finite_part(const Scene& scene, const std::vector<Box>& boxes) {
 void need_densities(const SolidTree& solid, std::size_t id) {
     if (solid.has_field())
         throw UnsupportedError(fmt::format(
-            "--method triage: expected rounded polyhedra, got a free form in solid {}; use octree or marching-cubes", id));
+            "--method triage: expected rounded polyhedra, got a free form in solid {}; use octree or marching-cubes",
+            id));
 }
 
 Mesh by_octree(const SolidTree& tree, const Box& box, bool cut_off, const MeshSettings& settings, std::size_t id,
@@ -85,8 +86,7 @@ struct SolidMesh {
 };
 
 // `id` is for messages. Where the solid has been cut off, its box is not its own.
-SolidMesh polygonize(const SolidTree& tree, bool cut_off, const MeshSettings& settings, std::size_t id,
-                     StopFlag stop) {
+SolidMesh polygonize(const SolidTree& tree, bool cut_off, const MeshSettings& settings, std::size_t id, StopFlag stop) {
     SolidMesh result;
     const Box box = polygonization_box(tree);
     if (box.empty()) return result;
@@ -97,12 +97,13 @@ SolidMesh polygonize(const SolidTree& tree, bool cut_off, const MeshSettings& se
         need_densities(tree, id);
         const double radius = tree.least_radius();
         const double relative = radius > 0 ? settings.tolerance_in_radii * radius : infinity;
-        result.mesh = triage(tree, box, {settings.coarseness * std::min(settings.tolerance, relative), stop}, &result.triage);
+        result.mesh =
+            triage(tree, box, {settings.coarseness * std::min(settings.tolerance, relative), stop}, &result.triage);
     } else {
         const double grid = settings.coarseness * (settings.grid > 0 ? settings.grid : marching_cubes_grid(tree, box));
         if (marching_cubes_count(box, grid) > most_cubes)
-            throw UnsupportedError(fmt::format(
-                "--grid: a grid of {:g} would have more than {:g} cubes for solid {}", grid, most_cubes, id));
+            throw UnsupportedError(fmt::format("--grid: a grid of {:g} would have more than {:g} cubes for solid {}",
+                                               grid, most_cubes, id));
         result.mesh = marching_cubes(tree, box, grid, stop);
     }
     return result;
@@ -197,8 +198,8 @@ SceneMesh mesh_scene(const Scene& scene, MeshSettings settings, std::size_t face
         SceneMesh mesh = mesh_scene(scene, settings, {stop, {}});
         const double count = double(std::max<std::size_t>(mesh.mesh.triangles.size(), 1));
         if (last_count > 0 && count != last_count && settings.coarseness != last_coarseness)
-            slope = std::clamp(-std::log(count / last_count) / std::log(settings.coarseness / last_coarseness), least_slope,
-                               greatest_slope);
+            slope = std::clamp(-std::log(count / last_count) / std::log(settings.coarseness / last_coarseness),
+                               least_slope, greatest_slope);
         last_coarseness = settings.coarseness;
         last_count = count;
         settings.coarseness *= std::clamp(std::pow(count / double(faces), 1 / slope), 1 / largest_step, largest_step);
@@ -208,7 +209,8 @@ SceneMesh mesh_scene(const Scene& scene, MeshSettings settings, std::size_t face
         best = std::move(mesh);
     }
     if (error > worth_a_warning)
-        best.warnings.push_back(fmt::format("--faces: the nearest to {} that was found is {}", faces, best.mesh.triangles.size()));
+        best.warnings.push_back(
+            fmt::format("--faces: the nearest to {} that was found is {}", faces, best.mesh.triangles.size()));
     return best;
 }
 

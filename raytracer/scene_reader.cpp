@@ -26,8 +26,7 @@ constexpr double least_sine = 1e-6;
 void read_image(const LuaValue& value, Scene& scene) {
     const Fields fields(value, "image", {"width", "height", "spp", "bounces"});
     const auto read = [&](const char* name, int& number, int least, int most) {
-        if (const auto* given = fields.find(name))
-            number = integer(*given, fields.place(name), least, most);
+        if (const auto* given = fields.find(name)) number = integer(*given, fields.place(name), least, most);
     };
     read("width", scene.width, 1, largest_side);
     read("height", scene.height, 1, largest_side);
@@ -86,8 +85,7 @@ void read_solids(const LuaValue& value, SceneBuilder& builder, Scene& scene) {
     for (const LuaValue& item : table->list) {
         const std::string place = fmt::format("solids[{}]", scene.solids.size() + 1);
         const SceneObject* object = as_object(item);
-        if (!object || !(std::holds_alternative<Solid>(object->is) ||
-                         std::holds_alternative<Density>(object->is) ||
+        if (!object || !(std::holds_alternative<Solid>(object->is) || std::holds_alternative<Density>(object->is) ||
                          std::holds_alternative<Quadric>(object->is)))
             expected(place, "a solid or a density", item);
         scene.solids.push_back(builder.solid(*object));
@@ -95,8 +93,7 @@ void read_solids(const LuaValue& value, SceneBuilder& builder, Scene& scene) {
         half_spaces += scene.solids.back().node().leaves;
     }
     if (half_spaces > most_half_spaces)
-        throw BadValue("solids", fmt::format("expected at most {} half-spaces, got {}",
-                                             most_half_spaces, half_spaces));
+        throw BadValue("solids", fmt::format("expected at most {} half-spaces, got {}", most_half_spaces, half_spaces));
 }
 
 // A scene that says nothing about light is lit from over the viewer's left shoulder.
@@ -113,15 +110,12 @@ void add_default_light(Scene& scene) {
 }
 
 void read_table(const LuaValue& value, SceneBuilder& builder, Scene& scene) {
-    if (!as_table(value))
-        expected("scene", "the chunk to return a table, return { solids = { … } }", value);
-    const Fields fields(value, "",
-                        {"image", "camera", "lights", "background", "ambient", "solids"});
+    if (!as_table(value)) expected("scene", "the chunk to return a table, return { solids = { … } }", value);
+    const Fields fields(value, "", {"image", "camera", "lights", "background", "ambient", "solids"});
     if (const auto* given = fields.find("image")) read_image(*given, scene);
     if (const auto* given = fields.find("camera")) read_camera(*given, scene.camera);
     if (const auto* given = fields.find("background")) read_background(*given, scene.background);
-    if (const auto* given = fields.find("ambient"))
-        scene.ambient = color(*given, "ambient", infinity);
+    if (const auto* given = fields.find("ambient")) scene.ambient = color(*given, "ambient", infinity);
     if (const auto* given = fields.find("lights"))
         read_lights(*given, scene.lights);
     else if (!fields.find("ambient"))
@@ -134,13 +128,11 @@ void check_defines(const std::map<std::string, std::string>& defines,
     for (const auto& [name, value] : defines) {
         if (parameters.count(name)) continue;
         std::string known;
-        for (const auto& parameter : parameters)
-            known += (known.empty() ? "" : ", ") + parameter.first;
+        for (const auto& parameter : parameters) known += (known.empty() ? "" : ", ") + parameter.first;
         throw std::runtime_error(
             fmt::format("-D {}: ", name) +
             (known.empty() ? "expected no parameters, the scene has none"
-                           : fmt::format("expected one of the scene's parameters {}, got '{}'",
-                                         known, name)));
+                           : fmt::format("expected one of the scene's parameters {}, got '{}'", known, name)));
     }
 }
 
@@ -150,21 +142,17 @@ std::string file_text(const std::string& file) {
         throw SceneError(one_line("expected a scene, got a directory", file));
     const auto close = [](std::FILE* f) { std::fclose(f); };
     const std::unique_ptr<std::FILE, decltype(close)> input(std::fopen(file.c_str(), "rb"), close);
-    if (!input)
-        throw SceneError(
-            one_line(std::string("expected a scene, got: ") + std::strerror(errno), file));
+    if (!input) throw SceneError(one_line(std::string("expected a scene, got: ") + std::strerror(errno), file));
     std::string text;
     char buffer[65'536];
     while (const std::size_t size = std::fread(buffer, 1, sizeof buffer, input.get())) {
         text.append(buffer, size);
         if (text.size() > largest_file)
-            throw SceneError(one_line(
-                fmt::format("expected at most {} MiB of text, got more", largest_file >> 20),
-                file));
+            throw SceneError(
+                one_line(fmt::format("expected at most {} MiB of text, got more", largest_file >> 20), file));
     }
     if (std::ferror(input.get()))
-        throw SceneError(
-            one_line(std::string("expected a scene, got: ") + std::strerror(errno), file));
+        throw SceneError(one_line(std::string("expected a scene, got: ") + std::strerror(errno), file));
     return text;
 }
 
@@ -175,17 +163,15 @@ void check_text(const std::string& text, const std::string& file) {
         if (c == '\n') ++line;
         const auto code = static_cast<unsigned char>(c);
         if (code >= ' ' || (c >= '\t' && c <= '\r')) continue;
-        throw SceneError(one_line(fmt::format("{}:{}: expected text, got binary data (a byte {})",
-                                              file_mark, line, int(code)),
-                                  file));
+        throw SceneError(one_line(
+            fmt::format("{}:{}: expected text, got binary data (a byte {})", file_mark, line, int(code)), file));
     }
 }
 
 }  // namespace
 
 Scene read_scene_text(const std::string& given, const std::string& file,
-                      const std::map<std::string, std::string>& defines,
-                      const SandboxLimits& limits) {
+                      const std::map<std::string, std::string>& defines, const SandboxLimits& limits) {
     check_text(given, file);
     std::string text = given;
     if (text.compare(0, 3, "\xEF\xBB\xBF") == 0) text.erase(0, 3);  // byte order mark
@@ -205,8 +191,7 @@ Scene read_scene_text(const std::string& given, const std::string& file,
                                            : fmt::format("{}: {}", file_mark, error.what()),
                                   file));
     } catch (const std::bad_alloc&) {
-        throw SceneError(
-            one_line("expected a scene that fits into memory, got one that does not", file));
+        throw SceneError(one_line("expected a scene that fits into memory, got one that does not", file));
     } catch (const SceneError&) {
         throw;
     } catch (const std::runtime_error& error) {

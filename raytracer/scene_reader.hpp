@@ -18,7 +18,6 @@ Scene read_scene(const std::string& file, const std::map<std::string, std::strin
 
 /// The same for a text that is already in memory; `file` is for messages.
 Scene read_scene_text(const std::string& text, const std::string& file,
-                      const std::map<std::string, std::string>& defines = {},
-                      const SandboxLimits& limits = {});
+                      const std::map<std::string, std::string>& defines = {}, const SandboxLimits& limits = {});
 
 }  // namespace deburr

@@ -43,20 +43,16 @@ const Density& need_density(const LuaValue& value, const std::string& place) {
     return *density;
 }
 
-const std::vector<LuaValue>& need_list(const LuaValue& value, const std::string& place,
-                                       const char* of_what, std::size_t most) {
+const std::vector<LuaValue>& need_list(const LuaValue& value, const std::string& place, const char* of_what,
+                                       std::size_t most) {
     const LuaTable* table = as_table(value);
-    if (!table || !table->fields.empty())
-        expected(place, std::string("a list of ") + of_what, value);
+    if (!table || !table->fields.empty()) expected(place, std::string("a list of ") + of_what, value);
     if (table->list.size() > most)
-        throw BadValue(place, fmt::format("expected at most {} {}, got {}", most, of_what,
-                                          table->list.size()));
+        throw BadValue(place, fmt::format("expected at most {} {}, got {}", most, of_what, table->list.size()));
     return table->list;
 }
 
-std::string item(const std::string& place, std::size_t index) {
-    return fmt::format("{}[{}]", place, index + 1);
-}
+std::string item(const std::string& place, std::size_t index) { return fmt::format("{}[{}]", place, index + 1); }
 
 // Shapes.
 
@@ -68,8 +64,7 @@ SceneResult half_space(SceneCall& call) {
     // The plane is given · x = offset; along an axis this is exact, and no length overflows.
     const double length = glm::dot(given, normal), distance = offset / length;
     if (!(length > 0 && std::isfinite(length) && std::isfinite(distance)))
-        throw BadValue(call.name,
-                       "expected a normal and a distance of ordinary size, got singular ones");
+        throw BadValue(call.name, "expected a normal and a distance of ordinary size, got singular ones");
     return call.make(Density::half_space(normal, distance));
 }
 
@@ -85,8 +80,7 @@ SceneResult box(SceneCall& call) {
     const Vec3 hi = vector(call.argument(1), call.place("upper corner"));
     for (int k = 0; k < 3; ++k)
         if (!(lo[k] < hi[k]))
-            throw BadValue(call.name, fmt::format("expected {0}0 < {0}1, got {1} and {2}", "xyz"[k],
-                                                  lo[k], hi[k]));
+            throw BadValue(call.name, fmt::format("expected {0}0 < {0}1, got {1} and {2}", "xyz"[k], lo[k], hi[k]));
     call.builder.spend(6);
     return call.make(Density::box(lo, hi));
 }
@@ -95,8 +89,7 @@ SceneResult product_of(SceneCall& call, const std::vector<HullFace>& faces) {
     SceneBuilder::check_size(double(faces.size()));
     call.builder.spend(faces.size());
     std::vector<Density> parts;
-    for (const HullFace& face : faces)
-        parts.push_back(Density::half_space(face.normal, face.offset));
+    for (const HullFace& face : faces) parts.push_back(Density::half_space(face.normal, face.offset));
     return call.make(Density::product(parts));
 }
 
@@ -112,12 +105,10 @@ SceneResult convex(SceneCall& call) {
 SceneResult make_prism(SceneCall& call) {
     call.at_most(3);
     std::vector<glm::dvec2> polygon;
-    for (const LuaValue& point :
-         need_list(call.argument(0), call.name, "points", most_polygon_points)) {
+    for (const LuaValue& point : need_list(call.argument(0), call.name, "points", most_polygon_points)) {
         const std::string place = item(call.name, polygon.size());
         const LuaTable* pair = as_table(point);
-        if (!pair || !pair->fields.empty() || pair->list.size() != 2)
-            expected(place, "two numbers {x, z}", point);
+        if (!pair || !pair->fields.empty() || pair->list.size() != 2) expected(place, "two numbers {x, z}", point);
         polygon.emplace_back(number(pair->list[0], place), number(pair->list[1], place));
     }
     call.builder.work += std::int64_t(polygon.size() * polygon.size());
@@ -137,7 +128,8 @@ SceneResult convolved(SceneCall& call) {
     const double radius = number_above(call.argument(0), call.place("radius"), 0);
     const Density& density = need_density(call.argument(1), call.name);
     if (density.has_radius())
-        throw BadValue(call.name, "expected a density without radii, got one with :radius(); one ball rounds all of it");
+        throw BadValue(call.name,
+                       "expected a density without radii, got one with :radius(); one ball rounds all of it");
     return call.make(Solid::convolved(radius, density, call.line));
 }
 
@@ -154,13 +146,11 @@ using SolidOperator = Solid (*)(Solid, Solid);
 // On two densities the first, else, where there is one, the second.
 SceneResult combine(SceneCall& call, DensityOperator of_densities, SolidOperator of_solids) {
     const LuaValue &a = call.argument(0), &b = call.argument(1);
-    if (as_density(a) && as_density(b))
-        return call.make(of_densities(*as_density(a), *as_density(b), call.line));
+    if (as_density(a) && as_density(b)) return call.make(of_densities(*as_density(a), *as_density(b), call.line));
     const LuaValue& wrong = (of_solids ? is_set(a) : as_density(a) != nullptr) ? b : a;
     if (!of_solids) expected(call.name, "densities on both sides (solids have | & -)", wrong);
     if (!is_set(wrong)) expected(call.name, "densities or solids on both sides", wrong);
-    return call.make(
-        of_solids(call.builder.solid(*as_object(a)), call.builder.solid(*as_object(b))));
+    return call.make(of_solids(call.builder.solid(*as_object(a)), call.builder.solid(*as_object(b))));
 }
 
 SceneResult add(SceneCall& call) { return combine(call, &Density::sum, nullptr); }
@@ -175,14 +165,12 @@ SceneResult subtract(SceneCall& call) {
 
 SceneResult disjoin(SceneCall& call) {
     return combine(
-        call, [](Density a, Density b, int) { return a | b; },
-        [](Solid a, Solid b) { return a | b; });
+        call, [](Density a, Density b, int) { return a | b; }, [](Solid a, Solid b) { return a | b; });
 }
 
 SceneResult conjoin(SceneCall& call) {
     return combine(
-        call, [](Density a, Density b, int) { return a & b; },
-        [](Solid a, Solid b) { return a & b; });
+        call, [](Density a, Density b, int) { return a & b; }, [](Solid a, Solid b) { return a & b; });
 }
 
 SceneResult complement(SceneCall& call) {
@@ -203,8 +191,7 @@ SceneResult material(SceneCall& call) {
     call.at_most(2);
     const SceneObject& self = need_set(call.argument(0), call.name);
     const SceneObject* given = as_object(call.argument(1));
-    if (!given || !std::holds_alternative<Material>(given->is))
-        expected(call.name, "a material", call.argument(1));
+    if (!given || !std::holds_alternative<Material>(given->is)) expected(call.name, "a material", call.argument(1));
     return call.make(call.builder.solid(self).material(call.builder.index_of(given)), self.name);
 }
 
@@ -216,9 +203,9 @@ SceneResult name(SceneCall& call) {
 
 SceneResult place(SceneCall& call, const Affine& map) {
     const SceneObject& self = need_movable(call.argument(0), call.name);
-    if (const auto* density = std::get_if<Density>(&self.is))
-        return call.make(density->transformed(map));
-    if (const auto* quadric = std::get_if<Quadric>(&self.is)) return call.make(ordinary(transformed(*quadric, map), call.name));
+    if (const auto* density = std::get_if<Density>(&self.is)) return call.make(density->transformed(map));
+    if (const auto* quadric = std::get_if<Quadric>(&self.is))
+        return call.make(ordinary(transformed(*quadric, map), call.name));
     if (const auto* p = std::get_if<Perturbation>(&self.is))
         return call.make(Perturbation{p->factor, ordinary(transformed(p->quadric, map), call.name)});
     return call.make(std::get<Solid>(self.is).transformed(map), self.name);
@@ -228,8 +215,7 @@ SceneResult translate(SceneCall& call) {
     call.at_most(4);
     need_movable(call.argument(0), call.name);
     Affine map;
-    for (int k = 0; k < 3; ++k)
-        map.shift[k] = number(call.argument(std::size_t(k) + 1), call.place(&"x\0y\0z"[2 * k]));
+    for (int k = 0; k < 3; ++k) map.shift[k] = number(call.argument(std::size_t(k) + 1), call.place(&"x\0y\0z"[2 * k]));
     return place(call, map);
 }
 

@@ -34,8 +34,7 @@ public:
                 while (at_ < text_.size() && is_name(text_[at_])) ++at_;
                 found.push_back({text_.substr(start, at_ - start), line_});
             } else {
-                if (!std::isspace(static_cast<unsigned char>(c)))
-                    found.push_back({text_.substr(at_, 1), line_});
+                if (!std::isspace(static_cast<unsigned char>(c))) found.push_back({text_.substr(at_, 1), line_});
                 step();
             }
         }

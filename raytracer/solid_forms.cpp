@@ -25,9 +25,12 @@ const Solid& peel(const Solid& solid, PlacedForm& to) {
     const Solid* at = &solid;
     for (;;) {
         const SolidNode& node = at->node();
-        if (node.kind == SolidNode::Kind::material) to.material = node.material;  // the innermost wins
-        else if (node.kind == SolidNode::Kind::transform) to.map = compose(to.map, node.map);
-        else return *at;
+        if (node.kind == SolidNode::Kind::material)
+            to.material = node.material;  // the innermost wins
+        else if (node.kind == SolidNode::Kind::transform)
+            to.map = compose(to.map, node.map);
+        else
+            return *at;
         at = &node.children[0];
     }
 }
@@ -78,7 +81,8 @@ int SolidForms::density(const Density& root) {
         },
         [&](const Density& d) {
             const DensityNode& n = d.node();
-            std::string key = n.kind == DensityNode::Kind::transform ? key_of(n.kind, n.map) : key_of(n.kind, n.normal, n.value);
+            std::string key =
+                n.kind == DensityNode::Kind::transform ? key_of(n.kind, n.map) : key_of(n.kind, n.normal, n.value);
             for (const Density& child : n.children) key += key_of(known_densities_.at(&child.node()));
             bool fresh;
             return number(density_keys_, key, fresh);

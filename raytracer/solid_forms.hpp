@@ -53,7 +53,8 @@ void for_each_leaf(const Solid& root, Visit visit) {
             continue;
         }
         const Affine inner = node.kind == SolidNode::Kind::transform ? compose(map, node.map) : map;
-        for (auto child = node.children.rbegin(); child != node.children.rend(); ++child) open.push_back({&*child, inner});
+        for (auto child = node.children.rbegin(); child != node.children.rend(); ++child)
+            open.push_back({&*child, inner});
     }
 }
 

@@ -46,7 +46,7 @@ struct PlannedSpace {
     std::vector<Group> groups{1};  // the first is of what is unbounded, or squeezed, or all there is
     double reach = 0;              // of the others
     Placements placements;
-    std::vector<Box> boxes;        // of the placements
+    std::vector<Box> boxes;  // of the placements
 };
 
 class Plan {
@@ -116,8 +116,10 @@ private:
     /// Takes a union that occurs once apart; operands that meet stay together.
     void take_apart(const PlacedForm& root, int solid, const std::map<int, double>& count, std::vector<Part>& parts) {
         std::vector<PlacedForm> all;
-        if (count.at(root.form) > 1) all.push_back(root);
-        else all = operands(root, count);
+        if (count.at(root.form) > 1)
+            all.push_back(root);
+        else
+            all = operands(root, count);
         std::erase_if(all, [&](const PlacedForm& p) { return box(p.form).empty(); });
         if (all.empty()) return;
         std::vector<Box> boxes;
@@ -155,8 +157,10 @@ private:
         for (const auto& [first, members] : together) {
             Part part{all[members[0]], solid, {}};
             for (const std::size_t i : members) part.box = hull(part.box, boxes[i]);
-            if (members.size() == all.size()) part.placed = root;
-            else if (members.size() > 1) part.placed = forms_.of(sum(all, members));
+            if (members.size() == all.size())
+                part.placed = root;
+            else if (members.size() > 1)
+                part.placed = forms_.of(sum(all, members));
             parts.push_back(part);
         }
     }
@@ -176,7 +180,8 @@ private:
 
     void fill(int space, const std::vector<Solid>& solids, int depth) {
         if (depth == deepest_space) {
-            for (std::size_t i = 0; i < solids.size(); ++i) put(space, spaces[std::size_t(space)].groups[0], solids[i], int(i));
+            for (std::size_t i = 0; i < solids.size(); ++i)
+                put(space, spaces[std::size_t(space)].groups[0], solids[i], int(i));
             return;
         }
         std::vector<PlacedForm> roots;
@@ -194,11 +199,13 @@ private:
         for (const Part& part : parts) {
             const Mat3& linear = part.placed.map.linear;
             PlannedSpace& here = spaces[std::size_t(space)];
-            if (parts.size() == 1 || !part.box.finite() || !(norm(linear) * norm(glm::inverse(linear)) < largest_condition)) {
+            if (parts.size() == 1 || !part.box.finite() ||
+                !(norm(linear) * norm(glm::inverse(linear)) < largest_condition)) {
                 put(space, here.groups[0], solid_of(part.placed), part.solid);
                 continue;
             }
-            const double size = largest(part.box.hi - part.box.lo), reach = std::max(largest(part.box.lo), largest(part.box.hi));
+            const double size = largest(part.box.hi - part.box.lo),
+                         reach = std::max(largest(part.box.lo), largest(part.box.hi));
             const bool fits = reach <= farthest * size && size >= least_size * whole;
             if (fits && uses.at(part.placed.form) == 1 && !is_turned(linear) && !space_of_.count(part.placed.form)) {
                 put(space, here.groups.emplace_back(), solid_of(part.placed), part.solid);
@@ -215,13 +222,15 @@ private:
         const Box own = box(form);
         const Vec3 sides = own.hi - own.lo;
         Affine centred;  // of the placed space in the form's
-        if (std::max(largest(own.lo), largest(own.hi)) > farthest * largest(sides)) centred.shift = 0.5 * (own.lo + own.hi);
+        if (std::max(largest(own.lo), largest(own.hi)) > farthest * largest(sides))
+            centred.shift = 0.5 * (own.lo + own.hi);
         auto [at, fresh] = space_of_.try_emplace(form, int(spaces.size()));
         const int number = at->second;
         if (fresh) {
             spaces.emplace_back();
             const Solid solid = forms_.solid(form);
-            fill(number, {centred.shift == Vec3(0.0) ? solid : solid.transformed({Mat3(1.0), -centred.shift})}, depth + 1);
+            fill(number, {centred.shift == Vec3(0.0) ? solid : solid.transformed({Mat3(1.0), -centred.shift})},
+                 depth + 1);
         }
         const Affine map = compose(part.placed.map, centred);
         const Affine into = inverse(map);

@@ -14,12 +14,12 @@
 namespace deburr {
 
 struct alignas(64) Placement {  // two cache lines
-    Affine into;         // from the space around to the placed one
-    double stretch = 1;  // a distance there is at most this many times longer here
-    int space = 0;       // that is placed
-    int solid = 0;       // of the world; of no meaning in other spaces
-    int material = -1;   // of what has none there; −1: that of the placement around, if any
-    bool only_moved = false;  // neither turned nor scaled
+    Affine into;                // from the space around to the placed one
+    double stretch = 1;         // a distance there is at most this many times longer here
+    int space = 0;              // that is placed
+    int solid = 0;              // of the world; of no meaning in other spaces
+    int material = -1;          // of what has none there; −1: that of the placement around, if any
+    bool only_moved = false;    // neither turned nor scaled
 };
 
 static_assert(sizeof(Placement) == 128);
@@ -31,6 +31,7 @@ struct Space {
 };
 
 /// Materials that are still to be named are −1. The result does not depend on the number of threads.
-std::vector<Space> build_spaces(const std::vector<Solid>& solids, Criterion criterion, Search search, Accel accel = Accel::bsp);
+std::vector<Space> build_spaces(const std::vector<Solid>& solids, Criterion criterion, Search search,
+                                Accel accel = Accel::bsp);
 
 }  // namespace deburr

@@ -87,7 +87,8 @@ private:
 Mesh split_far(Mesh mesh, const Box& near) {
     if (near.empty() || !near.finite()) return mesh;
     Splitter splitter(mesh, near);
-    while (splitter.round()) {}
+    while (splitter.round()) {
+    }
     return mesh;
 }
 

@@ -18,9 +18,7 @@ std::string row(const std::string& name, const std::string& value) {
     return fmt::format("{:<24}{:>16}\n", name, value);
 }
 
-std::string row(const std::string& name, std::uint64_t value) {
-    return row(name, fmt::format("{}", value));
-}
+std::string row(const std::string& name, std::uint64_t value) { return row(name, fmt::format("{}", value)); }
 
 }  // namespace
 
@@ -59,13 +57,11 @@ std::string statistics_table(const RunStatistics& run) {
         text += row("time: " + phase.name, fmt::format("{:.3f} s", phase.wall)) +
                 row("  of all threads", fmt::format("{:.3f} s", phase.cpu));
     const TraceCounters& c = run.counters;
-    text += row("rays", c.rays) + row("shadow rays", c.shadow_rays) +
-            row("placements visited", c.placements) + row("cells visited", c.cells) + row("flat hits", c.flat_hits) +
-            row("segments", c.segments) + row("splits", c.splits) +
-            row("density evaluations", c.evaluations);
+    text += row("rays", c.rays) + row("shadow rays", c.shadow_rays) + row("placements visited", c.placements) +
+            row("cells visited", c.cells) + row("flat hits", c.flat_hits) + row("segments", c.segments) +
+            row("splits", c.splits) + row("density evaluations", c.evaluations);
     if (c.rays > 0)
-        text += row("  per ray",
-                    fmt::format("{:.2f}", double(c.evaluations) / double(c.rays + c.shadow_rays)));
+        text += row("  per ray", fmt::format("{:.2f}", double(c.evaluations) / double(c.rays + c.shadow_rays)));
     if (!run.accel.empty()) text += row("accel", run.accel);
     if (run.bsp) {
         text += row("spaces", run.bsp->spaces) + row("  placements", run.bsp->placements) +
@@ -87,17 +83,13 @@ std::string statistics_json(const RunStatistics& run) {
     j["complete"] = run.complete;
     j["width"] = run.width;
     j["height"] = run.height;
-    j["crop"] = {{"x", run.window.x},
-                 {"y", run.window.y},
-                 {"width", run.window.width},
-                 {"height", run.window.height}};
+    j["crop"] = {{"x", run.window.x}, {"y", run.window.y}, {"width", run.window.width}, {"height", run.window.height}};
     j["pixels"] = run.pixels;
     j["spp"] = run.spp;
     j["threads"] = run.threads;
     j["seed"] = run.seed;
     j["seconds"] = nlohmann::ordered_json::object();
-    for (const PhaseTime& phase : run.phases)
-        j["seconds"][phase.name] = {{"wall", phase.wall}, {"cpu", phase.cpu}};
+    for (const PhaseTime& phase : run.phases) j["seconds"][phase.name] = {{"wall", phase.wall}, {"cpu", phase.cpu}};
     const TraceCounters& c = run.counters;
     j["rays"] = c.rays;
     j["shadow_rays"] = c.shadow_rays;

@@ -24,16 +24,20 @@ struct SeveralRays {
 class Others {
 public:
     /// First crossing along the ray in [0, t_max]; none is needed beyond `end`.
-    virtual FoundSurface find(std::uint32_t other, const Ray& ray, double t_max, double end, TraceCounters& counters) const = 0;
+    virtual FoundSurface find(std::uint32_t other, const Ray& ray, double t_max, double end,
+                              TraceCounters& counters) const = 0;
     /// Whether there is one.
     virtual bool any(std::uint32_t other, const Ray& ray, double t_max, TraceCounters& counters) const = 0;
     /// The same for at most RayPacket::size rays, to the bit.
-    virtual void find_together(std::uint32_t other, const SeveralRays& rays, FoundSurface* found, TraceCounters& counters) const {
-        for (std::size_t k = 0; k < rays.size(); ++k) found[k] = find(other, rays.rays[k], rays.t_max[k], rays.end[k], counters);
+    virtual void find_together(std::uint32_t other, const SeveralRays& rays, FoundSurface* found,
+                               TraceCounters& counters) const {
+        for (std::size_t k = 0; k < rays.size(); ++k)
+            found[k] = find(other, rays.rays[k], rays.t_max[k], rays.end[k], counters);
     }
     virtual Lanes any_together(std::uint32_t other, const SeveralRays& rays, TraceCounters& counters) const {
         Lanes found = 0;
-        for (std::size_t k = 0; k < rays.size(); ++k) found |= Lanes(any(other, rays.rays[k], rays.t_max[k], counters)) << k;
+        for (std::size_t k = 0; k < rays.size(); ++k)
+            found |= Lanes(any(other, rays.rays[k], rays.t_max[k], counters)) << k;
         return found;
     }
 
@@ -45,7 +49,7 @@ protected:
 struct Surfaces {
     double scale = 1;  // coordinates reach so far
     Pieces pieces;
-    Pieces planes;     // whole solids
+    Pieces planes;            // whole solids
     std::vector<Box> others;  // around them, with more to spare than rounding makes of a ray
 };
 
@@ -55,8 +59,9 @@ inline double rounding_of(double reach, double t) { return 4 * epsilon * (reach 
 /// Whether the ray crosses piece i in [from, to]. Unless that is all that is asked (`Any`), the first crossing is
 /// offered to `nearest`.
 template <bool Any>
-[[gnu::always_inline]] inline bool look_at_piece(const Pieces& pieces, std::uint32_t i, const Ray& ray, double from, double to,
-                                                 double reach, NearestCrossing& nearest, TraceCounters& counters) {
+[[gnu::always_inline]] inline bool look_at_piece(const Pieces& pieces, std::uint32_t i, const Ray& ray, double from,
+                                                 double to, double reach, NearestCrossing& nearest,
+                                                 TraceCounters& counters) {
     const Piece& p = pieces[i];
     if (p.kind == Piece::Kind::plane) {
         const double t = pieces.plane_crossing(p, ray.origin, ray.direction);
@@ -83,9 +88,16 @@ template <bool Any>
 class SurfaceSearch {
 public:
     /// In [0, t_max]; what lies beyond `end` need not be found.
-    SurfaceSearch(const Surfaces& surfaces, const Ray& ray, double t_max, double end, TraceCounters& counters, const Others* others)
-        : surfaces_(surfaces), ray_(ray), inverse_(reciprocal(ray.direction)), reach_(surfaces.scale + largest(ray.origin)),
-          t_max_(t_max), nearest_(std::min(t_max, end)), counters_(counters), others_(others) {}
+    SurfaceSearch(const Surfaces& surfaces, const Ray& ray, double t_max, double end, TraceCounters& counters,
+                  const Others* others)
+        : surfaces_(surfaces),
+          ray_(ray),
+          inverse_(reciprocal(ray.direction)),
+          reach_(surfaces.scale + largest(ray.origin)),
+          t_max_(t_max),
+          nearest_(std::min(t_max, end)),
+          counters_(counters),
+          others_(others) {}
 
     const Ray& ray() const { return ray_; }
     const Vec3& inverse() const { return inverse_; }
@@ -102,8 +114,10 @@ public:
     }
 
     void look_at(std::uint32_t i) {
-        if (i < surfaces_.pieces.size()) look_in_cell(i);
-        else look_at_other(i);
+        if (i < surfaces_.pieces.size())
+            look_in_cell(i);
+        else
+            look_at_other(i);
     }
 
     /// What was found.

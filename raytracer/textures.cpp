@@ -10,8 +10,7 @@ namespace {
 constexpr double depth_of_lookup = 1.0 / 1024;
 
 std::uint32_t hashed(std::int64_t x, std::int64_t y, std::int64_t z) {
-    std::uint64_t h = std::uint64_t(x) * 0x8da6b343u + std::uint64_t(y) * 0xd8163841u +
-                      std::uint64_t(z) * 0xcb1ab31fu;
+    std::uint64_t h = std::uint64_t(x) * 0x8da6b343u + std::uint64_t(y) * 0xd8163841u + std::uint64_t(z) * 0xcb1ab31fu;
     h = (h ^ (h >> 31)) * 0x9e3779b97f4a7c15u;
     return std::uint32_t((h ^ (h >> 29)) >> 16);
 }
@@ -19,21 +18,16 @@ std::uint32_t hashed(std::int64_t x, std::int64_t y, std::int64_t z) {
 // Whole numbers end here; from there on, and for a NaN, the noise is flat.
 constexpr double lattice_end = 0x1p52;
 
-std::int64_t lattice(double floor) {
-    return std::abs(floor) < lattice_end ? std::int64_t(floor) : 0;
-}
+std::int64_t lattice(double floor) { return std::abs(floor) < lattice_end ? std::int64_t(floor) : 0; }
 
 // Slope along d of the lattice point's linear function: one of the 12 edges of a cube.
 double gradient(std::uint32_t h, Vec3 d) {
     const double signs[2] = {1.0, -1.0};
     const double a = signs[h & 1], b = signs[(h >> 1) & 1];
     switch ((h >> 2) % 3) {
-        case 0:
-            return a * d.x + b * d.y;
-        case 1:
-            return a * d.y + b * d.z;
-        default:
-            return a * d.z + b * d.x;
+        case 0: return a * d.x + b * d.y;
+        case 1: return a * d.y + b * d.z;
+        default: return a * d.z + b * d.x;
     }
 }
 
@@ -62,13 +56,12 @@ Vec3 wood(const Texture& t, Vec3 p) {
         return noise({section.x / width, section.y / width, along / length});
     };
 
-    const double radius = glm::length(section) +
-                          waviness * grain(wave_length, wave_length * wave_stretch) +
+    const double radius = glm::length(section) + waviness * grain(wave_length, wave_length * wave_stretch) +
                           ripple * grain(ripple_length, ripple_length * ripple_stretch);
     const double ring = std::floor(radius), part = radius - ring;
     const double strength = 0.7 + 0.3 * (hashed(lattice(ring), 7, 11) & 0xffff) / 65535.0;
-    const double late = strength * glm::smoothstep(late_start, late_full, part) *
-                        (1 - glm::smoothstep(late_end, 1.0, part));
+    const double late =
+        strength * glm::smoothstep(late_start, late_full, part) * (1 - glm::smoothstep(late_end, 1.0, part));
     const double fibre = fibre_depth * grain(fibre_width, fibre_length);
     const double pore = pore_depth * glm::smoothstep(0.25, 0.6, grain(pore_width, pore_length));
     const double dark = glm::clamp(late + fibre, 0.0, 1.0);
@@ -81,12 +74,9 @@ double noise(Vec3 x) {
     const Vec3 cell = glm::floor(x), d = x - cell;
     const std::int64_t i = lattice(cell.x), j = lattice(cell.y), k = lattice(cell.z);
     const Vec3 s = d * d * d * (d * (d * 6.0 - 15.0) + 10.0);  // two continuous derivatives
-    auto corner = [&](int a, int b, int c) {
-        return gradient(hashed(i + a, j + b, k + c), d - Vec3(a, b, c));
-    };
+    auto corner = [&](int a, int b, int c) { return gradient(hashed(i + a, j + b, k + c), d - Vec3(a, b, c)); };
     auto edge = [&](int b, int c) { return glm::mix(corner(0, b, c), corner(1, b, c), s.x); };
-    return glm::mix(glm::mix(edge(0, 0), edge(1, 0), s.y), glm::mix(edge(0, 1), edge(1, 1), s.y),
-                    s.z);
+    return glm::mix(glm::mix(edge(0, 0), edge(1, 0), s.y), glm::mix(edge(0, 1), edge(1, 1), s.y), s.z);
 }
 
 Vec3 pattern_color(const Texture& texture, Vec3 position, Vec3 normal) {
@@ -95,10 +85,8 @@ Vec3 pattern_color(const Texture& texture, Vec3 position, Vec3 normal) {
             const Vec3 x = (position - texture.origin) / texture.scale - normal * depth_of_lookup;
             return checker_parity(x) == 0 ? texture.a : texture.b;
         }
-        case Texture::Kind::wood:
-            return wood(texture, position);
-        case Texture::Kind::constant:
-            break;
+        case Texture::Kind::wood: return wood(texture, position);
+        case Texture::Kind::constant: break;
     }
     return texture.a;
 }

@@ -84,8 +84,7 @@ Target find_target(const std::string& path) {
         fail(path, errno);
     } else {
         // Where a link points to that names no file yet; links in a circle were an error above.
-        while (fs::is_symlink(target.file))
-            target.file = target.file.parent_path() / fs::read_symlink(target.file);
+        while (fs::is_symlink(target.file)) target.file = target.file.parent_path() / fs::read_symlink(target.file);
     }
     target.folder = target.file.parent_path();
     if (target.folder.empty()) target.folder = ".";

@@ -36,8 +36,8 @@ bool in_one_plane(const Mesh& mesh, const MeshEdge& e) {
 }
 
 struct Line3 {
-    Vec3 a, b;       // ends
-    Vec3 na, nb;     // lifted along these
+    Vec3 a, b;    // ends
+    Vec3 na, nb;  // lifted along these
 };
 
 // Clips to what lies in front of the camera; false if nothing does.
@@ -47,9 +47,13 @@ bool clip(Line3& line, const PinholeCamera& camera) {
     const double za = glm::dot(line.a - camera.eye(), camera.forward());
     const double zb = glm::dot(line.b - camera.eye(), camera.forward());
     if (za <= near && zb <= near) return false;
-    const auto cut = [&](Vec3& hidden, Vec3 seen, double zh, double zs) { hidden = glm::mix(hidden, seen, (near - zh) / (zs - zh)); };
-    if (za <= near) cut(line.a, line.b, za, zb);
-    else if (zb <= near) cut(line.b, line.a, zb, za);
+    const auto cut = [&](Vec3& hidden, Vec3 seen, double zh, double zs) {
+        hidden = glm::mix(hidden, seen, (near - zh) / (zs - zh));
+    };
+    if (za <= near)
+        cut(line.a, line.b, za, zb);
+    else if (zb <= near)
+        cut(line.b, line.a, zb, za);
     return true;
 }
 
@@ -202,7 +206,8 @@ void draw_strokes(Film& film, const std::vector<Stroke>& strokes, Vec3 color, do
             const double left = std::min(xa, xb), right = std::max(xa, xb);
             const int x1 = std::min(w.x + w.width - 1, int(std::floor(right + reach)));
             for (int x = std::max(w.x, int(std::floor(left - reach))); x <= x1; ++x) {
-                const double share = std::clamp(reach - distance_to_segment({x + 0.5, y + 0.5}, s.from, s.to), 0.0, std::min(1.0, line_width));
+                const double share = std::clamp(reach - distance_to_segment({x + 0.5, y + 0.5}, s.from, s.to), 0.0,
+                                                std::min(1.0, line_width));
                 float& c = covered[std::size_t(y - w.y) * std::size_t(w.width) + std::size_t(x - w.x)];
                 c = std::max(c, float(share));
             }

@@ -14,8 +14,8 @@
 namespace deburr {
 
 struct MeshEdge {
-    int a, b;            // vertices
-    int left, right;     // triangles on either side; right is -1 at an open edge
+    int a, b;         // vertices
+    int left, right;  // triangles on either side; right is -1 at an open edge
 };
 
 enum class EdgeChoice {

@@ -17,9 +17,7 @@ public:
         return {1 - farthest, 1 - nearest};
     }
     Box bounding_box() const override { return {Vec3(-1), Vec3(1)}; }
-    double settled(Vec3 origin, Vec3 direction) const override {
-        return leaves_box(bounding_box(), origin, direction);
-    }
+    double settled(Vec3 origin, Vec3 direction) const override { return leaves_box(bounding_box(), origin, direction); }
     void prepare(FieldRay& ray) const override {
         // f = a + bu + cu² around the middle, divided by what it may add up to
         const double middle = 0.5 * (ray.t0 + ray.t1), half = 0.5 * (ray.t1 - ray.t0);

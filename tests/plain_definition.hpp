@@ -45,7 +45,8 @@ inline bool truth(const DensityTree& tree, int i, const std::vector<char>& is_tr
 
 inline void half_spaces_below(const DensityTree& tree, int i, std::vector<int>& found) {
     const TreeNode& n = tree.nodes[std::size_t(i)];
-    if (n.op == Op::half_space) found.push_back(n.a);
+    if (n.op == Op::half_space)
+        found.push_back(n.a);
     else if (n.op != Op::constant) {
         half_spaces_below(tree, n.a, found);
         if (n.b >= 0) half_spaces_below(tree, n.b, found);
@@ -115,7 +116,8 @@ inline double density(const DensityTree& tree, Vec3 x) { return density(tree, tr
 
 /// Vyatkin eq. 1.
 inline long double quadric(const Quadric& q, Vec3 x) {
-    const long double y[3] = {(long double)x.x - q.centre.x, (long double)x.y - q.centre.y, (long double)x.z - q.centre.z};
+    const long double y[3] = {(long double)x.x - q.centre.x, (long double)x.y - q.centre.y,
+                              (long double)x.z - q.centre.z};
     long double sum = q.k;
     for (int i = 0; i < 3; ++i) {
         sum += q.b[i] * y[i];

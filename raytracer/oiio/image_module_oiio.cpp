@@ -67,7 +67,8 @@ public:
             const std::size_t first = std::size_t(row) * width, count = std::size_t(end - row) * width;
             const std::size_t size = size_of(image.channels[0].type);
             numbers.resize(count * channels * size);
-            for (std::size_t c = 0; c < channels; ++c) image.channels[c].write(first, count, &numbers[c * size], channels * size);
+            for (std::size_t c = 0; c < channels; ++c)
+                image.channels[c].write(first, count, &numbers[c * size], channels * size);
             check(writer->write_scanlines(row, end, 0, spec.format, numbers.data()));
         });
         check(writer->close());
@@ -79,8 +80,11 @@ public:
         const auto in = OIIO::ImageInput::open(path);
         if (!in) throw std::runtime_error(OIIO::geterror());
         const ImageSpec& spec = in->spec();
-        ReadImage image{spec.full_width, spec.full_height,
-                        {spec.x - spec.full_x, spec.y - spec.full_y, spec.width, spec.height}, spec.channelnames, {}};
+        ReadImage image{spec.full_width,
+                        spec.full_height,
+                        {spec.x - spec.full_x, spec.y - spec.full_y, spec.width, spec.height},
+                        spec.channelnames,
+                        {}};
         image.values.resize(spec.image_pixels() * std::size_t(spec.nchannels));
         if (!in->read_image(0, 0, 0, spec.nchannels, TypeDesc::FLOAT, image.values.data()))
             throw std::runtime_error(in->geterror());
@@ -88,8 +92,10 @@ public:
         for (int c = 0; c < spec.nchannels; ++c) {
             if (spec.channelformat(c) != TypeDesc::UINT32) continue;
             std::vector<std::uint32_t> whole(spec.image_pixels());
-            if (!in->read_image(0, 0, c, c + 1, TypeDesc::UINT32, whole.data())) throw std::runtime_error(in->geterror());
-            for (std::size_t i = 0; i < whole.size(); ++i) image.values[i * std::size_t(spec.nchannels) + std::size_t(c)] = float(whole[i]);
+            if (!in->read_image(0, 0, c, c + 1, TypeDesc::UINT32, whole.data()))
+                throw std::runtime_error(in->geterror());
+            for (std::size_t i = 0; i < whole.size(); ++i)
+                image.values[i * std::size_t(spec.nchannels) + std::size_t(c)] = float(whole[i]);
         }
         return image;
     }

@@ -76,11 +76,13 @@ std::string encode_exr(const ImageRaster& image, int threads, const ShareDone& d
         by_rows(image, done, [&](int row, int end) {
             Imf::FrameBuffer frame;
             std::size_t at = 0;
-            const std::size_t first = std::size_t(row) * std::size_t(w.width), count = std::size_t(end - row) * std::size_t(w.width);
+            const std::size_t first = std::size_t(row) * std::size_t(w.width),
+                              count = std::size_t(end - row) * std::size_t(w.width);
             for (const ImageChannel& c : image.channels) {
                 c.write(first, count, &bytes[at], pixel_size);
-                frame.insert(c.name, Imf::Slice::Make(pixel_type(c.type), &bytes[at], box(w.x, w.y + row, w.width, end - row),
-                                                      pixel_size, pixel_size * std::size_t(w.width)));
+                frame.insert(c.name,
+                             Imf::Slice::Make(pixel_type(c.type), &bytes[at], box(w.x, w.y + row, w.width, end - row),
+                                              pixel_size, pixel_size * std::size_t(w.width)));
                 at += size_of(c.type);
             }
             file.setFrameBuffer(frame);

@@ -106,7 +106,8 @@ TEST_CASE("the share's change from place to place is the integral of its gradien
     for (auto seed : seeds(60)) {
         CAPTURE(seed);
         Gen g(seed);
-        const DensityTree tree = flatten_convolved(g.boolean(g.below(3)), g.between(0.2, 0.8), g.chance(0.3) ? g.map() : Affine{});
+        const DensityTree tree =
+            flatten_convolved(g.boolean(g.below(3)), g.between(0.2, 0.8), g.chance(0.3) ? g.map() : Affine{});
         const Vec3 from = g.near(tree, 0.8), step = 0.5 * g.direction();
         constexpr int panels = 2'000;  // of three points, after Gauss; there are kinks
         double sum = 0;
@@ -155,15 +156,15 @@ TEST_CASE("planes through one line, however near, are told apart or are one") {
         const bool near = g.chance(0.7);
         std::vector<double> angles{0};
         for (int i = 0; i < count; ++i)
-            angles.push_back(angles.back() + (near && g.chance(0.5) ? std::pow(10, -g.between(1, 16)) : g.between(1e-3, 0.5)));
+            angles.push_back(angles.back() +
+                             (near && g.chance(0.5) ? std::pow(10, -g.between(1, 16)) : g.between(1e-3, 0.5)));
         const Vec3 corner = g.point(0.5);
         const auto wedge = [&](double from, double to) {
             const Vec3 a = -at(from + pi / 2), b = at(to + pi / 2);
             return plane(a, glm::dot(a, corner)) & plane(b, glm::dot(b, corner));
         };
         Density pieces = wedge(angles[0], angles[1]);
-        for (int i = 1; i < count; ++i)
-            pieces = pieces | wedge(angles[std::size_t(i)], angles[std::size_t(i) + 1]);
+        for (int i = 1; i < count; ++i) pieces = pieces | wedge(angles[std::size_t(i)], angles[std::size_t(i) + 1]);
         const double error = std::abs(share(pieces) - share(wedge(angles.front(), angles.back())));
         CHECK(error < (near ? 1e-8 : 1e-12));
         worst = std::max(worst, error);
@@ -200,5 +201,6 @@ TEST_CASE("many planes in one ball: a sphere in a ball, nearly") {
     CHECK(tree.at(Vec3(0)) > 0.125);
     CHECK(tree.at(Vec3(0)) < 0.14);
     CHECK(std::abs(tree.at({0.1, 0.2, 0.05}) - by_lines(tree, {0.1, 0.2, 0.05}, 1, 200)) < 2e-5);
-    CHECK(std::abs(tree.at({0.1, 0.2, 0.05}) + flatten_convolved(~Density::product(planes), 1).at({0.1, 0.2, 0.05}) - 1) < 1e-13);
+    CHECK(std::abs(tree.at({0.1, 0.2, 0.05}) + flatten_convolved(~Density::product(planes), 1).at({0.1, 0.2, 0.05}) -
+                   1) < 1e-13);
 }

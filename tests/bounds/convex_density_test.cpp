@@ -104,7 +104,9 @@ TEST_CASE("a product's crossings are those of the search, whatever the ray") {
         CAPTURE(seed);
         Gen g(seed);
         const int factors = g.chance(0.1) ? 4 + g.below(30) : 1 + g.below(3);
-        const Density d = g.chance(0.7) ? product(g, factors) : 1 + g.below(2) == 1 ? ~product(g, factors) : product(g, 1) - product(g, 1) * product(g, 1);
+        const Density d = g.chance(0.7)         ? product(g, factors)
+                          : 1 + g.below(2) == 1 ? ~product(g, factors)
+                                                : product(g, 1) - product(g, 1) * product(g, 1);
         const DensityTree tree = flatten(d, g.between(0.05, 0.6));
         const LocalDensity density(tree);
         const auto convex = convex_density(density, scale);
@@ -190,7 +192,8 @@ TEST_CASE("sharp factors clip a product: its crossings against the plain definit
         const ConvexCrossings all = all_crossings(view, o, way, 0, 12, negligible, evaluations);
         const double want = plain::first_crossing(tree, o, way, 12, 16);
         const double got = all.count > 0 ? all.at[0].t : infinity;
-        const bool slip = got < want && plain::contains(tree, o + way * (got - 1e-7)) != plain::contains(tree, o + way * (got + 1e-7));
+        const bool slip = got < want && plain::contains(tree, o + way * (got - 1e-7)) !=
+                                            plain::contains(tree, o + way * (got + 1e-7));
         if (!slip) REQUIRE((got == want || std::abs(got - want) < 1e-7));
         REQUIRE(any_crossing(view, o, way, 0, 12, negligible, evaluations) == (all.count > 0));
         for (int i = 0; i < all.count; ++i) {

@@ -31,7 +31,8 @@ TEST_CASE("M, L and G bound a true convolution, its slope and its slope's slope 
         const double length = std::pow(10.0, g.between(-3, 0));
         const Vec3 end = origin + length * direction;
         const bool local = g.chance(0.5);
-        const LocalDensity density(local ? prune(whole, Box{glm::min(origin, end), glm::max(origin, end)}).tree : whole);
+        const LocalDensity density(local ? prune(whole, Box{glm::min(origin, end), glm::max(origin, end)}).tree
+                                         : whole);
         if (density.half_spaces().empty()) continue;
         RayDensity ray;
         ray.set(density, origin, direction);
@@ -60,7 +61,8 @@ TEST_CASE("a true convolution stays within its range over a box, and pruned to a
         CAPTURE(seed);
         Gen g(seed);
         const DensityTree tree = random_tree(g);
-        const Vec3 c = g.near(tree), half = std::pow(10.0, g.between(-3, -0.5)) * Vec3(g.between(0, 1), g.between(0, 1), g.between(0, 1));
+        const Vec3 c = g.near(tree),
+                   half = std::pow(10.0, g.between(-3, -0.5)) * Vec3(g.between(0, 1), g.between(0, 1), g.between(0, 1));
         const Box box{c - half, c + half};
         const Pruned pruned = prune(tree, box);
         const LocalDensity local(pruned.tree), whole(tree);
@@ -117,7 +119,8 @@ TEST_CASE("a convolved solid is carried along by any map") {
         if (d.has_radius()) continue;  // a convolution has one radius
         const double r = g.between(0.1, 0.5);
         const Affine map = g.map();
-        const SolidTree still = flatten(Solid::convolved(r, d)), moved = flatten(Solid::convolved(r, d).transformed(map));
+        const SolidTree still = flatten(Solid::convolved(r, d)),
+                        moved = flatten(Solid::convolved(r, d).transformed(map));
         const DensityTree &a = still.leaves[0].density, &b = moved.leaves[0].density;
         const Vec3 x = g.near(a);
         CHECK(std::abs(a.at(x) - b.at(map(x))) < 1e-12);
@@ -175,7 +178,8 @@ TEST_CASE("Lobb 2.3.1 (c), (d): a product is exact on a right-angled edge and in
     for (auto seed : seeds(1'000)) {
         CAPTURE(seed);
         Gen g(seed);
-        const Vec3 u = g.direction(), v = glm::normalize(glm::cross(u, g.direction())), w = glm::cross(u, v), x = g.point();
+        const Vec3 u = g.direction(), v = glm::normalize(glm::cross(u, g.direction())), w = glm::cross(u, v),
+                   x = g.point();
         const double r = g.between(0.1, 1);
         const Density a = plane(u, glm::dot(u, x)), b = plane(v, glm::dot(v, x)), c = plane(w, glm::dot(w, x));
         CHECK(truth(a * b, x, r) == Approx(0.25).epsilon(1e-13));

@@ -9,9 +9,7 @@ using namespace deburr;
 
 namespace {
 
-Density slab_box(double x0, double x1, double y0 = 0, double y1 = 1) {
-    return Density::box({x0, y0, 0}, {x1, y1, 1});
-}
+Density slab_box(double x0, double x1, double y0 = 0, double y1 = 1) { return Density::box({x0, y0, 0}, {x1, y1, 1}); }
 
 double at(const Density& d, double r, Vec3 x) { return flatten(d, r).at(x); }
 
@@ -67,8 +65,8 @@ TEST_CASE("a Boolean density lies in [0, 1] and depends on the function, not on 
         const Vec3 x = g.near(flatten((a | b) & ~c, r));
         const double rho = at((a | b) & ~c, r, x);
         REQUIRE((rho >= -1e-15 && rho <= 1 + 1e-15));
-        REQUIRE(std::abs(rho - at(~((~a & ~b) | c), r, x)) < 1e-12);        // de Morgan
-        REQUIRE(std::abs(rho - at((a & ~c) | (~c & b), r, x)) < 1e-12);     // distributed
+        REQUIRE(std::abs(rho - at(~((~a & ~b) | c), r, x)) < 1e-12);         // de Morgan
+        REQUIRE(std::abs(rho - at((a & ~c) | (~c & b), r, x)) < 1e-12);      // distributed
         REQUIRE(std::abs(at(a | (a & b), r, x) - at(a & a, r, x)) < 1e-12);  // absorption
         varying += rho > 0.01 && rho < 0.99;
     }
@@ -176,7 +174,9 @@ TEST_CASE("chains as long as a scene's loops neither recurse when flattened nor 
     Density chain = slab_box(0, 1);
     for (int i = 1; i < 100'000; ++i) {
         const Density next = Density::half_space({1, 0, 0}, i);
-        chain = i % 3 == 0 ? (chain | next).transformed({Mat3(1.0), Vec3(0)}) : i % 3 == 1 ? chain & next : chain - next;
+        chain = i % 3 == 0   ? (chain | next).transformed({Mat3(1.0), Vec3(0)})
+                : i % 3 == 1 ? chain & next
+                             : chain - next;
     }
     CHECK(flatten(chain, 0.1).half_spaces.size() == 100'005);
     Density doubled = slab_box(0, 1);

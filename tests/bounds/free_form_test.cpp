@@ -48,7 +48,8 @@ TEST_CASE("quadrics: a range holds what is in the box, and is attained but for m
         const bool mixed = q.A[0][1] != 0 || q.A[0][2] != 0 || q.A[1][2] != 0;
         if (mixed) continue;
         double want = q.k;
-        for (int k = 0; k < 3; ++k) want += parabola_range(q.b[k], q.A[k][k], box.lo[k] - q.centre[k], box.hi[k] - q.centre[k]).hi;
+        for (int k = 0; k < 3; ++k)
+            want += parabola_range(q.b[k], q.A[k][k], box.lo[k] - q.centre[k], box.hi[k] - q.centre[k]).hi;
         REQUIRE(r.hi == Approx(want).epsilon(1e-9).margin(1e-9));
     }
 }
@@ -74,8 +75,10 @@ TEST_CASE("quadrics: the range over all of space is that of the squares that the
         const Range got = q.range_everywhere();
         for (const auto& [value, truth] : {std::pair{got.lo, want.lo}, {got.hi, want.hi}}) {
             bounded += std::isfinite(truth);
-            if (truth == 0 || !std::isfinite(truth)) REQUIRE(value == truth);
-            else REQUIRE(value == Approx(truth).margin(1e-9));
+            if (truth == 0 || !std::isfinite(truth))
+                REQUIRE(value == truth);
+            else
+                REQUIRE(value == Approx(truth).margin(1e-9));
         }
     }
     CHECK(bounded > 1'000);
@@ -293,7 +296,8 @@ TEST_CASE("free forms: beyond where it is settled, a ray crosses nothing") {
     for (auto seed : seeds(1'000)) {
         CAPTURE(seed);
         Gen g(seed);
-        const FreeForm form(random_quadric(g), {{g.between(-1, 1), random_quadric(g)}, {g.between(-1, 1), random_quadric(g)}});
+        const FreeForm form(random_quadric(g),
+                            {{g.between(-1, 1), random_quadric(g)}, {g.between(-1, 1), random_quadric(g)}});
         const Vec3 o = g.point(3), d = g.direction();
         const double t = form.settled(o, d);
         REQUIRE(t >= 0);
@@ -305,7 +309,9 @@ TEST_CASE("free forms: beyond where it is settled, a ray crosses nothing") {
 }
 
 TEST_CASE("bounding boxes: what CSG leaves of an infinite form is bounded, if it is") {
-    const auto solid = [](const Quadric& q) { return Solid::of_field(std::make_shared<FreeForm>(q, std::vector<Perturbation>{})); };
+    const auto solid = [](const Quadric& q) {
+        return Solid::of_field(std::make_shared<FreeForm>(q, std::vector<Perturbation>{}));
+    };
     const auto slab = [](double lo, double hi) {
         return Solid::sharp(Density::half_space({0, 1, 0}, hi) * Density::half_space({0, -1, 0}, -lo));
     };
@@ -327,7 +333,8 @@ TEST_CASE("bounding boxes: what CSG leaves of an infinite form is bounded, if it
     for (auto seed : seeds(300)) {
         CAPTURE(seed);
         Gen g(seed);
-        const SolidTree tree = flatten(solid(random_quadric(g)) & (g.chance(0.5) ? solid(random_quadric(g)) : slab(-1, 1)));
+        const SolidTree tree =
+            flatten(solid(random_quadric(g)) & (g.chance(0.5) ? solid(random_quadric(g)) : slab(-1, 1)));
         const Box around = bounding_box(tree);
         for (int k = 0; k < 40; ++k) {
             const Vec3 x = g.point(g.chance(0.5) ? 2 : 200);

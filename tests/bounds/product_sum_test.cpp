@@ -168,7 +168,8 @@ TEST_CASE("a ray in the plane of a sum's flush face is done soon") {
 
 TEST_CASE("multiplied out, nested half-spaces that do not vary in the same place are one product") {
     const auto slab = [](double thickness) {
-        return Density::half_space({1, 0, 0}, thickness) & ~Density::half_space({1, 0, 0}, 0) & Density::half_space({0, 1, 0}, 0);
+        return Density::half_space({1, 0, 0}, thickness) & ~Density::half_space({1, 0, 0}, 0) &
+               Density::half_space({0, 1, 0}, 0);
     };
     const auto terms = [](const Density& d, double r) { return LocalDensity(flatten(d, r)).as_sum(8)->terms.size(); };
     CHECK(terms(slab(0.5), 0.25) == 1);

@@ -10,12 +10,14 @@ constexpr double pi = 3.14159265358979323846;
 
 double quasi_truth(double degrees, int steps = 200) {
     const RoundedEdge edge(degrees * pi / 180);
-    return distance_between([&](double x) { return edge.quasi(x); }, [&](double x) { return edge.truth(x); }, edge.width(), steps);
+    return distance_between([&](double x) { return edge.quasi(x); }, [&](double x) { return edge.truth(x); },
+                            edge.width(), steps);
 }
 
 double truth_fillet(double degrees) {
     const RoundedEdge edge(degrees * pi / 180);
-    return distance_between([&](double x) { return edge.truth(x); }, [&](double x) { return edge.fillet(x); }, edge.width(), 200);
+    return distance_between([&](double x) { return edge.truth(x); }, [&](double x) { return edge.fillet(x); },
+                            edge.width(), 200);
 }
 
 }  // namespace

@@ -44,7 +44,8 @@ TEST_CASE("figures refuses names and folders that are none") {
     const Folder folder;
     const Outcome name = run({"figures", "lobb-99", "-o", folder / "out"});
     CHECK(name.code == 2);
-    CHECK(name.err == "deburr: figures: expected the name of a figure or of a paper (see deburr figures --list), got 'lobb-99'\n");
+    CHECK(name.err ==
+          "deburr: figures: expected the name of a figure or of a paper (see deburr figures --list), got 'lobb-99'\n");
     CHECK(run({"figures"}).err == "deburr: figures: expected a folder for the pictures, -o DIR\n");
     CHECK(run({"figures", "-o", folder / "out", "--scenes", folder / "none"}).code == 2);
     CHECK(folder.names().empty());
@@ -103,8 +104,9 @@ TEST_CASE("A figure is made again when its scene or a file of it changes, and on
     CHECK(again() == 0);
 
     const std::string page = read_file(out + "/README.md");
-    for (const char* text : {"### A test", "beyond-test.png", "a cube", "**Claim.** It is made once.",
-                             "**Measured.** It was measured.", "| one | 1 |", "[scenes/csg_examples.lua](../scenes/csg_examples.lua)"})
+    for (const char* text :
+         {"### A test", "beyond-test.png", "a cube", "**Claim.** It is made once.", "**Measured.** It was measured.",
+          "| one | 1 |", "[scenes/csg_examples.lua](../scenes/csg_examples.lua)"})
         CHECK(page.find(text) != std::string::npos);
 }
 
@@ -125,10 +127,13 @@ TEST_CASE("Figures stand in the order of papers and numbers") {
 TEST_CASE("Every figure and table of the three papers is there") {
     std::vector<std::string> names;
     for (const Figure& figure : all_figures()) names.push_back(figure.name);
-    for (const char* name : {"lobb-2", "lobb-5", "lobb-6", "lobb-7", "lobb-10", "lobb-12", "lobb-13", "lobb-14", "lobb-15", "lobb-table-1", "triage-1", "triage-3", "triage-4", "triage-5",
-                             "triage-6", "triage-8", "triage-13", "triage-15", "triage-16", "triage-17", "triage-18", "triage-19",
-                             "triage-20", "triage-21", "triage-22", "triage-robot", "triage-table-6.2", "triage-table-6.3", "vyatkin-1", "vyatkin-2",
-                             "vyatkin-3", "vyatkin-8", "vyatkin-10", "vyatkin-11", "vyatkin-14", "vyatkin-16"}) {
+    for (const char* name :
+         {"lobb-2",    "lobb-5",       "lobb-6",           "lobb-7",           "lobb-10",    "lobb-12",
+          "lobb-13",   "lobb-14",      "lobb-15",          "lobb-table-1",     "triage-1",   "triage-3",
+          "triage-4",  "triage-5",     "triage-6",         "triage-8",         "triage-13",  "triage-15",
+          "triage-16", "triage-17",    "triage-18",        "triage-19",        "triage-20",  "triage-21",
+          "triage-22", "triage-robot", "triage-table-6.2", "triage-table-6.3", "vyatkin-1",  "vyatkin-2",
+          "vyatkin-3", "vyatkin-8",    "vyatkin-10",       "vyatkin-11",       "vyatkin-14", "vyatkin-16"}) {
         CAPTURE(name);
         CHECK(std::count(names.begin(), names.end(), name) == 1);
     }

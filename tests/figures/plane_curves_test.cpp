@@ -76,7 +76,8 @@ TEST_CASE("An animated PNG holds its frames in order") {
     std::size_t at = 8;
     while (at < png.size()) {
         const auto byte = [&](std::size_t k) { return static_cast<unsigned char>(png[at + k]); };
-        const std::size_t size = std::size_t(byte(0)) << 24 | std::size_t(byte(1)) << 16 | std::size_t(byte(2)) << 8 | byte(3);
+        const std::size_t size =
+            std::size_t(byte(0)) << 24 | std::size_t(byte(1)) << 16 | std::size_t(byte(2)) << 8 | byte(3);
         types += png.substr(at + 4, 4) + " ";
         at += size + 12;
     }

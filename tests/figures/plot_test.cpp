@@ -20,7 +20,8 @@ Plot everything() {
                    {.points = circle({1, 0.5}, 0.25), .kind = Curve::Kind::fill, .opacity = 0.5}};
     plot.labels = {{.at = {1, 0.5}, .text = "h_{−r}"}};
     plot.arrows = {{.from = {0, 0}, .to = {1, 0.5}}};
-    plot.field = PlotField{.lo = {0, 0}, .hi = {2, 1}, .columns = 2, .rows = 2, .values = {0, 1, 1, 0}, .label = "ρ", .contours = {0.5}};
+    plot.field = PlotField{
+        .lo = {0, 0}, .hi = {2, 1}, .columns = 2, .rows = 2, .values = {0, 1, 1, 0}, .label = "ρ", .contours = {0.5}};
     return plot;
 }
 

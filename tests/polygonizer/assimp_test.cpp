@@ -1,8 +1,8 @@
 // Files of meshes read back by another program's reader.
-#include <algorithm>
-#include <assimp/Importer.hpp>
 #include <assimp/postprocess.h>
 #include <assimp/scene.h>
+#include <algorithm>
+#include <assimp/Importer.hpp>
 #include <sstream>
 
 #include "catch.hpp"
@@ -63,7 +63,8 @@ TEST_CASE("ASE keeps every vertex's digits, every corner's normal, and each soli
                              Solid::sharp(Density::box({0.5, -1, 0.3}, {2, 2, 2})).material(2));
     Mesh mesh = octree(tree, polygonization_box(tree), {0.1});
     mesh.append(Mesh(mesh), 1);
-    const std::string text = encode(mesh, MeshFormat::ase, {{"", "two \"words\""}, {Vec3(0.1, 0.2, 0.3), Vec3(0.0), Vec3(1.0, 0.5, 0.25)}});
+    const std::string text =
+        encode(mesh, MeshFormat::ase, {{"", "two \"words\""}, {Vec3(0.1, 0.2, 0.3), Vec3(0.0), Vec3(1.0, 0.5, 0.25)}});
     std::istringstream in(text);
     std::string word;
     std::vector<Vec3> positions;

@@ -6,8 +6,9 @@
 using namespace deburr;
 
 TEST_CASE("The cells of a subdivision are closed meshes that fill its box, and have the class of what is in them") {
-    const SolidTree tree = flatten(Solid::rounded(0.1, Density::box(Vec3(0.0), Vec3(1.0)) - Density::half_space({0, 1, 0}, 1) *
-                                                                                             Density::box({0.25, 0.8, 0.25}, {0.75, 1.8, 0.75})));
+    const SolidTree tree = flatten(Solid::rounded(
+        0.1, Density::box(Vec3(0.0), Vec3(1.0)) -
+                 Density::half_space({0, 1, 0}, 1) * Density::box({0.25, 0.8, 0.25}, {0.75, 1.8, 0.75})));
     const DensityTree& density = tree.leaves[0].density;
     const Box box{Vec3(-0.2), Vec3(1.2)};
     const Subdivision subdivision(tree, box);

@@ -6,8 +6,8 @@ using namespace deburr;
 
 namespace {
 
-constexpr auto Z = DensityClass::zero, L = DensityClass::low, U = DensityClass::unclassified,
-               H = DensityClass::high, I = DensityClass::one;
+constexpr auto Z = DensityClass::zero, L = DensityClass::low, U = DensityClass::unclassified, H = DensityClass::high,
+               I = DensityClass::one;
 
 // Members of a class: its ends where it reaches them, and points between.
 std::vector<double> members(DensityClass c) {
@@ -63,8 +63,7 @@ TEST_CASE("Every table entry holds all that its operands can give, and no narrow
                         ++legal;
                         CHECK(holds(result, lo));
                         CHECK(holds(result, hi));
-                        for (const DensityClass c : density_classes)
-                            fits[int(c)] &= holds(c, lo) && holds(c, hi);
+                        for (const DensityClass c : density_classes) fits[int(c)] &= holds(c, lo) && holds(c, hi);
                     }
                 if (legal == 0) continue;
                 for (const DensityClass c : density_classes) {

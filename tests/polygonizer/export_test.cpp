@@ -61,7 +61,8 @@ TEST_CASE("OBJ reads back as the same doubles and the same triangles") {
 
 TEST_CASE("Binary files have the size that they say") {
     const Mesh m = mesh();
-    const std::string stl = encode(m, MeshFormat::stl), ply = encode(m, MeshFormat::ply), glb = encode(m, MeshFormat::glb);
+    const std::string stl = encode(m, MeshFormat::stl), ply = encode(m, MeshFormat::ply),
+                      glb = encode(m, MeshFormat::glb);
     CHECK(stl.size() == 84 + 50 * m.triangles.size());
     CHECK(read<std::uint32_t>(stl, 80) == m.triangles.size());
     const std::size_t header = ply.find("end_header\n") + 11;

@@ -72,7 +72,8 @@ TEST_CASE("Without hard edges a cube loses them") {
 }
 
 TEST_CASE("A hard edge has points on both surfaces, with a normal for each") {
-    const Solid a = Solid::rounded(0.1, unit_cube()), b = Solid::rounded(0.15, Density::box({0.5, 0.5, 0.5}, {1.2, 1.3, 1.1}));
+    const Solid a = Solid::rounded(0.1, unit_cube()),
+                b = Solid::rounded(0.15, Density::box({0.5, 0.5, 0.5}, {1.2, 1.3, 1.1}));
     for (const Solid& s : {a | b, a & b, a - b, b - a}) {
         const Measured m = measured(s, {0.05});
         check_sound(m);
@@ -132,7 +133,8 @@ TEST_CASE("Sheets that pass one cell are told apart: boxes that touch, a checker
         }
     Density all = unit_cube();
     for (const Vec3 at : {Vec3(1, 1, 0), Vec3(1, 0, 1), Vec3(0, 1, 1)}) all = all + Density::box(at, at + Vec3(1.0));
-    for (const double edge : {0.3, 0.1, 0.07}) CHECK(measured(Solid::rounded(0.2, all), {edge}).metrics.topology.manifold());
+    for (const double edge : {0.3, 0.1, 0.07})
+        CHECK(measured(Solid::rounded(0.2, all), {edge}).metrics.topology.manifold());
 }
 
 TEST_CASE("What leaves the box is cut off by it") {
@@ -146,7 +148,8 @@ TEST_CASE("What leaves the box is cut off by it") {
 TEST_CASE("An empty solid is an empty mesh, and too many cells are refused") {
     const SolidTree nothing = flatten(Solid::sharp(unit_cube()) - Solid::sharp(Density::box(Vec3(-1.0), Vec3(2.0))));
     CHECK(octree(nothing, Box{Vec3(-1.0), Vec3(2.0)}, {0.1}).triangles.empty());
-    CHECK_THROWS_AS(octree(flatten(Solid::rounded(0.1, unit_cube())), Box{Vec3(-1.0), Vec3(2.0)}, {1e-6}), std::length_error);
+    CHECK_THROWS_AS(octree(flatten(Solid::rounded(0.1, unit_cube())), Box{Vec3(-1.0), Vec3(2.0)}, {1e-6}),
+                    std::length_error);
 }
 
 TEST_CASE("A quadric: an ellipsoid's volume, and no hard edge") {

@@ -14,7 +14,8 @@ TEST_CASE("A sharp density is the set that its Boolean function says, also where
             for (HalfSpace& h : density.half_spaces) h.radius = 0;
             const DensityTree set = sharp_set(density);
             ++sharp;
-            for (const TreeNode& n : set.nodes) CHECK((n.op != Op::sum && n.op != Op::product && n.op != Op::difference));
+            for (const TreeNode& n : set.nodes)
+                CHECK((n.op != Op::sum && n.op != Op::product && n.op != Op::difference));
             std::mt19937_64 random(std::uint64_t(seed) + 1);
             for (int k = 0; k < 200; ++k) {
                 Vec3 x;

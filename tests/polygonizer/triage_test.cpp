@@ -21,8 +21,8 @@ Density unit_cube() { return Density::box(Vec3(0.0), Vec3(1.0)); }
 
 // obj4 [Lobb figures 11 and 13], with the clip that it needs.
 Solid obj4(double r) {
-    return Solid::rounded(r, unit_cube() - Density::half_space({0, 1, 0}, 1) *
-                                               Density::box({0.25, 0.8, 0.25}, {0.75, 1.8, 0.75}));
+    return Solid::rounded(
+        r, unit_cube() - Density::half_space({0, 1, 0}, 1) * Density::box({0.25, 0.8, 0.25}, {0.75, 1.8, 0.75}));
 }
 
 Mesh mesh_of(const SolidTree& tree, double tolerance = infinity) {
@@ -119,14 +119,16 @@ TEST_CASE("A clipped density is sharp at the clip [Triage §6.1, the punch pin]"
 TEST_CASE("What a sharp cut leaves on both of its sides is one surface") {
     // Its two halves had chords of their own along the cut, and slivers of the cut between them (seed 16417).
     const Density part = unit_cube().radius(0.1), cut = Density::half_space({0, 1, 1}, 0.9);
-    CHECK(measured(Solid::sharp((part & cut) | (part & ~cut))).mesh.polygons == measured(Solid::sharp(part)).mesh.polygons);
+    CHECK(measured(Solid::sharp((part & cut) | (part & ~cut))).mesh.polygons ==
+          measured(Solid::sharp(part)).mesh.polygons);
     CHECK(measured(RandomSolid(16417).solid()).metrics.inverted == 0);
 }
 
 TEST_CASE("Shells of coinciding surfaces that enclose nothing are dropped") {
     // Complementary to each other where both are rounded, apart elsewhere.
     const Density corner = Density::box({0.75, 0.75, 0}, {1.75, 1.25, 0.5});
-    const Density rest = Density::box({0.5, 0.25, 0.25}, {1.5, 1.25, 1.25}) & ~Density::box({0.75, 0.75, 0.25}, {1.5, 1.25, 1.25});
+    const Density rest =
+        Density::box({0.5, 0.25, 0.25}, {1.5, 1.25, 1.25}) & ~Density::box({0.75, 0.75, 0.25}, {1.5, 1.25, 1.25});
     CHECK(measured(Solid::rounded(0.05, rest) & Solid::rounded(0.05, corner)).mesh.triangles.empty());
 }
 
@@ -158,7 +160,8 @@ TEST_CASE("A tolerance is met all over the mesh, still closed") {
             for (int i = 0; i <= parts; ++i)
                 for (int j = 0; i + j <= parts; ++j) {
                     const auto at = [&](std::size_t k) { return mesh.positions[std::size_t(t.vertex[k])]; };
-                    const Vec3 x = (at(0) * double(i) + at(1) * double(j) + at(2) * double(parts - i - j)) / double(parts);
+                    const Vec3 x =
+                        (at(0) * double(i) + at(1) * double(j) + at(2) * double(parts - i - j)) / double(parts);
                     farthest = std::max(farthest, field.distance_along_normal(x, 0.1));
                 }
         CHECK(farthest <= tolerance);
@@ -191,7 +194,8 @@ TEST_CASE("Cells and their neighbours polygonized alone are judged as in the who
                 Subspace part(subdivision);
                 part.polygonize(with_neighbours(subdivision.complex, {wanted[k].cell}));
                 const std::vector<Cut> found = cells_to_halve(part, tolerance);
-                const auto same = std::find_if(found.begin(), found.end(), [&](const Cut& c) { return c.cell == wanted[k].cell; });
+                const auto same =
+                    std::find_if(found.begin(), found.end(), [&](const Cut& c) { return c.cell == wanted[k].cell; });
                 REQUIRE(same != found.end());
                 CHECK(same->error == Approx(wanted[k].error));
             }
@@ -212,7 +216,8 @@ TEST_CASE("Primary CSG of rounded solids is closed and sharp where the tree is")
 }
 
 // 10,000 cases with DEBURR_STRESS=10000, about four minutes; others with DEBURR_STRESS_FROM=10000.
-TEST_CASE("Random CSG objects: no abort, no hole, no non-manifold edge, no facet inward, no vertex beside the surface") {
+TEST_CASE(
+    "Random CSG objects: no abort, no hole, no non-manifold edge, no facet inward, no vertex beside the surface") {
     const char* wanted = std::getenv("DEBURR_STRESS");
     const char* from = std::getenv("DEBURR_STRESS_FROM");
     const int cases = wanted ? std::atoi(wanted) : 300, first = from ? std::atoi(from) : 0;
@@ -241,8 +246,9 @@ TEST_CASE("Random CSG objects: no abort, no hole, no non-manifold edge, no facet
 }
 
 TEST_CASE("Facets that leaned inward face outward: folds, slivers, walls thinner than the mesh is fine") {
-    for (const int seed : {47, 78, 211, 285, 332, 354, 413, 448, 455, 544, 552, 584, 618, 659, 730, 904, 925, 962, 1162, 2356, 4446, 5342, 6502, 6714,
-                           7346, 9824, 11210, 11381, 11951, 13148, 14001, 14389, 15783, 18408, 19662, 25652, 27924}) {
+    for (const int seed : {47,    78,    211,   285,   332,   354,   413,   448,   455,   544,   552,  584,  618,
+                           659,   730,   904,   925,   962,   1162,  2356,  4446,  5342,  6502,  6714, 7346, 9824,
+                           11210, 11381, 11951, 13148, 14001, 14389, 15783, 18408, 19662, 25652, 27924}) {
         CAPTURE(seed);
         const SolidTree tree = flatten(RandomSolid(seed).solid());
         const MeshMetrics m = measure(mesh_of(tree), tree);

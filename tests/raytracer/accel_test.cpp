@@ -4,8 +4,8 @@
 
 #include "ball_field.hpp"
 #include "catch.hpp"
-#include "raytracer/hits.hpp"
 #include "raytracer/bsp.hpp"
+#include "raytracer/hits.hpp"
 #include "raytracer/integrator.hpp"
 #include "raytracer/scene_reader.hpp"
 
@@ -34,7 +34,8 @@ private:
     Hit check(const Ray& ray, double t_max) {
         TraceCounters counters;
         const Hit want = bsp_.first_hit(ray, t_max, counters), hit = embree_.first_hit(ray, t_max, counters);
-        CAPTURE(ray.origin.x, ray.origin.y, ray.origin.z, ray.direction.x, ray.direction.y, ray.direction.z, t_max, want.t, hit.t);
+        CAPTURE(ray.origin.x, ray.origin.y, ray.origin.z, ray.direction.x, ray.direction.y, ray.direction.z, t_max,
+                want.t, hit.t);
         REQUIRE(same_bits(hit, want));
         REQUIRE(embree_.occluded(ray, t_max, counters) == bsp_.occluded(ray, t_max, counters));
         ++rays;
@@ -71,7 +72,8 @@ TEST_CASE("the scenes: camera rays, shadow rays and reflections hit the same to 
         Roads roads(scene.solids);
         const PinholeCamera camera(scene.camera, 60, 40);
         for (int y = 0; y < 40; ++y)
-            for (int x = 0; x < 60; ++x) roads.follow(camera.ray(x + 0.5, y + 0.5), infinity, scene.camera.eye + Vec3(1, 5, -2));
+            for (int x = 0; x < 60; ++x)
+                roads.follow(camera.ray(x + 0.5, y + 0.5), infinity, scene.camera.eye + Vec3(1, 5, -2));
         CHECK(roads.hits > 500);
         ++scenes;
     }
@@ -94,7 +96,8 @@ TEST_CASE("random solids and fields, many in one space, unbounded or placed agai
                 solids.push_back(solid.transformed(map));
             }
             if (g.chance(0.3)) solids.push_back(solid.material(10 + i));  // in the same place
-            if (g.chance(0.2)) solids.push_back(Solid::of_field(std::make_shared<BallField>()).transformed({Mat3(0.7), g.point(2)}));
+            if (g.chance(0.2))
+                solids.push_back(Solid::of_field(std::make_shared<BallField>()).transformed({Mat3(0.7), g.point(2)}));
         }
         Roads roads(solids);
         follow_any(roads, g, 4, 60);
@@ -137,7 +140,8 @@ TEST_CASE("what Embree leads rays to does not depend on the number of threads") 
         solids.push_back(Solid::rounded(0.05, box).transformed({Mat3(1.0), Vec3(i % 20, i / 20 % 20, i / 400)}));
     }
     const auto work = [&](std::size_t threads) {
-        return random_hits(threads, [&] { return ImplicitTracer(solids, Criterion::exact, Search::where_needed, Accel::embree); });
+        return random_hits(
+            threads, [&] { return ImplicitTracer(solids, Criterion::exact, Search::where_needed, Accel::embree); });
     };
     const auto one = work(1);
     CHECK(one == work(2));

@@ -54,8 +54,7 @@ private:
                 const double b = glm::dot(o, ray.direction), c = glm::dot(o, o) - s.size * s.size;
                 if (b * b < c) continue;
                 const double root = std::sqrt(b * b - c);
-                for (double t : {-b - root, -b + root})
-                    take(t, i, (o + t * ray.direction) / s.size);
+                for (double t : {-b - root, -b + root}) take(t, i, (o + t * ray.direction) / s.size);
                 continue;
             }
             const double slope = glm::dot(ray.direction, s.normal);
@@ -79,8 +78,7 @@ inline Texture plain(Vec3 color) {
 }
 inline Texture plain(double grey) { return plain(Vec3(grey)); }
 
-inline Material material_of(Material::Kind kind, Vec3 color, double roughness = 0.2,
-                            double ior = 1.5) {
+inline Material material_of(Material::Kind kind, Vec3 color, double roughness = 0.2, double ior = 1.5) {
     return {kind, plain(color), roughness, ior};
 }
 
@@ -93,8 +91,7 @@ inline Scene probe(Material material) {
     return scene;
 }
 
-inline Pixel pixel_of(const Scene& scene, const RayTracer& tracer, int spp,
-                      std::uint64_t seed = 0) {
+inline Pixel pixel_of(const Scene& scene, const RayTracer& tracer, int spp, std::uint64_t seed = 0) {
     TraceCounters counters;
     return Integrator(scene, tracer, {1, 1, spp, seed}).pixel(0, 0, nullptr, counters);
 }

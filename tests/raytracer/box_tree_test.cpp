@@ -20,7 +20,8 @@ std::set<std::uint32_t> visited_by(const BoxTree& tree, Vec3 o, Vec3 d, BoxSpan 
     return seen;
 }
 
-std::set<std::uint32_t> visited_by(const EmbreeBoxes& boxes, Vec3 o, Vec3 d, BoxSpan whole, double until, EmbreeBoxes::Order order) {
+std::set<std::uint32_t> visited_by(const EmbreeBoxes& boxes, Vec3 o, Vec3 d, BoxSpan whole, double until,
+                                   EmbreeBoxes::Order order) {
     std::set<std::uint32_t> seen;
     boxes.visit(o, d, whole.lo, whole.hi, order, [&](std::uint32_t i) {
         REQUIRE(seen.insert(i).second);

@@ -25,8 +25,7 @@ std::vector<Case> opaque_materials() {
     std::vector<Case> cases = {{Material::Kind::matte, 0, 1.5}, {Material::Kind::mirror, 0, 1.5}};
     for (double roughness : {0.0, 0.2, 0.4, 0.7, 1.0}) {
         cases.push_back({Material::Kind::metal, roughness, 1.5});
-        for (double ior : {1.3, 1.5, 2.4})
-            cases.push_back({Material::Kind::plastic, roughness, ior});
+        for (double ior : {1.3, 1.5, 2.4}) cases.push_back({Material::Kind::plastic, roughness, ior});
     }
     return cases;
 }
@@ -37,8 +36,7 @@ template <class F>
 auto over_hemisphere(int rows, int columns, F f) {
     decltype(f(up)) sum{};
     for (int i = 0; i < rows; ++i)
-        for (int j = 0; j < columns; ++j)
-            sum += f(at_cosine((i + 0.5) / rows, 2 * pi * (j + 0.5) / columns));
+        for (int j = 0; j < columns; ++j) sum += f(at_cosine((i + 0.5) / rows, 2 * pi * (j + 0.5) / columns));
     return sum * (2 * pi / (rows * columns));
 }
 
@@ -57,8 +55,7 @@ TEST_CASE("A white material returns all light of a white furnace") {
             const int n = 1 << 14;
             for (int s = 0; s < n; ++s) {
                 Vec3 way, weight;
-                if (bsdf.sample_layer(Sampler(1, 0, 0, s).square(0), way, weight))
-                    sum += weight / double(n);
+                if (bsdf.sample_layer(Sampler(1, 0, 0, s).square(0), way, weight)) sum += weight / double(n);
             }
             CHECK(close(sum, Vec3(1.0), 0.005));
             ++cases;
@@ -93,8 +90,7 @@ TEST_CASE("Scattering is reciprocal") {
             const Vec3 b = at_cosine(0.01 + 0.99 * q.x, 2 * pi * q.y);
             const auto ab = Bsdf(layer, Vec3(0.7), up, a).value(b);
             const auto ba = Bsdf(layer, Vec3(0.7), up, b).value(a);
-            const double there = (ab.base.x + ab.layer.x) / b.z,
-                         back = (ba.base.x + ba.layer.x) / a.z;
+            const double there = (ab.base.x + ab.layer.x) / b.z, back = (ba.base.x + ba.layer.x) / a.z;
             CHECK(std::abs(there - back) <= 1e-9 * (there + back));
             ++cases;
         }
@@ -110,10 +106,10 @@ TEST_CASE("SurfaceLayer samples have the density and the weight that are claimed
             const SurfaceLayer layer({Material::Kind::metal, plain(1.0), roughness, 1.5});
             const Bsdf bsdf(layer, Vec3(0.8), up, at_cosine(cosine), blur);
             auto observable = [](Vec3 w) { return (1 + w.x) * (1.5 + w.y) * w.z; };
-            const double hit_exact = over_hemisphere(
-                400, 400, [&](Vec3 w) { return bsdf.layer_density(w) * observable(w); });
-            const double light_exact = over_hemisphere(
-                400, 400, [&](Vec3 w) { return bsdf.value(w).layer.x * observable(w); });
+            const double hit_exact =
+                over_hemisphere(400, 400, [&](Vec3 w) { return bsdf.layer_density(w) * observable(w); });
+            const double light_exact =
+                over_hemisphere(400, 400, [&](Vec3 w) { return bsdf.value(w).layer.x * observable(w); });
             double hits = 0, light = 0;
             const int n = 1 << 15;
             for (int s = 0; s < n; ++s) {
@@ -142,8 +138,7 @@ TEST_CASE("GGX facets cover the projected area once") {
             const double t = (i + 0.5) / n, tangent = alpha * t / (1 - t);
             const double c = 1 / std::sqrt(1 + tangent * tangent);
             // dω cos = 2π sinθ cosθ dθ, dθ = cos² d tan
-            area += ggx.distribution(c) * 2 * pi * tangent * c * c * c * c * alpha /
-                    ((1 - t) * (1 - t)) / n;
+            area += ggx.distribution(c) * 2 * pi * tangent * c * c * c * c * alpha / ((1 - t) * (1 - t)) / n;
         }
         CHECK(area == Approx(1).epsilon(1e-4));
     }
@@ -165,8 +160,7 @@ TEST_CASE("Fresnel's equations have their known values") {
     for (int i = 1; i < 100; ++i) {
         Vec3 through;
         REQUIRE(refracted(at_cosine(i / 100.0), up, 1.5, through));
-        CHECK(fresnel_dielectric(i / 100.0, 1.5) ==
-              Approx(fresnel_dielectric(-through.z, 1 / 1.5)).epsilon(1e-9));
+        CHECK(fresnel_dielectric(i / 100.0, 1.5) == Approx(fresnel_dielectric(-through.z, 1 / 1.5)).epsilon(1e-9));
         ++cases;
     }
     CHECK(cases == 99);

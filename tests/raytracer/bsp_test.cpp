@@ -20,8 +20,8 @@ struct Agreement {
 };
 
 // Rays of a camera on a grid of pixels, against the nearest crossing of any solid.
-Agreement compare(const std::vector<Solid>& solids, const Camera& camera, int columns, int rows,
-                  double t_max = 100, int steps = 12) {
+Agreement compare(const std::vector<Solid>& solids, const Camera& camera, int columns, int rows, double t_max = 100,
+                  int steps = 12) {
     const ImplicitTracer tracer(solids);
     std::vector<SolidTree> trees;
     for (const Solid& s : solids) trees.push_back(flatten(s));
@@ -131,7 +131,8 @@ TEST_CASE("a filter too small to be sampled leaves sharp faces with their normal
         for (int i = 0; i < 2'000; ++i) {
             const Vec3 o = Vec3(2, 0, 0) + g.direction() * 6.0;
             const Vec3 d = glm::normalize(Vec3(g.between(0, 4), g.between(0, 1), g.between(0, 1)) - o);
-            const Hit hit = tracer.first_hit({o, d}, infinity, counters), want = sharp.first_hit({o, d}, infinity, counters);
+            const Hit hit = tracer.first_hit({o, d}, infinity, counters),
+                      want = sharp.first_hit({o, d}, infinity, counters);
             REQUIRE(bool(hit) == bool(want));
             if (!hit) continue;
             REQUIRE(std::abs(hit.t - want.t) < 1e-9);
@@ -145,12 +146,14 @@ TEST_CASE("a filter too small to be sampled leaves sharp faces with their normal
 TEST_CASE("a wheel of 40 sides, as a product and as a Boolean density with a hub and spokes") {
     for (const double r : {0.02, 0.1, 0.5}) {
         CAPTURE(r);
-        const Agreement product = compare({Solid::rounded(r, wheel(40, 1, -0.2, 0.2))}, look({2, 2.5, 3}, {0, 0, 0}), 32, 20);
+        const Agreement product =
+            compare({Solid::rounded(r, wheel(40, 1, -0.2, 0.2))}, look({2, 2.5, 3}, {0, 0, 0}), 32, 20);
         CHECK(product.differ == 0);
         const Density hollow = (wheel(40, 1, -0.2, 0.2) & ~wheel(40, 0.8, -1, 1)) | wheel(40, 0.25, -0.3, 0.3) |
                                Density::box({-0.9, -0.1, -0.05}, {0.9, 0.1, 0.05});
         if (r > 0.05) continue;  // the plain definition adds up every outcome of every side
-        const Agreement boolean = compare({Solid::rounded(r, hollow)}, look({1.2, 2.8, 1.5}, {0, 0, 0}, 45), 14, 10, 100, 4);
+        const Agreement boolean =
+            compare({Solid::rounded(r, hollow)}, look({1.2, 2.8, 1.5}, {0, 0, 0}, 45), 14, 10, 100, 4);
         CHECK(boolean.differ == 0);
         CHECK(boolean.hits > 20);
     }
@@ -179,7 +182,8 @@ TEST_CASE("mirrored and unevenly scaled solids carry their field along") {
     squash.linear = Mat3(0.3, 0, 0, 0, 2, 0, 0, 0, 1);
     squash.shift = {0.5, 0, 0.2};
     const Solid s = Solid::rounded(0.2, holed);
-    const Agreement a = compare({s.transformed(mirror), s.transformed(squash)}, look({2, 1.5, -4}, {0, 0.6, 0.5}), 64, 40);
+    const Agreement a =
+        compare({s.transformed(mirror), s.transformed(squash)}, look({2, 1.5, -4}, {0, 0.6, 0.5}), 64, 40);
     CHECK(a.differ == 0);
     CHECK(a.hits > 200);
 }
@@ -187,11 +191,12 @@ TEST_CASE("mirrored and unevenly scaled solids carry their field along") {
 TEST_CASE("a camera inside a room sees its rounded walls, pixel for pixel") {
     const Density room = Density::box(Vec3(-3), Vec3(3)) & ~Density::box(Vec3(-2), Vec3(2));
     const Solid furniture = Solid::rounded(0.1, Density::box({-1, -2, -1}, {0, -1, 0.5}));
-    const Agreement boolean = compare({Solid::rounded(0.3, room), furniture}, look({1.5, 1, 1.7}, {-1, -0.7, -1}, 80), 64, 40);
+    const Agreement boolean =
+        compare({Solid::rounded(0.3, room), furniture}, look({1.5, 1, 1.7}, {-1, -0.7, -1}, 80), 64, 40);
     CHECK(boolean.differ == 0);
     CHECK(boolean.hits == boolean.rays);
-    const Solid primary = Solid::rounded(0.3, Density::box(Vec3(-3), Vec3(3))) -
-                          Solid::rounded(0.3, Density::box(Vec3(-2), Vec3(2)));
+    const Solid primary =
+        Solid::rounded(0.3, Density::box(Vec3(-3), Vec3(3))) - Solid::rounded(0.3, Density::box(Vec3(-2), Vec3(2)));
     const Agreement csg = compare({primary}, look({1.5, 1, 1.7}, {-1, -0.7, -1}, 80), 64, 40);
     CHECK(csg.differ == 0);
     CHECK(csg.hits == csg.rays);
@@ -266,10 +271,12 @@ TEST_CASE("unbounded solids are hit at any distance") {
 
 TEST_CASE("bounded solids among unbounded ones are hit from near and far, pixel for pixel") {
     // A beam and a trench without end; a block on the one, one in the other, one far outside.
-    const Solid beam = Solid::rounded(0.1, Density::half_space({0, 1, 0}, 0.5) * Density::half_space({0, -1, 0}, 0.5) *
-                                               Density::half_space({0, 0, 1}, 0.5) * Density::half_space({0, 0, -1}, 0.5));
-    const Solid ground = Solid::rounded(0.2, Density::half_space({0, 1, 0}, -2) &
-                                                 ~(Density::half_space({1, 0, 0}, 3) & Density::half_space({-1, 0, 0}, -2)));
+    const Solid beam =
+        Solid::rounded(0.1, Density::half_space({0, 1, 0}, 0.5) * Density::half_space({0, -1, 0}, 0.5) *
+                                Density::half_space({0, 0, 1}, 0.5) * Density::half_space({0, 0, -1}, 0.5));
+    const Solid ground =
+        Solid::rounded(0.2, Density::half_space({0, 1, 0}, -2) &
+                                ~(Density::half_space({1, 0, 0}, 3) & Density::half_space({-1, 0, 0}, -2)));
     const std::vector<Solid> solids{beam, ground, Solid::rounded(0.1, Density::box({0, 0.5, -0.3}, {0.6, 1, 0.3})),
                                     Solid::rounded(0.1, Density::box({2.2, -2.2, 1}, {2.7, -1.5, 1.5})),
                                     Solid::sharp(Density::half_space({0, 1, 0}, -3))};
@@ -290,7 +297,8 @@ TEST_CASE("products need no search, and a search finds the same") {
         const ImplicitTracer tracer(solids), searching(solids, Criterion::exact, Search::always);
         for (int k = 0; k < 40; ++k) {
             const Vec3 o = g.point(3), d = glm::normalize(g.point(0.8) - o);
-            const Hit a = tracer.first_hit({o, d}, infinity, direct), b = searching.first_hit({o, d}, infinity, by_search);
+            const Hit a = tracer.first_hit({o, d}, infinity, direct),
+                      b = searching.first_hit({o, d}, infinity, by_search);
             differ += a.t != b.t && !(std::abs(a.t - b.t) < 1e-9);
             if (!a || !b) continue;
             ++hits;
@@ -359,12 +367,10 @@ TEST_CASE("Lobb's figure 11: the six objects, by the definition") {
     const Density cube = at(Vec3(1), Vec3(0)), box1 = at(Vec3(0.5), {0.25, 0.8, 0.25});
     const Density box2 = at({0.5, 1, 0.5}, {0.25, 0.8, 0.25}), box3 = at(Vec3(0.5), {0.25, 1, 0.25});
     const Density top = Density::half_space({0, 1, 0}, 1);
-    const std::vector<Solid> objects{Solid::sharp(cube) - Solid::sharp(box1),
-                                     Solid::rounded(r, cube) - Solid::sharp(box1),
-                                     Solid::sharp(cube) - Solid::rounded(r, box2),
-                                     Solid::rounded(r, cube - top * box2),
-                                     Solid::rounded(r, cube) | Solid::rounded(r, box3),
-                                     Solid::rounded(r, cube + box3)};
+    const std::vector<Solid> objects{
+        Solid::sharp(cube) - Solid::sharp(box1),           Solid::rounded(r, cube) - Solid::sharp(box1),
+        Solid::sharp(cube) - Solid::rounded(r, box2),      Solid::rounded(r, cube - top * box2),
+        Solid::rounded(r, cube) | Solid::rounded(r, box3), Solid::rounded(r, cube + box3)};
     for (const Solid& object : objects) {
         const Agreement a = compare({object}, look({2.2, 2.4, 3}, {0.5, 0.6, 0.5}, 36), 60, 38);
         CHECK(a.differ == 0);
@@ -378,8 +384,9 @@ TEST_CASE("cost per ray grows like the logarithm of the number of solids") {
     for (const int side : {3, 10}) {
         std::vector<Solid> solids;
         for (int i = 0; i < side * side * side; ++i)
-            solids.push_back(Solid::rounded(0.05, Density::box(Vec3(0), Vec3(0.3)).transformed(
-                                                      {Mat3(1.0), Vec3(i % side, i / side % side, i / side / side)})));
+            solids.push_back(
+                Solid::rounded(0.05, Density::box(Vec3(0), Vec3(0.3))
+                                         .transformed({Mat3(1.0), Vec3(i % side, i / side % side, i / side / side)})));
         const ImplicitTracer tracer(solids);
         Gen g(1);
         TraceCounters counters;

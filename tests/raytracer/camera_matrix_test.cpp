@@ -9,8 +9,7 @@ namespace {
 
 std::array<double, 4> times(Vec3 x, const Matrix44& m) {
     std::array<double, 4> y{};
-    for (std::size_t j = 0; j < 4; ++j)
-        y[j] = x.x * m[0][j] + x.y * m[1][j] + x.z * m[2][j] + m[3][j];
+    for (std::size_t j = 0; j < 4; ++j) y[j] = x.x * m[0][j] + x.y * m[1][j] + x.z * m[2][j] + m[3][j];
     return y;
 }
 

@@ -47,17 +47,14 @@ struct Picture {
         REQUIRE(input->read_image(0, 0, 0, spec.nchannels, OIIO::TypeDesc::UNKNOWN, bytes.data()));
     }
     const unsigned char* at(int x, int y) const {
-        return bytes.data() +
-               (std::size_t(y - spec.y) * std::size_t(spec.width) + std::size_t(x - spec.x)) *
-                   pixel;
+        return bytes.data() + (std::size_t(y - spec.y) * std::size_t(spec.width) + std::size_t(x - spec.x)) * pixel;
     }
 };
 
 }  // namespace
 
 TEST_CASE("help and version go to the standard output and are no error") {
-    for (const Words& words :
-         {Words{"--help"}, Words{"-h"}, Words{"render", "--help"}, Words{"info", "-h"}}) {
+    for (const Words& words : {Words{"--help"}, Words{"-h"}, Words{"render", "--help"}, Words{"info", "-h"}}) {
         const Outcome o = run(words);
         CHECK(o.code == 0);
         CHECK(o.out.find("--help") != std::string::npos);
@@ -78,49 +75,37 @@ TEST_CASE("a wrong call is one line and exit code 2, and nothing is written") {
         {{"info"}, "expected a scene file"},
         {{"render", scene}, "render: expected an output file, -o FILE"},
         {{"render", scene, "-o"}, "expected a value, got none"},
-        {{"render", scene, "-o", output, "--foo"},
-         "unknown option '--foo' (see deburr render --help)"},
-        {{"render", scene, "-o", output, "--foo=3"},
-         "unknown option '--foo' (see deburr render --help)"},
-        {{"render", scene, "b.lua", "-o", output},
-         "unexpected argument 'b.lua' (see deburr render --help)"},
+        {{"render", scene, "-o", output, "--foo"}, "unknown option '--foo' (see deburr render --help)"},
+        {{"render", scene, "-o", output, "--foo=3"}, "unknown option '--foo' (see deburr render --help)"},
+        {{"render", scene, "b.lua", "-o", output}, "unexpected argument 'b.lua' (see deburr render --help)"},
         {{"render", scene, "-o", place / "a.foo"}, "-o: expected a file name that ends in .exr"},
         {{"render", scene, "-o", place / "a"}, "-o: expected a file name that ends in .exr"},
         {{"render", scene, "-o", output, "-o", output}, "expected different files, got"},
         {{"render", scene, "-o", output, "--stats-json", output}, "expected different files, got"},
         {{"render", place / "no.lua", "-o", output}, "cannot read scene"},
         {{"render", place / ".", "-o", output}, "cannot read scene"},
-        {{"render", scene, "-o", output, "--size", "0x0"},
-         "--size: expected WxH, each from 1 to 65536, got '0x0'"},
-        {{"render", scene, "-o", output, "--size", "-5x5"},
-         "--size: expected WxH, each from 1 to 65536, got '-5x5'"},
-        {{"render", scene, "-o", output, "--size", "65536x65536"},
-         "--size: expected WxH of at most 268435456 pixels"},
+        {{"render", scene, "-o", output, "--size", "0x0"}, "--size: expected WxH, each from 1 to 65536, got '0x0'"},
+        {{"render", scene, "-o", output, "--size", "-5x5"}, "--size: expected WxH, each from 1 to 65536, got '-5x5'"},
+        {{"render", scene, "-o", output, "--size", "65536x65536"}, "--size: expected WxH of at most 268435456 pixels"},
         {{"render", scene, "-o", output, "--size"}, "--size: expected a value, got none"},
         {{"render", scene, "-o", output, "--crop", "61x1+0+0"},
          "--crop: expected a window within the picture of 60x40, got '61x1+0+0'"},
         {{"render", scene, "-o", output, "--crop", "9x9"},
          "--crop: expected WxH+X+Y, for example 100x50+20+10, got '9x9'"},
-        {{"render", scene, "-o", output, "--size", "5x5", "--crop", "9x9+0+0"},
-         "within the picture of 5x5"},
-        {{"render", scene, "-o", output, "--spp", "0"},
-         "--spp: expected a whole number from 1 to 1048576, got '0'"},
-        {{"render", scene, "-o", output, "--spp", "-1"},
-         "--spp: expected a whole number from 1 to 1048576, got '-1'"},
+        {{"render", scene, "-o", output, "--size", "5x5", "--crop", "9x9+0+0"}, "within the picture of 5x5"},
+        {{"render", scene, "-o", output, "--spp", "0"}, "--spp: expected a whole number from 1 to 1048576, got '0'"},
+        {{"render", scene, "-o", output, "--spp", "-1"}, "--spp: expected a whole number from 1 to 1048576, got '-1'"},
         {{"render", scene, "-o", output, "--spp", "1", "--spp", "2"}, "--spp: expected once"},
         {{"render", scene, "-o", output, "--threads", "0"},
          "--threads: expected a whole number from 1 to 1024, got '0'"},
-        {{"render", scene, "-o", output, "--seed", "-1"},
-         "--seed: expected a whole number from 0 to 2^64-1, got '-1'"},
-        {{"render", scene, "-o", output, "--aov", "P,Q"},
-         "--aov: expected some of P, N, Z, albedo, id, cost, got 'Q'"},
+        {{"render", scene, "-o", output, "--seed", "-1"}, "--seed: expected a whole number from 0 to 2^64-1, got '-1'"},
+        {{"render", scene, "-o", output, "--aov", "P,Q"}, "--aov: expected some of P, N, Z, albedo, id, cost, got 'Q'"},
         {{"render", scene, "-o", place / "a.png", "--aov", "P"},
          "--aov: expected an output that ends in .exr, got none"},
         {{"render", scene, "-o", place / "a.png", "--float"},
          "--float: expected an output that ends in .exr, got none"},
         {{"render", scene, "-o", output, "--via", "magic"}, "--via: expected implicit"},
-        {{"render", scene, "-o", output, "--criterion", "x"},
-         "--criterion: expected exact or lobb, got 'x'"},
+        {{"render", scene, "-o", output, "--criterion", "x"}, "--criterion: expected exact or lobb, got 'x'"},
         {{"render", scene, "-o", output, "--accel", "kd"}, "--accel: expected bsp or embree, got 'kd'"},
         {{"render", scene, "-o", output, "--accel", "embree", "--via", "triage"},
          "--accel: expected --via implicit, got 'triage'"},
@@ -151,8 +136,9 @@ TEST_CASE("placements that are singular only together are one line with the soli
         const Outcome o = run({"render", scene, "-o", place / "a.exr"});
         CAPTURE(chain, o.err);
         CHECK(o.code == 2);
-        CHECK(o.err == "deburr: " + scene + ":4: expected placements that leave a volume, got scales "
-                                            "that multiply to 0 or infinity\n");
+        CHECK(o.err == "deburr: " + scene +
+                           ":4: expected placements that leave a volume, got scales "
+                           "that multiply to 0 or infinity\n");
     }
     CHECK(place.names() == Words{"chain.lua", "cube.lua"});
 }
@@ -181,8 +167,7 @@ TEST_CASE("without room a picture is not written, and what was there stays") {
     write_file(place / "a.exr", "old");
     // A limit on the size of files, in blocks of 512 bytes, stands for a full disk.
     const std::string command = "ulimit -f 1; exec '" DEBURR_PROGRAM "' render '" + place.scene +
-                                "' -q --float --aov P,N -o '" + place / "a.exr" + "' 2>'" +
-                                place / "err" + "'";
+                                "' -q --float --aov P,N -o '" + place / "a.exr" + "' 2>'" + place / "err" + "'";
     const int status = std::system(("sh -c \"" + command + "\"").c_str());
     CHECK(WEXITSTATUS(status) == 1);
     CHECK(one_line(read_file(place / "err")));
@@ -201,8 +186,7 @@ TEST_CASE("where nobody can read the messages the exit code and the files are th
         CHECK(WEXITSTATUS(std::system(call.c_str())) == 0);
         CHECK(Picture(place / "a.exr").spec.width == 60);
     }
-    CHECK(WEXITSTATUS(std::system(
-              (program + "info '" + place.scene + "' >/dev/full 2>/dev/null").c_str())) == 1);
+    CHECK(WEXITSTATUS(std::system((program + "info '" + place.scene + "' >/dev/full 2>/dev/null").c_str())) == 1);
 }
 
 TEST_CASE("statistics on a full device: exit code 1") {
@@ -239,9 +223,9 @@ TEST_CASE("files are the same to the byte with SOURCE_DATE_EPOCH, whatever the t
     const Place place;
     const Words epoch = {"SOURCE_DATE_EPOCH=1700000000"};
     for (const std::string threads : {"1", "2", "2"}) {
-        const Outcome o = run(place.render({"-o", place / "a.png", "--spp", "4", "--aov",
-                                            "P,N,Z,albedo,id,cost", "--threads", threads}),
-                              epoch);
+        const Outcome o = run(
+            place.render({"-o", place / "a.png", "--spp", "4", "--aov", "P,N,Z,albedo,id,cost", "--threads", threads}),
+            epoch);
         REQUIRE(o.code == 0);
         static std::string exr, png;
         if (exr.empty()) {
@@ -281,10 +265,10 @@ TEST_CASE("a picture by --accel bsp and by embree is the same to the byte, and s
         CAPTURE(scene);
         std::vector<unsigned char> bytes;
         for (const std::string accel : {"bsp", "embree"}) {
-            const Outcome o = run({"render", DEBURR_SOURCE_DIR "/scenes/" + scene + ".lua", "-q", "-o", place / "a.exr",
-                                   "--accel", accel, "--size", "120x80", "--float", "--aov", "P,N,Z,id", "--stats",
-                                   "--stats-json", place / "s.json"},
-                                  {"SOURCE_DATE_EPOCH=0"});
+            const Outcome o = run(
+                {"render", DEBURR_SOURCE_DIR "/scenes/" + scene + ".lua", "-q", "-o", place / "a.exr", "--accel", accel,
+                 "--size", "120x80", "--float", "--aov", "P,N,Z,id", "--stats", "--stats-json", place / "s.json"},
+                {"SOURCE_DATE_EPOCH=0"});
             REQUIRE(o.code == 0);
             const Picture picture(place / "a.exr");
             CHECK(picture.spec.get_string_attribute("deburr.accel") == accel);
@@ -302,9 +286,8 @@ TEST_CASE("another seed gives another picture only where there are random sample
     const Place place;
     const Words epoch = {"SOURCE_DATE_EPOCH=0"};
     std::vector<std::vector<unsigned char>> bytes;
-    for (const Words& more :
-         {Words{"--spp", "1", "--seed", "1"}, Words{"--spp", "1", "--seed", "2"},
-          Words{"--spp", "4", "--seed", "1"}, Words{"--spp", "4", "--seed", "2"}}) {
+    for (const Words& more : {Words{"--spp", "1", "--seed", "1"}, Words{"--spp", "1", "--seed", "2"},
+                              Words{"--spp", "4", "--seed", "1"}, Words{"--spp", "4", "--seed", "2"}}) {
         REQUIRE(run(place.render(more), epoch).code == 0);
         bytes.push_back(Picture(place / "a.exr").bytes);
     }
@@ -314,11 +297,9 @@ TEST_CASE("another seed gives another picture only where there are random sample
 
 TEST_CASE("statistics as a table and as JSON") {
     const Place place;
-    const Outcome o = run(place.render(
-        {"--stats", "--stats-json", place / "s.json", "--threads", "1", "--seed", "7"}));
+    const Outcome o = run(place.render({"--stats", "--stats-json", place / "s.json", "--threads", "1", "--seed", "7"}));
     REQUIRE(o.code == 0);
-    for (const char* word :
-         {"rays", "shadow rays", "splits", "density evaluations", "BSP cells", "60x40"})
+    for (const char* word : {"rays", "shadow rays", "splits", "density evaluations", "BSP cells", "60x40"})
         CHECK(o.out.find(word) != std::string::npos);
     const auto j = nlohmann::json::parse(read_file(place / "s.json"));
     CHECK(j["version"] == DEBURR_VERSION);
@@ -339,8 +320,8 @@ TEST_CASE("the first interrupt saves what there is, marked incomplete") {
     for (const int signal : {SIGINT, SIGTERM}) {
         const Place place;
         // A tile is done soon, the picture is not.
-        Call call({"render", place.scene, "-o", place / "a.exr", "-v", "--size", "600x600", "--spp",
-                   "1000", "--stats-json", place / "s.json"});
+        Call call({"render", place.scene, "-o", place / "a.exr", "-v", "--size", "600x600", "--spp", "1000",
+                   "--stats-json", place / "s.json"});
         REQUIRE(call.says(" half-spaces"));
         std::this_thread::sleep_for(std::chrono::seconds(2));  // to start tracing, however busy the machine is
         call.send(signal);
@@ -373,9 +354,8 @@ TEST_CASE("info says what is in a scene") {
     const Outcome o = run({"info", place.scene, "-D", "r=0.3"});
     CHECK(o.code == 0);
     CHECK(o.err.empty());
-    for (const char* text :
-         {"60x40", "r = 0.3", "solids        2", "half-spaces   12", "lights        1", "point",
-          "bounds        [-1, 2] x [-1, 1] x [-1, 2]"}) {
+    for (const char* text : {"60x40", "r = 0.3", "solids        2", "half-spaces   12", "lights        1", "point",
+                             "bounds        [-1, 2] x [-1, 1] x [-1, 2]"}) {
         CAPTURE(text, o.out);
         CHECK(o.out.find(text) != std::string::npos);
     }
@@ -406,7 +386,6 @@ TEST_CASE("a density that is too entangled to be evaluated is not supported, and
                "  rounded(2, (every | pairs_of) & box({-1, -1, -1}, {1, 1, 1})) } }\n");
     const Outcome o = run({"render", place / "e.lua", "-o", place / "e.exr", "--size", "8x8"});
     CHECK(o.code == 3);
-    CHECK(o.err.find("the solid of line 13: expected a Boolean density whose decision diagram") !=
-          std::string::npos);
+    CHECK(o.err.find("the solid of line 13: expected a Boolean density whose decision diagram") != std::string::npos);
     CHECK_FALSE(std::filesystem::exists(place / "e.exr"));
 }

@@ -40,8 +40,7 @@ TEST_CASE("a turned grid of points has six faces, and no point is outside") {
         std::vector<Vec3> points;
         for (int i = 0; i < 6; ++i)
             for (int j = 0; j < 6; ++j)
-                for (int k = 0; k < 6; ++k)
-                    points.push_back(scale * (turn * Vec3(i, 2 * j, 3 * k)));
+                for (int k = 0; k < 6; ++k) points.push_back(scale * (turn * Vec3(i, 2 * j, 3 * k)));
         const auto hull = convex_hull(points);
         CHECK(hull.size() == 6);
         check_holds(hull, points, 20 * scale);
@@ -65,8 +64,7 @@ TEST_CASE("a turned cylinder of n sides has n + 2 faces") {
         for (int i = 0; i < n; ++i) {
             const double a = 2 * glm::radians(180.0) * i / n;
             polygon.emplace_back(std::cos(a), std::sin(a));
-            for (const double y : {-1.0, 2.0})
-                points.push_back(turn * Vec3(polygon.back().x, y, polygon.back().y));
+            for (const double y : {-1.0, 2.0}) points.push_back(turn * Vec3(polygon.back().x, y, polygon.back().y));
         }
         const auto hull = convex_hull(points);
         CHECK(hull.size() == std::size_t(n) + 2);

@@ -25,7 +25,8 @@ public:
         const std::string program =
             "local function Rho(a) if a <= -1 then return 1 elseif a >= 1 then return 0 end "
             "return 0.5 + a*(a*a - 3)*0.25 end "
-            "return function(x, y, z) return " + text + " end";
+            "return function(x, y, z) return " +
+            text + " end";
         REQUIRE(luaL_dostring(lua_.get(), program.c_str()) == LUA_OK);
     }
     double at(Vec3 x) {
@@ -82,7 +83,8 @@ return {
     std::vector<std::string> words{"export-pov", folder / "s.lua", "-q", "-o", folder / "s.pov"};
     words.insert(words.end(), options.begin(), options.end());
     call(words);
-    const std::string povray = "cd '" + (folder / ".") + "' && povray +W160 +H120 -D -A +WT1 +Otheirs.png s.pov >log 2>&1";
+    const std::string povray =
+        "cd '" + (folder / ".") + "' && povray +W160 +H120 -D -A +WT1 +Otheirs.png s.pov >log 2>&1";
     const int code = std::system(povray.c_str());
     INFO(read_file(folder / "log"));
     REQUIRE(code == 0);
@@ -144,16 +146,18 @@ TEST_CASE("the slope that is proved is nearly that of a face") {
 
 TEST_CASE("POV-Ray sees the silhouettes that Deburr sees") {
     if (!has_povray()) return;
-    for (const char* solid : {
-             "rounded(0.1, cube() - halfspace({0, 1, 0}, 1) * pit)",
-             "rounded(0.1, (cube() & ~pit) | box({0.8, 0, 0.3}, {1.4, 0.3, 0.8}))",
-             "rounded(0.07, cube() + box({0.25, 1, 0.25}, {0.75, 1.5, 0.75})):rotate(33, {1, 2, 3}):scale(1, 0.7, 1)",
-             "rounded(0.15, cube()) - rounded(0.05, pit)",
-             "rounded(0.15, cube()) & rounded(0.1, box({0.2, -1, -1}, {2, 0.9, 0.8})) | rounded(0.1, box({0, 0, 0}, {0.3, 1.2, 0.3}))",
-             "rounded(0.2, cube():radius(0.05) * halfspace({1, 1, 1}, 2.2) * halfspace({1, 0, -1}, 0.4):radius(0))",
-             "rounded(0.1, convex{{0, 0, 0}, {1, 0, 0}, {0, 0, 1}, {0.4, 1, 0.4}})",
-             "sharp(convex{{0, 0, 0}, {1, 0, 0}, {0, 0, 1}, {0.4, 1, 0.4}}) - sharp(box({0.3, 0.2, 0}, {2, 0.5, 0.3}))",
-             "sharp(cube():rotate(30, {1, 1, 0})) - sharp(cube():rotate(50, {0, 1, 0}):scale(0.6):translate(0.4, 0.5, 0.4))"}) {
+    for (const char* solid :
+         {"rounded(0.1, cube() - halfspace({0, 1, 0}, 1) * pit)",
+          "rounded(0.1, (cube() & ~pit) | box({0.8, 0, 0.3}, {1.4, 0.3, 0.8}))",
+          "rounded(0.07, cube() + box({0.25, 1, 0.25}, {0.75, 1.5, 0.75})):rotate(33, {1, 2, 3}):scale(1, 0.7, 1)",
+          "rounded(0.15, cube()) - rounded(0.05, pit)",
+          "rounded(0.15, cube()) & rounded(0.1, box({0.2, -1, -1}, {2, 0.9, 0.8})) | rounded(0.1, box({0, 0, 0}, {0.3, "
+          "1.2, 0.3}))",
+          "rounded(0.2, cube():radius(0.05) * halfspace({1, 1, 1}, 2.2) * halfspace({1, 0, -1}, 0.4):radius(0))",
+          "rounded(0.1, convex{{0, 0, 0}, {1, 0, 0}, {0, 0, 1}, {0.4, 1, 0.4}})",
+          "sharp(convex{{0, 0, 0}, {1, 0, 0}, {0, 0, 1}, {0.4, 1, 0.4}}) - sharp(box({0.3, 0.2, 0}, {2, 0.5, 0.3}))",
+          "sharp(cube():rotate(30, {1, 1, 0})) - sharp(cube():rotate(50, {0, 1, 0}):scale(0.6):translate(0.4, 0.5, "
+          "0.4))"}) {
         CAPTURE(solid);
         CHECK(mismatch(solid) < 0.005);
     }
@@ -163,7 +167,9 @@ TEST_CASE("POV-Ray sees the silhouettes that Deburr sees") {
 TEST_CASE("export-pov --sharp is the scene with every radius 0") {
     if (!has_povray()) return;
     const Folder folder;
-    write_file(folder / "s.lua", "return { solids = { rounded(0.2, cube() - halfspace({0, 1, 0}, 1) * box({0.25, 0.8, 0.25}, {0.75, 1.8, 0.75})) } }");
+    write_file(folder / "s.lua",
+               "return { solids = { rounded(0.2, cube() - halfspace({0, 1, 0}, 1) * box({0.25, 0.8, 0.25}, {0.75, 1.8, "
+               "0.75})) } }");
     REQUIRE(run({"export-pov", folder / "s.lua", "--sharp", "-o", folder / "s.pov"}).code == 0);
     const std::string text = read_file(folder / "s.pov");
     INFO(text);
@@ -176,9 +182,12 @@ TEST_CASE("export-pov --sharp is the scene with every radius 0") {
 TEST_CASE("export-pov refuses what it cannot do, and writes nothing") {
     const Folder folder;
     write_file(folder / "s.lua", "return { solids = { rounded(0.1, cube()) } }");
-    for (const std::vector<std::string>& words :
-         {std::vector<std::string>{}, {"-o", "a.obj"}, {"-o", "a.pov", "--max-gradient", "0"},
-          {"-o", "a.pov", "--accuracy", "x"}, {"-o", "a.pov", "--sharp", "--accuracy", "1"}, {"-o", "a.pov", "--sharp", "--min-max"}}) {
+    for (const std::vector<std::string>& words : {std::vector<std::string>{},
+                                                  {"-o", "a.obj"},
+                                                  {"-o", "a.pov", "--max-gradient", "0"},
+                                                  {"-o", "a.pov", "--accuracy", "x"},
+                                                  {"-o", "a.pov", "--sharp", "--accuracy", "1"},
+                                                  {"-o", "a.pov", "--sharp", "--min-max"}}) {
         std::vector<std::string> all{"export-pov", folder / "s.lua"};
         for (const std::string& word : words) all.push_back(word == "a.pov" ? folder / word : word);
         CHECK(run(all).code == 2);

@@ -14,7 +14,10 @@ TEST_CASE("placed fields and rounded polyhedra, combined, are hit where the defi
         const auto ball = [&] { return Solid::of_field(std::make_shared<BallField>()).transformed(g.map()); };
         const Solid other = g.chance(0.5) ? g.solid(1) : ball();
         const int op = g.below(4);
-        const Solid solid = op == 0 ? ball() | other : op == 1 ? ball() & other : op == 2 ? ball() - other : other - ball();
+        const Solid solid = op == 0   ? ball() | other
+                            : op == 1 ? ball() & other
+                            : op == 2 ? ball() - other
+                                      : other - ball();
         const SolidTree tree = flatten(solid);
         const ImplicitTracer tracer({solid});
         for (int k = 0; k < 20; ++k) {

@@ -72,8 +72,11 @@ TEST_CASE("free forms, mirrored, sheared and scaled unevenly, under CSG with rou
         };
         const Solid first = form(), other = g.chance(0.7) ? g.solid(1) : form();
         const int op = g.below(4);
-        compare(op == 0 ? first | other : op == 1 ? first & other : op == 2 ? first - other : other - first, g, 25,
-                200, 1, a);
+        compare(op == 0   ? first | other
+                : op == 1 ? first & other
+                : op == 2 ? first - other
+                          : other - first,
+                g, 25, 200, 1, a);
     }
     CHECK(a.hits > 2'000);
     CHECK(a.differ <= a.rays / 2'000);  // rays that graze
@@ -152,10 +155,11 @@ TEST_CASE("thin sheets are seen from wherever they are looked at") {
         Quadric disc;  // radius 1, as thick as that in the middle
         disc.A = Mat3(Vec3(-1, 0, 0), Vec3(0, -4 / (thickness * thickness), 0), Vec3(0, 0, -1));
         disc.k = 1;
-        const Solid solids[2] = {solid_of(disc),
-                                 // a shell between two balls
-                                 solid_of(revolved({1, 0, -1, -1}, Vec3(0), {0, 1, 0}, 1, 1)) -
-                                     solid_of(revolved({1, 0, -1, -1}, Vec3(0), {0, 1, 0}, 1 - thickness, 1 - thickness))};
+        const Solid solids[2] = {
+            solid_of(disc),
+            // a shell between two balls
+            solid_of(revolved({1, 0, -1, -1}, Vec3(0), {0, 1, 0}, 1, 1)) -
+                solid_of(revolved({1, 0, -1, -1}, Vec3(0), {0, 1, 0}, 1 - thickness, 1 - thickness))};
         for (const Solid& solid : solids) {
             const ImplicitTracer tracer({solid});
             for (auto seed : seeds(300)) {
@@ -223,7 +227,9 @@ TEST_CASE("a form of many perturbations costs what reaches the cell") {
         TraceCounters counters;
         for (int k = 0; k < 2'000; ++k) {
             const Vec3 to(g.between(0, 0.5 * count), g.between(-0.4, 0.4), g.between(-0.4, 0.4));
-            tracer.first_hit({to + 3.0 * glm::normalize(g.direction() + Vec3(0, 2, 0)), glm::normalize(Vec3(0.1, -1, 0.1))}, 100, counters);
+            tracer.first_hit(
+                {to + 3.0 * glm::normalize(g.direction() + Vec3(0, 2, 0)), glm::normalize(Vec3(0.1, -1, 0.1))}, 100,
+                counters);
         }
         cost[i++] = tracer.statistics().mean_local_half_spaces * double(counters.evaluations) / 2'000;
     }

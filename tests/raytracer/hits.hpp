@@ -11,8 +11,8 @@ namespace deburr {
 
 inline bool same_bits(const Hit& a, const Hit& b) {
     if (!a && !b) return true;
-    return a.t == b.t && a.position == b.position && a.normal == b.normal && a.solid == b.solid && a.material == b.material &&
-           a.offset == b.offset;
+    return a.t == b.t && a.position == b.position && a.normal == b.normal && a.solid == b.solid &&
+           a.material == b.material && a.offset == b.offset;
 }
 
 /// What 2,000 random rays find, and what they cost, where make() makes their tracer on so many threads.

@@ -62,8 +62,7 @@ Read read(const std::string& path) {
     result.spec = input->spec();
     const auto pixels = std::size_t(result.spec.width) * std::size_t(result.spec.height);
     result.values.resize(pixels * std::size_t(result.spec.nchannels));
-    REQUIRE(input->read_image(0, 0, 0, result.spec.nchannels, OIIO::TypeDesc::FLOAT,
-                              result.values.data()));
+    REQUIRE(input->read_image(0, 0, 0, result.spec.nchannels, OIIO::TypeDesc::FLOAT, result.values.data()));
     const int id = result.spec.channelindex("id");
     if (id >= 0) {
         result.ids.resize(pixels);
@@ -77,8 +76,7 @@ std::vector<std::string> png_chunks(const std::string& bytes) {
     std::vector<std::string> types;
     for (std::size_t at = 8; at + 8 <= bytes.size();) {
         std::size_t length = 0;
-        for (std::size_t k = 0; k < 4; ++k)
-            length = length << 8 | static_cast<unsigned char>(bytes[at + k]);
+        for (std::size_t k = 0; k < 4; ++k) length = length << 8 | static_cast<unsigned char>(bytes[at + k]);
         types.push_back(bytes.substr(at + 4, 4));
         at += length + 12;
     }
@@ -96,8 +94,8 @@ TEST_CASE("an EXR gives back every layer") {
     CHECK(r.spec.channelformat(r.spec.channelindex("R")) == OIIO::TypeDesc::HALF);
     CHECK(r.spec.channelformat(r.spec.channelindex("A")) == OIIO::TypeDesc::HALF);
     CHECK(r.spec.channelformat(r.spec.channelindex("id")) == OIIO::TypeDesc::UINT32);
-    for (const char* name : {"P.X", "P.Y", "P.Z", "N.X", "N.Y", "N.Z", "Z", "Albedo.R", "Albedo.G",
-                             "Albedo.B", "cost"}) {
+    for (const char* name :
+         {"P.X", "P.Y", "P.Z", "N.X", "N.Y", "N.Z", "Z", "Albedo.R", "Albedo.G", "Albedo.B", "cost"}) {
         CAPTURE(name);
         REQUIRE(r.spec.channelindex(name) >= 0);
         CHECK(r.spec.channelformat(r.spec.channelindex(name)) == OIIO::TypeDesc::FLOAT);
@@ -105,7 +103,9 @@ TEST_CASE("an EXR gives back every layer") {
     for (int y = 0; y < 70; ++y)
         for (int x = 0; x < 20; ++x) {
             const Pixel& p = original.at(x, y);
-            const auto kept = [&](ImageLayer layer, int k = 0) { return float(original.layer(layer).at(original.index(x, y), k)); };
+            const auto kept = [&](ImageLayer layer, int k = 0) {
+                return float(original.layer(layer).at(original.index(x, y), k));
+            };
             for (int k = 0; k < 3; ++k) {
                 REQUIRE(r.at(x, y, std::string("P.") + "XYZ"[k]) == kept(ImageLayer::position, k));
                 REQUIRE(r.at(x, y, std::string("N.") + "XYZ"[k]) == kept(ImageLayer::normal, k));
@@ -114,9 +114,9 @@ TEST_CASE("an EXR gives back every layer") {
             REQUIRE(r.at(x, y, "Z") == kept(ImageLayer::z));
             REQUIRE(r.at(x, y, "cost") == kept(ImageLayer::cost));
             REQUIRE(r.at(x, y, "A") == float(p.alpha));
-            REQUIRE(std::abs(r.at(x, y, "R") - p.color.x) <=
-                    p.color.x * 0x1p-11);  // half of a half's last bit
-            REQUIRE(r.ids[std::size_t(y * 20 + x)] == std::uint32_t(original.layer(ImageLayer::id).at(original.index(x, y))));
+            REQUIRE(std::abs(r.at(x, y, "R") - p.color.x) <= p.color.x * 0x1p-11);  // half of a half's last bit
+            REQUIRE(r.ids[std::size_t(y * 20 + x)] ==
+                    std::uint32_t(original.layer(ImageLayer::id).at(original.index(x, y))));
         }
     CHECK(r.at(0, 0, "Z") == std::numeric_limits<float>::infinity());
     CHECK(r.at(0, 0, "N.X") == 0);
@@ -129,8 +129,7 @@ TEST_CASE("an EXR holds the layers that the film keeps, and other files do not d
     write_image(folder / "a.exr", film(all, {}), {}, notes());
     CHECK(read(folder / "a.exr").spec.channelnames == std::vector<std::string>{"R", "G", "B", "A"});
     write_image(folder / "a.exr", film(all, {ImageLayer::id}), {}, notes());
-    CHECK(read(folder / "a.exr").spec.channelnames ==
-          std::vector<std::string>{"R", "G", "B", "A", "id"});
+    CHECK(read(folder / "a.exr").spec.channelnames == std::vector<std::string>{"R", "G", "B", "A", "id"});
     for (const char* name : {"a.png", "a.hdr", "a.jpg"}) {
         CAPTURE(name);
         write_image(folder / name, film(all, {}), {}, notes());
@@ -200,16 +199,15 @@ TEST_CASE("a crop is a data window inside the display window, with the whole pic
         REQUIRE(part.spec.channelnames == all.spec.channelnames);
         for (int y = w.y; y < w.y + w.height; ++y)
             for (int x = w.x; x < w.x + w.width; ++x)
-                for (const std::string& c : part.spec.channelnames)
-                    REQUIRE(part.at(x, y, c) == all.at(x, y, c));
+                for (const std::string& c : part.spec.channelnames) REQUIRE(part.at(x, y, c) == all.at(x, y, c));
     }
 }
 
 TEST_CASE("the sRGB curve") {
     // IEC 61966-2-1 by its two branches; 0.18 is the photographer's grey.
-    const std::pair<double, int> table[] = {
-        {-1, 0},        {0, 0},   {0.001, 3}, {0.0031308, 10}, {0.18, 118},     {0.5, 188},
-        {0.99999, 255}, {1, 255}, {7, 255},   {NAN, 0},        {infinity, 255}, {-infinity, 0}};
+    const std::pair<double, int> table[] = {{-1, 0},     {0, 0},     {0.001, 3},      {0.0031308, 10},
+                                            {0.18, 118}, {0.5, 188}, {0.99999, 255},  {1, 255},
+                                            {7, 255},    {NAN, 0},   {infinity, 255}, {-infinity, 0}};
     for (const auto& [linear, byte] : table) {
         CAPTURE(linear);
         CHECK(int(srgb_byte(linear)) == byte);
@@ -253,8 +251,7 @@ TEST_CASE("a PNG is opaque 8 bit sRGB and says so") {
     for (int y = 0; y < 70; ++y)
         for (int x = 0; x < 20; ++x)
             for (int k = 0; k < 3; ++k)
-                REQUIRE(bytes[std::size_t((y * 20 + x) * 3 + k)] ==
-                        srgb_byte(original.at(x, y).color[k]));
+                REQUIRE(bytes[std::size_t((y * 20 + x) * 3 + k)] == srgb_byte(original.at(x, y).color[k]));
     const auto chunks = png_chunks(read_file(folder / "a.png"));
     CHECK(std::count(chunks.begin(), chunks.end(), "sRGB") == 1);
     CHECK(std::count(chunks.begin(), chunks.end(), "IEND") == 1);
@@ -275,8 +272,7 @@ TEST_CASE("every format that is known can be written and read back") {
     for (Pixel& pixel : grey.pixels) pixel.color = Vec3(0.5);
     std::string all = known_extensions() + ", ";
     int formats = 0;
-    for (std::size_t at = 0, end; (end = all.find(", ", at)) != std::string::npos;
-         at = end + 2, ++formats) {
+    for (std::size_t at = 0, end; (end = all.find(", ", at)) != std::string::npos; at = end + 2, ++formats) {
         const std::string name = std::string("a").append(all, at, end - at);
         CAPTURE(name);
         REQUIRE(image_kind(name));

@@ -27,7 +27,8 @@ std::string loaded(const std::vector<std::string>& words) {
     const std::vector<const char*> libraries{"OpenEXR", "OpenImageIO", "embree"};
 #endif
     for (const char* library : libraries)
-        if (outcome.err.find(std::string("lib") + library) != std::string::npos) names += std::string(names.empty() ? "" : " ") + library;
+        if (outcome.err.find(std::string("lib") + library) != std::string::npos)
+            names += std::string(names.empty() ? "" : " ") + library;
     return names;
 }
 
@@ -55,11 +56,13 @@ TEST_CASE("a missing module is one clear line, before any work") {
     write_file(folder / "cube.lua", cube_scene());
     std::filesystem::copy_file(DEBURR_PROGRAM, folder / "deburr");
     const auto call = [&](const std::string& output) {
-        const std::string command = "cd '" + (folder / "") + "' && ./deburr render cube.lua -q -o " + output + " 2> errors";
+        const std::string command =
+            "cd '" + (folder / "") + "' && ./deburr render cube.lua -q -o " + output + " 2> errors";
         return WEXITSTATUS(std::system(command.c_str()));
     };
-    for (const auto& [output, says] : {std::pair{"a.jpg", "pictures other than EXR and PNG need deburr_images.so: expected in '"},
-                                       {"a.exr", "EXR pictures need deburr_exr.so: expected in '"}}) {
+    for (const auto& [output, says] :
+         {std::pair{"a.jpg", "pictures other than EXR and PNG need deburr_images.so: expected in '"},
+          {"a.exr", "EXR pictures need deburr_exr.so: expected in '"}}) {
         CHECK(call(output) == 3);
         const std::string error = read_file(folder / "errors");
         CHECK(error.find(says) != std::string::npos);

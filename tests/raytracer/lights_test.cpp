@@ -144,8 +144,7 @@ TEST_CASE("The sky's mean is that of its radiance weighted by the cosine") {
         const Vec3 normal(std::sqrt(1 - y * y), y, 0);
         double sum = 0;
         const int n = 1 << 14;
-        for (int s = 0; s < n; ++s)
-            sum += sky.towards(cosine_direction(normal, Sampler(4, 0, 0, s).square(0))).x / n;
+        for (int s = 0; s < n; ++s) sum += sky.towards(cosine_direction(normal, Sampler(4, 0, 0, s).square(0))).x / n;
         CHECK(sky.mean(normal).x == Approx(sum).margin(2e-3));
         ++cases;
     }

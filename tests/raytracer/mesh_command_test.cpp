@@ -19,8 +19,9 @@ namespace fs = std::filesystem;
 TEST_CASE("mesh writes every format, and says that the mesh is closed") {
     const Folder folder;
     write_file(folder / "s.lua", "return { solids = { rounded(0.1, cube()) - sharp(box({0.5,0.5,0.5},{2,2,2})) } }");
-    const Outcome outcome = run({"mesh", folder / "s.lua", "-o", folder / "a.obj", "-o", folder / "a.ply", "-o",
-                                 folder / "a.stl", "-o", folder / "a.glb", "-o", folder / "a.ase", "--stats-json", folder / "a.json"});
+    const Outcome outcome =
+        run({"mesh", folder / "s.lua", "-o", folder / "a.obj", "-o", folder / "a.ply", "-o", folder / "a.stl", "-o",
+             folder / "a.glb", "-o", folder / "a.ase", "--stats-json", folder / "a.json"});
     CHECK(outcome.err == "");
     REQUIRE(outcome.code == 0);
     for (const char* name : {"a.obj", "a.ply", "a.stl", "a.glb", "a.ase"}) CHECK(fs::file_size(folder / name) > 1000);
@@ -35,7 +36,8 @@ TEST_CASE("Parts and solids that touch are closed 2-manifolds in an STL, whose v
     for (const char* solids :
          {"sharp(cube() + cube():translate(1,1,0))", "rounded(0.1, cube() + cube():translate(1,1,1))",
           "sharp(cube()), sharp(cube():translate(0,0,1)), rounded(0.2, cube():translate(1,0,0))",
-          "sharp(cube() + cube():translate(1,1,0)):scale(1000)", "sharp(cube() + cube():translate(1,1,0)):scale(0.001)"})
+          "sharp(cube() + cube():translate(1,1,0)):scale(1000)",
+          "sharp(cube() + cube():translate(1,1,0)):scale(0.001)"})
         for (const char* method : {"triage", "marching-cubes"}) {
             CAPTURE(solids, method);
             write_file(folder / "s.lua", "return { solids = { " + std::string(solids) + " } }");
@@ -50,7 +52,8 @@ TEST_CASE("mesh by octree: cells, hard edges and a number of faces as asked") {
     const Folder folder;
     write_file(folder / "s.lua", "return { solids = { rounded(0.1, cube()) - sharp(box({0.5,0.5,0.5},{2,2,2})) } }");
     const auto mesh = [&](std::vector<std::string> more) {
-        std::vector<std::string> words{"mesh", folder / "s.lua", "--method", "octree", "--stats-json", folder / "a.json"};
+        std::vector<std::string> words{"mesh",   folder / "s.lua", "--method",
+                                       "octree", "--stats-json",   folder / "a.json"};
         words.insert(words.end(), more.begin(), more.end());
         const Outcome outcome = run(words);
         CHECK(outcome.err == "");
@@ -68,7 +71,8 @@ TEST_CASE("mesh by octree: cells, hard edges and a number of faces as asked") {
     CHECK(mesh({"--level", "4"})["mesh"]["triangles"] < by_edge["mesh"]["triangles"]);
     CHECK(mesh({"--edge", "0.05", "--hard-edges", "180"})["octree"]["hard_points"] == 0);
     for (const char* method : {"octree", "marching-cubes"}) {
-        const Outcome outcome = run({"mesh", folder / "s.lua", "--method", method, "--faces", "20000", "--stats-json", folder / "a.json"});
+        const Outcome outcome =
+            run({"mesh", folder / "s.lua", "--method", method, "--faces", "20000", "--stats-json", folder / "a.json"});
         CHECK(outcome.code == 0);
         const double faces = Json::parse(read_file(folder / "a.json"))["mesh"]["triangles"];
         CHECK(std::abs(faces - 20000) < 200);
@@ -77,7 +81,8 @@ TEST_CASE("mesh by octree: cells, hard edges and a number of faces as asked") {
 
 TEST_CASE("mesh takes free forms by octree, and other solids by triage, unless told") {
     const Folder folder;
-    write_file(folder / "s.lua", "return { solids = { ellipsoid{center={0,0,2}, radii={1,0.5,0.7}}, rounded(0.1, cube()) } }");
+    write_file(folder / "s.lua",
+               "return { solids = { ellipsoid{center={0,0,2}, radii={1,0.5,0.7}}, rounded(0.1, cube()) } }");
     const Outcome outcome = run({"mesh", folder / "s.lua", "-o", folder / "a.ase", "--stats-json", folder / "a.json"});
     CHECK(outcome.err == "");
     REQUIRE(outcome.code == 0);
@@ -106,12 +111,17 @@ TEST_CASE("admesh finds nothing to mend in an STL") {
 TEST_CASE("mesh refuses what it does not know, and writes nothing") {
     const Folder folder;
     write_file(folder / "s.lua", "return { solids = { rounded(0.1, cube()) } }");
-    for (const std::vector<std::string>& words :
-         {std::vector<std::string>{"-o", "a.xyz"}, {"-o", "a.obj", "--method", "magic"},
-          {"-o", "a.obj", "--tolerance", "-1"}, {"-o", "a.obj", "--grid", "0.1"}, {"-o", "a.obj", "--edge", "0.1"},
-          {"-o", "a.obj", "--method", "octree", "--level", "13"}, {"-o", "a.obj", "--method", "octree", "--edge", "0"},
-          {"-o", "a.obj", "--method", "octree", "--edge", "1", "--level", "3"},
-          {"-o", "a.obj", "--method", "octree", "--hard-edges", "200"}, {"-o", "a.obj", "--faces", "0"}, {}}) {
+    for (const std::vector<std::string>& words : {std::vector<std::string>{"-o", "a.xyz"},
+                                                  {"-o", "a.obj", "--method", "magic"},
+                                                  {"-o", "a.obj", "--tolerance", "-1"},
+                                                  {"-o", "a.obj", "--grid", "0.1"},
+                                                  {"-o", "a.obj", "--edge", "0.1"},
+                                                  {"-o", "a.obj", "--method", "octree", "--level", "13"},
+                                                  {"-o", "a.obj", "--method", "octree", "--edge", "0"},
+                                                  {"-o", "a.obj", "--method", "octree", "--edge", "1", "--level", "3"},
+                                                  {"-o", "a.obj", "--method", "octree", "--hard-edges", "200"},
+                                                  {"-o", "a.obj", "--faces", "0"},
+                                                  {}}) {
         std::vector<std::string> all{"mesh", folder / "s.lua"};
         for (const std::string& word : words) all.push_back(word == "a.obj" ? folder / word : word);
         CHECK(run(all).code == 2);
@@ -134,8 +144,8 @@ TEST_CASE("Every scene's mesh looks like its implicit surface") {
         const std::string name = entry.path().stem().string();
         const std::string rmse = info["quadrics"] > 0 ? "0.15" : name == "convolution" ? "0.05" : "0.03";
         const Outcome outcome =
-            run({"compare", entry.path().string(), "--size", "300x190", "--max-missed", "0.8", "--max-distance",
-                 "0.1", "--max-rmse", rmse, "--json", folder / "a.json", "-o", folder / "difference.exr"});
+            run({"compare", entry.path().string(), "--size", "300x190", "--max-missed", "0.8", "--max-distance", "0.1",
+                 "--max-rmse", rmse, "--json", folder / "a.json", "-o", folder / "difference.exr"});
         INFO(outcome.err << outcome.out);
         CHECK(outcome.code == 0);
         CHECK(fs::exists(folder / "difference.exr"));
@@ -147,7 +157,8 @@ TEST_CASE("compare says how two files differ, and its limits are exit codes") {
     write_file(folder / "s.lua", cube_scene());
     for (const char* r : {"r=0.05", "r=0.2"})
         REQUIRE(run({"render", folder / "s.lua", "-q", "-D", r, "--aov", "P,N,id", "-o",
-                     folder / (std::string(r) + ".exr")}).code == 0);
+                     folder / (std::string(r) + ".exr")})
+                    .code == 0);
     const std::string a = folder / "r=0.05.exr", b = folder / "r=0.2.exr";
     CHECK(run({"compare", a, a, "--max-rmse", "1e-9"}).code == 0);
     CHECK(run({"compare", a, a, "--max-missed", "0", "--max-distance", "0", "--max-rmse", "0"}).code == 0);
@@ -158,12 +169,14 @@ TEST_CASE("compare says how two files differ, and its limits are exit codes") {
 
 TEST_CASE("compare tells solids of two files apart where both say which they saw") {
     const Folder folder;
-    const std::string left = "rounded(0.1, cube()):translate(-2, 0, 0)", right = "rounded(0.1, cube()):translate(1, 0, 0)";
+    const std::string left = "rounded(0.1, cube()):translate(-2, 0, 0)",
+                      right = "rounded(0.1, cube()):translate(1, 0, 0)";
     write_file(folder / "a.lua", "return { solids = {" + left + ", " + right + "} }");
     write_file(folder / "b.lua", "return { solids = {" + right + ", " + left + "} }");
     for (const std::string name : {"a", "b"})
-        REQUIRE(run({"render", folder / (name + ".lua"), "-q", "--size", "60x40", "--aov", "id", "-o", folder / (name + ".exr"), "-o",
-                     folder / (name + ".png")}).code == 0);
+        REQUIRE(run({"render", folder / (name + ".lua"), "-q", "--size", "60x40", "--aov", "id", "-o",
+                     folder / (name + ".exr"), "-o", folder / (name + ".png")})
+                    .code == 0);
     const auto compared = [&](const char* a, const char* b) {
         run({"compare", folder / a, folder / b, "-q", "--json", folder / "d.json"});
         const auto d = Json::parse(read_file(folder / "d.json"));
@@ -178,11 +191,13 @@ TEST_CASE("compare tells solids of two files apart where both say which they saw
 
 TEST_CASE("a mesh does not depend on the number of threads") {
     const Folder folder;
-    write_file(folder / "s.lua",
-               "local all = {}\nfor k = 1, 12 do all[k] = (rounded(0.02 * k, cube()) - sharp(box({0.5,0.5,0.5},{2,2,2}))"
-               "):translate(2 * k, 0, 0) end\nall[13] = sharp(halfspace({0,1,0}, -1))\nreturn { solids = all }");
+    write_file(
+        folder / "s.lua",
+        "local all = {}\nfor k = 1, 12 do all[k] = (rounded(0.02 * k, cube()) - sharp(box({0.5,0.5,0.5},{2,2,2}))"
+        "):translate(2 * k, 0, 0) end\nall[13] = sharp(halfspace({0,1,0}, -1))\nreturn { solids = all }");
     for (const char* threads : {"1", "4"}) {
-        const Outcome outcome = run({"mesh", folder / "s.lua", "-o", folder / (std::string(threads) + ".ply"), "--threads", threads});
+        const Outcome outcome =
+            run({"mesh", folder / "s.lua", "-o", folder / (std::string(threads) + ".ply"), "--threads", threads});
         REQUIRE(outcome.code == 0);
         CHECK(outcome.err == "deburr: solid 13 is unbounded: its mesh is cut off\n");
     }
@@ -192,15 +207,18 @@ TEST_CASE("a mesh does not depend on the number of threads") {
 TEST_CASE("the first interrupt of a mesh ends it and writes nothing") {
     const Folder folder;
     // One solid is done soon, all of them are not.
-    write_file(folder / "s.lua", "local all = {}\nfor k = 1, 20000 do all[k] = rounded(0.1, cube()):translate(2 * k, 0, 0) end\n"
-                                 "return { solids = all }");
+    write_file(folder / "s.lua",
+               "local all = {}\nfor k = 1, 20000 do all[k] = rounded(0.1, cube()):translate(2 * k, 0, 0) end\n"
+               "return { solids = all }");
     const std::string out = GENERATE("mesh a.ply", "render a.png", "compare a.png");
     const std::string command = out.substr(0, out.find(' ')), file = folder / out.substr(out.find(' ') + 1);
     std::vector<std::string> words{command, folder / "s.lua", "-o", file, "--tolerance", "0.0001"};
     if (command == "render") words.insert(words.end(), {"--via", "triage", "-v"});
     Call call(words);
-    if (command == "compare") std::this_thread::sleep_for(std::chrono::seconds(2));
-    else REQUIRE(call.says(command == "mesh" ? " left" : " 20000 solids"));
+    if (command == "compare")
+        std::this_thread::sleep_for(std::chrono::seconds(2));
+    else
+        REQUIRE(call.says(command == "mesh" ? " left" : " 20000 solids"));
     call.send(SIGINT);
     const Outcome outcome = call.wait();
     CAPTURE(out, outcome.err);

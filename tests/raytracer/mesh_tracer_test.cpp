@@ -45,7 +45,8 @@ TEST_CASE("Hits lie in their triangle's plane, and leave it, however large the t
             missed += !hit;
             if (!hit) continue;
             farthest = std::max(farthest, glm::distance(hit.position, on_floor));
-            const Vec3 up = glm::normalize(normal + 0.9 * glm::normalize(Vec3(unit(random), unit(random), unit(random))));
+            const Vec3 up =
+                glm::normalize(normal + 0.9 * glm::normalize(Vec3(unit(random), unit(random), unit(random))));
             shadowed += tracer.occluded(leave(hit, up), infinity, counters);
         }
     }
@@ -75,9 +76,11 @@ TEST_CASE("Splitting far triangles keeps surface, normals and closedness") {
         CHECK(volume(split) == Approx(volume(mesh)).epsilon(1e-12));
         std::size_t turned = 0, too_long = 0;
         for (const Triangle& t : split.triangles) {
-            turned += glm::distance(glm::normalize(split.area_vector(t)), split.normals[std::size_t(t.normal[0])]) > 1e-9;
+            turned +=
+                glm::distance(glm::normalize(split.area_vector(t)), split.normals[std::size_t(t.normal[0])]) > 1e-9;
             for (std::size_t k = 0; k < 3; ++k) {
-                const Vec3 a = split.positions[std::size_t(t.vertex[k])], b = split.positions[std::size_t(t.vertex[(k + 1) % 3])];
+                const Vec3 a = split.positions[std::size_t(t.vertex[k])],
+                           b = split.positions[std::size_t(t.vertex[(k + 1) % 3])];
                 too_long += glm::distance(a, b) > glm::distance(0.5 * (near.lo + near.hi), 0.5 * (a + b)) + 10;
             }
         }

@@ -23,7 +23,8 @@ struct Comparison {
         tracer.occlusions(rays_of, t_max, any.get(), counters);
         for (std::size_t k = 0; k < rays_of.size(); ++k) {
             const bool occludes = tracer.occluded(rays_of[k], t_max[k], counters);
-            different += !same_bits(together[k], tracer.first_hit(rays_of[k], infinity, counters)) || any[k] != occludes;
+            different +=
+                !same_bits(together[k], tracer.first_hit(rays_of[k], infinity, counters)) || any[k] != occludes;
             ++rays;
             hits += bool(together[k]);
             occluded += occludes;
@@ -34,7 +35,8 @@ struct Comparison {
 }  // namespace
 
 TEST_CASE("rays that are traced together hit what they hit alone, to the bit: pictures and their shadows") {
-    for (const char* name : {"first", "csg_examples", "variable_rounding", "hole_punch", "staplers", "cone", "figurine", "melting_robot"}) {
+    for (const char* name : {"first", "csg_examples", "variable_rounding", "hole_punch", "staplers", "cone", "figurine",
+                             "melting_robot"}) {
         CAPTURE(name);
         const Scene scene = scene_of(name);
         const ImplicitTracer tracer(scene.solids);
@@ -52,7 +54,8 @@ TEST_CASE("rays that are traced together hit what they hit alone, to the bit: pi
                     if (const Hit hit = tracer.first_hit(ray, infinity, counters)) shadows.push_back(leave(hit, light));
                 c.compare(tracer, rays, std::vector<double>(rays.size(), infinity));
                 std::vector<double> t_max;
-                for (std::size_t k = 0; k < shadows.size(); ++k) t_max.push_back(g.chance(0.5) ? infinity : g.between(0, 10));
+                for (std::size_t k = 0; k < shadows.size(); ++k)
+                    t_max.push_back(g.chance(0.5) ? infinity : g.between(0, 10));
                 c.compare(tracer, shadows, t_max);
             }
         CHECK(c.different == 0);

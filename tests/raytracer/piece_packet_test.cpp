@@ -3,8 +3,8 @@
 #include <bit>
 
 #include "catch.hpp"
-#include "raytracer/box_tree.hpp"
 #include "random_case.hpp"
+#include "raytracer/box_tree.hpp"
 
 using namespace deburr;
 
@@ -22,7 +22,8 @@ struct Factors {
     ConvexView view;
 
     explicit Factors(Gen& g) {
-        const int soft = g.chance(0.8) ? 1 + g.below(3) : g.below(most_packet_factors + 1), sharp = g.chance(0.7) ? 0 : g.below(3);
+        const int soft = g.chance(0.8) ? 1 + g.below(3) : g.below(most_packet_factors + 1),
+                  sharp = g.chance(0.7) ? 0 : g.below(3);
         for (int i = 0; i < soft + sharp; ++i) {
             const double radius = i < soft ? g.between(0.02, 0.6) : 1.0;
             const Vec3 n = g.normal();
@@ -40,7 +41,8 @@ struct Packet {
     explicit Packet(Gen& g) {
         lanes = Lanes(g.below(1 << RayPacket::size));
         for (int k = 0; k < RayPacket::size; ++k) {
-            const Vec3 d = g.normal(), o = g.chance(0.2) ? Vec3(0.0) : g.point(0.5) - d * g.between(0, 2), inverse = reciprocal(d);
+            const Vec3 d = g.normal(), o = g.chance(0.2) ? Vec3(0.0) : g.point(0.5) - d * g.between(0, 2),
+                       inverse = reciprocal(d);
             for (int axis = 0; axis < 3; ++axis) {
                 rays.origin[axis][k] = o[axis];
                 rays.direction[axis][k] = d[axis];
@@ -69,12 +71,13 @@ TEST_CASE("rays of a packet cross products of half-spaces where they do alone, t
             const Packet p(g);
             PacketCrossings found;
             std::uint64_t evaluations = 0, alone = 0;
-            const Lanes lanes = functions->convex_crossings(factors.view, p.rays, p.lanes, p.spans, scale, found, evaluations);
+            const Lanes lanes =
+                functions->convex_crossings(factors.view, p.rays, p.lanes, p.spans, scale, found, evaluations);
             CHECK((lanes & ~p.lanes) == 0);
             for (int k = 0; k < RayPacket::size; ++k) {
                 if (!(p.lanes >> k & 1)) continue;
-                const ConvexCrossing c = first_crossing(factors.view, p.origin(k), p.direction(k), p.spans.from[k], p.spans.to[k],
-                                                        negligible(p.spans.from[k]), alone);
+                const ConvexCrossing c = first_crossing(factors.view, p.origin(k), p.direction(k), p.spans.from[k],
+                                                        p.spans.to[k], negligible(p.spans.from[k]), alone);
                 REQUIRE((lanes >> k & 1) == (c.t < infinity));
                 if (!(c.t < infinity)) {
                     ++missed;
@@ -90,8 +93,8 @@ TEST_CASE("rays of a packet cross products of half-spaces where they do alone, t
             const Lanes any = functions->convex_occlusions(factors.view, p.rays, p.lanes, p.spans, scale, evaluations);
             for (int k = 0; k < RayPacket::size; ++k) {
                 if (!(p.lanes >> k & 1)) continue;
-                REQUIRE(bool(any >> k & 1) == any_crossing(factors.view, p.origin(k), p.direction(k), p.spans.from[k], p.spans.to[k],
-                                                           negligible(p.spans.from[k]), alone));
+                REQUIRE(bool(any >> k & 1) == any_crossing(factors.view, p.origin(k), p.direction(k), p.spans.from[k],
+                                                           p.spans.to[k], negligible(p.spans.from[k]), alone));
                 occluded += any >> k & 1;
             }
             REQUIRE(evaluations == alone);

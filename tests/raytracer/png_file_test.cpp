@@ -32,7 +32,8 @@ struct Picture {
     }
 
     ImageRaster raster() const {
-        ImageRaster image{width, height, {0, 0, width, height}, {}, {{"Software", "a test"}, {"DateTime", "2026:01:02 03:04:05"}}};
+        ImageRaster image{
+            width, height, {0, 0, width, height}, {}, {{"Software", "a test"}, {"DateTime", "2026:01:02 03:04:05"}}};
         for (std::size_t k = 0; k < 3; ++k)
             image.channels.push_back(image_channel(std::string(1, "RGB"[k]), ChannelType::byte,
                                                    [this, k](std::size_t i) { return rgb[3 * i + k]; }));
@@ -134,7 +135,8 @@ std::string checked_file(const Picture& picture) {
 TEST_CASE("a PNG gives back every pixel, whatever the picture") {
     const auto ramp = [](int x, int y, int k) { return 3 * x + 5 * y + 70 * k; };
     const auto flat = [](int, int, int k) { return 200 - k; };
-    for (const auto& [width, height] : {std::pair{1, 1}, {1, 2}, {2, 1}, {3, 70}, {1, 300}, {100'000, 2}, {64, 64}, {65, 129}}) {
+    for (const auto& [width, height] :
+         {std::pair{1, 1}, {1, 2}, {2, 1}, {3, 70}, {1, 300}, {100'000, 2}, {64, 64}, {65, 129}}) {
         CAPTURE(width, height);
         checked_file(noise(width, height));
         checked_file({width, height, ramp});
@@ -148,7 +150,8 @@ TEST_CASE("a PNG's rows are as they are where neighbours are often equal, else d
     const Picture picture(90, 40, [](int x, int y, int k) { return y < 25 ? 10 + k : 2 * x + k; });
     const Bytes rows = rows_of(checked_file(picture));
     REQUIRE(rows.size() == 40 * (1 + 3 * 90));
-    for (std::size_t y = 0; y < 40; ++y) CHECK(int(rows[y * (1 + 3 * 90)]) == (y < 25 ? PNG_FILTER_VALUE_NONE : PNG_FILTER_VALUE_SUB));
+    for (std::size_t y = 0; y < 40; ++y)
+        CHECK(int(rows[y * (1 + 3 * 90)]) == (y < 25 ? PNG_FILTER_VALUE_NONE : PNG_FILTER_VALUE_SUB));
 }
 
 TEST_CASE("a large PNG's data are in chunks of up to 1 MiB that follow each other") {
@@ -178,9 +181,14 @@ TEST_CASE("what writes a PNG tells how far it is") {
 
 TEST_CASE("PNGs of nearly flat scenes are at most 2 % larger than zlib's level 6 makes them") {
     const Folder folder;
-    for (const auto& [scene, size] : {std::pair{"first", "600x380"}, {"first", "300x190"}, {"csg_examples", "600x380"}, {"csg_examples", "900x570"}}) {
+    for (const auto& [scene, size] : {std::pair{"first", "600x380"},
+                                      {"first", "300x190"},
+                                      {"csg_examples", "600x380"},
+                                      {"csg_examples", "900x570"}}) {
         CAPTURE(scene, size);
-        REQUIRE(run({"render", DEBURR_SOURCE_DIR "/scenes/" + std::string(scene) + ".lua", "-q", "--size", size, "-o", folder / "a.png"}).code == 0);
+        REQUIRE(run({"render", DEBURR_SOURCE_DIR "/scenes/" + std::string(scene) + ".lua", "-q", "--size", size, "-o",
+                     folder / "a.png"})
+                    .code == 0);
         const std::string file = read_file(folder / "a.png");
         const Bytes rows = rows_of(file);
         Bytes zlib(compressBound(rows.size()));

@@ -29,8 +29,7 @@ Folder::~Folder() {
 
 std::vector<std::string> Folder::names() const {
     std::vector<std::string> names;
-    for (const auto& entry : fs::directory_iterator(path_))
-        names.push_back(entry.path().filename());
+    for (const auto& entry : fs::directory_iterator(path_)) names.push_back(entry.path().filename());
     std::sort(names.begin(), names.end());
     return names;
 }
@@ -95,9 +94,7 @@ std::string read_file(const std::string& path) {
     return text.str();
 }
 
-void write_file(const std::string& path, const std::string& text) {
-    std::ofstream(path, std::ios::binary) << text;
-}
+void write_file(const std::string& path, const std::string& text) { std::ofstream(path, std::ios::binary) << text; }
 
 std::string cube_scene() {
     return R"(

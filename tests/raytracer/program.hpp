@@ -33,8 +33,7 @@ struct Outcome {
 class Call {
 public:
     /// `words` follow the program's name; `environment` are NAME=value.
-    explicit Call(const std::vector<std::string>& words,
-                  const std::vector<std::string>& environment = {});
+    explicit Call(const std::vector<std::string>& words, const std::vector<std::string>& environment = {});
     ~Call();
     Call(const Call&) = delete;
     Call& operator=(const Call&) = delete;
@@ -51,8 +50,7 @@ private:
     bool ended_ = false;
 };
 
-Outcome run(const std::vector<std::string>& words,
-            const std::vector<std::string>& environment = {});
+Outcome run(const std::vector<std::string>& words, const std::vector<std::string>& environment = {});
 
 std::string read_file(const std::string& path);
 void write_file(const std::string& path, const std::string& text);

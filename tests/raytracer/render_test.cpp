@@ -23,12 +23,11 @@ void places(const Window& block, Pixel* pixels, PixelLayers* layers, TraceCounte
 }  // namespace
 
 TEST_CASE("every pixel of the window is rendered once, whatever its size") {
-    for (const Window window : {Window{0, 0, 1, 1}, Window{0, 0, 16, 16}, Window{3, 5, 17, 33},
-                                Window{90, 40, 10, 10}, Window{0, 0, 100, 50}}) {
+    for (const Window window : {Window{0, 0, 1, 1}, Window{0, 0, 16, 16}, Window{3, 5, 17, 33}, Window{90, 40, 10, 10},
+                                Window{0, 0, 100, 50}}) {
         CAPTURE(window.x, window.y, window.width, window.height);
         std::atomic<std::int64_t> told{0};
-        const Rendering r =
-            render(Film(100, 50, window), places, never, [&](std::int64_t n) { told += n; });
+        const Rendering r = render(Film(100, 50, window), places, never, [&](std::int64_t n) { told += n; });
         const auto pixels = std::uint64_t(window.width) * std::uint64_t(window.height);
         CHECK(r.film.complete);
         CHECK(r.film.window == window);
@@ -36,13 +35,13 @@ TEST_CASE("every pixel of the window is rendered once, whatever its size") {
         CHECK(told == std::int64_t(pixels));
         CHECK(r.counters.rays == pixels);
         for (int y = window.y; y < window.y + window.height; ++y)
-            for (int x = window.x; x < window.x + window.width; ++x)
-                REQUIRE(r.film.at(x, y).color == Vec3(x, y, 1));
+            for (int x = window.x; x < window.x + window.width; ++x) REQUIRE(r.film.at(x, y).color == Vec3(x, y, 1));
     }
 }
 
 TEST_CASE("a film keeps the layers that were asked for, and no others") {
-    for (const std::vector<ImageLayer>& asked : {std::vector<ImageLayer>{}, {ImageLayer::position}, {ImageLayer::id, ImageLayer::position, ImageLayer::id}}) {
+    for (const std::vector<ImageLayer>& asked :
+         {std::vector<ImageLayer>{}, {ImageLayer::position}, {ImageLayer::id, ImageLayer::position, ImageLayer::id}}) {
         const Window window{3, 5, 17, 33};
         const Rendering r = render(Film(100, 50, window, asked), places, never);
         for (const ImageLayer layer : all_layers()) {
@@ -55,7 +54,8 @@ TEST_CASE("a film keeps the layers that were asked for, and no others") {
             for (int x = window.x; x < window.x + window.width; ++x) {
                 const std::size_t i = r.film.index(x, y);
                 REQUIRE(r.film.pixels[i].color == Vec3(x, y, 1));
-                if (r.film.keeps(ImageLayer::position)) REQUIRE(r.film.layer(ImageLayer::position).vec(i) == Vec3(x, 0, y));
+                if (r.film.keeps(ImageLayer::position))
+                    REQUIRE(r.film.layer(ImageLayer::position).vec(i) == Vec3(x, 0, y));
                 if (r.film.keeps(ImageLayer::id)) REQUIRE(r.film.layer(ImageLayer::id).at(i) == 1000 * y + x);
             }
     }

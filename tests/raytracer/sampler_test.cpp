@@ -38,9 +38,9 @@ TEST_CASE("Parts of samples are stratified together") {
 TEST_CASE("Seed, pixel, sample and dimension each change a sample, in every bit evenly") {
     const Vec2 u = Sampler(1, 2, 3, 4).square(5);
     CHECK(u == Sampler(1, 2, 3, 4).square(5));
-    for (const Vec2& other : {Sampler(2, 2, 3, 4).square(5), Sampler(1, 3, 3, 4).square(5),
-                              Sampler(1, 2, 4, 4).square(5), Sampler(1, 3, 2, 4).square(5),
-                              Sampler(1, 2, 3, 5).square(5), Sampler(1, 2, 3, 4).square(6)})
+    for (const Vec2& other :
+         {Sampler(2, 2, 3, 4).square(5), Sampler(1, 3, 3, 4).square(5), Sampler(1, 2, 4, 4).square(5),
+          Sampler(1, 3, 2, 4).square(5), Sampler(1, 2, 3, 5).square(5), Sampler(1, 2, 3, 4).square(6)})
         CHECK((u.x != other.x && u.y != other.y));
     // Over pixels a sample is uniform and unrelated to its neighbour's: 1/√n = 0.004, times five.
     const int side = 256, n = side * side;
@@ -87,8 +87,8 @@ TEST_CASE("The filter has unit area, is positive, and offsets are distributed li
     for (int b = 0; b < bins; ++b) {
         double expected = 0;
         for (int k = 0; k < 100; ++k)
-            expected += filter_value(filter_radius * (2 * (b + (k + 0.5) / 100) / bins - 1)) * 2 *
-                        filter_radius / (100 * bins);
+            expected +=
+                filter_value(filter_radius * (2 * (b + (k + 0.5) / 100) / bins - 1)) * 2 * filter_radius / (100 * bins);
         CHECK(share[std::size_t(b)] == Approx(expected).margin(1.5 / n));
     }
 }
@@ -113,8 +113,7 @@ TEST_CASE("A camera without a view or an up still has rays") {
     int cameras = 0;
     for (const Camera& camera :
          {Camera{{0, 0, 0}, {0, 0, 0}, {0, 1, 0}, 40}, Camera{{0, 5, 0}, {0, 0, 0}, {0, 1, 0}, 40},
-          Camera{{0, 0, 0}, {0, 0, -1}, {0, 0, 0}, 40},
-          Camera{{0, 0, 0}, {1, 1, 1}, {1, 1, 1}, 40}}) {
+          Camera{{0, 0, 0}, {0, 0, -1}, {0, 0, 0}, 40}, Camera{{0, 0, 0}, {1, 1, 1}, {1, 1, 1}, 40}}) {
         const PinholeCamera pinhole(camera, 10, 10);
         const Vec3 a = pinhole.ray(0, 0).direction, b = pinhole.ray(10, 10).direction;
         CHECK(glm::length(a) == Approx(1));

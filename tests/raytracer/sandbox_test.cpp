@@ -30,28 +30,27 @@ struct Case {
 
 TEST_CASE("a run that spends its budget ends, whatever it tries") {
     // Each of these outlived an error raised by the hook, or would have looped where no hook looks.
-    const std::string text = GENERATE(
-        "while true do end", "pcall(function() while true do end end) while true do end",
-        "while true do pcall(function() while true do end end) end",
-        "coroutine.wrap(function() while true do end end)()",
-        "local c = coroutine.create(function()\n"
-        "  local x <close> = setmetatable({}, {__close = function() while true do end end})\n"
-        "  while true do end\n"
-        "end)\n"
-        "coroutine.resume(c) coroutine.close(c)",
-        "local x <close> = setmetatable({}, {__close = function() while true do end end})",
-        "local function f(d) for i = 1, 150 do coroutine.wrap(function()\n"
-        "  if d > 0 then f(d - 1) end end)() end end f(190)",
-        "local t = setmetatable({}, {__index = function(t, k) while true do end end}) return t.x",
-        "local t = setmetatable({}, {__tostring = function() while true do end end}) print(t)",
-        "while true do pcall(error, setmetatable({}, {__tostring = error})) end",
-        "table.sort({3, 2, 1}, function() while true do end end)", "table.move({}, 1, 1 << 60, 2)",
-        "for k in pairs({1}) do while true do end end", "goto on ::on:: goto on");
+    const std::string text =
+        GENERATE("while true do end", "pcall(function() while true do end end) while true do end",
+                 "while true do pcall(function() while true do end end) end",
+                 "coroutine.wrap(function() while true do end end)()",
+                 "local c = coroutine.create(function()\n"
+                 "  local x <close> = setmetatable({}, {__close = function() while true do end end})\n"
+                 "  while true do end\n"
+                 "end)\n"
+                 "coroutine.resume(c) coroutine.close(c)",
+                 "local x <close> = setmetatable({}, {__close = function() while true do end end})",
+                 "local function f(d) for i = 1, 150 do coroutine.wrap(function()\n"
+                 "  if d > 0 then f(d - 1) end end)() end end f(190)",
+                 "local t = setmetatable({}, {__index = function(t, k) while true do end end}) return t.x",
+                 "local t = setmetatable({}, {__tostring = function() while true do end end}) print(t)",
+                 "while true do pcall(error, setmetatable({}, {__tostring = error})) end",
+                 "table.sort({3, 2, 1}, function() while true do end end)", "table.move({}, 1, 1 << 60, 2)",
+                 "for k in pairs({1}) do while true do end end", "goto on ::on:: goto on");
     CAPTURE(text);
     const auto start = std::chrono::steady_clock::now();
-    CHECK_THAT(result_of(text),
-               Catch::Matchers::EndsWith("expected a scene that ends within 3000000 "
-                                         "instructions, got one that does not"));
+    CHECK_THAT(result_of(text), Catch::Matchers::EndsWith("expected a scene that ends within 3000000 "
+                                                          "instructions, got one that does not"));
     const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
     CHECK(seconds.count() < 2);
 }
@@ -62,15 +61,14 @@ TEST_CASE("a run ends by the clock where the budget is large") {
 }
 
 TEST_CASE("a run that needs more memory than it may have ends") {
-    const std::string text = GENERATE(
-        "local t = {} for i = 1, 1e9 do t[i] = i end", "local s = 'x' while true do s = s .. s end",
-        "while true do pcall(function() local t = {} for i = 1, 1e9 do t[i] = i end end) end",
-        "local s = ('x'):rep(1 << 20) local t = {} for i = 1, 100 do t[i] = s end table.concat(t)",
-        "string.pack('c2000000000', '')", "string.format('%s', ('xxxxxxxx'):rep(1 << 20):rep(2))");
+    const std::string text =
+        GENERATE("local t = {} for i = 1, 1e9 do t[i] = i end", "local s = 'x' while true do s = s .. s end",
+                 "while true do pcall(function() local t = {} for i = 1, 1e9 do t[i] = i end end) end",
+                 "local s = ('x'):rep(1 << 20) local t = {} for i = 1, 100 do t[i] = s end table.concat(t)",
+                 "string.pack('c2000000000', '')", "string.format('%s', ('xxxxxxxx'):rep(1 << 20):rep(2))");
     CAPTURE(text);
     CHECK_THAT(result_of(text),
-               Catch::Matchers::EndsWith(
-                   "expected a scene that needs at most 16 MiB, got one that needs more"));
+               Catch::Matchers::EndsWith("expected a scene that needs at most 16 MiB, got one that needs more"));
 }
 
 TEST_CASE("what is wrong in a chunk is one line with file and line") {
@@ -87,19 +85,15 @@ TEST_CASE("what is wrong in a chunk is one line with file and line") {
         {"local function f() return 1 + f() end f()", "s.lua:1: stack overflow"},
         {"setmetatable({}, {__gc = print})",
          "s.lua:1: setmetatable: expected no __gc, which is not available in a scene"},
-        {"\nreturn ('x'):rep(1 << 33)",
-         "s.lua:2: string.rep: expected a result of at most 16777216 bytes, got more"},
-        {"('').rep('', 1 << 60)",
-         "s.lua:1: string.rep: expected a result of at most 16777216 bytes, got more"},
-        {"table.sort({3, 2, 1, 4, 5, 6}, function() return true end)",
-         "s.lua:1: invalid order function for sorting"},
+        {"\nreturn ('x'):rep(1 << 33)", "s.lua:2: string.rep: expected a result of at most 16777216 bytes, got more"},
+        {"('').rep('', 1 << 60)", "s.lua:1: string.rep: expected a result of at most 16777216 bytes, got more"},
+        {"table.sort({3, 2, 1, 4, 5, 6}, function() return true end)", "s.lua:1: invalid order function for sorting"},
         {"table.insert(setmetatable({}, {__len = function() return 1 << 60 end}), 1, 2)",
          "s.lua:1: expected a table without metatable, got one that has it"},
         {"table.insert({}, 1, 2, 3)", "s.lua:1: wrong number of arguments to 'insert'"},
         {"for k in pairs({[{}] = 1}) do end",
          "s.lua:1: pairs: expected keys that have an order (numbers, strings), got a table"},
-        {"local f = pairs({1})\nf(2)",
-         "s.lua:2: bad argument #1 to 'f' (table expected, got number)"},
+        {"local f = pairs({1})\nf(2)", "s.lua:2: bad argument #1 to 'f' (table expected, got number)"},
         {"local a <close> = 1", "s.lua:1: variable 'a' got a non-closable value"},
     }));
     CAPTURE(c.text);
@@ -109,24 +103,22 @@ TEST_CASE("what is wrong in a chunk is one line with file and line") {
 }
 
 TEST_CASE("what a scene may not use says so, and unknown names are errors") {
-    for (const std::string name : {"io", "os", "package", "debug", "require", "load", "loadfile",
-                                   "loadstring", "dofile", "collectgarbage", "next", "string.find",
-                                   "string.match", "string.gmatch", "string.gsub", "string.dump"}) {
+    for (const std::string name :
+         {"io", "os", "package", "debug", "require", "load", "loadfile", "loadstring", "dofile", "collectgarbage",
+          "next", "string.find", "string.match", "string.gmatch", "string.gsub", "string.dump"}) {
         CAPTURE(name);
         CHECK_THAT(result_of("local x = " + name),
                    Catch::Matchers::StartsWith("s.lua:1: " + name + ": not available in a scene"));
     }
     CHECK(result_of("\n('a'):find('a')") == "s.lua:2: string.find: not available in a scene");
     CHECK(result_of("local x = plastik") == "s.lua:1: expected a known name, got 'plastik'");
-    CHECK(result_of("return math.cosine(1)") ==
-          "s.lua:1: expected a known name, got 'math.cosine'");
+    CHECK(result_of("return math.cosine(1)") == "s.lua:1: expected a known name, got 'math.cosine'");
     CHECK(result_of("x = 1 return x") == "1");
     CHECK(result_of("return getmetatable(_G)") == "false");
 }
 
 TEST_CASE("bytecode is refused") {
-    CHECK_THAT(result_of("\x1bLua"),
-               Catch::Matchers::StartsWith("s.lua: attempt to load a binary chunk"));
+    CHECK_THAT(result_of("\x1bLua"), Catch::Matchers::StartsWith("s.lua: attempt to load a binary chunk"));
 }
 
 TEST_CASE("runs are reproducible: random numbers and the order of pairs") {
@@ -147,16 +139,12 @@ TEST_CASE("runs are reproducible: random numbers and the order of pairs") {
 
 TEST_CASE("the rest of the library is there") {
     CHECK(result_of("local t = {3, 1, 2} table.sort(t) table.insert(t, 4) table.insert(t, 1, 0)\n"
-                    "return table.concat(t, ',') .. table.remove(t) .. table.remove(t, 1) .. #t") ==
-          "0,1,2,3,4403");
+                    "return table.concat(t, ',') .. table.remove(t) .. table.remove(t, 1) .. #t") == "0,1,2,3,4403");
     CHECK(result_of("local co = coroutine.wrap(function(a) local b = coroutine.yield(a + 1) return "
                     "b * 2 end)\n"
                     "co(1) return co(21)") == "42");
     CHECK(result_of("local ok, e = pcall(error, 'x') return e") == "x");
-    CHECK(result_of("local ok, e = xpcall(error, function(m) return m .. '!' end, 'x') return e") ==
-          "x!");
-    CHECK(
-        result_of("return string.format('%d %s', 3, ('ab'):upper():rep(2, '-')) .. ('x'):byte()") ==
-        "3 AB-AB120");
+    CHECK(result_of("local ok, e = xpcall(error, function(m) return m .. '!' end, 'x') return e") == "x!");
+    CHECK(result_of("return string.format('%d %s', 3, ('ab'):upper():rep(2, '-')) .. ('x'):byte()") == "3 AB-AB120");
     CHECK(result_of("return select('#', table.unpack({1, 2, 3}))") == "3");
 }

@@ -12,9 +12,7 @@ Scene scene_of(const std::string& text, const std::map<std::string, std::string>
     return read_scene_text(text, "s.lua", defines);
 }
 
-Scene scene_with(const std::string& solid) {
-    return scene_of("return { solids = { " + solid + " } }");
-}
+Scene scene_with(const std::string& solid) { return scene_of("return { solids = { " + solid + " } }"); }
 
 const SolidNode& only_solid(const Scene& scene) {
     REQUIRE(scene.solids.size() == 1);
@@ -104,9 +102,8 @@ TEST_CASE("twelve pentagons: faces in one plane are merged though their corners 
 }
 
 TEST_CASE("a prism takes either winding, and points along its sides") {
-    for (const char* polygon :
-         {"{0,0}, {2,0}, {2,1}, {0,1}", "{0,1}, {2,1}, {2,0}, {0,0}",
-          "{1,0}, {2,0}, {2,0}, {2,0.5}, {2,1}, {0,1}, {0,0}, {0.5,0}, {1,0}"}) {
+    for (const char* polygon : {"{0,0}, {2,0}, {2,1}, {0,1}", "{0,1}, {2,1}, {2,0}, {0,0}",
+                                "{1,0}, {2,0}, {2,0}, {2,0.5}, {2,1}, {0,1}, {0,0}, {0.5,0}, {1,0}"}) {
         const Scene scene = scene_with(std::string("prism({ ") + polygon + " }, -1, 3)");
         const DensityNode& prism = density_of(scene);
         REQUIRE(prism.children.size() == 6);
@@ -122,9 +119,8 @@ TEST_CASE("a prism takes either winding, and points along its sides") {
 TEST_CASE("operators on densities build densities and remember the line") {
     const auto built = [](const char* expression, Kind kind, int line) {
         CAPTURE(expression);
-        const Scene scene =
-            scene_of(std::string("local a, b = cube(), halfspace({1, 0, 0}, 0)\nlocal c =\n") +
-                     expression + "\nreturn { solids = { c } }");
+        const Scene scene = scene_of(std::string("local a, b = cube(), halfspace({1, 0, 0}, 0)\nlocal c =\n") +
+                                     expression + "\nreturn { solids = { c } }");
         const DensityNode& node = density_of(scene);
         CHECK(node.kind == kind);
         CHECK(node.line == line);
@@ -146,15 +142,13 @@ TEST_CASE("solids are combined, and a density among them is a sharp solid") {
                                      expression + " } }");
         const SolidNode& node = only_solid(scene);
         REQUIRE(node.children.size() == 2);
-        return std::tuple(node.kind, node.children[0].node().radius,
-                          node.children[1].node().radius);
+        return std::tuple(node.kind, node.children[0].node().radius, node.children[1].node().radius);
     };
     using S = SolidNode::Kind;
     CHECK(kinds("s | s") == std::tuple(S::unite, 0.5, 0.5));
     CHECK(kinds("s & d") == std::tuple(S::intersect, 0.5, 0.0));
     CHECK(kinds("d - s") == std::tuple(S::subtract, 0.0, 0.5));
-    const Scene scene =
-        scene_of("local a = cube()\nlocal b = rounded(0.25, a)\nreturn { solids = { a, b } }");
+    const Scene scene = scene_of("local a = cube()\nlocal b = rounded(0.25, a)\nreturn { solids = { a, b } }");
     CHECK(scene.solids[0].node().radius == 0.0);
     CHECK(scene.solids[0].node().line == 1);
     CHECK(scene.solids[1].node().radius == 0.25);
@@ -185,9 +179,8 @@ TEST_CASE("placements of densities and solids are exact along the axes") {
     CHECK(same(map_of("mirror({0, 0.1, 0})"), {diagonal(1, -1, 1), Vec3(0)}));
     CHECK(same(map_of("rotate(180, {0, 0, 3})"), {diagonal(-1, -1, 1), Vec3(0)}));
     CHECK(same(map_of("rotate(720, {1, 2, 3})"), {Mat3(1.0), Vec3(0)}));
-    for (const char* quarter :
-         {"rotate(90, {0, 0, 1})", "rotate(-270, {0, 0, 1})", "rotate(90, {0, 0, 0.3})",
-          "rotate(-90, {0, 0, -1})", "rotate(450, {0, 0, 1})"}) {
+    for (const char* quarter : {"rotate(90, {0, 0, 1})", "rotate(-270, {0, 0, 1})", "rotate(90, {0, 0, 0.3})",
+                                "rotate(-90, {0, 0, -1})", "rotate(450, {0, 0, 1})"}) {
         CAPTURE(quarter);
         const Affine map = map_of(quarter);
         CHECK(map(Vec3(1, 0, 0)) == Vec3(0, 1, 0));
@@ -278,8 +271,7 @@ TEST_CASE("parameters take the command line's value in the default's type") {
         "return { solids = { rounded(r * n, cube()) } }";
     const Scene plain = scene_of(text);
     CHECK(only_solid(plain).radius == 3 * 0.1);
-    CHECK(plain.parameters ==
-          std::map<std::string, std::string>{{"n", "3"}, {"r", "0.1"}, {"on", "true"}, {"s", "a"}});
+    CHECK(plain.parameters == std::map<std::string, std::string>{{"n", "3"}, {"r", "0.1"}, {"on", "true"}, {"s", "a"}});
     const Scene given = scene_of(text, {{"n", "2"}, {"r", "2.5e-1"}, {"on", "false"}, {"s", ""}});
     CHECK(only_solid(given).radius == 0.5);
     CHECK(given.parameters.at("r") == "2.5e-1");

@@ -15,20 +15,16 @@ struct Zoo {
 
     Zoo() {
         using Kind = Material::Kind;
-        scene.materials = {material_of(Kind::matte, {0.8, 0.3, 0.2}),
-                           material_of(Kind::matte, Vec3(0.5)),
-                           material_of(Kind::plastic, {0.1, 0.4, 0.8}),
-                           material_of(Kind::plastic, {0.1, 0.4, 0.8}, 0.0),
-                           material_of(Kind::metal, {0.9, 0.7, 0.3}, 0.1),
-                           material_of(Kind::metal, {0.9, 0.7, 0.3}, 0.6),
-                           material_of(Kind::mirror, Vec3(0.9)),
-                           material_of(Kind::glass, {0.9, 1, 0.9}, 0.0),
-                           material_of(Kind::glass, Vec3(1.0), 0.4)};
+        scene.materials = {
+            material_of(Kind::matte, {0.8, 0.3, 0.2}),      material_of(Kind::matte, Vec3(0.5)),
+            material_of(Kind::plastic, {0.1, 0.4, 0.8}),    material_of(Kind::plastic, {0.1, 0.4, 0.8}, 0.0),
+            material_of(Kind::metal, {0.9, 0.7, 0.3}, 0.1), material_of(Kind::metal, {0.9, 0.7, 0.3}, 0.6),
+            material_of(Kind::mirror, Vec3(0.9)),           material_of(Kind::glass, {0.9, 1, 0.9}, 0.0),
+            material_of(Kind::glass, Vec3(1.0), 0.4)};
         scene.materials[1].color.kind = Texture::Kind::checker;
         shapes = {ground};
         for (int i = 0; i < 9; ++i)
-            shapes.push_back(
-                {Shape::Kind::sphere, {2.2 * (i % 3) - 2.2, 0, 2.2 * (i / 3) - 2.2}, {}, 1, i});
+            shapes.push_back({Shape::Kind::sphere, {2.2 * (i % 3) - 2.2, 0, 2.2 * (i / 3) - 2.2}, {}, 1, i});
         scene.camera = {{0, 6, 9}, {0, 0, 0}, {0, 1, 0}, 40};
         scene.background.sky = true;
         scene.ambient = Vec3(0.05);
@@ -61,7 +57,8 @@ Seen seen(const Integrator& integrator, int x, int y, TraceCounters& counters) {
 bool same(const Pixel& a, const Pixel& b) { return a.color == b.color && a.alpha == b.alpha; }
 
 bool same(const PixelLayers& a, const PixelLayers& b) {
-    return a.position == b.position && a.normal == b.normal && a.z == b.z && a.albedo == b.albedo && a.id == b.id && a.cost == b.cost;
+    return a.position == b.position && a.normal == b.normal && a.z == b.z && a.albedo == b.albedo && a.id == b.id &&
+           a.cost == b.cost;
 }
 
 bool same(const Seen& a, const Seen& b) { return same(a.pixel, b.pixel) && same(a.layers, b.layers); }
@@ -238,7 +235,9 @@ TEST_CASE("A pixel is the same without layers, and then asks for no ray that onl
     for (int spp : {1, 3}) {
         const Integrator integrator(zoo.scene, tracer, {24, 16, spp, 9});
         TraceCounters with, without;
-        for (int i = 0; i < 24 * 16; ++i) CHECK(same(seen(integrator, i % 24, i / 24, with).pixel, integrator.pixel(i % 24, i / 24, nullptr, without)));
+        for (int i = 0; i < 24 * 16; ++i)
+            CHECK(
+                same(seen(integrator, i % 24, i / 24, with).pixel, integrator.pixel(i % 24, i / 24, nullptr, without)));
         CHECK(with.rays - without.rays == (spp == 1 ? 0 : 24 * 16));
         CHECK(with.shadow_rays == without.shadow_rays);
     }
@@ -255,7 +254,8 @@ TEST_CASE("A block is its pixels, row by row") {
         TraceCounters together, single;
         integrator.block(block, pixels.data(), layers.data(), together);
         for (int i = 0; i < 16 * 11; ++i)
-            CHECK(same({pixels[std::size_t(i)], layers[std::size_t(i)]}, seen(integrator, 5 + i % 16, 3 + i / 16, single)));
+            CHECK(same({pixels[std::size_t(i)], layers[std::size_t(i)]},
+                       seen(integrator, 5 + i % 16, 3 + i / 16, single)));
         CHECK(together.rays == single.rays);
         CHECK(together.shadow_rays == single.shadow_rays);
         CHECK(together.evaluations == single.evaluations);
@@ -272,8 +272,8 @@ TEST_CASE("No pixel holds a NaN, wherever the camera and the lights are") {
     degenerate.kind = Light::Kind::directional;
     degenerate.direction = Vec3(0.0);
     zoo.scene.lights.push_back(degenerate);
-    for (Vec3 eye : {Vec3(0, 6, 9), Vec3(-2.2, 0, -2.2), Vec3(0, -0.999999, 20), Vec3(0, -3, 0),
-                     Vec3(0, 0, 2.2), Vec3(2.2, 0, 2.2), Vec3(0.0)})
+    for (Vec3 eye : {Vec3(0, 6, 9), Vec3(-2.2, 0, -2.2), Vec3(0, -0.999999, 20), Vec3(0, -3, 0), Vec3(0, 0, 2.2),
+                     Vec3(2.2, 0, 2.2), Vec3(0.0)})
         for (int spp : {1, 4}) {
             zoo.scene.camera.eye = eye;
             zoo.scene.lights[0].position = eye;

@@ -3,9 +3,9 @@
 
 #include "ball_field.hpp"
 #include "catch.hpp"
-#include "raytracer/hits.hpp"
 #include "raytracer/bsp.hpp"
 #include "raytracer/bsp_trace.hpp"
+#include "raytracer/hits.hpp"
 
 using namespace deburr;
 
@@ -78,9 +78,10 @@ TEST_CASE("equal solids share a space, however the scene came to them") {
     std::vector<Solid> solids;
     for (int i = 0; i < 5; ++i) {
         const Affine place = compose(shift(2 * i, 0, 0), turn(i));
-        solids.push_back(one.transformed(place));                                // one value
-        solids.push_back(block().material(3).transformed(compose(shift(0, 3, 0), place)));   // a function's
-        solids.push_back(Solid::rounded(0.1, cube.transformed(compose(shift(0, 6, 0), place))));  // placed, then rounded
+        solids.push_back(one.transformed(place));                                           // one value
+        solids.push_back(block().material(3).transformed(compose(shift(0, 3, 0), place)));  // a function's
+        solids.push_back(
+            Solid::rounded(0.1, cube.transformed(compose(shift(0, 6, 0), place))));  // placed, then rounded
     }
     CHECK(statistics(solids).spaces == 2);
     CHECK(statistics(solids).placements == 15);
@@ -97,7 +98,8 @@ TEST_CASE("equal solids share a space, however the scene came to them") {
 }
 
 TEST_CASE("placed by any map, over a ground plane, with materials of their own") {
-    const Solid handle = block(0.05).material(2) | block(0.05).transformed(compose(shift(0, 0.9, 0), scale(0.4, 1, 0.4)));
+    const Solid handle =
+        block(0.05).material(2) | block(0.05).transformed(compose(shift(0, 0.9, 0), scale(0.4, 1, 0.4)));
     std::vector<Solid> solids{Solid::sharp(Density::half_space({0, 1, 0}, -0.5)).material(7)};
     for (int i = 0; i < 60; ++i) {
         Gen g(std::uint64_t(i) + 1);
@@ -115,7 +117,8 @@ TEST_CASE("placed by any map, over a ground plane, with materials of their own")
 TEST_CASE("operands of a union that touch or overlap stay together") {
     const Solid cube = Solid::sharp(Density::box(Vec3(0), Vec3(1)));
     Solid row = cube;
-    for (const double x : {1.0, 2.5, 3.4, 5.0, 6.0 + 1e-13, 8.0, 9.0 + 1e-6}) row = row | cube.transformed(shift(x, 0, 0));
+    for (const double x : {1.0, 2.5, 3.4, 5.0, 6.0 + 1e-13, 8.0, 9.0 + 1e-6})
+        row = row | cube.transformed(shift(x, 0, 0));
     // Together: 0 and 1; 2.5 and 3.4; 5 and 6. Apart: 8 and 9, by more than any tolerance.
     const BspStatistics s = statistics({row, block().transformed(shift(0, 3, 0))});
     CHECK(s.placements == 6);
@@ -172,10 +175,12 @@ TEST_CASE("what occurs once, moved, scaled or turned, large or tiny, near or far
         if (g.chance(0.5)) solids.push_back(Solid::sharp(Density::half_space({0, 1, 0}, -1)));
         const int count = 2 + g.below(6);
         for (int i = 0; i < count; ++i) {
-            Solid form = Solid::rounded(g.radius() * (1 + 0.1 * i), g.boolean(1) & Density::box(Vec3(-2), Vec3(2))).material(i);
+            Solid form =
+                Solid::rounded(g.radius() * (1 + 0.1 * i), g.boolean(1) & Density::box(Vec3(-2), Vec3(2))).material(i);
             if (g.chance(0.3)) form = form - Solid::rounded(g.radius(), g.boolean(1));
             const double size = g.chance(0.2) ? std::pow(10.0, g.between(-5, 0)) : 1;
-            Affine map = compose(shift(g.between(-3, 3), g.number(), g.between(-3, 3)), scale(size, size * (g.chance(0.5) ? -1 : 0.7), size));
+            Affine map = compose(shift(g.between(-3, 3), g.number(), g.between(-3, 3)),
+                                 scale(size, size * (g.chance(0.5) ? -1 : 0.7), size));
             if (g.chance(0.3)) map = compose(map, turn(g.between(0, 6)));
             if (g.chance(0.1)) map.shift.x += 1e4;
             solids.push_back(form.transformed(map));
@@ -197,7 +202,8 @@ TEST_CASE("what a map squeezes too much, or nothing bounds, is in the world's ow
 TEST_CASE("fields are forms of their own") {
     std::vector<Solid> solids;
     const auto ball = Solid::of_field(std::make_shared<BallField>());
-    for (int i = 0; i < 4; ++i) solids.push_back(ball.transformed(compose(shift(2.5 * i, 0, 0), scale(1, 0.3 + 0.2 * i, 0.8))).material(i));
+    for (int i = 0; i < 4; ++i)
+        solids.push_back(ball.transformed(compose(shift(2.5 * i, 0, 0), scale(1, 0.3 + 0.2 * i, 0.8))).material(i));
     solids.push_back(block() | block().transformed(shift(0, 0, 3)) | ball.transformed(shift(0, 4, 0)));
     CHECK(statistics(solids).placements == 7);
     CHECK(statistics(solids).spaces == 3);
@@ -217,9 +223,11 @@ TEST_CASE("cells of a body with many facets know few of them") {
 TEST_CASE("spaces do not depend on the number of threads") {
     std::vector<Solid> solids;
     for (int i = 0; i < 9000; ++i)
-        solids.push_back(block(0.05 + 0.01 * (i % 7)).transformed(compose(shift(i % 20, i / 20 % 20, i / 400), scale(0.4, 0.5, 0.3))));
+        solids.push_back(block(0.05 + 0.01 * (i % 7))
+                             .transformed(compose(shift(i % 20, i / 20 % 20, i / 400), scale(0.4, 0.5, 0.3))));
     Density many = Density::box({0, 0, -3}, {0.5, 0.5, -2.5});  // and one solid that is built in parallel
-    for (int i = 1; i < 300; ++i) many = many | Density::box({0.7 * (i % 20), i / 20, -3}, {0.7 * (i % 20) + 0.8, i / 20 + 0.5, -2.5});
+    for (int i = 1; i < 300; ++i)
+        many = many | Density::box({0.7 * (i % 20), i / 20, -3}, {0.7 * (i % 20) + 0.8, i / 20 + 0.5, -2.5});
     solids.push_back(Solid::rounded(0.04, many));
     const auto hits = [&](std::size_t threads) { return random_hits(threads, [&] { return ImplicitTracer(solids); }); };
     const auto one = hits(1);
@@ -231,7 +239,8 @@ TEST_CASE("a hundred thousand placements cost a ray no more than three times wha
     const auto placements_per_ray = [](int side, int layers) {
         std::vector<Solid> solids;
         for (int i = 0; i < side * side * layers; ++i)
-            solids.push_back(block().transformed(compose(shift(i % side, i / side % side, i / side / side), scale(0.6, 0.6, 0.6))));
+            solids.push_back(
+                block().transformed(compose(shift(i % side, i / side % side, i / side / side), scale(0.6, 0.6, 0.6))));
         const ImplicitTracer tracer(solids);
         CHECK(tracer.statistics().spaces == 2);
         TraceCounters counters;

@@ -65,7 +65,8 @@ TEST_CASE("the surface found is the same to the bit in whatever order surfaces a
             const FoundSurface want = tracer.find(ray, t_max, counters);
             bool tie = false;
             for (int round = 0; round < 3; ++round) {
-                for (std::size_t i = order.size(); i > 1; --i) std::swap(order[i - 1], order[std::size_t(g.below(int(i)))]);
+                for (std::size_t i = order.size(); i > 1; --i)
+                    std::swap(order[i - 1], order[std::size_t(g.below(int(i)))]);
                 SurfaceSearch<false> search(all, ray, t_max, infinity, counters, nullptr);
                 SurfaceSearch<true> any(all, ray, t_max, infinity, counters, nullptr);
                 if (g.chance(0.5)) search.look_at_planes();

@@ -25,13 +25,15 @@ double total_length(const std::vector<Stroke>& strokes) {
 constexpr int width = 400, height = 300;
 
 std::vector<Stroke> strokes_of(const Mesh& mesh, WireMode mode, Camera camera) {
-    return wire_frame(mesh, mesh_edges(mesh, EdgeChoice::polygons), MeshTracer(mesh), PinholeCamera(camera, width, height), width, height, mode);
+    return wire_frame(mesh, mesh_edges(mesh, EdgeChoice::polygons), MeshTracer(mesh),
+                      PinholeCamera(camera, width, height), width, height, mode);
 }
 
 }  // namespace
 
 TEST_CASE("A point is seen where the ray through it starts") {
-    const PinholeCamera camera({.eye = {3, 2, 5}, .target = {0.2, 0.1, -1}, .up = {0.1, 1, 0}, .fov = 35}, width, height);
+    const PinholeCamera camera({.eye = {3, 2, 5}, .target = {0.2, 0.1, -1}, .up = {0.1, 1, 0}, .fov = 35}, width,
+                               height);
     for (const Vec2 at : {Vec2(0.5, 0.5), Vec2(200, 150), Vec2(399, 12)}) {
         const Ray ray = camera.ray(at.x, at.y);
         const Vec3 seen = camera.project(ray.origin + 7.0 * ray.direction);
@@ -102,13 +104,15 @@ TEST_CASE("A stroke covers its width across and blends only what it covers") {
 TEST_CASE("render draws wire frames and flat facets of meshes, and of nothing else") {
     const Folder folder;
     write_file(folder / "s.lua", cube_scene());
-    for (const std::vector<std::string>& words : {std::vector<std::string>{"--wire", "visible"}, {"--wire", "front"}, {"--flat"}, {"--edges"}}) {
+    for (const std::vector<std::string>& words :
+         {std::vector<std::string>{"--wire", "visible"}, {"--wire", "front"}, {"--flat"}, {"--edges"}}) {
         std::vector<std::string> call{"render", folder / "s.lua", "-q", "-o", folder / "a.png", "--via", "triage"};
         call.insert(call.end(), words.begin(), words.end());
         CHECK(run(call).code == 0);
         call[6] = "implicit";
         CHECK(run(call).code == 2);
     }
-    const Outcome outcome = run({"render", folder / "s.lua", "--via", "triage", "--wire", "all", "-o", folder / "a.png"});
+    const Outcome outcome =
+        run({"render", folder / "s.lua", "--via", "triage", "--wire", "all", "-o", folder / "a.png"});
     CHECK(outcome.err == "deburr: --wire: expected visible or front, got 'all'\n");
 }
