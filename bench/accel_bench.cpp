@@ -4,7 +4,7 @@
 #include "bench/blocks.hpp"
 #include "bench/picture.hpp"
 #include "bench/sections.hpp"
-#include "raytracer/bsp.hpp"
+#include "raytracer/trace/implicit_tracer.hpp"
 
 namespace deburr::bench {
 namespace {

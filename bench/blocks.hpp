@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "bounds/solid.hpp"
-#include "raytracer/ray_tracer.hpp"
+#include "raytracer/trace/ray_tracer.hpp"
 
 namespace deburr::bench {
 

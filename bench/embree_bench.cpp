@@ -4,9 +4,9 @@
 #include "bench/picture.hpp"
 #include "bench/program.hpp"
 #include "bench/sections.hpp"
-#include "raytracer/bsp.hpp"
-#include "raytracer/mesh_tracer.hpp"
-#include "raytracer/scene_mesh.hpp"
+#include "raytracer/mesh/mesh_tracer.hpp"
+#include "raytracer/mesh/scene_mesh.hpp"
+#include "raytracer/trace/implicit_tracer.hpp"
 
 namespace deburr::bench {
 
@@ -14,7 +14,7 @@ void implicit_against_embree(Report& report) {
     for (const char* name : {"csg_examples", "variable_rounding"}) {
         Scene scene = scene_of(name);
         const ImplicitTracer implicit(scene.solids);
-        SceneMesh mesh = mesh_scene(scene, picture_mesh_settings("triage", ""));
+        SceneMesh mesh = mesh_scene(scene, picture_mesh_settings());
         const std::size_t triangles = mesh.mesh.triangles.size();
         const MeshTracer embree(std::move(mesh.mesh), mesh.near);
         for (const int spp : {1, 16}) {

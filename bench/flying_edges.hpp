@@ -4,7 +4,7 @@
 #include <optional>
 
 #include "bounds/density_tree.hpp"
-#include "polygonizer/mesh.hpp"
+#include "polygonizer/mesh/mesh.hpp"
 
 namespace deburr::bench {
 

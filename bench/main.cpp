@@ -7,7 +7,7 @@
 #include <iterator>
 
 #include "bench/sections.hpp"
-#include "raytracer/whole_file.hpp"
+#include "raytracer/util/whole_file.hpp"
 
 using namespace deburr::bench;
 

@@ -7,8 +7,8 @@
 #include "bench/flying_edges.hpp"
 #include "bench/sections.hpp"
 #include "bounds/solid_tree.hpp"
-#include "polygonizer/metrics.hpp"
-#include "polygonizer/triage.hpp"
+#include "polygonizer/mesh/metrics.hpp"
+#include "polygonizer/triage/triage.hpp"
 
 namespace deburr::bench {
 namespace {

@@ -4,9 +4,9 @@
 #include <cmath>
 
 #include "bench/sections.hpp"
-#include "polygonizer/octree.hpp"
-#include "polygonizer/octree_cells.hpp"
-#include "polygonizer/triage.hpp"
+#include "polygonizer/octree/octree.hpp"
+#include "polygonizer/octree/octree_cells.hpp"
+#include "polygonizer/triage/triage.hpp"
 
 namespace deburr::bench {
 

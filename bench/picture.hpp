@@ -6,11 +6,11 @@
 #include <string>
 #include <vector>
 
-#include "bench/ratio.hpp"
-#include "raytracer/integrator.hpp"
-#include "raytracer/ray_tracer.hpp"
-#include "raytracer/render.hpp"
-#include "raytracer/scene_reader.hpp"
+#include "raytracer/render/integrator.hpp"
+#include "raytracer/render/render_tiles.hpp"
+#include "raytracer/scene/scene_reader.hpp"
+#include "raytracer/trace/ray_tracer.hpp"
+#include "raytracer/util/cpu_time.hpp"
 
 namespace deburr::bench {
 

@@ -7,7 +7,7 @@
 #include "bench/picture.hpp"
 #include "bench/program.hpp"
 #include "bench/sections.hpp"
-#include "raytracer/bsp.hpp"
+#include "raytracer/trace/implicit_tracer.hpp"
 
 namespace deburr::bench {
 namespace {

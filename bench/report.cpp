@@ -7,7 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <thread>
 
-#include "raytracer/whole_file.hpp"
+#include "raytracer/util/whole_file.hpp"
 
 namespace deburr::bench {
 namespace {

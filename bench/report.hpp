@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "bench/ratio.hpp"
+#include "raytracer/util/cpu_time.hpp"
 
 namespace deburr::bench {
 

@@ -7,8 +7,8 @@
 
 #include "bench/picture.hpp"
 #include "bench/sections.hpp"
-#include "raytracer/bsp.hpp"
-#include "raytracer/render.hpp"
+#include "raytracer/render/render_tiles.hpp"
+#include "raytracer/trace/implicit_tracer.hpp"
 
 namespace deburr::bench {
 namespace {

@@ -2,7 +2,7 @@
 #pragma once
 #include <vector>
 
-#include "bounds/truth.hpp"
+#include "bounds/truth_table.hpp"
 
 namespace deburr {
 

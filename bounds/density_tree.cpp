@@ -1,8 +1,6 @@
 #include "bounds/density_tree.hpp"
 
-#include "bounds/box_range.hpp"
 #include "bounds/expression.hpp"
-#include "bounds/local_density.hpp"
 #include "bounds/support.hpp"
 
 namespace deburr {
@@ -164,10 +162,6 @@ DensityTree flatten(const Density& density, double radius, const Affine& to_worl
 
 DensityTree flatten_convolved(const Density& density, double radius, const Affine& to_world) {
     return flatten(density, radius, to_world, true);
-}
-
-ValueGradient DensityTree::gradient_at(Vec3 x) const {
-    return LocalDensity(prune(*this, Box{x, x}).tree).gradient_at(x);
 }
 
 }  // namespace deburr

@@ -4,8 +4,8 @@
 // A density field that is carried along by an affine map, x ↦ ρ(A⁻¹x), needs no map of its own: α
 // is affine in x, so it is the density of other half-spaces with other radii.
 //
-// `at` and `gradient_at` evaluate the definition itself; they are what everything faster is held
-// against. Not promised: ρ in [0, 1] (density.hpp), nor speed.
+// `at` and `gradient_at` prune the tree to the point and evaluate what is left (local_density.cpp); tests
+// hold them against tests/plain_definition.hpp. Not promised: ρ in [0, 1] (density.hpp), nor speed.
 #pragma once
 #include <stdexcept>
 #include <vector>

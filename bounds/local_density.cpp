@@ -201,6 +201,11 @@ static T run(const std::vector<Node>& nodes, const std::vector<int>& kids, Leaf 
     return done[nodes.size() - 1];
 }
 
+// Declared with the tree, so that who has one can ask it; made here of what is faster than a walk over it.
+ValueGradient DensityTree::gradient_at(Vec3 x) const {
+    return LocalDensity(prune(*this, Box{x, x}).tree).gradient_at(x);
+}
+
 double LocalDensity::at(Vec3 x) const {
     if (share_) return gradient_at(x).value;
     return run<double>(nodes_, kids_, [&](std::size_t i) { return half_spaces_[i].density(x); });

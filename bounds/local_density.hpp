@@ -9,7 +9,7 @@
 #include <span>
 #include <vector>
 
-#include "bounds/ball_share.hpp"
+#include "bounds/ball_convolution.hpp"
 #include "bounds/box_range.hpp"
 #include "bounds/density_tree.hpp"
 #include "bounds/ray_bounds.hpp"

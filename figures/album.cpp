@@ -6,8 +6,8 @@
 #include <sstream>
 
 #include "figures/page.hpp"
-#include "raytracer/errors.hpp"
-#include "raytracer/whole_file.hpp"
+#include "raytracer/util/errors.hpp"
+#include "raytracer/util/whole_file.hpp"
 
 namespace deburr {
 namespace {

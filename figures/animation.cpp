@@ -5,8 +5,8 @@
 #include <cassert>
 #include <cmath>
 
-#include "raytracer/image_file.hpp"
-#include "raytracer/image_raster.hpp"
+#include "raytracer/image/image_file.hpp"
+#include "raytracer/image/image_raster.hpp"
 
 namespace deburr {
 namespace {

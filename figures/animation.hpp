@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "raytracer/film.hpp"
+#include "raytracer/image/film.hpp"
 
 namespace deburr {
 

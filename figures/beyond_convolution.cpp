@@ -3,8 +3,8 @@
 #include "bounds/bounding_box.hpp"
 #include "figures/figure.hpp"
 #include "figures/studio.hpp"
-#include "polygonizer/surface_offset.hpp"
-#include "polygonizer/triage.hpp"
+#include "polygonizer/mesh/surface_distance.hpp"
+#include "polygonizer/triage/triage.hpp"
 
 namespace deburr {
 namespace {

@@ -4,8 +4,8 @@
 #include <map>
 #include <stdexcept>
 
-#include "polygonizer/cell_mesh.hpp"
-#include "polygonizer/triage.hpp"
+#include "polygonizer/triage/cell_mesh.hpp"
+#include "polygonizer/triage/triage.hpp"
 
 namespace deburr {
 namespace {

@@ -2,8 +2,8 @@
 // it: from afar, in lines [Triage, figures 13, 15, 16].
 #pragma once
 #include "figures/plot.hpp"
-#include "polygonizer/subspace.hpp"
-#include "raytracer/integrator.hpp"
+#include "polygonizer/triage/subspace.hpp"
+#include "raytracer/render/integrator.hpp"
 
 namespace deburr {
 

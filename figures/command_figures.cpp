@@ -10,11 +10,11 @@
 
 #include "figures/album.hpp"
 #include "figures/plot.hpp"
-#include "raytracer/errors.hpp"
-#include "raytracer/interrupt.hpp"
-#include "raytracer/message.hpp"
-#include "raytracer/options.hpp"
-#include "raytracer/progress.hpp"
+#include "raytracer/cli/options.hpp"
+#include "raytracer/util/errors.hpp"
+#include "raytracer/util/interrupt.hpp"
+#include "raytracer/util/message.hpp"
+#include "raytracer/util/progress.hpp"
 
 namespace deburr {
 namespace {

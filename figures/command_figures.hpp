@@ -1,6 +1,6 @@
 // deburr figures: the papers' figures and tables, made anew.
 #pragma once
-#include "raytracer/commands.hpp"
+#include "raytracer/cli/commands.hpp"
 
 namespace deburr {
 

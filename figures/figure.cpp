@@ -4,7 +4,7 @@
 #include <array>
 #include <cassert>
 
-#include "raytracer/errors.hpp"
+#include "raytracer/util/errors.hpp"
 
 namespace deburr {
 namespace {

@@ -32,7 +32,7 @@
 //   - No number is written by hand: measured() takes what this run computed, and the claim what the
 //     paper prints. The same program and scenes give the same pictures.
 //   - `seconds` is a rough guess on two cores, for the progress bar.
-// Curves, fields, arrows and labels: figures/plot.hpp. Pictures of meshes: raytracer/mesh_picture.hpp.
+// Curves, fields, arrows and labels: figures/plot.hpp. Pictures of meshes: figures/studio.hpp.
 #pragma once
 #include <fmt/format.h>
 

@@ -6,12 +6,12 @@
 
 #include "figures/figure.hpp"
 #include "figures/plot.hpp"
-#include "raytracer/bsp.hpp"
-#include "raytracer/image_file.hpp"
-#include "raytracer/integrator.hpp"
-#include "raytracer/options.hpp"
-#include "raytracer/render.hpp"
-#include "raytracer/whole_file.hpp"
+#include "raytracer/cli/options.hpp"
+#include "raytracer/image/image_file.hpp"
+#include "raytracer/render/integrator.hpp"
+#include "raytracer/render/render_tiles.hpp"
+#include "raytracer/trace/implicit_tracer.hpp"
+#include "raytracer/util/whole_file.hpp"
 
 namespace deburr {
 

@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
-#include "raytracer/film.hpp"
-#include "raytracer/ray_tracer.hpp"
-#include "raytracer/scene.hpp"
+#include "raytracer/image/film.hpp"
+#include "raytracer/scene/scene.hpp"
+#include "raytracer/trace/ray_tracer.hpp"
 
 namespace deburr {
 

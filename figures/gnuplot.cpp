@@ -12,7 +12,7 @@
 #include <sstream>
 
 #include "figures/plot.hpp"
-#include "raytracer/errors.hpp"
+#include "raytracer/util/errors.hpp"
 
 extern char** environ;
 

@@ -3,7 +3,7 @@
 #include <functional>
 
 #include "figures/plot.hpp"
-#include "polygonizer/mesh.hpp"
+#include "polygonizer/mesh/mesh.hpp"
 
 namespace deburr {
 

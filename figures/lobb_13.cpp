@@ -1,7 +1,7 @@
 // Lobb, figure 13: increasing the radius of the filter.
 #include "figures/figure.hpp"
-#include "polygonizer/triage.hpp"
-#include "raytracer/scene_mesh.hpp"
+#include "polygonizer/triage/triage.hpp"
+#include "raytracer/mesh/scene_mesh.hpp"
 
 namespace deburr {
 namespace {

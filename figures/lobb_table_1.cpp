@@ -3,11 +3,11 @@
 
 #include <array>
 
-#include "bench/ratio.hpp"
 #include "figures/figure.hpp"
-#include "raytracer/bsp.hpp"
-#include "raytracer/integrator.hpp"
-#include "raytracer/render.hpp"
+#include "raytracer/render/integrator.hpp"
+#include "raytracer/render/render_tiles.hpp"
+#include "raytracer/trace/implicit_tracer.hpp"
+#include "raytracer/util/cpu_time.hpp"
 
 namespace deburr {
 namespace {

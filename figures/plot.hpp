@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "raytracer/sampler.hpp"  // Vec2
+#include "bounds/vec.hpp"
 
 namespace deburr {
 

@@ -3,7 +3,7 @@
 #include <numbers>
 
 #include "bounds/bounding_box.hpp"
-#include "raytracer/mesh_tracer.hpp"
+#include "raytracer/mesh/mesh_tracer.hpp"
 
 namespace deburr {
 

@@ -1,8 +1,8 @@
 // A scene's mesh as the Triage paper shows it: (a) as a wire frame, (b) Gouraud shaded.
 #pragma once
 #include "figures/figure_context.hpp"
-#include "raytracer/scene_mesh.hpp"
-#include "raytracer/wire_frame.hpp"
+#include "raytracer/mesh/scene_mesh.hpp"
+#include "raytracer/mesh/wire_frame.hpp"
 
 namespace deburr {
 

@@ -2,7 +2,7 @@
 
 #include <numbers>
 
-#include "raytracer/mesh_tracer.hpp"
+#include "raytracer/mesh/mesh_tracer.hpp"
 
 namespace deburr {
 namespace {

@@ -2,8 +2,8 @@
 // smooth, as a wire frame, or both.
 #pragma once
 #include "figures/figure_context.hpp"
-#include "polygonizer/mesh.hpp"
-#include "raytracer/wire_frame.hpp"
+#include "polygonizer/mesh/mesh.hpp"
+#include "raytracer/mesh/wire_frame.hpp"
 
 namespace deburr {
 

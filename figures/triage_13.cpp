@@ -4,7 +4,7 @@
 #include "figures/cell_drawing.hpp"
 #include "figures/figure.hpp"
 #include "figures/plane_curves.hpp"
-#include "polygonizer/density_class.hpp"
+#include "polygonizer/triage/density_class.hpp"
 
 namespace deburr {
 namespace {

@@ -1,8 +1,8 @@
 // Triage, figure 22: triage against marching cubes on one object with six radii.
-#include "bench/ratio.hpp"
 #include "figures/figure.hpp"
 #include "figures/scene_pictures.hpp"
-#include "raytracer/mesh_tracer.hpp"
+#include "raytracer/mesh/mesh_tracer.hpp"
+#include "raytracer/util/cpu_time.hpp"
 
 namespace deburr {
 namespace {

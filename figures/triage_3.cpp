@@ -4,7 +4,7 @@
 #include "figures/height_field.hpp"
 #include "figures/plane_curves.hpp"
 #include "figures/studio.hpp"
-#include "raytracer/mesh_tracer.hpp"
+#include "raytracer/mesh/mesh_tracer.hpp"
 
 namespace deburr {
 namespace {

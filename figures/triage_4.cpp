@@ -2,10 +2,10 @@
 #include "bounds/bounding_box.hpp"
 #include "figures/figure.hpp"
 #include "figures/studio.hpp"
-#include "polygonizer/cell_mesh.hpp"
-#include "polygonizer/metrics.hpp"
-#include "polygonizer/surface.hpp"
-#include "polygonizer/triage.hpp"
+#include "polygonizer/mesh/metrics.hpp"
+#include "polygonizer/triage/cell_mesh.hpp"
+#include "polygonizer/triage/surface.hpp"
+#include "polygonizer/triage/triage.hpp"
 
 namespace deburr {
 namespace {

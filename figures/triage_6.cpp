@@ -2,7 +2,7 @@
 #include "bounds/profile.hpp"
 #include "figures/figure.hpp"
 #include "figures/plane_curves.hpp"
-#include "polygonizer/density_class.hpp"
+#include "polygonizer/triage/density_class.hpp"
 
 namespace deburr {
 namespace {

@@ -2,7 +2,7 @@
 // plane: prisms without ends.
 #include "figures/figure.hpp"
 #include "figures/plane_curves.hpp"
-#include "polygonizer/cell_mesh.hpp"
+#include "polygonizer/triage/cell_mesh.hpp"
 
 namespace deburr {
 namespace {

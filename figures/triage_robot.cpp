@@ -1,9 +1,9 @@
 // Triage §6.4: a robot that is smoothed with a larger and larger radius until it vanishes.
 #include "figures/animation.hpp"
 #include "figures/figure.hpp"
-#include "polygonizer/triage.hpp"
-#include "raytracer/mesh_tracer.hpp"
-#include "raytracer/scene_mesh.hpp"
+#include "polygonizer/triage/triage.hpp"
+#include "raytracer/mesh/mesh_tracer.hpp"
+#include "raytracer/mesh/scene_mesh.hpp"
 
 namespace deburr {
 namespace {

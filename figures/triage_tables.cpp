@@ -1,11 +1,11 @@
 // Triage §6.2 and §6.3: time, polygons and distance against marching cubes; growth with the number
 // of half-spaces.
-#include "bench/ratio.hpp"
 #include "figures/figure.hpp"
 #include "figures/plot.hpp"
-#include "polygonizer/marching_cubes.hpp"
-#include "polygonizer/metrics.hpp"
-#include "polygonizer/triage.hpp"
+#include "polygonizer/marching_cubes/marching_cubes.hpp"
+#include "polygonizer/mesh/metrics.hpp"
+#include "polygonizer/triage/triage.hpp"
+#include "raytracer/util/cpu_time.hpp"
 
 namespace deburr {
 namespace {

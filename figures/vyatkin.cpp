@@ -2,8 +2,8 @@
 #include "bounds/bounding_box.hpp"
 #include "figures/figure.hpp"
 #include "figures/scene_pictures.hpp"
-#include "polygonizer/octree.hpp"
-#include "raytracer/mesh_tracer.hpp"
+#include "polygonizer/octree/octree.hpp"
+#include "raytracer/mesh/mesh_tracer.hpp"
 
 namespace deburr {
 namespace {

@@ -5,7 +5,7 @@
 #include "catch.hpp"
 #include "figures/command_figures.hpp"
 #include "figures/figure.hpp"
-#include "raytracer/command_line.hpp"
+#include "raytracer/cli/command_line.hpp"
 #include "raytracer/program.hpp"
 
 using namespace deburr;

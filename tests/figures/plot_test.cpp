@@ -4,7 +4,7 @@
 #include <limits>
 
 #include "catch.hpp"
-#include "raytracer/errors.hpp"
+#include "raytracer/util/errors.hpp"
 
 using namespace deburr;
 

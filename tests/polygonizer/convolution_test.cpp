@@ -1,8 +1,8 @@
 // Triage §8: a true convolution, polygonized.
 #include "bounds/local_density.hpp"
 #include "catch.hpp"
-#include "polygonizer/marching_cubes.hpp"
-#include "polygonizer/triage.hpp"
+#include "polygonizer/marching_cubes/marching_cubes.hpp"
+#include "polygonizer/triage/triage.hpp"
 #include "random_case.hpp"
 
 using namespace deburr;

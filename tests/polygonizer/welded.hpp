@@ -7,7 +7,7 @@
 #include <map>
 #include <string>
 
-#include "polygonizer/mesh.hpp"
+#include "polygonizer/mesh/mesh.hpp"
 
 namespace deburr {
 

@@ -1,0 +1,274 @@
+#include "polygonizer/marching_cubes/marching_cubes.hpp"
+
+#include <algorithm>
+#include <unordered_map>
+
+#include "polygonizer/mesh/separate_touching.hpp"
+#include "polygonizer/mesh/surface_distance.hpp"
+
+namespace deburr {
+namespace {
+
+// Corner k of a cube lies at (k & 1, k >> 1 & 1, k >> 2 & 1). Faces counter-clockwise from outside.
+constexpr int face_corners[6][4] = {{0, 4, 6, 2}, {1, 3, 7, 5}, {0, 1, 5, 4}, {2, 6, 7, 3}, {0, 2, 3, 1}, {4, 5, 7, 6}};
+
+// Samples of the solid on a grid of corners, block by block, so that a block evaluates only what
+// matters there.
+class Grid {
+public:
+    Grid(const SurfaceOffset& solid, const Box& box, double side, StopFlag stop) : side_(side) {
+        for (int k = 0; k < 3; ++k) {
+            // The outermost corners are outside: they lie beyond the box.
+            n_[k] = std::max(1, int(std::ceil((box.hi[k] - box.lo[k]) / side))) + 3;
+            origin_[k] = 0.5 * (box.lo[k] + box.hi[k]) - 0.5 * side * (n_[k] - 1);
+        }
+        blocks_x_ = (n_[0] + block - 1) / block;
+        blocks_y_ = (n_[1] + block - 1) / block;
+        blocks_z_ = (n_[2] + block - 1) / block;
+        blocks_.resize(std::size_t(blocks_x_) * std::size_t(blocks_y_) * std::size_t(blocks_z_));
+        for (int z = 0; z < blocks_z_; ++z)
+            for (int y = 0; y < blocks_y_; ++y)
+                for (int x = 0; x < blocks_x_; ++x) {
+                    throw_if_stopped(stop);
+                    sample(solid, x, y, z);
+                }
+    }
+
+    int size(int axis) const { return n_[axis]; }
+    Vec3 corner(int x, int y, int z) const { return origin_ + side_ * Vec3(x, y, z); }
+
+    /// > 0 inside.
+    double value(int x, int y, int z) const {
+        if (x == 0 || y == 0 || z == 0 || x + 1 == n_[0] || y + 1 == n_[1] || z + 1 == n_[2]) return -infinity;
+        const Block& b = block_at(x, y, z);
+        if (b.values.empty()) return b.all;
+        return b.values[std::size_t(((z % block) * block + y % block) * block + x % block)];
+    }
+    /// Whether cubes that begin in this block may hold a surface.
+    bool is_open(int bx, int by, int bz) const {
+        const double first = blocks_[index(bx, by, bz)].all;
+        for (int k = 0; k < 8; ++k) {
+            const int x = std::min(bx + (k & 1), blocks_x_ - 1), y = std::min(by + (k >> 1 & 1), blocks_y_ - 1),
+                      z = std::min(bz + (k >> 2), blocks_z_ - 1);
+            const Block& b = blocks_[index(x, y, z)];
+            if (!b.values.empty() || b.all != first) return true;
+        }
+        // A block inside still borders on the outermost corners.
+        return first > 0 &&
+               (bx == 0 || by == 0 || bz == 0 || bx + 2 >= blocks_x_ || by + 2 >= blocks_y_ || bz + 2 >= blocks_z_);
+    }
+    int blocks(int axis) const { return axis == 0 ? blocks_x_ : axis == 1 ? blocks_y_ : blocks_z_; }
+    static constexpr int block = 8;
+
+private:
+    struct Block {
+        double all = 0;  // of every corner, if there are no values
+        std::vector<double> values;
+    };
+    std::size_t index(int x, int y, int z) const {
+        return (std::size_t(z) * std::size_t(blocks_y_) + std::size_t(y)) * std::size_t(blocks_x_) + std::size_t(x);
+    }
+    const Block& block_at(int x, int y, int z) const { return blocks_[index(x / block, y / block, z / block)]; }
+
+    void sample(const SurfaceOffset& solid, int bx, int by, int bz) {
+        Block& b = blocks_[index(bx, by, bz)];
+        const Box box{corner(bx * block, by * block, bz * block),
+                      corner(bx * block + block - 1, by * block + block - 1, bz * block + block - 1)};
+        b.all = solid.decided(box);
+        if (b.all != 0) return;
+        const SurfaceOffset local = solid.within(box);
+        for (int z = 0; z < block; ++z)
+            for (int y = 0; y < block; ++y)
+                for (int x = 0; x < block; ++x)
+                    b.values.push_back(local.at(corner(bx * block + x, by * block + y, bz * block + z)).distance);
+    }
+
+    double side_;
+    int n_[3];
+    Vec3 origin_;
+    int blocks_x_, blocks_y_, blocks_z_;
+    std::vector<Block> blocks_;
+};
+
+class March {
+public:
+    March(const SolidTree& solid, const Box& box, double side, StopFlag stop)
+        : field_(solid, inflated(box, 2 * side)),
+          box_(box),
+          grid_(SurfaceOffset(solid), box, side, stop),
+          side_(side),
+          stop_(stop) {}
+
+    Mesh run() {
+        constexpr int n = Grid::block;
+        for (int bz = 0; bz < grid_.blocks(2); ++bz)
+            for (int by = 0; by < grid_.blocks(1); ++by)
+                for (int bx = 0; bx < grid_.blocks(0); ++bx) {
+                    throw_if_stopped(stop_);
+                    if (!grid_.is_open(bx, by, bz)) continue;
+                    for (int z = bz * n; z < std::min((bz + 1) * n, grid_.size(2) - 1); ++z)
+                        for (int y = by * n; y < std::min((by + 1) * n, grid_.size(1) - 1); ++y)
+                            for (int x = bx * n; x < std::min((bx + 1) * n, grid_.size(0) - 1); ++x) cube(x, y, z);
+                }
+        mesh_.polygons = mesh_.triangles.size();
+        return std::move(mesh_);
+    }
+
+private:
+    // Edges of the grid by their lower corner and axis.
+    std::size_t edge_key(int x, int y, int z, int axis) const {
+        return ((std::size_t(z) * std::size_t(grid_.size(1)) + std::size_t(y)) * std::size_t(grid_.size(0)) +
+                std::size_t(x)) *
+                   3 +
+               std::size_t(axis);
+    }
+
+    int vertex_on(int x, int y, int z, int a, int b) {
+        if (a > b) std::swap(a, b);
+        const int axis = (b ^ a) == 1 ? 0 : (b ^ a) == 2 ? 1 : 2;
+        const int ax = x + (a & 1), ay = y + (a >> 1 & 1), az = z + (a >> 2);
+        const auto [it, is_new] = on_edge_.try_emplace(edge_key(ax, ay, az, axis), int(mesh_.positions.size()));
+        if (!is_new) return it->second;
+        Vec3 lo = grid_.corner(ax, ay, az), hi = lo;
+        hi[axis] += side_;
+        // Inside the box the root; on its wall where the solid leaves it.
+        const bool low_in = grid_.value(ax, ay, az) > 0;
+        double t0 = 0, t1 = 1;
+        while (t1 - t0 > 1e-15) {
+            const double t = 0.5 * (t0 + t1);
+            if (t <= t0 || t >= t1) break;
+            Vec3 p = lo;
+            p[axis] += side_ * t;
+            const bool in = box_.contains(p) && field_.inside(p);
+            (in == low_in ? t0 : t1) = t;
+        }
+        // Off the corners by so little that it does not matter, so that no triangle vanishes.
+        constexpr double nudge = 1e-7;
+        const double t = std::clamp(0.5 * (t0 + t1), nudge, 1 - nudge);
+        Vec3 p = lo;
+        p[axis] += side_ * t;
+        mesh_.positions.push_back(p);
+        const SurfaceOffset& there = field_.near(p);
+        const Offset o = there.at(p);
+        Vec3 normal = o.normal;
+        if (normal == Vec3(0.0)) normal[axis] = low_in ? 1 : -1;
+        mesh_.normals.push_back(normal);
+        materials_.push_back(o.leaf < 0 ? 0 : there.material(o.leaf));
+        return it->second;
+    }
+
+    void cube(int x, int y, int z) {
+        double v[8];
+        int inside = 0;
+        for (int k = 0; k < 8; ++k) {
+            v[k] = grid_.value(x + (k & 1), y + (k >> 1 & 1), z + (k >> 2));
+            inside += v[k] > 0;
+        }
+        if (inside == 0 || inside == 8) return;
+        // Segments on the faces, the solid on their right seen from outside the cube.
+        std::vector<std::pair<int, int>> segments;
+        std::vector<std::pair<int, int>> on_faces;  // vertex, face
+        for (int f = 0; f < 6; ++f) {
+            const int* c = face_corners[f];
+            int out[2], in[2], outs = 0, ins = 0;  // crossings that leave, enter the solid
+            for (int k = 0; k < 4; ++k) {
+                const int a = c[k], b = c[(k + 1) % 4];
+                if ((v[a] > 0) == (v[b] > 0)) continue;
+                const int vertex = vertex_on(x, y, z, a, b);
+                on_faces.push_back({vertex, f});
+                if (v[a] > 0)
+                    out[outs++] = vertex;
+                else
+                    in[ins++] = vertex;
+            }
+            if (outs == 1) segments.push_back({in[0], out[0]});
+            if (outs != 2) continue;
+            // Going round, a corner inside lies between in[i] and out[j]. Joined corners inside
+            // share the middle; parted ones are cut off one by one.
+            const bool first_in = v[c[0]] > 0;
+            const double p = v[c[0]] * v[c[2]], q = v[c[1]] * v[c[3]];
+            const bool joined = (first_in ? p : q) > (first_in ? q : p);  // saddle above 0
+            // out[0] comes before in[0] if corner 0 is inside.
+            const int own_in[2] = {first_in ? in[1] : in[0], first_in ? in[0] : in[1]};
+            for (int k = 0; k < 2; ++k) segments.push_back({joined ? own_in[1 - k] : own_in[k], out[k]});
+        }
+        while (!segments.empty()) {
+            std::vector<int> loop;
+            int at = segments.back().first;
+            const int begin = at;
+            do {
+                loop.push_back(at);
+                const auto s =
+                    std::find_if(segments.begin(), segments.end(), [&](const auto& e) { return e.first == at; });
+                at = s->second;
+                segments.erase(s);
+            } while (at != begin);
+            fill(loop, on_faces);
+        }
+    }
+
+    void fill(const std::vector<int>& loop, const std::vector<std::pair<int, int>>& on_faces) {
+        // No diagonal may lie in a face of the cube, where the neighbour may have it too.
+        const auto share_face = [&](int a, int b) {
+            for (const auto& [va, fa] : on_faces)
+                if (va == a && std::find(on_faces.begin(), on_faces.end(), std::pair{b, fa}) != on_faces.end())
+                    return true;
+            return false;
+        };
+        const std::size_t n = loop.size();
+        for (std::size_t apex = 0; apex < n; ++apex) {
+            bool good = true;
+            for (std::size_t k = 2; k + 1 < n && good; ++k) good = !share_face(loop[apex], loop[(apex + k) % n]);
+            if (!good) continue;
+            for (std::size_t k = 1; k + 1 < n; ++k)
+                triangle(loop[apex], loop[(apex + k) % n], loop[(apex + k + 1) % n]);
+            return;
+        }
+        Vec3 centre(0.0);
+        for (const int v : loop) centre += mesh_.positions[std::size_t(v)] / double(n);
+        const double reach = side_;
+        const double distance = field_.distance_along_normal(centre, reach);
+        const Offset o = field_.at(centre);
+        if (distance < reach) centre += o.normal * (o.distance > 0 ? distance : -distance);
+        const int middle = int(mesh_.positions.size());
+        mesh_.positions.push_back(centre);
+        mesh_.normals.push_back(o.normal == Vec3(0.0) ? mesh_.normals[std::size_t(loop[0])] : o.normal);
+        materials_.push_back(materials_[std::size_t(loop[0])]);
+        for (std::size_t k = 0; k < n; ++k) triangle(middle, loop[k], loop[(k + 1) % n]);
+    }
+
+    void triangle(int a, int b, int c) {
+        mesh_.triangles.push_back({{a, b, c}, {a, b, c}, materials_[std::size_t(a)], 0});
+    }
+
+    OffsetField field_;
+    Box box_;
+    Grid grid_;
+    double side_;
+    StopFlag stop_;
+    Mesh mesh_;
+    std::vector<int> materials_;
+    std::unordered_map<std::size_t, int> on_edge_;
+};
+
+}  // namespace
+
+double marching_cubes_grid(const SolidTree& solid, const Box& box) {
+    const double radius = solid.least_radius();
+    return radius > 0 ? 0.5 * radius : 0.01 * largest(box.hi - box.lo);
+}
+
+double marching_cubes_count(const Box& box, double grid) {
+    double count = 1;
+    for (int k = 0; k < 3; ++k) count *= std::ceil((box.hi[k] - box.lo[k]) / grid) + 2;
+    return count;
+}
+
+Mesh marching_cubes(const SolidTree& solid, const Box& box, double grid, StopFlag stop) {
+    if (box.empty()) return {};
+    Mesh mesh = March(solid, box, grid, stop).run();
+    merge_close(mesh);
+    return mesh;
+}
+
+}  // namespace deburr

@@ -1,0 +1,108 @@
+#include "polygonizer/mesh/degenerate_shells.hpp"
+
+#include <cmath>
+
+#include "polygonizer/mesh/union_find.hpp"
+
+namespace deburr {
+namespace {
+
+struct Shell {
+    double area = 0, volume = 0;
+    std::size_t triangles = 0, wrong = 0;
+    bool goes = false;
+
+    // Volume over area to the power of 1.5 is less than a plate's of 50 by 50 by 1.
+    bool thin() const { return volume <= 0.01 * area * std::sqrt(area); }
+};
+
+class Shells {
+public:
+    explicit Shells(const Mesh& mesh) : joined_(mesh.positions.size()), shells_(mesh.positions.size()) {
+        for (const Triangle& t : mesh.triangles)
+            for (const std::size_t k : {1, 2}) joined_.join(t.vertex[0], t.vertex[k]);
+        for (const Triangle& t : mesh.triangles) {
+            const int of = joined_.find(t.vertex[0]);
+            const Vec3 area = mesh.area_vector(t), from = mesh.positions[std::size_t(of)];
+            Shell& s = shells_[std::size_t(of)];
+            s.area += 0.5 * glm::length(area);
+            s.volume += glm::dot(mesh.positions[std::size_t(t.vertex[0])] - from, area) / 6;
+            ++s.triangles;
+        }
+    }
+
+    Shell& of(const Triangle& t) { return shells_[std::size_t(joined_.find(t.vertex[0]))]; }
+    /// Those without triangles too.
+    std::vector<Shell>& all() { return shells_; }
+
+private:
+    UnionFind joined_;  // vertices
+    std::vector<Shell> shells_;
+};
+
+// Whether there is solid beside the middle of the triangle, no farther than its surface may be.
+bool holds_solid(const Mesh& mesh, const Triangle& t, const OffsetField& solid) {
+    const Vec3 area = mesh.area_vector(t);
+    const double size = glm::length(area);
+    if (!(size > 0)) return false;
+    Vec3 middle(0.0);
+    for (const int v : t.vertex) middle += mesh.positions[std::size_t(v)] / 3.0;
+    // Steps grow from a share of the triangle's size to some distances from the surface.
+    constexpr double first_step = 1e-7, growth = 1.5, far = 4, widest = 0.1;
+    const double side = std::sqrt(size), away = std::abs(solid.at(middle).distance);
+    const double reach = std::min(widest * side, far * away + 2 * first_step * side);
+    for (double step = first_step * side; step <= reach; step *= growth)
+        if (solid.inside(middle - area * (step / size)) || solid.inside(middle + area * (step / size))) return true;
+    return false;
+}
+
+// Numbers in `wrong` go along.
+std::size_t drop(Shells& shells, Mesh& mesh, std::vector<Origin>& origins, std::vector<int>& wrong) {
+    std::vector<int> place;
+    std::size_t kept = 0;
+    const std::size_t before = mesh.triangles.size();
+    for (std::size_t t = 0; t < before; ++t) {
+        const bool goes = shells.of(mesh.triangles[t]).goes;
+        place.push_back(goes ? -1 : int(kept));
+        if (goes) continue;
+        mesh.triangles[kept] = mesh.triangles[t];
+        origins[kept++] = origins[t];
+    }
+    mesh.triangles.resize(kept);
+    origins.resize(kept);
+    for (int& t : wrong) t = place[std::size_t(t)];
+    std::erase(wrong, -1);
+    return before - kept;
+}
+
+}  // namespace
+
+std::size_t drop_sheets(Mesh& mesh, std::vector<Origin>& origins, double thickness, const OffsetField& solid) {
+    Shells shells(mesh);
+    bool any_thin = false, any = false;
+    for (Shell& s : shells.all()) {
+        any_thin |= s.triangles > 0 && s.thin();
+        s.goes = s.thin();
+    }
+    if (!any_thin) return 0;
+    // A thin shell that holds anything shows it behind one of its first triangles.
+    for (const Triangle& t : mesh.triangles) {
+        Shell& s = shells.of(t);
+        if (s.goes && std::abs(s.volume) > thickness * s.area && holds_solid(mesh, t, solid)) s.goes = false;
+    }
+    for (const Shell& s : shells.all()) any |= s.triangles > 0 && s.goes;
+    std::vector<int> none;
+    return any ? drop(shells, mesh, origins, none) : 0;
+}
+
+std::size_t drop_wrong_sheets(Mesh& mesh, std::vector<Origin>& origins, std::vector<int>& wrong) {
+    if (wrong.empty()) return 0;
+    Shells shells(mesh);
+    for (const int t : wrong) ++shells.of(mesh.triangles[std::size_t(t)]).wrong;
+    for (Shell& s : shells.all()) s.goes = s.thin() && 2 * s.wrong >= s.triangles;
+    const std::size_t gone = drop(shells, mesh, origins, wrong);
+    if (gone > 0) Facets(mesh, origins).finish();
+    return gone;
+}
+
+}  // namespace deburr

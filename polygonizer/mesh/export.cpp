@@ -1,0 +1,243 @@
+#include "polygonizer/mesh/export.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstdint>
+#include <cstring>
+#include <limits>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <stdexcept>
+
+#include "polygonizer/mesh/separate_touching.hpp"
+
+namespace deburr {
+namespace {
+
+static_assert(std::numeric_limits<float>::is_iec559 && sizeof(float) == 4);
+
+void put_word(std::string& out, std::uint32_t x) {
+    for (int k = 0; k < 4; ++k) out += char(x >> (8 * k) & 0xff);
+}
+
+void put(std::string& out, float x) {
+    std::uint32_t bits;
+    std::memcpy(&bits, &x, 4);
+    put_word(out, bits);
+}
+
+void put(std::string& out, double x) {
+    std::uint64_t bits;
+    std::memcpy(&bits, &x, 8);
+    put_word(out, std::uint32_t(bits));
+    put_word(out, std::uint32_t(bits >> 32));
+}
+
+void put_floats(std::string& out, Vec3 x) {
+    for (int k = 0; k < 3; ++k) put(out, float(x[k]));
+}
+
+std::uint32_t count_of(std::size_t n) {
+    if (n > std::numeric_limits<std::uint32_t>::max())
+        throw std::length_error("a mesh of more than 4 294 967 295 elements does not fit the format");
+    return std::uint32_t(n);
+}
+
+std::string obj(const Mesh& mesh, const MeshNotes& notes) {
+    fmt::memory_buffer out;
+    const auto to = std::back_inserter(out);
+    fmt::format_to(to, "# Deburr: {} vertices, {} triangles\n", mesh.positions.size(), mesh.triangles.size());
+    for (const Vec3& x : mesh.positions) fmt::format_to(to, "v {} {} {}\n", x.x, x.y, x.z);
+    for (const Vec3& n : mesh.normals) fmt::format_to(to, "vn {} {} {}\n", n.x, n.y, n.z);
+    int solid = -1, material = -1;
+    for (const Triangle& t : mesh.triangles) {
+        if (t.solid != solid) fmt::format_to(to, "o {}\n", solid_name(notes, solid = t.solid));
+        if (t.material != material) fmt::format_to(to, "usemtl material_{}\n", material = t.material);
+        fmt::format_to(to, "f {}//{} {}//{} {}//{}\n", t.vertex[0] + 1, t.normal[0] + 1, t.vertex[1] + 1,
+                       t.normal[1] + 1, t.vertex[2] + 1, t.normal[2] + 1);
+    }
+    return fmt::to_string(out);
+}
+
+std::string ply(const Mesh& mesh) {
+    std::vector<Vec3> normals(mesh.positions.size(), Vec3(0.0));
+    for (const Triangle& t : mesh.triangles) {
+        const Vec3 area = mesh.area_vector(t);
+        const double size = glm::length(area);
+        for (std::size_t k = 0; k < 3; ++k)
+            normals[std::size_t(t.vertex[k])] += mesh.normals[std::size_t(t.normal[k])] * size;
+    }
+    std::string out = fmt::format(
+        "ply\nformat binary_little_endian 1.0\ncomment Deburr\nelement vertex {}\n"
+        "property double x\nproperty double y\nproperty double z\n"
+        "property double nx\nproperty double ny\nproperty double nz\n"
+        "element face {}\nproperty list uchar int vertex_indices\nend_header\n",
+        mesh.positions.size(), mesh.triangles.size());
+    if (mesh.positions.size() > std::size_t(std::numeric_limits<std::int32_t>::max()))
+        throw std::length_error("a mesh of more than 2 147 483 647 vertices does not fit PLY");
+    for (std::size_t v = 0; v < mesh.positions.size(); ++v) {
+        const double length = glm::length(normals[v]);
+        const Vec3 n = length > 0 ? normals[v] / length : Vec3(0, 0, 1);
+        for (int k = 0; k < 3; ++k) put(out, mesh.positions[v][k]);
+        for (int k = 0; k < 3; ++k) put(out, n[k]);
+    }
+    for (const Triangle& t : mesh.triangles) {
+        out += char(3);
+        for (const int v : t.vertex) put_word(out, std::uint32_t(v));
+    }
+    return out;
+}
+
+std::string stl(const Mesh& mesh) {
+    std::string out = "binary STL by Deburr";
+    out.resize(80, ' ');
+    put_word(out, count_of(mesh.triangles.size()));
+    for (const Triangle& t : mesh.triangles) {
+        const Vec3 area = mesh.area_vector(t);
+        const double size = glm::length(area);
+        put_floats(out, size > 0 ? area / size : Vec3(0.0));
+        for (const int v : t.vertex) put_floats(out, mesh.positions[std::size_t(v)]);
+        out += std::string(2, '\0');
+    }
+    return out;
+}
+
+// One primitive of a glTF mesh, with a vertex for every pair of position and normal.
+struct Primitive {
+    std::vector<std::pair<int, int>> vertices;
+    std::map<std::pair<int, int>, std::uint32_t> known;
+    std::vector<std::uint32_t> indices;
+};
+
+std::string glb(const Mesh& mesh, const MeshNotes& notes) {
+    using Json = nlohmann::ordered_json;
+    std::map<std::pair<int, int>, Primitive> primitives;  // by solid, material
+    for (const Triangle& t : mesh.triangles) {
+        Primitive& p = primitives[{t.solid, t.material}];
+        for (std::size_t k = 0; k < 3; ++k) {
+            const std::pair<int, int> corner{t.vertex[k], t.normal[k]};
+            const auto [it, is_new] = p.known.try_emplace(corner, count_of(p.vertices.size()));
+            if (is_new) p.vertices.push_back(corner);
+            p.indices.push_back(it->second);
+        }
+    }
+    std::string data;
+    Json j;
+    j["asset"] = {{"version", "2.0"}, {"generator", "Deburr"}};
+    j["scene"] = 0;
+    j["scenes"] = Json::array({Json{{"nodes", Json::array()}}});
+    j["nodes"] = j["meshes"] = j["materials"] = j["accessors"] = j["bufferViews"] = Json::array();
+    const auto view = [&](std::size_t from, int target) {
+        j["bufferViews"].push_back(
+            {{"buffer", 0}, {"byteOffset", from}, {"byteLength", data.size() - from}, {"target", target}});
+        return j["bufferViews"].size() - 1;
+    };
+    constexpr int array_buffer = 34962, element_array_buffer = 34963, is_float = 5126, is_uint = 5125;
+    std::map<int, std::size_t> material_of;
+    int solid = -1;
+    for (const auto& [key, p] : primitives) {
+        if (key.first != solid) {
+            solid = key.first;
+            j["scenes"][0]["nodes"].push_back(j["nodes"].size());
+            j["nodes"].push_back({{"mesh", j["meshes"].size()}, {"name", solid_name(notes, solid)}});
+            j["meshes"].push_back({{"primitives", Json::array()}});
+        }
+        const auto [material, is_new] = material_of.try_emplace(key.second, j["materials"].size());
+        if (is_new) {
+            const Vec3 c =
+                std::size_t(key.second) < notes.colors.size() ? notes.colors[std::size_t(key.second)] : Vec3(0.8);
+            j["materials"].push_back(
+                {{"pbrMetallicRoughness", {{"baseColorFactor", {c.x, c.y, c.z, 1.0}}, {"metallicFactor", 0.0}}}});
+        }
+        Vec3 lo(infinity), hi(-infinity);
+        std::size_t from = data.size();
+        for (const auto& [v, n] : p.vertices) {
+            const Vec3 x = Vec3(glm::vec3(mesh.positions[std::size_t(v)]));
+            lo = glm::min(lo, x);
+            hi = glm::max(hi, x);
+            put_floats(data, x);
+        }
+        const std::size_t positions = j["accessors"].size();
+        j["accessors"].push_back({{"bufferView", view(from, array_buffer)},
+                                  {"componentType", is_float},
+                                  {"count", p.vertices.size()},
+                                  {"type", "VEC3"},
+                                  {"min", {lo.x, lo.y, lo.z}},
+                                  {"max", {hi.x, hi.y, hi.z}}});
+        from = data.size();
+        for (const auto& [v, n] : p.vertices) put_floats(data, mesh.normals[std::size_t(n)]);
+        j["accessors"].push_back({{"bufferView", view(from, array_buffer)},
+                                  {"componentType", is_float},
+                                  {"count", p.vertices.size()},
+                                  {"type", "VEC3"}});
+        from = data.size();
+        for (const std::uint32_t i : p.indices) put_word(data, i);
+        j["accessors"].push_back({{"bufferView", view(from, element_array_buffer)},
+                                  {"componentType", is_uint},
+                                  {"count", p.indices.size()},
+                                  {"type", "SCALAR"}});
+        j["meshes"].back()["primitives"].push_back(
+            {{"attributes", {{"POSITION", positions}, {"NORMAL", positions + 1}}},
+             {"indices", positions + 2},
+             {"material", material->second}});
+    }
+    j["buffers"] = Json::array({Json{{"byteLength", data.size()}}});
+    for (const char* list : {"nodes", "meshes", "materials", "accessors", "bufferViews", "buffers"})
+        if (j[list].empty() || data.empty()) j.erase(list);  // glTF has no empty lists
+    if (data.empty()) j["scenes"] = Json::array({Json::object()});
+    std::string text = j.dump(-1, ' ', false, Json::error_handler_t::replace);
+    text.resize((text.size() + 3) / 4 * 4, ' ');
+    std::string out = "glTF";
+    put_word(out, 2);
+    put_word(out, count_of(12 + 8 + text.size() + (data.empty() ? 0 : 8 + data.size())));
+    put_word(out, count_of(text.size()));
+    out += "JSON" + text;
+    if (data.empty()) return out;
+    put_word(out, count_of(data.size()));
+    out += std::string("BIN\0", 4) + data;
+    return out;
+}
+
+constexpr std::pair<const char*, MeshFormat> formats[] = {{".obj", MeshFormat::obj},
+                                                          {".ply", MeshFormat::ply},
+                                                          {".stl", MeshFormat::stl},
+                                                          {".glb", MeshFormat::glb},
+                                                          {".ase", MeshFormat::ase}};
+
+}  // namespace
+
+std::string solid_name(const MeshNotes& notes, int solid) {
+    std::string name = std::size_t(solid) < notes.names.size() ? notes.names[std::size_t(solid)] : "";
+    for (char& c : name)
+        if (static_cast<unsigned char>(c) <= ' ') c = '_';
+    return name.empty() ? fmt::format("solid_{}", solid + 1) : name;
+}
+
+std::optional<MeshFormat> mesh_format(const std::string& path) {
+    const std::size_t dot = path.find_last_of("./");
+    if (dot == std::string::npos || path[dot] == '/') return std::nullopt;
+    std::string extension = path.substr(dot);
+    for (char& c : extension)
+        if (c >= 'A' && c <= 'Z') c = char(c - 'A' + 'a');
+    for (const auto& [name, format] : formats)
+        if (extension == name) return format;
+    return std::nullopt;
+}
+
+std::string known_mesh_extensions() {
+    std::string all;
+    for (const auto& [name, format] : formats) all += (all.empty() ? "" : ", ") + std::string(name);
+    return all;
+}
+
+std::string encode(const Mesh& mesh, MeshFormat format, const MeshNotes& notes) {
+    if (format == MeshFormat::obj) return obj(mesh, notes);
+    if (format == MeshFormat::ply) return ply(mesh);
+    if (format == MeshFormat::ase) return encode_ase(mesh, notes);
+    Mesh apart = mesh;  // in single precision too
+    separate_touching(apart, single_precision_step(mesh));
+    return format == MeshFormat::stl ? stl(apart) : glb(apart, notes);
+}
+
+}  // namespace deburr

@@ -1,0 +1,41 @@
+// Meshes as files: the bytes of them, by writers of our own. (Assimp's write six digits and do not
+// share vertices.)
+//
+//   OBJ   text, the shortest digits that read back as the same double; positions shared, normals
+//         apart, one object per solid
+//   PLY   binary, doubles, shared vertices. It has one normal per vertex: on a sharp seam the mean
+//   STL   binary: single precision and no sharing is all that it can hold
+//   GLB   glTF 2.0: single precision; a vertex on a sharp seam is there once for each normal; one
+//         primitive per solid and material
+//   ASE   text of 3ds Max [Vyatkin §4]: positions shared, a normal for every corner, one object per
+//         solid, and the scene's materials as parts of one. Digits as in OBJ. Printed differently:
+//         its faces need not be seen from both sides, for all of them face outward
+#pragma once
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "polygonizer/mesh/mesh.hpp"
+
+namespace deburr {
+
+enum class MeshFormat { obj, ply, stl, glb, ase };
+
+/// By the extension of the file's name, in small or capital letters.
+std::optional<MeshFormat> mesh_format(const std::string& path);
+std::string known_mesh_extensions();
+
+struct MeshNotes {
+    std::vector<std::string> names;  // of solids; "" or missing: solid N
+    std::vector<Vec3> colors;        // of materials, linear; missing: grey
+};
+
+/// Without blanks; never empty.
+std::string solid_name(const MeshNotes& notes, int solid);
+
+std::string encode_ase(const Mesh& mesh, const MeshNotes& notes);
+
+/// Throws std::length_error where the format cannot hold that much.
+std::string encode(const Mesh& mesh, MeshFormat format, const MeshNotes& notes = {});
+
+}  // namespace deburr

@@ -1,0 +1,70 @@
+#include "polygonizer/mesh/facet_judge.hpp"
+
+#include <algorithm>
+
+#include "polygonizer/mesh/facet_orientation.hpp"
+
+namespace deburr {
+
+OffsetField field_around(const Mesh& mesh, const SolidTree& solid) {
+    // A facet is nearer to its surface than this: rounding moves a surface by less than the radius, and
+    // facets of free forms are small against their distance.
+    double margin = 0;
+    for (const SolidLeaf& leaf : solid.leaves) {
+        for (const HalfSpace& h : leaf.density.half_spaces) margin = std::max(margin, h.radius);
+        if (leaf.field) margin = std::max(margin, mean_edge(mesh));
+    }
+    return OffsetField(solid, field_box(mesh), margin);
+}
+
+FacetJudge::FacetJudge(const SolidTree& solid, const Mesh& mesh)
+    : solid_(field_around(mesh, solid)), surfaces_(solid, field_box(mesh)), one_leaf_(solid.leaves.size() == 1) {
+    const Box box = field_box(mesh);
+    size_ = glm::length(box.hi - box.lo);
+}
+
+FacetShape FacetJudge::shape(const Facets& facets, const Facet& f, double least) const {
+    // Below this ratio of height to longest side a facet is without area.
+    constexpr double no_area = 1e-6;
+    const Triangle& t = f.triangle;
+    Vec3 x[3], middle(0.0), normals(0.0);
+    double longest = 0;
+    for (std::size_t k = 0; k < 3; ++k) {
+        x[k] = facets.position(t.vertex[k]);
+        middle += x[k] / 3.0;
+        normals += facets.normal(t.normal[k]);
+    }
+    for (std::size_t k = 0; k < 3; ++k) longest = std::max(longest, glm::length(x[k] - x[(k + 1) % 3]));
+    const Vec3 area = glm::cross(x[1] - x[0], x[2] - x[0]);
+    const double twice = glm::length(area);
+    if (twice <= no_area * longest * longest) return {-1, -1, 0};
+    // As a file of single precision will have it.
+    const auto rounded = [](Vec3 v) { return Vec3(glm::vec3(v)); };
+    const Vec3 single = glm::cross(rounded(x[1]) - rounded(x[0]), rounded(x[2]) - rounded(x[0]));
+    const double single_twice = glm::length(single);
+    if (single_twice == 0) return {-1, -1, 0};
+    const auto cosine = [&](Vec3 n) { return std::min(glm::dot(area, n) / twice, glm::dot(single, n) / single_twice); };
+    const Offset o = solid_.at(middle);
+    FacetShape s;
+    s.distance = std::isfinite(o.distance) ? std::abs(o.distance) : 0;
+    if (f.origin.leaf < 0) {
+        s.own = cosine(facets.normal(t.normal[0]));
+    } else {
+        const Offset leaf = one_leaf_ ? o : surfaces_.at({f.origin.leaf}, middle);
+        Vec3 own = leaf.normal;
+        if (own == Vec3(0.0)) own = glm::length(normals) > 0 ? glm::normalize(normals) : normals;
+        if (glm::dot(own, normals) < 0) own = -own;  // a leaf that is subtracted
+        s.own = cosine(own);
+    }
+    s.cosine = s.own;
+    if (s.own < least) return s;
+    const bool beside = s.distance > surfaces_.slack();
+    const double nearest = o.normal != Vec3(0.0) && beside ? cosine(o.normal) : s.own;
+    if (nearest > 0 && beside)
+        s.cosine = std::min(s.own, nearest);
+    else if (!faces_outward(solid_, middle, o, area / twice, normals, longest))
+        s.cosine = std::min(nearest, -1e-3);
+    return s;
+}
+
+}  // namespace deburr

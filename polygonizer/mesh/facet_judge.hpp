@@ -1,0 +1,39 @@
+// How the facets of a mesh lie to the solid that they stand for.
+#pragma once
+#include "polygonizer/mesh/facets.hpp"
+#include "polygonizer/mesh/leaf_surfaces.hpp"
+
+namespace deburr {
+
+struct FacetShape {
+    double own = 1;       // cosine to its own surface at its middle; −1 without area
+    double cosine = 1;    // the same, or to the solid's surface that is nearest to the middle if that is less
+    double distance = 0;  // of the middle from the solid's surface
+};
+
+/// The solid as it is seen from the facets of a mesh: from the middle of each the surface that it stands
+/// for, and all that are nearer.
+OffsetField field_around(const Mesh& mesh, const SolidTree& solid);
+
+/// For all meshes of one solid. Not for several threads at once.
+class FacetJudge {
+public:
+    /// `mesh` tells where the surfaces are.
+    FacetJudge(const SolidTree& solid, const Mesh& mesh);
+
+    /// Of a facet whose own cosine is below `least` no more is asked.
+    FacetShape shape(const Facets& facets, const Facet& f, double least = -infinity) const;
+    bool on_surface(Vec3 x) const { return std::abs(solid_.at(x).distance) <= 10 * surfaces_.slack(); }
+    const OffsetField& solid() const { return solid_; }
+    const LeafSurfaces& surfaces() const { return surfaces_; }
+    /// Of the box around the mesh.
+    double size() const { return size_; }
+
+private:
+    OffsetField solid_;
+    LeafSurfaces surfaces_;
+    bool one_leaf_;
+    double size_;
+};
+
+}  // namespace deburr

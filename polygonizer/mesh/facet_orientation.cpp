@@ -1,0 +1,22 @@
+#include "polygonizer/mesh/facet_orientation.hpp"
+
+namespace deburr {
+namespace {
+
+// Steps along the line grow from this share of the reach; both ends of it in turn.
+constexpr double first_step = 1e-7, growth = 1.25;
+// Nearer than this to a surface there may be several at once.
+constexpr double on_surface = 1e-9;
+
+}  // namespace
+
+bool faces_outward(const OffsetField& solid, Vec3 x, const Offset& here, Vec3 normal, Vec3 otherwise, double reach) {
+    if (std::abs(here.distance) > on_surface * reach && glm::dot(normal, here.normal) > 0) return true;
+    for (double step = first_step * reach; step <= reach; step *= growth) {
+        const bool before = solid.inside(x + normal * step), behind = solid.inside(x - normal * step);
+        if (before != behind) return behind;
+    }
+    return glm::dot(normal, otherwise) > 0;
+}
+
+}  // namespace deburr

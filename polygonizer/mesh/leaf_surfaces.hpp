@@ -1,0 +1,39 @@
+// The surfaces that a mesh consists of, one by one: isosurfaces of leaves, and planes. A vertex on a
+// seam lies on two of them at once, at a corner on three.
+#pragma once
+#include <memory>
+#include <vector>
+
+#include "polygonizer/mesh/surface_distance.hpp"
+
+namespace deburr {
+
+/// The isosurface of a leaf, or where leaf is −1 the plane n·x = offset.
+struct SurfacePiece {
+    int leaf = -1;
+    Vec3 normal{0.0};
+    double offset = 0;
+};
+
+/// Not for several threads at once.
+class LeafSurfaces {
+public:
+    LeafSurfaces(const SolidTree& solid, const Box& box);
+
+    /// To first order, as SurfaceOffset: > 0 inside the leaf, or behind the plane.
+    Offset at(const SurfacePiece& piece, Vec3 x) const;
+    /// Moves x to where all pieces meet, by Newton's method with the shortest steps; no farther than
+    /// `reach`. False, and x stays, if that does not lead onto all of them. Pieces that touch each
+    /// other there count as one.
+    bool project(Vec3& x, const std::vector<SurfacePiece>& pieces, double reach) const;
+    /// Distance below which a point is on a surface, for this purpose.
+    double slack() const { return slack_; }
+
+private:
+    const SolidTree& solid_;
+    Box box_;
+    double slack_;
+    mutable std::vector<std::unique_ptr<OffsetField>> fields_;
+};
+
+}  // namespace deburr

@@ -1,0 +1,373 @@
+#include "polygonizer/mesh/repair.hpp"
+
+#include <algorithm>
+#include <deque>
+#include <optional>
+#include <unordered_set>
+
+namespace deburr {
+namespace {
+
+// Below `leaning`, a cosine between a facet and the surface at its middle, it counts as wrong; what
+// replaces it must do better, and may be so much farther from the surface as `farther` says, in
+// distances before and in lengths of its longest side.
+struct Limits {
+    double leaning, better, farther, of_longest;
+    double near;  // of a surface, in lengths of the longest side
+    bool unfold;  // by collapses that may leave more wrong facets, if less of their area faces inward
+};
+// First all that lean are helped, then those that face inward at any price.
+constexpr Limits gentle{0.2, 0.25, 2, 1e-3, 0, false}, last_resort{0.05, 0.06, 5, 2e-2, 2e-2, true};
+constexpr double same_normal = 1e-6;
+// Where surfaces run closer together than any facet is small, mending one makes two that need it. So
+// there are this many splits, more for every wrong facet, and this many tries for each.
+// Where few facets are wrong, three tries for each are enough.
+constexpr std::size_t most_splits = 80, more_splits = 8, splits_at_all = 4000, most_tries = 16;
+
+// How good a set of facets is.
+struct Verdict {
+    int wrong = 0;
+    double worst = 1, distance = 0;
+    double inverted = 0;  // area that faces inward, twice
+};
+
+class Repair {
+public:
+    Repair(Mesh& mesh, std::vector<Origin>& origins, const FacetJudge& judge)
+        : facets_(mesh, origins),
+          judge_(judge),
+          solid_(judge.solid()),
+          surfaces_(judge.surfaces()),
+          shapes_(facets_.size()),
+          first_made_(facets_.vertices()) {}
+
+    FacetShape shape(const Facet& f) const { return judge_.shape(facets_, f); }
+    const FacetShape& shape(int f) {
+        auto& known = shapes_[std::size_t(f)];
+        if (!known) known = shape(facets_.at(f));
+        return *known;
+    }
+    bool wrong(int f) { return shape(f).cosine < limits_.leaning; }
+
+    void add(Verdict& v, const Facet& f, const FacetShape& s, double limit) const {
+        v.wrong += s.cosine < limit;
+        v.worst = std::min(v.worst, s.cosine);
+        v.distance = std::max(v.distance, s.distance);
+        if (s.own < 0) v.inverted += glm::length(facets_.area_vector(f.triangle));
+    }
+    Verdict before(const Change& change) {
+        Verdict v;
+        for (const int f : change.out) add(v, facets_.at(f), shape(f), limits_.leaning);
+        return v;
+    }
+    Verdict after(const Change& change) const {
+        Verdict v;
+        for (const Facet& f : change.in) add(v, f, shape(f), limits_.better);
+        return v;
+    }
+
+    SurfacePiece piece(const Facet& f) const {
+        if (f.origin.leaf >= 0) return {f.origin.leaf};
+        const Vec3 n = facets_.normal(f.triangle.normal[0]);
+        return {-1, n, glm::dot(n, facets_.position(f.triangle.vertex[0]))};
+    }
+    static bool same(const SurfacePiece& a, const SurfacePiece& b) {
+        return a.leaf == b.leaf && (a.leaf >= 0 || glm::length(a.normal - b.normal) < same_normal);
+    }
+    void add_piece(std::vector<SurfacePiece>& pieces, const Facet& f) const {
+        const SurfacePiece p = piece(f);
+        for (const SurfacePiece& known : pieces)
+            if (same(known, p)) return;
+        pieces.push_back(p);
+    }
+
+    // Vertex u onto v, if v lies on all surfaces that meet at u, or at the last so near to them that
+    // facets may stand for one or the other.
+    std::optional<Change> collapse(int u, int v, double near) const {
+        for (const int f : facets_.around(u)) {
+            const Offset o = surfaces_.at(piece(facets_.at(f)), facets_.position(v));
+            if (!(std::abs(o.distance) <= std::max(surfaces_.slack(), near))) return {};
+        }
+        return facets_.collapse(u, v);
+    }
+
+    // Edge k of f halved on its surfaces; none if there is no such point on the solid.
+    std::optional<Change> split(int f, std::size_t k, double share = 0.5) {
+        const Facet& facet = facets_.at(f);
+        const int a = facet.triangle.vertex[k], b = facet.triangle.vertex[(k + 1) % 3];
+        const int other = facets_.across(a, b);
+        const Facet& beyond = facets_.at(other);
+        std::vector<SurfacePiece> pieces;
+        add_piece(pieces, facet);
+        add_piece(pieces, beyond);
+        const Vec3 xa = facets_.position(a), xb = facets_.position(b);
+        const double length = glm::length(xb - xa);
+        Vec3 x = xa + (xb - xa) * share;
+        if (!surfaces_.project(x, pieces, length)) return {};
+        if (!on_surface(x)) return {};
+        const int vertex = facets_.add_vertex(x);
+        const auto normal_on = [&](const Facet& g) {
+            if (g.origin.leaf < 0) return g.triangle.normal[0];
+            const Offset o = surfaces_.at({g.origin.leaf}, x);
+            const Vec3 na = facets_.normal(g.triangle.normal[std::size_t(place(g, a))]);
+            const Vec3 nb = facets_.normal(g.triangle.normal[std::size_t(place(g, b))]);
+            return facets_.add_normal(glm::dot(o.normal, na + nb) < 0 ? -o.normal : o.normal);
+        };
+        const int n = normal_on(facet);
+        const int m = same(piece(facet), piece(beyond)) ? n : normal_on(beyond);
+        return facets_.split(f, k, vertex, n, m);
+    }
+
+    std::optional<Change> star(int f, Vec3 x) {
+        const Facet& facet = facets_.at(f);
+        if (!surfaces_.project(x, {piece(facet)}, std::max({length(f, 0), length(f, 1), length(f, 2)}))) return {};
+        if (!on_surface(x)) return {};
+        Vec3 n = surfaces_.at(piece(facet), x).normal, normals(0.0);
+        for (const int k : facet.triangle.normal) normals += facets_.normal(k);
+        if (glm::dot(n, normals) < 0) n = -n;
+        const int vertex = facets_.add_vertex(x);
+        return facets_.star(f, vertex, facets_.add_normal(n));
+    }
+
+    // Whether the facet is no farther than `near` from the surface of the one beyond its edge k.
+    bool lies_beyond(int f, std::size_t k, double near) const {
+        const Triangle& t = facets_.at(f).triangle;
+        const int other = facets_.across(t.vertex[k], t.vertex[(k + 1) % 3]);
+        if (other < 0) return false;
+        const Offset o = surfaces_.at(piece(facets_.at(other)), facets_.position(t.vertex[(k + 2) % 3]));
+        return std::abs(o.distance) <= std::max(surfaces_.slack(), near);
+    }
+
+    double length(int f, std::size_t k) const {
+        const Triangle& t = facets_.at(f).triangle;
+        return glm::length(facets_.position(t.vertex[k]) - facets_.position(t.vertex[(k + 1) % 3]));
+    }
+
+    // The best change that leaves fewer wrong facets.
+    std::optional<Change> straighten(int f, std::size_t& splits_left, RepairStatistics& statistics) {
+        const double longest = std::max({length(f, 0), length(f, 1), length(f, 2)});
+        std::optional<Change> best;
+        int best_gain = 0;
+        double best_worst = 0;
+        std::size_t* best_count = nullptr;
+        const auto offer = [&](std::optional<Change> change, std::size_t& count) {
+            if (!change) return;
+            const Verdict was = before(*change), is = after(*change);
+            // A fold may have to be unrolled step by step. What has no area may not become a fold.
+            constexpr double less = 0.999, least_fold = 0.01;
+            const bool may_add = limits_.unfold && &count == &statistics.collapses;
+            const bool unrolls =
+                (is.wrong == was.wrong || may_add) && &count != &statistics.splits && is.inverted < less * was.inverted;
+            if (is.wrong >= was.wrong && !unrolls) return;
+            if (is.inverted > was.inverted + least_fold * longest * longest) return;
+            if (is.distance > std::max(limits_.farther * was.distance, limits_.of_longest * longest)) return;
+            const int gain = was.wrong - is.wrong;
+            if (best && (gain < best_gain || (gain == best_gain && is.worst <= best_worst))) return;
+            best = std::move(change);
+            best_gain = gain;
+            best_worst = is.worst;
+            best_count = &count;
+        };
+        for (std::size_t k = 0; k < 3; ++k) {
+            offer(facets_.flip(f, k, lies_beyond(f, k, limits_.near * longest)), statistics.flips);
+            const Triangle& t = facets_.at(f).triangle;
+            const int u = t.vertex[k], v = t.vertex[(k + 1) % 3];
+            if (!made(u)) offer(collapse(u, v, limits_.near * longest), statistics.collapses);
+            if (!made(v)) offer(collapse(v, u, limits_.near * longest), statistics.collapses);
+        }
+        if (!best && splits_left > 0)
+            for (std::size_t k = 0; k < 3; ++k)
+                for (const double share : {0.5, 0.25, 0.75, 0.1, 0.9})
+                    if (length(f, k) > shortest()) offer(split(f, k, share), statistics.splits);
+        if (best) ++*best_count;
+        if (best && best_count == &statistics.splits) --splits_left;
+        return best;
+    }
+
+    // A vertex where the facet is farthest from its surface: in the middle of an edge, or its own.
+    std::optional<Change> refine(int f, RepairStatistics& statistics) {
+        std::optional<Change> best;
+        double most = least_sag();
+        const auto offer = [&](std::optional<Change> change, Vec3 from) {
+            if (!change) return;
+            for (const Facet& g : change->in)
+                if (shape(g).own < limits_.better) return;
+            const double sag = glm::length(facets_.position(facets_.vertices() - 1) - from);
+            if (sag <= most) return;
+            most = sag;
+            best = std::move(change);
+        };
+        Vec3 middle(0.0);
+        for (std::size_t k = 0; k < 3; ++k) {
+            const Triangle& t = facets_.at(f).triangle;
+            const Vec3 a = facets_.position(t.vertex[k]), b = facets_.position(t.vertex[(k + 1) % 3]);
+            middle += a / 3.0;
+            if (length(f, k) > shortest()) offer(split(f, k), 0.5 * (a + b));
+        }
+        if (facets_.at(f).origin.leaf >= 0) offer(star(f, middle), middle);
+        statistics.splits += best.has_value();
+        return best;
+    }
+
+    void limit(const Limits& limits) { limits_ = limits; }
+    void forbid_splits() { splits_left_ = 0; }
+
+    void mend_facets(RepairStatistics& statistics) {
+        std::deque<int> todo;
+        for (std::size_t f = 0; f < facets_.size(); ++f)
+            if (wrong(int(f))) todo.push_back(int(f));
+        if (!splits_left_) splits_left_ = std::min(most_splits + more_splits * todo.size(), splits_at_all);
+        std::size_t& splits_left = *splits_left_;
+        std::size_t tries_left = most_tries * todo.size();
+        std::unordered_set<int> waiting(todo.begin(), todo.end());
+        // Facets that nothing helped are asked again after others have changed.
+        std::vector<int> stuck;
+        constexpr int most_rounds = 6;
+        bool changed = true;
+        for (int round = 0; round < most_rounds && changed; ++round) {
+            changed = false;
+            while (!todo.empty() && tries_left > 0) {
+                --tries_left;
+                const int f = todo.front();
+                todo.pop_front();
+                waiting.erase(f);
+                if (!facets_.alive(f) || !wrong(f)) continue;
+                auto change = straighten(f, splits_left, statistics);
+                if (!change && splits_left > 0 && shape(f).own >= limits_.leaning) {
+                    change = refine(f, statistics);
+                    if (change) --splits_left;
+                }
+                if (!change) {
+                    stuck.push_back(f);
+                    continue;
+                }
+                changed = true;
+                for (const int g : apply(*change))
+                    if (wrong(g) && waiting.insert(g).second) todo.push_back(g);
+            }
+            for (const int f : stuck)
+                if (waiting.insert(f).second) todo.push_back(f);
+            stuck.clear();
+        }
+    }
+
+    bool on_surface(Vec3 x) const { return judge_.on_surface(x); }
+
+    // To the gradients where the vertex now is.
+    void turn_normals(int v) {
+        for (const int f : facets_.around(v)) {
+            const Facet& facet = facets_.at(f);
+            if (facet.origin.leaf < 0) continue;
+            const int k = facet.triangle.normal[std::size_t(facets_.place(f, v))];
+            const Vec3 old = facets_.normal(k), n = surfaces_.at(piece(facet), facets_.position(v)).normal;
+            if (n != Vec3(0.0)) facets_.set_normal(k, glm::dot(n, old) < 0 ? -n : n);
+        }
+    }
+
+    // Where surfaces run closer together than chords are to them, one is as good as the other.
+    bool onto_solid(Vec3& x, double reach) const {
+        const Vec3 start = x;
+        constexpr int steps = 30;
+        for (int k = 0; k < steps; ++k) {
+            const Offset o = solid_.at(x);
+            if (!std::isfinite(o.distance)) return false;
+            x += o.normal * o.distance;
+            if (!(glm::length(x - start) <= reach)) return false;
+            if (std::abs(o.distance) <= 1e-4 * surfaces_.slack()) return on_surface(x);
+        }
+        return on_surface(x);
+    }
+
+    // Vertices beside the surface go to where the surfaces around them meet. Before any facet is judged.
+    void mend_vertices(RepairStatistics& statistics) {
+        beside_.assign(std::size_t(facets_.vertices()), false);
+        for (int v = 0; v < facets_.vertices(); ++v) {
+            if (facets_.around(v).empty()) continue;
+            if (on_surface(facets_.position(v))) continue;
+            std::vector<SurfacePiece> pieces;
+            double shortest = infinity;
+            for (const int f : facets_.around(v)) {
+                add_piece(pieces, facets_.at(f));
+                for (std::size_t k = 0; k < 3; ++k)
+                    if (facets_.at(f).triangle.vertex[k] != v)
+                        shortest = std::min(shortest, glm::length(facets_.position(v) -
+                                                                  facets_.position(facets_.at(f).triangle.vertex[k])));
+            }
+            Vec3 x = facets_.position(v);
+            const bool on_seam = surfaces_.project(x, pieces, shortest) && on_surface(x);
+            if (!on_seam) {
+                x = facets_.position(v);
+                if (!onto_solid(x, shortest)) {
+                    beside_[std::size_t(v)] =
+                        !(std::abs(solid_.at(facets_.position(v)).distance) <= nearly_on_surface());
+                    continue;
+                }
+            }
+            facets_.move(v, x);
+            turn_normals(v);
+            ++statistics.moves;
+        }
+    }
+
+    // Drops what is no longer used, and says what is still wrong or has a vertex beside the surface.
+    void finish(RepairStatistics& statistics) {
+        int t = 0;
+        for (std::size_t f = 0; f < facets_.size(); ++f) {
+            if (!facets_.alive(int(f))) continue;
+            const auto& v = facets_.at(int(f)).triangle.vertex;
+            if (is_beside(v[0]) || is_beside(v[1]) || is_beside(v[2]) || wrong(int(f))) statistics.left.push_back(t);
+            statistics.farthest = std::max(statistics.farthest, shape(int(f)).distance);
+            ++t;
+        }
+        facets_.finish();
+    }
+
+private:
+    std::vector<int> apply(const Change& change) {
+        std::vector<int> fresh = facets_.apply(change);
+        shapes_.resize(facets_.size());
+        for (const int f : fresh) shapes_[std::size_t(f)].reset();
+        return fresh;
+    }
+    // Vertices that were put in to mend are on the surface.
+    bool is_beside(int v) const { return std::size_t(v) < beside_.size() && beside_[std::size_t(v)]; }
+
+    double nearly_on_surface() const { return std::min(1e-7 * judge_.size(), 5e-7); }
+    double shortest() const { return 1e-5 * judge_.size(); }
+    double least_sag() const { return 1e-7 * judge_.size(); }
+    // Not again what was there before: a vertex that was put in to mend stays.
+    bool made(int vertex) const { return vertex >= first_made_; }
+
+    static int place(const Facet& f, int vertex) {
+        const auto& v = f.triangle.vertex;
+        return v[0] == vertex ? 0 : v[1] == vertex ? 1 : 2;
+    }
+
+    Facets facets_;
+    const FacetJudge& judge_;
+    const OffsetField& solid_;
+    const LeafSurfaces& surfaces_;
+    std::vector<std::optional<FacetShape>> shapes_;  // of the facets, where known
+    std::vector<char> beside_;                       // vertices that nothing brought onto the surface
+    int first_made_;
+    Limits limits_ = gentle;
+    std::optional<std::size_t> splits_left_;
+};
+
+}  // namespace
+
+RepairStatistics repair(Mesh& mesh, std::vector<Origin>& origins, const FacetJudge& judge, bool may_split) {
+    RepairStatistics statistics;
+    if (mesh.triangles.empty()) return statistics;
+    Repair work(mesh, origins, judge);
+    if (!may_split) work.forbid_splits();
+    work.mend_vertices(statistics);
+    for (const Limits& limits : {gentle, last_resort}) {
+        work.limit(limits);
+        work.mend_facets(statistics);
+    }
+    work.finish(statistics);
+    return statistics;
+}
+
+}  // namespace deburr

@@ -1,0 +1,23 @@
+// What is left to mend in a closed mesh: facets without area or facing inward, and vertices beside
+// the surface. It is done by edge flips, collapses and splits that keep it a closed 2-manifold; new
+// vertices are roots on the surfaces that meet there.
+//
+// Facets come out wrong where the isosurface grazes a cell's face or edge, so that roots lie close
+// together; where two outlines in a plane, each a chain of chords, cross; and where two surfaces are
+// nearer to each other than the mesh is to either. The first needs an edge less, the others more.
+#pragma once
+#include "polygonizer/mesh/facet_judge.hpp"
+
+namespace deburr {
+
+struct RepairStatistics {
+    std::size_t flips = 0, collapses = 0, splits = 0, moves = 0;
+    std::vector<int> left;  // triangles for which nothing helped
+    double farthest = 0;    // distance of a triangle's middle from the surface, in the end
+};
+
+/// Without splits the mesh stays as fine as it is: where surfaces cross at almost no angle, halves of what is
+/// wrong are wrong again.
+RepairStatistics repair(Mesh& mesh, std::vector<Origin>& origins, const FacetJudge& judge, bool may_split = true);
+
+}  // namespace deburr

@@ -1,0 +1,137 @@
+#include "polygonizer/mesh/separate_touching.hpp"
+
+#include <algorithm>
+#include <array>
+#include <limits>
+#include <vector>
+
+#include "polygonizer/mesh/facets.hpp"
+
+namespace deburr {
+namespace {
+
+using Key = std::array<float, 3>;
+
+Key key_of(Vec3 x) { return {float(x.x) + 0.0f, float(x.y) + 0.0f, float(x.z) + 0.0f}; }  // −0 is 0
+
+// Vertices in use that share their position in single precision with another.
+std::vector<int> shared(const Mesh& mesh, const std::vector<char>& used) {
+    std::vector<std::pair<Key, int>> keys;
+    for (std::size_t v = 0; v < mesh.positions.size(); ++v)
+        if (used[v]) keys.push_back({key_of(mesh.positions[v]), int(v)});
+    std::sort(keys.begin(), keys.end());
+    std::vector<int> found;
+    for (std::size_t k = 0; k < keys.size(); ++k)
+        if ((k > 0 && keys[k - 1].first == keys[k].first) ||
+            (k + 1 < keys.size() && keys[k + 1].first == keys[k].first))
+            found.push_back(keys[k].second);
+    std::sort(found.begin(), found.end());
+    return found;
+}
+
+struct Around {
+    Vec3 inward{0.0};  // unit, or 0
+    double shortest = infinity;
+};
+
+// Where to move each of the vertices, from the corners of their triangles.
+std::vector<Around> surroundings(const Mesh& mesh, const std::vector<int>& vertices) {
+    std::vector<int> place(mesh.positions.size(), -1);
+    for (std::size_t k = 0; k < vertices.size(); ++k) place[std::size_t(vertices[k])] = int(k);
+    std::vector<Around> around(vertices.size());
+    std::vector<Vec3> middles(vertices.size(), Vec3(0.0));
+    for (const Triangle& t : mesh.triangles) {
+        const Vec3 area = mesh.area_vector(t);
+        const double size = glm::length(area);
+        for (std::size_t k = 0; k < 3; ++k) {
+            const int at = place[std::size_t(t.vertex[k])];
+            if (at < 0) continue;
+            const Vec3 x = mesh.positions[std::size_t(t.vertex[k])];
+            const Vec3 p = mesh.positions[std::size_t(t.vertex[(k + 1) % 3])] - x;
+            const Vec3 q = mesh.positions[std::size_t(t.vertex[(k + 2) % 3])] - x;
+            const double lp = glm::length(p), lq = glm::length(q);
+            Around& a = around[std::size_t(at)];
+            for (const double l : {lp, lq})
+                if (l > 0) a.shortest = std::min(a.shortest, l);
+            if (!(size > 0) || !(lp > 0) || !(lq > 0)) continue;
+            const double angle = std::atan2(size, glm::dot(p, q));
+            a.inward -= area * (angle / size);
+            middles[std::size_t(at)] += p / lp + q / lq;
+        }
+    }
+    for (std::size_t k = 0; k < around.size(); ++k) {
+        constexpr double cancelled = 1e-6;
+        Vec3& n = around[k].inward;
+        if (glm::length(n) < cancelled) n = middles[k];
+        n = glm::length(n) > cancelled ? glm::normalize(n) : Vec3(0.0);
+    }
+    return around;
+}
+
+}  // namespace
+
+double single_precision_step(const Mesh& mesh) {
+    double largest = 0;
+    for (const Vec3& x : mesh.positions)
+        for (int k = 0; k < 3; ++k) largest = std::max(largest, std::abs(x[k]));
+    constexpr double steps = 3;  // of single precision: a step in any direction moves one coordinate by more than one
+    return std::max(hair, steps * largest * double(std::numeric_limits<float>::epsilon()));
+}
+
+std::size_t merge_close(Mesh& mesh) {
+    const auto coincide = [&](int u, int v) {
+        return key_of(mesh.positions[std::size_t(u)]) == key_of(mesh.positions[std::size_t(v)]);
+    };
+    std::vector<std::pair<int, int>> edges;
+    for (const Triangle& t : mesh.triangles)
+        for (std::size_t k = 0; k < 3; ++k) {
+            const int u = t.vertex[k], v = t.vertex[(k + 1) % 3];
+            if (u < v && coincide(u, v)) edges.push_back({u, v});
+        }
+    if (edges.empty()) return 0;
+    std::vector<Origin> origins(mesh.triangles.size());
+    Facets facets(mesh, origins);
+    std::size_t gone = 0;
+    for (const auto& [u, v] : edges) {
+        if (facets.around(u).empty() || facets.around(v).empty() || !facets.joined(u, v)) continue;
+        auto change = facets.collapse(u, v);
+        if (!change) change = facets.collapse(v, u);
+        if (!change) continue;
+        facets.apply(*change);
+        ++gone;
+    }
+    facets.finish();
+    return gone;
+}
+
+std::size_t separate_touching(Mesh& mesh, double step) {
+    std::vector<char> used(mesh.positions.size(), false);
+    for (const Triangle& t : mesh.triangles)
+        for (const int v : t.vertex) used[std::size_t(v)] = true;
+    constexpr double most_of_an_edge = 0.1;
+    std::vector<int> touching = shared(mesh, used);
+    const std::vector<Around> around = surroundings(mesh, touching);
+    const std::vector<Vec3> start = [&] {
+        std::vector<Vec3> x;
+        for (const int v : touching) x.push_back(mesh.positions[std::size_t(v)]);
+        return x;
+    }();
+    // A second and third time by other amounts, for those whose parts lean the same way.
+    constexpr double shares[] = {0.75, 1.0, 0.5};
+    std::vector<int> left = touching;
+    for (std::size_t round = 0; round < std::size(shares) && !left.empty(); ++round) {
+        for (std::size_t k = 0; k < left.size(); ++k) {
+            const std::size_t at =
+                std::size_t(std::lower_bound(touching.begin(), touching.end(), left[k]) - touching.begin());
+            if (at == touching.size() || touching[at] != left[k]) continue;  // came to lie on one that does not move
+            // From the second time on every other one of those that still coincide.
+            if (round > 0 && k % 2 == 0) continue;
+            const double length = std::min(step * shares[round], most_of_an_edge * around[at].shortest);
+            mesh.positions[std::size_t(left[k])] = start[at] + around[at].inward * length;
+        }
+        left = shared(mesh, used);
+    }
+    return left.size();
+}
+
+}  // namespace deburr

@@ -1,0 +1,241 @@
+#include "polygonizer/mesh/surface_distance.hpp"
+
+#include "bounds/solid_range.hpp"
+#include "polygonizer/mesh/sharp_parts.hpp"
+#include "polygonizer/mesh/sharp_set.hpp"
+
+namespace deburr {
+namespace {
+
+Offset negated(Offset o) { return {-o.distance, -o.normal, o.leaf, o.plane}; }
+Offset least(const Offset& a, const Offset& b) { return b.distance < a.distance ? b : a; }
+Offset greatest(const Offset& a, const Offset& b) { return b.distance > a.distance ? b : a; }
+
+// ρ − ½, where rounding lets a point be told from the level: where ρ is flat as well, on the ridge between
+// two surfaces that touch, its share in the slope would make it a distance.
+double above_level(double rho) {
+    constexpr double rounding = 8 * epsilon;
+    const double f = rho - 0.5;
+    return std::abs(f) <= rounding ? 0 : f;
+}
+
+// A sharp density is a polyhedron: ∨ is a union, ∧ an intersection; + - * are what is left of legal ones
+// that were too large to be converted.
+Offset sharp_at(const DensityTree& tree, Vec3 x) {
+    thread_local std::vector<Offset> done;
+    done.clear();
+    for (const TreeNode& n : tree.nodes) {
+        const auto at = [&](int child) -> const Offset& { return done[std::size_t(child)]; };
+        Offset o;
+        switch (n.op) {
+            case Op::constant: o.distance = n.value > 0.5 ? infinity : -infinity; break;
+            case Op::half_space: {
+                const HalfSpace& h = tree.half_spaces[std::size_t(n.a)];
+                o = {-h.distance(x), h.normal, -1, n.a};
+                break;
+            }
+            case Op::sum:
+            case Op::disjunction: o = greatest(at(n.a), at(n.b)); break;
+            case Op::product:
+            case Op::conjunction: o = least(at(n.a), at(n.b)); break;
+            case Op::difference: o = least(at(n.a), negated(at(n.b))); break;
+            case Op::complement: o = negated(at(n.a)); break;
+            case Op::ball_share: break;  // is never sharp
+        }
+        done.push_back(o);
+    }
+    return done.back();
+}
+
+}  // namespace
+
+SurfaceOffset::SurfaceOffset(const SolidTree& solid) : solid_(separate_sharp(solid)) {
+    for (SolidLeaf& leaf : solid_.leaves) {
+        bool sharp = !leaf.field;
+        for (const HalfSpace& h : leaf.density.half_spaces) sharp &= h.radius == 0;
+        sharp_.push_back(sharp);
+        if (sharp) leaf.density = sharp_set(std::move(leaf.density));
+    }
+    densities_.resize(solid_.leaves.size());
+}
+
+const LocalDensity& SurfaceOffset::density(std::size_t leaf) const {
+    auto& density = densities_[leaf];
+    if (!density) density = std::make_unique<LocalDensity>(solid_.leaves[leaf].density);
+    return *density;
+}
+
+// Of the sign that leaf_at(x).distance has.
+double SurfaceOffset::leaf_value(std::size_t leaf, Vec3 x) const {
+    if (sharp_[leaf]) return sharp_at(solid_.leaves[leaf].density, x).distance;
+    if (const Field* field = solid_.leaves[leaf].field.get()) return field->at(x).value;
+    return above_level(density(leaf).at(x));
+}
+
+bool SurfaceOffset::inside(Vec3 x) const {
+    if (solid_.nodes.size() == 1 && solid_.nodes[0].op == SolidOp::leaf)
+        return leaf_value(std::size_t(solid_.nodes[0].a), x) > 0;
+    thread_local std::vector<double> done;  // of the sign that at(x).distance has there
+    done.clear();
+    for (const SolidTreeNode& n : solid_.nodes) {
+        const auto of = [&](int child) { return done[std::size_t(child)]; };
+        switch (n.op) {
+            case SolidOp::nothing: done.push_back(-1); break;
+            case SolidOp::everything: done.push_back(1); break;
+            case SolidOp::leaf: done.push_back(leaf_value(std::size_t(n.a), x)); break;
+            case SolidOp::unite: done.push_back(std::max(of(n.a), of(n.b))); break;
+            case SolidOp::intersect: done.push_back(std::min(of(n.a), of(n.b))); break;
+            case SolidOp::subtract: done.push_back(std::min(of(n.a), -of(n.b))); break;
+        }
+    }
+    return done.back() > 0;
+}
+
+Offset SurfaceOffset::leaf_at(std::size_t leaf, Vec3 x) const {
+    Offset o;
+    const Field* field = solid_.leaves[leaf].field.get();
+    if (sharp_[leaf]) {
+        o = sharp_at(solid_.leaves[leaf].density, x);
+    } else {
+        const ValueGradient v = field ? field->at(x) : density(leaf).gradient_at(x);
+        const double slope = glm::length(v.gradient), f = field ? v.value : above_level(v.value);
+        if (slope > 0)
+            o = {f / slope, -v.gradient / slope};
+        else
+            o.distance = f > 0 ? infinity : f < 0 ? -infinity : 0;
+    }
+    o.leaf = int(leaf);
+    return o;
+}
+
+std::vector<SmoothPiece> SurfaceOffset::pieces() const {
+    std::vector<SmoothPiece> all;
+    std::vector<double> side(solid_.nodes.size(), 1), side_of_part;
+    for (std::size_t i = solid_.nodes.size(); i-- > 0;) {
+        const SolidTreeNode& n = solid_.nodes[i];
+        if (n.op == SolidOp::nothing || n.op == SolidOp::everything) continue;
+        if (n.op != SolidOp::leaf) {
+            side[std::size_t(n.a)] = side[i];
+            side[std::size_t(n.b)] = n.op == SolidOp::subtract ? -side[i] : side[i];
+            continue;
+        }
+        if (!sharp(n.a)) {
+            all.push_back({n.a, -1, side[i]});
+            continue;
+        }
+        const DensityTree& density = solid_.leaves[std::size_t(n.a)].density;
+        side_of_part.assign(density.nodes.size(), side[i]);
+        for (std::size_t j = density.nodes.size(); j-- > 0;) {
+            const TreeNode& part = density.nodes[j];
+            if (part.op == Op::half_space) all.push_back({n.a, part.a, side_of_part[j]});
+            if (part.a < 0 || part.op == Op::half_space) continue;
+            side_of_part[std::size_t(part.a)] = part.op == Op::complement ? -side_of_part[j] : side_of_part[j];
+            if (part.b >= 0)
+                side_of_part[std::size_t(part.b)] = part.op == Op::difference ? -side_of_part[j] : side_of_part[j];
+        }
+    }
+    return all;
+}
+
+Offset SurfaceOffset::piece_at(const SmoothPiece& piece, Vec3 x) const {
+    Offset o;
+    if (piece.plane < 0) {
+        o = leaf_at(std::size_t(piece.leaf), x);
+    } else {
+        const HalfSpace& h = solid_.leaves[std::size_t(piece.leaf)].density.half_spaces[std::size_t(piece.plane)];
+        o = {-h.distance(x), h.normal, piece.leaf, piece.plane};
+    }
+    return piece.side < 0 ? negated(o) : o;
+}
+
+Offset SurfaceOffset::at(Vec3 x) const {
+    if (solid_.nodes.size() == 1 && solid_.nodes[0].op == SolidOp::leaf)
+        return leaf_at(std::size_t(solid_.nodes[0].a), x);
+    thread_local std::vector<Offset> done;
+    done.clear();
+    for (const SolidTreeNode& n : solid_.nodes) {
+        Offset o;
+        switch (n.op) {
+            case SolidOp::nothing: o.distance = -infinity; break;
+            case SolidOp::everything: o.distance = infinity; break;
+            case SolidOp::leaf: o = leaf_at(std::size_t(n.a), x); break;
+            case SolidOp::unite: o = greatest(done[std::size_t(n.a)], done[std::size_t(n.b)]); break;
+            case SolidOp::intersect: o = least(done[std::size_t(n.a)], done[std::size_t(n.b)]); break;
+            case SolidOp::subtract: o = least(done[std::size_t(n.a)], negated(done[std::size_t(n.b)])); break;
+        }
+        done.push_back(o);
+    }
+    return done.back();
+}
+
+namespace {
+
+// Root search on the line along the normal; `field` has at() and inside().
+template <class Field>
+double search_along_normal(const Field& field, Vec3 x, double reach) {
+    const Offset here = field.at(x);
+    if (here.distance == 0) return 0;
+    if (here.normal == Vec3(0.0)) return infinity;
+    const bool in = here.distance > 0;
+    const Vec3 line = here.normal * (in ? 1.0 : -1.0);
+    double lo = 0, hi = std::min(reach, 1.5 * std::abs(here.distance));
+    while (field.inside(x + line * hi) == in) {
+        if (hi >= reach) return infinity;
+        lo = hi;
+        hi = std::min(reach, 1.5 * hi);
+    }
+    while (true) {
+        const double middle = 0.5 * (lo + hi);
+        if (middle <= lo || middle >= hi || hi - lo < 1e-12 * reach) return middle;
+        (field.inside(x + line * middle) == in ? lo : hi) = middle;
+    }
+}
+
+}  // namespace
+
+double SurfaceOffset::distance_along_normal(Vec3 x, double reach) const { return search_along_normal(*this, x, reach); }
+
+std::size_t SurfaceOffset::half_spaces() const {
+    std::size_t count = 0;
+    for (const SolidLeaf& leaf : solid_.leaves)
+        count += leaf.field ? std::size_t(leaf.field->size()) : leaf.density.half_spaces.size();
+    return count;
+}
+
+// A surface in the wall between two boxes must be seen from both.
+OffsetField::OffsetField(const SolidTree& solid, const Box& box, double margin)
+    : root_(std::make_unique<Node>(box, SurfaceOffset(solid), 0)),
+      margin_(std::max(margin, 1e-6 * glm::length(box.hi - box.lo))) {}
+
+double OffsetField::distance_along_normal(Vec3 x, double reach) const { return search_along_normal(*this, x, reach); }
+
+const SurfaceOffset& OffsetField::near(Vec3 x) const {
+    // Boxes stop where splitting pays no more, or does not help.
+    constexpr std::size_t few = 8;
+    constexpr int deepest = 40;
+    Node* node = root_.get();
+    if (!node->box.contains(x)) return node->solid;
+    while (node->depth < deepest && node->half_spaces > few) {
+        const Vec3 size = node->box.hi - node->box.lo;
+        const int axis = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
+        if (size[axis] < 2 * margin_) break;
+        const double middle = 0.5 * (node->box.lo[axis] + node->box.hi[axis]);
+        std::unique_ptr<Node>& child = node->children[x[axis] > middle];
+        if (!child) {
+            Box half = node->box;
+            (x[axis] > middle ? half.lo : half.hi)[axis] = middle;
+            child = std::make_unique<Node>(half, node->solid.within(inflated(half, margin_)), node->depth + 1);
+        }
+        node = child.get();
+    }
+    return node->solid;
+}
+
+SurfaceOffset SurfaceOffset::within(const Box& box) const { return SurfaceOffset(prune(solid_, box)); }
+
+double SurfaceOffset::decided(const Box& box) const {
+    const Side side = local_size(solid_, box).side;
+    return side == Side::inside ? infinity : side == Side::outside ? -infinity : 0;
+}
+
+}  // namespace deburr

@@ -1,0 +1,394 @@
+#include "polygonizer/octree/octree.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+#include <optional>
+#include <set>
+
+#include "bounds/bounding_box.hpp"
+#include "polygonizer/mesh/repair.hpp"
+#include "polygonizer/mesh/sharp_parts.hpp"
+#include "polygonizer/octree/octree_hard_edges.hpp"
+#include "polygonizer/octree/octree_linking.hpp"
+#include "polygonizer/octree/thin_features.hpp"
+
+namespace deburr {
+namespace {
+
+constexpr double radians = 0.017453292519943295;
+// How often a cell may be cut further than its level.
+constexpr int spare_levels = 4;
+constexpr int most_rounds = spare_levels;
+// Where a sheet is thinner than cells, smaller ones spread from where it is seen.
+constexpr int most_thin_rounds = 8;
+// Cosine between a triangle and the surface below which the cells around it are cut further: 75°.
+constexpr double least_cosine = 0.25;
+// The same for its distance, in lengths of its longest side: such a triangle closes what goes on.
+constexpr double off = 0.45;
+// A sliver leans for other reasons, which cutting does not help: repair.hpp.
+constexpr double sliver = 0.005;  // height over longest side
+// Points nearer than this, in cells, are one.
+constexpr double same_place = 1e-6;
+// Two triangles that face as their points do, to this cosine, are as good as two others.
+constexpr double alike = 0.95;
+
+bool is_within(const Box& a, const Box& b) { return a.empty() || (b.contains(a.lo) && b.contains(a.hi)); }
+
+SolidTree cut_off(SolidTree solid, const Box& box) {
+    SolidTree wall = flatten(Solid::sharp(Density::box(box.lo, box.hi)));
+    const int root = solid.root();
+    solid.leaves.push_back(std::move(wall.leaves[0]));
+    solid.leaves.back().material = solid.leaves[0].material;
+    solid.nodes.push_back({SolidOp::leaf, int(solid.leaves.size()) - 1});
+    solid.nodes.push_back({SolidOp::intersect, root, root + 1});
+    return solid;
+}
+
+// A triangle as it stands to the surface at its middle.
+struct Standing {
+    double cosine = 1, distance = 0;
+};
+
+class Polygonization {
+public:
+    Polygonization(const SolidTree& solid, const Box& box, const OctreeOptions& options, double edge)
+        : options_(options),
+          hard_cosine_(std::cos(options.hard_angle * radians)),
+          tree_(solid, box, edge, spare_levels, options.stop),
+          has_forms_(solid.has_field()),
+          looks_for_thin_(has_forms_) {}
+
+    Mesh run(OctreeStatistics& statistics, std::vector<Origin>& origins) {
+        // Each halving of cells quarters distances; what leans still is left to repair.
+        for (int round = 1;; ++round) {
+            ++statistics.rounds;
+            linking_ = link(tree_);
+            place_crossings();
+            place_points();
+            make_triangles();
+            std::vector<int> leaves;
+            // After repair, cells are cut further for thin forms only.
+            if ((has_forms_ ? round : int(statistics.rounds)) <= most_rounds) find_leaning(leaves);
+            bool changed = split(leaves);
+            if (looks_for_thin_ && round <= most_thin_rounds) changed |= split_unseen(tree_, linking_, mesh_);
+            if (!changed) break;
+        }
+        looks_for_thin_ = false;
+        statistics.cells = statistics.open_cells = statistics.hard_points = 0;
+        for (const OctreeCell& c : tree_.cells())
+            if (c.children < 0) {
+                ++statistics.cells;
+                statistics.open_cells += c.open;
+            }
+        statistics.level = tree_.level();
+        statistics.edge = tree_.edge();
+        statistics.range_tests = tree_.range_tests;
+        follow_hard_edges(mesh_, tree_, hard_cosine_);
+        statistics.partitions = divide_hard_edges(mesh_, tree_, hard_cosine_);
+        for (const SurfacePoint& p : mesh_.points) statistics.hard_points += p.hard();
+        return mesh_.mesh(origins);
+    }
+
+    /// Cuts the cells around these triangles; false if they are as small as may be.
+    bool cut_around(const Mesh& mesh, const std::vector<int>& triangles) {
+        std::vector<int> leaves;
+        for (const int t : triangles) {
+            Vec3 middle(0.0);
+            for (const int v : mesh.triangles[std::size_t(t)].vertex) {
+                const Vec3 x = mesh.positions[std::size_t(v)];
+                middle += x / 3.0;
+                leaves.push_back(tree_.find(x));
+            }
+            leaves.push_back(tree_.find(middle));
+        }
+        return split(leaves);
+    }
+
+private:
+    bool split(std::vector<int>& leaves) {
+        std::sort(leaves.begin(), leaves.end());
+        leaves.erase(std::unique(leaves.begin(), leaves.end()), leaves.end());
+        bool changed = false;
+        for (const int leaf : leaves)
+            if (tree_.cell(leaf).open) changed |= tree_.split(leaf);
+        return changed;
+    }
+
+    void place_crossings() {
+        std::unordered_map<std::uint64_t, CrossingPoint> known = std::move(known_crossings_);
+        known_crossings_.clear();
+        crossings_.clear();
+        for (const Crossing& x : linking_.crossings) {
+            throw_if_stopped(options_.stop);
+            const std::uint64_t key =
+                (std::uint64_t(x.lo[0]) | std::uint64_t(x.lo[1]) << 20 | std::uint64_t(x.lo[2]) << 40) * 4 +
+                std::uint64_t(x.axis);
+            const auto it = known.find(key);
+            Vec3 lo = tree_.position(x.lo), hi = tree_.position(x.hi());
+            CrossingPoint c{x.low_inside ? lo : hi, x.low_inside ? hi : lo, {}};
+            if (it != known.end() && it->second.inside == c.inside && it->second.outside == c.outside) {
+                c = it->second;
+            } else {
+                int leaf = x.leaves[0];
+                for (const int other : x.leaves)
+                    if (tree_.cell(other).open && !tree_.cell(leaf).open) leaf = other;
+                c.position = surface_root(tree_.solid(tree_.cell(leaf)), c.inside, c.outside);
+            }
+            known_crossings_.emplace(key, c);
+            crossings_.push_back(c);
+        }
+    }
+
+    void place_points() {
+        mesh_ = {};
+        std::vector<CrossingPoint> around;
+        std::vector<std::size_t> tips;  // that stick out of their cells
+        const auto place = [&](const Loop& loop, bool tip_may_stick_out) {
+            around.clear();
+            for (int i = loop.begin; i < loop.end; ++i)
+                around.push_back(crossings_[std::size_t(linking_.around[std::size_t(i)])]);
+            const OctreeCell& cell = tree_.cell(loop.leaf);
+            return surface_point(tree_.solid(cell), tree_.box(cell), around, hard_cosine_, tip_may_stick_out);
+        };
+        for (const Loop& loop : linking_.loops) {
+            throw_if_stopped(options_.stop);
+            mesh_.points.push_back(place(loop, true));
+            if (!tree_.box(tree_.cell(loop.leaf)).contains(mesh_.points.back().position))
+                tips.push_back(mesh_.points.size() - 1);
+        }
+        // A tip is one cell's, its own if that has found it.
+        for (const std::size_t i : tips) {
+            const auto same = [&](const SurfacePoint& p) {
+                return &p != &mesh_.points[i] && p.hard() &&
+                       glm::length(p.position - mesh_.points[i].position) < same_place * tree_.edge();
+            };
+            if (std::any_of(mesh_.points.begin(), mesh_.points.end(), same))
+                mesh_.points[i] = place(linking_.loops[i], false);
+        }
+    }
+
+    // Points of the polygon around a crossing, outward; where an edge between loops is there twice,
+    // with the point in its middle, and begun there.
+    void polygon_around(int crossing, std::vector<int>& polygon, std::size_t& middles) {
+        const Crossing& x = linking_.crossings[std::size_t(crossing)];
+        polygon.clear();
+        middles = 0;
+        for (std::size_t q = 0; q < 4; ++q) {
+            const int from = x.loops[q], to = x.loops[(q + 1) % 4];
+            if (from == to && x.leaves[q] == x.leaves[(q + 1) % 4]) continue;
+            polygon.push_back(from);
+            const auto [first, last] = doubles_at_.equal_range(crossing);
+            for (auto d = first; d != last; ++d) {
+                const DoubleSegment& s = linking_.doubles[std::size_t(d->second)];
+                if (std::minmax(s.loop_a, s.loop_b) != std::minmax(from, to)) continue;
+                polygon.push_back(int(linking_.loops.size()) + d->second);
+                ++middles;
+            }
+        }
+        if (!x.low_inside) std::reverse(polygon.begin(), polygon.end());
+        if (middles) {
+            const auto first =
+                std::find_if(polygon.begin(), polygon.end(), [&](int v) { return v >= int(linking_.loops.size()); });
+            std::rotate(polygon.begin(), first, polygon.end());
+        }
+    }
+
+    void make_triangles() {
+        doubles_at_.clear();
+        for (std::size_t d = 0; d < linking_.doubles.size(); ++d)
+            for (const int c : {linking_.doubles[d].crossing_a, linking_.doubles[d].crossing_b})
+                doubles_at_.emplace(c, int(d));
+        for (const DoubleSegment& s : linking_.doubles) {
+            const CrossingPoint &a = crossings_[std::size_t(s.crossing_a)], &b = crossings_[std::size_t(s.crossing_b)];
+            const Vec3 middle = 0.5 * (a.position + b.position);
+            const SurfaceOffset& solid = tree_.solid(middle);
+            const double reach = 0.5 * glm::length(a.position - b.position);
+            const Offset o = solid.at(middle);
+            const double distance = solid.distance_along_normal(middle, reach);
+            SurfacePoint p{a.position, {}};
+            if (std::isfinite(distance)) p.position = middle + o.normal * (o.distance > 0 ? distance : -distance);
+            p.faces.push_back(face_of(solid, solid.at(p.position)));
+            mesh_.points.push_back(p);
+        }
+        crossing_of_.clear();
+        diagonals_.clear();
+        std::vector<int> polygon;
+        std::size_t middles = 0;
+        for (int c = 0; c < int(linking_.crossings.size()); ++c) {
+            polygon_around(c, polygon, middles);
+            if (polygon.size() == 4 && middles == 0) choose_diagonal(polygon, c);
+            for (std::size_t k = 1; k + 1 < polygon.size(); ++k) {
+                mesh_.triangles.push_back({polygon[0], polygon[k], polygon[k + 1]});
+                crossing_of_.push_back(c);
+            }
+            ++mesh_.polygons;
+        }
+    }
+
+    // The diagonal of a quadrilateral is from its first point. Where the edge between two larger cells
+    // is crossed twice, because it has smaller ones on its sides, two quadrilaterals have a diagonal
+    // in common; only one may take it.
+    void choose_diagonal(std::vector<int>& q, int crossing) {
+        if (!first_diagonal(q)) std::rotate(q.begin(), q.begin() + 1, q.end());
+        const auto& leaves = linking_.crossings[std::size_t(crossing)].leaves;
+        const auto size = [&](std::size_t k) { return tree_.cell(leaves[k]).size; };
+        if (size(0) == size(1) && size(1) == size(2) && size(2) == size(3)) return;
+        if (diagonals_.insert(std::minmax(q[0], q[2])).second) return;
+        std::rotate(q.begin(), q.begin() + 1, q.end());
+        if (diagonals_.insert(std::minmax(q[0], q[2])).second) return;
+        // Neither is free: the crossing itself is a point between them.
+        const SurfaceOffset& solid = tree_.solid(crossings_[std::size_t(crossing)].position);
+        const int middle = int(mesh_.points.size());
+        const Vec3 x = crossings_[std::size_t(crossing)].position;
+        mesh_.points.push_back({x, {face_of(solid, solid.at(x))}});
+        q = {middle, q[0], q[1], q[2], q[3], q[0]};
+    }
+
+    Standing standing(const Corners& t) const {
+        const Vec3 middle = mesh_.middle(t), area = mesh_.area_vector(t);
+        const Offset o = tree_.solid(middle).at(middle);
+        Standing s;
+        const double size = glm::length(area);
+        if (size > 0 && o.normal != Vec3(0.0)) s.cosine = glm::dot(area, o.normal) / size;
+        s.distance = std::abs(o.distance);
+        if (!std::isfinite(o.distance)) s.cosine = 0;  // so far off that the density is saturated
+        return s;
+    }
+
+    // Whether the points of a triangle say all there is to say about how it stands: smooth, and
+    // facing as it does.
+    double cosine_to_points(const Corners& t) const {
+        const Vec3 area = mesh_.area_vector(t);
+        double least = 1;
+        for (const int v : t) {
+            const SurfacePoint& p = mesh_.points[std::size_t(v)];
+            if (p.hard()) return -1;
+            least = std::min(least, glm::dot(area, p.faces[0].normal));
+        }
+        return least / std::max(glm::length(area), std::numeric_limits<double>::min());
+    }
+
+    // Whether the diagonal from the first point of a quadrilateral is better than the other.
+    bool first_diagonal(const std::vector<int>& q) const {
+        const Corners t[4] = {{q[0], q[1], q[2]}, {q[0], q[2], q[3]}, {q[1], q[2], q[3]}, {q[1], q[3], q[0]}};
+        double cosine[4];
+        for (int k = 0; k < 4; ++k) cosine[k] = cosine_to_points(t[k]);
+        if (*std::min_element(cosine, cosine + 4) > alike)
+            return glm::length(mesh_.position(q[0]) - mesh_.position(q[2])) <=
+                   glm::length(mesh_.position(q[1]) - mesh_.position(q[3]));
+        Standing s[4];
+        for (int k = 0; k < 4; ++k) s[k] = standing(t[k]);
+        const double first = std::min(s[0].cosine, s[1].cosine), second = std::min(s[2].cosine, s[3].cosine);
+        if (first < least_cosine || second < least_cosine) return first >= second;
+        const double one = std::max(s[0].distance, s[1].distance), other = std::max(s[2].distance, s[3].distance);
+        if (std::abs(one - other) > 1e-6 * tree_.edge()) return one < other;
+        return glm::length(mesh_.position(q[0]) - mesh_.position(q[2])) <=
+               glm::length(mesh_.position(q[1]) - mesh_.position(q[3]));
+    }
+
+    void find_leaning(std::vector<int>& leaves) const {
+        for (std::size_t t = 0; t < mesh_.triangles.size(); ++t) {
+            const auto& triangle = mesh_.triangles[t];
+            if (!std::isfinite(options_.tolerance) && cosine_to_points(triangle) > alike) continue;
+            const Standing s = standing(triangle);
+            double longest = 0;
+            for (std::size_t k = 0; k < 3; ++k)
+                longest =
+                    std::max(longest, glm::length(mesh_.position(triangle[k]) - mesh_.position(triangle[(k + 1) % 3])));
+            const bool leans =
+                s.cosine < least_cosine && glm::length(mesh_.area_vector(triangle)) > sliver * longest * longest;
+            if (!leans && s.distance <= std::min(options_.tolerance, has_forms_ ? off * longest : infinity)) continue;
+            for (const int leaf : linking_.crossings[std::size_t(crossing_of_[t])].leaves) leaves.push_back(leaf);
+        }
+    }
+
+    const OctreeOptions& options_;
+    double hard_cosine_;
+    CellTree tree_;
+    bool has_forms_;
+    // In the first run, of free forms; gaps between touching polyhedra taper to nothing.
+    bool looks_for_thin_;
+    Linking linking_;
+    std::multimap<int, int> doubles_at_;  // of crossings
+    std::vector<CrossingPoint> crossings_;
+    std::unordered_map<std::uint64_t, CrossingPoint> known_crossings_;
+    PointMesh mesh_;
+    std::vector<int> crossing_of_;             // of each triangle
+    std::set<std::pair<int, int>> diagonals_;  // taken, where they may be asked for twice
+};
+
+// An edge that is not between two triangles that run through it in turn, for the message.
+std::optional<Vec3> first_fault(const Mesh& mesh) {
+    std::vector<std::array<int, 3>> edges;  // ends in order, and direction
+    for (const Triangle& t : mesh.triangles)
+        for (std::size_t k = 0; k < 3; ++k) {
+            const auto [lo, hi] = std::minmax(t.vertex[k], t.vertex[(k + 1) % 3]);
+            edges.push_back({lo, hi, t.vertex[k] == lo});
+        }
+    std::sort(edges.begin(), edges.end());
+    for (std::size_t i = 0; i < edges.size();) {
+        std::size_t end = i, forward = 0;
+        while (end < edges.size() && edges[end][0] == edges[i][0] && edges[end][1] == edges[i][1])
+            forward += std::size_t(edges[end++][2]);
+        if (end - i != 2 || forward != 1)
+            return 0.5 * (mesh.positions[std::size_t(edges[i][0])] + mesh.positions[std::size_t(edges[i][1])]);
+        i = end;
+    }
+    return std::nullopt;
+}
+
+void check(const Mesh& mesh) {
+    const Topology t = topology(mesh);
+    if (t.manifold()) return;
+    std::string where;
+    if (const auto x = first_fault(mesh)) where = fmt::format(", first at ({:.6g}, {:.6g}, {:.6g})", x->x, x->y, x->z);
+    throw OpenMeshError(
+        fmt::format("the mesh does not close: {} edges in one triangle, {} in more than two, {} turned, {} points of "
+                    "several fans{}",
+                    t.open_edges, t.nonmanifold_edges, t.flipped_edges, t.nonmanifold_vertices, where));
+}
+
+}  // namespace
+
+double octree_edge(const SolidTree& solid, const Box& box) {
+    const double longest = largest(box.hi - box.lo), radius = solid.least_radius();
+    return radius > 0 ? std::clamp(0.5 * radius, longest / 512, longest / 64) : longest / 64;
+}
+
+Mesh octree(const SolidTree& mixed, const Box& box, const OctreeOptions& options, OctreeStatistics* statistics) {
+    if (box.empty()) return {};
+    SolidTree solid = separate_sharp(mixed);
+    if (solid.leaves.empty()) return {};
+    if (!is_within(bounding_box(solid), box)) solid = cut_off(std::move(solid), box);
+    const double edge = options.edge > 0 ? options.edge : octree_edge(solid, box);
+    SolidTree numbered = solid;
+    for (std::size_t k = 0; k < numbered.leaves.size(); ++k) numbered.leaves[k].line = int(k);
+    OctreeStatistics own;
+    if (!statistics) statistics = &own;
+    *statistics = {};
+    Polygonization polygonization(numbered, box, options, edge);
+    Mesh best;
+    std::size_t least_left = std::numeric_limits<std::size_t>::max();
+    // What repair cannot help needs smaller cells around it.
+    constexpr int most_mending_rounds = 4;
+    constexpr double worth_another = 0.8;
+    for (int round = 0; round < most_mending_rounds; ++round) {
+        std::vector<Origin> origins;
+        Mesh mesh = polygonization.run(*statistics, origins);
+        const RepairStatistics repaired = repair(mesh, origins, FacetJudge(solid, mesh));
+        // Where surfaces touch, smaller cells leave as many.
+        const bool helped = double(repaired.left.size()) < worth_another * double(least_left);
+        const bool more = helped && !repaired.left.empty() && polygonization.cut_around(mesh, repaired.left);
+        if (repaired.left.size() < least_left) {
+            least_left = repaired.left.size();
+            best = std::move(mesh);
+        }
+        if (!more) break;
+    }
+    check(best);
+    return best;
+}
+
+}  // namespace deburr

@@ -1,0 +1,67 @@
+// A mesh in the making: its points know all the faces that meet in them.
+#pragma once
+#include <array>
+
+#include "polygonizer/mesh/facets.hpp"
+#include "polygonizer/octree/octree_points.hpp"
+
+namespace deburr {
+
+using Corners = std::array<int, 3>;
+
+struct PointMesh {
+    std::vector<SurfacePoint> points;
+    std::vector<Corners> triangles;
+    std::size_t polygons = 0;
+
+    const SurfacePoint& point(int v) const { return points[std::size_t(v)]; }
+    Vec3 position(int v) const { return point(v).position; }
+    /// Twice the area, outward.
+    Vec3 area_vector(const Corners& t) const {
+        return glm::cross(position(t[1]) - position(t[0]), position(t[2]) - position(t[0]));
+    }
+    Vec3 middle(const Corners& t) const { return (position(t[0]) + position(t[1]) + position(t[2])) / 3.0; }
+    Box box(const Corners& t) const {
+        Box b;
+        for (const int v : t) b = hull(b, {position(v), position(v)});
+        return b;
+    }
+
+    /// An edge between two triangles.
+    struct Edge {
+        int p, q;         // as `left` runs
+        int left, right;  // triangles
+    };
+    /// Those that `wanted(p, q)` says, in the order of their ends.
+    template <class Wanted>
+    std::vector<Edge> edges(Wanted wanted) const;
+
+    /// A point on the edge makes two triangles of each at it; the new ones come last.
+    void divide(const Edge& e, SurfacePoint point);
+    /// A point within a triangle makes three of it.
+    void divide(int triangle, SurfacePoint point);
+
+    /// Every corner of a triangle takes the normal, of those at its point, that suits it best.
+    /// `origins` tells the leaf of each triangle; its cell is 0, or both are −1 on a plane.
+    Mesh mesh(std::vector<Origin>& origins) const;
+
+private:
+    struct Directed {
+        int lo, hi, triangle;
+        bool forward;
+    };
+    static std::vector<Edge> paired(std::vector<Directed> all);
+};
+
+template <class Wanted>
+std::vector<PointMesh::Edge> PointMesh::edges(Wanted wanted) const {
+    std::vector<Directed> all;
+    for (std::size_t t = 0; t < triangles.size(); ++t)
+        for (std::size_t k = 0; k < 3; ++k) {
+            const int a = triangles[t][k], b = triangles[t][(k + 1) % 3];
+            if (wanted(std::min(a, b), std::max(a, b))) all.push_back({std::min(a, b), std::max(a, b), int(t), a < b});
+        }
+    return paired(std::move(all));
+}
+
+}  // namespace deburr

@@ -1,0 +1,355 @@
+#include "polygonizer/triage/cell_complex.hpp"
+
+#include <algorithm>
+#include <cassert>
+#include <map>
+
+namespace deburr {
+
+CellComplex::CellComplex(const Box& box, double tolerance) : tolerance(tolerance) {
+    for (int k = 0; k < 8; ++k)
+        vertices.push_back({k & 1 ? box.hi.x : box.lo.x, k & 2 ? box.hi.y : box.lo.y, k & 4 ? box.hi.z : box.lo.z});
+    // Counter-clockwise seen from inside, so that the box's cell is the front one.
+    constexpr int sides[6][4] = {{0, 1, 3, 2}, {4, 6, 7, 5}, {0, 4, 5, 1}, {2, 3, 7, 6}, {0, 2, 6, 4}, {1, 5, 7, 3}};
+    std::map<std::pair<int, int>, int> known;
+    cells.emplace_back();
+    for (const auto& side : sides) {
+        Face face{{}, outside, 0};
+        for (int k = 0; k < 4; ++k) {
+            const int a = side[k], b = side[(k + 1) % 4];
+            const auto [it, fresh] = known.try_emplace(std::minmax(a, b), int(edges.size()));
+            if (fresh) edges.push_back({a, b, {}});
+            edges[it->second].faces.push_back(int(faces.size()));
+            face.loop.push_back(2 * it->second + (edges[it->second].tail == a ? 0 : 1));
+        }
+        cells[0].push_back(int(faces.size()));
+        faces.push_back(std::move(face));
+    }
+}
+
+int CellComplex::across(int edge, int face, int cell) const {
+    for (int other : edges[edge].faces)
+        if (other != face && (faces[other].back == cell || faces[other].front == cell)) return other;
+    assert(false && "an edge of a cell lies in two of its faces");
+    return face;
+}
+
+const std::vector<int>& CellComplex::vertices_of(int cell) const {
+    const std::array now{std::size_t(cell), vertices.size(), edges.size(), faces.size()};
+    if (listed_ == now) return list_;
+    listed_ = now;
+    list_.clear();
+    seen_.resize(vertices.size(), 0);
+    ++stamp_;
+    for (int f : cells[cell])
+        for (Step s : faces[f].loop) {
+            const int v = start(s);
+            if (seen_[v] == stamp_) continue;
+            seen_[v] = stamp_;
+            list_.push_back(v);
+        }
+    return list_;
+}
+
+std::vector<int> CellComplex::corners(int face) const {
+    std::vector<int> out;
+    for (Step s : faces[face].loop) out.push_back(start(s));
+    return out;
+}
+
+Vec3 CellComplex::area_vector(int face) const {
+    const auto& loop = faces[face].loop;
+    const Vec3 o = vertices[start(loop[0])];
+    Vec3 sum(0.0);
+    for (Step s : loop) sum += glm::cross(vertices[start(s)] - o, vertices[end(s)] - o);
+    return sum;
+}
+
+bool CellComplex::is_sound() const {
+    for (std::size_t f = 0; f < faces.size(); ++f) {
+        const auto& loop = faces[f].loop;
+        for (std::size_t k = 0; k < loop.size(); ++k) {
+            if (end(loop[k]) != start(loop[(k + 1) % loop.size()])) return false;
+            const auto& around = edges[loop[k] >> 1].faces;
+            if (std::count(around.begin(), around.end(), int(f)) != 1) return false;
+        }
+        for (const int c : {faces[f].back, faces[f].front})
+            if (c != outside && std::count(cells[c].begin(), cells[c].end(), int(f)) != 1) return false;
+    }
+    for (std::size_t c = 0; c < cells.size(); ++c) {
+        std::map<int, int> uses;  // of an edge; the sum of its directions, ×100
+        for (const int f : cells[c])
+            for (const Step s : faces[f].loop) uses[s >> 1] += 1 + ((s & 1) == (faces[f].front == int(c)) ? 100 : -100);
+        for (const auto& [edge, sum] : uses)
+            if (sum != 2) return false;
+        if (vertices_of(int(c)).size() + cells[c].size() != uses.size() + 2) return false;
+    }
+    return true;
+}
+
+int CellComplex::add_vertex(Vec3 x) {
+    vertices.push_back(x);
+    return int(vertices.size()) - 1;
+}
+
+int CellComplex::split_edge(int edge, Vec3 x) {
+    const int middle = add_vertex(x), half = int(edges.size());
+    edges.push_back({middle, edges[edge].head, edges[edge].faces});
+    edges[edge].head = middle;
+    for (int f : edges[edge].faces) {
+        auto& loop = faces[f].loop;
+        const auto at = std::find_if(loop.begin(), loop.end(), [&](Step s) { return s >> 1 == edge; });
+        if (*at & 1)
+            loop.insert(at, 2 * half + 1);
+        else
+            loop.insert(at + 1, 2 * half);
+    }
+    return middle;
+}
+
+int CellComplex::split_face(int face, int a, int b, std::span<const Vec3> between) {
+    assert(a != b);
+    const int fresh = int(faces.size());
+    List<8> chain;
+    int last = a;
+    for (std::size_t k = 0; k <= between.size(); ++k) {
+        const int next = k < between.size() ? add_vertex(between[k]) : b;
+        chain.push_back(2 * int(edges.size()));
+        edges.push_back({last, next, {face, fresh}});
+        last = next;
+    }
+    auto& old = faces[face].loop;
+    const auto from = std::find_if(old.begin(), old.end(), [&](Step s) { return start(s) == a; });
+    assert(from != old.end());
+    std::rotate(old.begin(), from, old.end());
+    const auto to = std::find_if(old.begin(), old.end(), [&](Step s) { return start(s) == b; });
+    assert(to != old.end());
+    Face half{{old.begin(), to}, faces[face].back, faces[face].front};
+    List<8> kept = chain;
+    kept.append(to, old.end());
+    for (Step s : half.loop) {
+        auto& around = edges[s >> 1].faces;
+        *std::find(around.begin(), around.end(), face) = fresh;
+    }
+    for (auto s = chain.end(); s != chain.begin();) half.loop.push_back(*--s ^ 1);
+    old = std::move(kept);
+    if (half.back != outside) cells[half.back].push_back(fresh);
+    if (half.front != outside) cells[half.front].push_back(fresh);
+    faces.push_back(std::move(half));
+    return fresh;
+}
+
+int CellComplex::split_cell(int cell, std::span<const Step> loop, int seed, std::span<const Corners> disc) {
+    const int fresh = int(cells.size());
+    cells.emplace_back();
+
+    // What the loop cuts off on the side of the seed becomes the new cell's.
+    rim_.resize(edges.size(), 0);
+    ++rim_stamp_;
+    for (Step s : loop) rim_[s >> 1] = rim_stamp_;
+    List<12> moved{seed};
+    auto move = [&](int f) { (faces[f].back == cell ? faces[f].back : faces[f].front) = fresh; };
+    move(seed);
+    for (std::size_t k = 0; k < moved.size(); ++k)
+        for (Step s : faces[moved[k]].loop) {
+            if (rim_[s >> 1] == rim_stamp_) continue;
+            for (int other : edges[s >> 1].faces)
+                if (faces[other].back == cell || faces[other].front == cell) {
+                    move(other);
+                    moved.push_back(other);
+                }
+        }
+    auto& old = cells[cell];
+    old.erase(
+        std::remove_if(old.begin(), old.end(), [&](int f) { return faces[f].back != cell && faces[f].front != cell; }),
+        old.end());
+    cells[fresh] = std::move(moved);
+
+    // What was put in last is the first to be asked for.
+    struct Known {
+        int from, to;
+        Step step;
+    };
+    ShortList<Known, 24> known;
+    for (Step s : loop) known.push_back({start(s), end(s), s});
+    const auto step_between = [&](int a, int b) -> Step {
+        for (auto k = known.end(); k != known.begin();) {
+            --k;
+            if (k->from == a && k->to == b) return k->step;
+            if (k->from == b && k->to == a) return k->step ^ 1;
+        }
+        known.push_back({a, b, 2 * int(edges.size())});
+        edges.push_back({a, b, {}});
+        return known.back().step;
+    };
+    for (const Corners& polygon : disc) {
+        const int f = int(faces.size());
+        Face face{{}, cell, fresh};
+        for (std::size_t k = 0; k < polygon.size(); ++k) {
+            const Step s = step_between(polygon[k], polygon[(k + 1) % polygon.size()]);
+            edges[s >> 1].faces.push_back(f);
+            face.loop.push_back(s);
+        }
+        faces.push_back(std::move(face));
+        cells[cell].push_back(f);
+        cells[fresh].push_back(f);
+    }
+    return fresh;
+}
+
+bool CellComplex::classify(int cell, const Plane& plane) {
+    side_.resize(vertices.size());
+    bool above = false, below = false;
+    for (int v : vertices_of(cell)) {
+        const double d = plane.distance(vertices[v]);
+        side_[v] = d > tolerance ? 1 : d < -tolerance ? -1 : 0;
+        above |= side_[v] > 0;
+        below |= side_[v] < 0;
+    }
+    if (!above || !below) return false;
+    reach_.clear();
+    for (int f : cells[cell]) {
+        Reach& reach = reach_.emplace_back(Reach{f, false, false});
+        for (Step s : faces[f].loop) {
+            reach.above |= side_[start(s)] > 0;
+            reach.below |= side_[start(s)] < 0;
+        }
+    }
+    return true;
+}
+
+const CellComplex::Reach& CellComplex::reach_of(int face) const {
+    return *std::find_if(reach_.begin(), reach_.end(), [&](const Reach& r) { return r.face == face; });
+}
+
+// Whether the cut is one simple loop: every face is crossed not at all or in two places, and these
+// places, an edge or a vertex each, are joined to a single ring.
+bool CellComplex::cut_is_simple(int cell) {
+    auto& links = joins_;  // places: ~edge crossed, or vertex
+    links.clear();
+    for (const Reach& reach : reach_) {
+        if (!reach.above) continue;
+        const auto& loop = faces[reach.face].loop;
+        const std::size_t n = loop.size();
+        if (reach.below) {
+            int places[2], count = 0;
+            for (std::size_t k = 0; k < n; ++k) {
+                const int here = start(loop[k]), next = end(loop[k]);
+                int place;
+                if (side_[here] * side_[next] < 0) {
+                    place = ~(loop[k] >> 1);
+                } else if (side_[next] == 0 && side_[here] != 0) {
+                    const int after = side_[end(loop[k + 1 < n ? k + 1 : 0])];
+                    if (after == side_[here]) continue;  // touches only
+                    if (after == 0) return false;        // an edge on the plane between both sides
+                    place = next;
+                } else {
+                    continue;
+                }
+                if (count == 2) return false;
+                places[count++] = place;
+            }
+            if (count != 2) return false;
+            links.push_back({places[0], places[1]});
+        } else {
+            for (Step s : loop) {
+                if (side_[start(s)] != 0 || side_[end(s)] != 0) continue;
+                const Reach& other = reach_of(across(s >> 1, reach.face, cell));
+                if (other.above) continue;
+                if (!other.below) return false;  // a whole face on the plane within the cut
+                links.push_back({start(s), end(s)});
+            }
+        }
+    }
+    if (links.size() < 3) return false;
+    // A ring: walk it.
+    int at = links[0].to;
+    links[0].used = true;
+    std::size_t walked = 1;
+    while (at != links[0].from) {
+        Join* next = nullptr;
+        for (Join& join : links) {
+            if (join.used || (join.from != at && join.to != at)) continue;
+            if (next) return false;
+            next = &join;
+        }
+        if (!next) return false;
+        next->used = true;
+        ++walked;
+        at = next->from == at ? next->to : next->from;
+    }
+    return walked == links.size();
+}
+
+int CellComplex::cut(int cell, const Plane& plane) {
+    if (!classify(cell, plane) || !cut_is_simple(cell)) return -1;
+    for (const Reach& reach : reach_) {
+        if (!reach.above || !reach.below) continue;
+        auto& loop = faces[reach.face].loop;
+        for (std::size_t k = 0; k < loop.size(); ++k) {
+            const Step s = loop[k];
+            const int a = start(s), b = end(s);
+            if (side_[a] * side_[b] >= 0) continue;
+            const double da = plane.distance(vertices[a]), db = plane.distance(vertices[b]);
+            Vec3 x = vertices[a] + (vertices[b] - vertices[a]) * (da / (da - db));
+            x -= plane.normal * plane.distance(x);
+            split_edge(s >> 1, x);
+            side_.push_back(0);
+        }
+    }
+    List<8> ring;
+    int seed = -1;
+    for (const Reach& reach : reach_) {
+        if (!reach.above) continue;
+        const auto& loop = faces[reach.face].loop;
+        if (reach.below) {
+            int from = -1, to = -1;  // the half with the positive side runs from `from` to `to`
+            for (std::size_t k = 0; k < loop.size(); ++k) {
+                const int before = side_[start(loop[k])], v = end(loop[k]);
+                if (side_[v] != 0) continue;
+                const int after = side_[end(loop[k + 1 < loop.size() ? k + 1 : 0])];
+                if (before < 0 && after > 0) from = v;
+                if (before > 0 && after < 0) to = v;
+            }
+            seed = split_face(reach.face, from, to);
+            ring.push_back(2 * (int(edges.size()) - 1));
+        } else {
+            seed = reach.face;
+            for (Step s : loop) {
+                // No face that was halved has an edge on the plane, so all that meet here are known.
+                if (side_[start(s)] != 0 || side_[end(s)] != 0) continue;
+                if (!reach_of(across(s >> 1, reach.face, cell)).above) ring.push_back(s);
+            }
+        }
+    }
+    // Order the ring.
+    for (std::size_t k = 0; k + 1 < ring.size(); ++k)
+        for (std::size_t j = k + 1; j < ring.size(); ++j) {
+            if (start(ring[j]) != end(ring[k]) && end(ring[j]) != end(ring[k])) continue;
+            if (start(ring[j]) != end(ring[k])) ring[j] ^= 1;
+            std::swap(ring[k + 1], ring[j]);
+            break;
+        }
+    Corners polygon;
+    for (Step s : ring) polygon.push_back(start(s));
+    // Which way round is combinatorial, not a matter of a sliver's area: the ring must run against
+    // the new cell's face at its first edge.
+    const int upper_face = [&] {
+        for (int f : edges[ring[0] >> 1].faces) {
+            if (faces[f].back != cell && faces[f].front != cell) continue;
+            for (Step s : faces[f].loop)
+                if (side_[start(s)] > 0) return f;
+        }
+        return -1;
+    }();
+    assert(upper_face >= 0);
+    bool along = false;
+    for (Step s : faces[upper_face].loop)
+        if (s >> 1 == ring[0] >> 1) along = s == ring[0];
+    // Seen from the new cell, its faces' loops run counter-clockwise where it is the front cell.
+    const bool is_front = faces[upper_face].front == cell;
+    if (along == is_front) std::reverse(polygon.begin(), polygon.end());
+    return split_cell(cell, ring, seed, {&polygon, 1});
+}
+
+}  // namespace deburr

@@ -1,0 +1,186 @@
+#include "polygonizer/triage/loop_disc.hpp"
+
+#include <algorithm>
+#include <numeric>
+
+#include "polygonizer/triage/parallel_family.hpp"
+#include "polygonizer/triage/subspace.hpp"
+
+namespace deburr {
+namespace {
+
+// Cosine between a flat rim and the surface below which the rim is not taken for the surface.
+constexpr double along = 0.5;
+
+Vec3 area_vector(const std::vector<Vec3>& rim) {
+    Vec3 sum(0.0);
+    for (std::size_t k = 1; k + 1 < rim.size(); ++k) sum += glm::cross(rim[k] - rim[0], rim[k + 1] - rim[0]);
+    return sum;
+}
+
+bool is_flat(const std::vector<Vec3>& rim, Vec3 normal, double tolerance) {
+    for (const Vec3& x : rim)
+        if (std::abs(glm::dot(x - rim[0], normal)) > tolerance) return false;
+    return true;
+}
+
+// Strips across a swept surface [Triage §4.5.2]: its rulings run along `sweep`, so the loop is cut
+// at every place of the profile where it has a vertex, from one end of the profile to the other.
+// False if the loop runs back and forth along the profile.
+bool strips(const std::vector<Vec3>& rim, Vec3 sweep, double tolerance, Disc& disc) {
+    const int n = int(rim.size());
+    // Place along the profile: across the sweep, along the chord between the profile's ends.
+    Vec3 chord(0.0);
+    for (int i = 0; i < n; ++i)
+        for (int j = 0; j < i; ++j) {
+            const Vec3 d = rim[std::size_t(i)] - rim[std::size_t(j)];
+            const Vec3 c = d - sweep * glm::dot(sweep, d);
+            if (glm::length(c) > glm::length(chord)) chord = c;
+        }
+    if (glm::length(chord) <= 4 * tolerance) return false;
+    chord = glm::normalize(chord);
+    std::vector<double> u;
+    for (const Vec3& x : rim) u.push_back(glm::dot(x, chord));
+    const int low = int(std::min_element(u.begin(), u.end()) - u.begin());
+    const int high = int(std::max_element(u.begin(), u.end()) - u.begin());
+    const double slack = 4 * tolerance + 1e-9 * (u[std::size_t(high)] - u[std::size_t(low)]);
+    // Both ways from a lowest vertex to a highest one.
+    const auto walk = [&](int step, std::vector<int>& side) {
+        for (int i = low;; i = (i + step + n) % n) {
+            if (!side.empty() && u[std::size_t(i)] < u[std::size_t(side.back())] - slack) return false;
+            side.push_back(i);
+            if (i == high) return true;
+        }
+    };
+    std::vector<int> right, left;
+    if (!walk(1, right) || !walk(-1, left)) return false;
+
+    CellComplex::Corners line{low};  // what the faces so far end at, from left to right
+    std::size_t i = 1, j = 1;        // the next ones
+    const auto level = [&](int v) { return u[std::size_t(v)]; };
+    const double top = level(high) - slack;
+    while (true) {
+        const double r = level(right[i]), l = level(left[j]), here = level(line.front()) + slack;
+        const bool ruling = level(line.back()) <= here && level(line.back()) >= here - 2 * slack;
+        if (ruling && i + 1 < right.size() && r <= here) {
+            line.push_back(right[i++]);
+        } else if (ruling && j + 1 < left.size() && l <= here) {
+            line.insert(line.begin(), left[j++]);
+        } else if (r >= top && l >= top) {
+            line.append(right.data() + i, right.data() + right.size());
+            for (std::size_t k = left.size() - 1; k > j; --k) line.push_back(left[k - 1]);
+            if (line.size() < 3) return false;
+            disc.faces.push_back(line);
+            return true;
+        } else {
+            const bool on_right = r <= l + slack, on_left = l <= r + slack;
+            const CellComplex::Corners next{on_left ? left[j] : line.front(), on_right ? right[i] : line.back()};
+            if (on_right) line.push_back(right[i++]);
+            if (on_left) line.push_back(left[j++]);
+            if (line.size() > 2) disc.faces.push_back(line);
+            line = next;
+        }
+    }
+}
+
+// The centroid, moved along the gradient to the surface, within the walls; where the rim lies in a
+// plane that the surface does not follow, across that plane.
+bool displaced_centroid(const std::vector<Vec3>& rim, bool flat, const LocalDensity& density,
+                        const std::vector<Wall>& walls, double tolerance, Vec3& centre) {
+    const Vec3 c = std::accumulate(rim.begin(), rim.end(), Vec3(0.0)) / double(rim.size());
+    const ValueGradient here = density.gradient_at(c);
+    const double f = here.value - 0.5;
+    const double slope = glm::length(here.gradient);
+    if (std::abs(f) < 1e-14 + tolerance * slope) {
+        centre = c;
+        return true;
+    }
+    const Vec3 area = area_vector(rim);
+    const double size = glm::length(area);
+    Vec3 line = slope > 0 ? here.gradient / slope : Vec3(0.0);
+    if (size > 0 && (flat || slope == 0) && glm::dot(area, line) < along * size) line = area / size;
+    if (line == Vec3(0.0)) return false;
+    if (f > 0) line = -line;
+    double ahead = infinity, behind = -infinity;
+    for (const Wall& w : walls) {
+        const double gap = w.offset - glm::dot(w.normal, c), rate = glm::dot(w.normal, line);
+        if (rate > 1e-12)
+            ahead = std::min(ahead, gap / rate);
+        else if (rate < -1e-12)
+            behind = std::max(behind, gap / rate);
+    }
+    constexpr int samples = 8;
+    for (const double reach : {ahead, behind}) {
+        if (!std::isfinite(reach)) continue;
+        Vec3 last = c;
+        double flast = f;
+        for (int k = 1; k <= samples; ++k) {
+            const Vec3 x = c + line * (reach * k / samples);
+            const double fx = density.at(x) - 0.5;
+            if ((fx > 0) != (f > 0)) {
+                centre = root_between(density, last, flast, x, fx);
+                return true;
+            }
+            last = x;
+            flast = fx;
+        }
+    }
+    return false;
+}
+
+// Whether the rim's plane faces the way the surface does at its middle.
+bool follows(const std::vector<Vec3>& rim, const LocalDensity& density) {
+    const Vec3 c = std::accumulate(rim.begin(), rim.end(), Vec3(0.0)) / double(rim.size());
+    const Vec3 area = area_vector(rim), g = density.gradient_at(c).gradient;
+    return glm::dot(area, g) >= along * glm::length(area) * glm::length(g);
+}
+
+// The fan about a corner of the rim whose worst triangle leans least.
+void fan_about_corner(const std::vector<Vec3>& rim, const LocalDensity& density, Disc& disc) {
+    const int n = int(rim.size());
+    int best = 0;
+    double best_worst = -infinity;
+    for (int apex = 0; apex < n; ++apex) {
+        double worst = infinity;
+        for (int k = 1; k + 1 < n; ++k) {
+            const Vec3 a = rim[std::size_t(apex)], b = rim[std::size_t((apex + k) % n)],
+                       c = rim[std::size_t((apex + k + 1) % n)];
+            const Vec3 normal = glm::cross(b - a, c - a), g = density.gradient_at((a + b + c) / 3.0).gradient;
+            const double size = glm::length(normal) * glm::length(g);
+            worst = std::min(worst, size > 0 ? glm::dot(normal, g) / size : -1.0);
+        }
+        if (worst > best_worst) {
+            best_worst = worst;
+            best = apex;
+        }
+    }
+    for (int k = 1; k + 1 < n; ++k) disc.faces.push_back({best, (best + k) % n, (best + k + 1) % n});
+}
+
+}  // namespace
+
+void span_loop(const std::vector<Vec3>& rim, const LocalDensity& density, const std::vector<Wall>& walls,
+               double tolerance, Disc& disc) {
+    disc.faces.clear();
+    disc.has_centre = false;
+    const int n = int(rim.size());
+    const auto whole = [&] {
+        auto& face = disc.faces.emplace_back();
+        for (int k = 0; k < n; ++k) face.push_back(k);
+    };
+    if (n == 3 && follows(rim, density)) return whole();
+    const Vec3 area = area_vector(rim);
+    const bool flat = glm::length(area) > 0 && is_flat(rim, glm::normalize(area), tolerance);
+    Vec3 sweep;
+    if (n > 3 && !(flat && !follows(rim, density)) && is_swept(density, sweep) && strips(rim, sweep, tolerance, disc))
+        return;
+    disc.faces.clear();
+    if (!displaced_centroid(rim, flat, density, walls, tolerance, disc.centre))
+        return fan_about_corner(rim, density, disc);
+    const Vec3 c = std::accumulate(rim.begin(), rim.end(), Vec3(0.0)) / double(n);
+    if (flat && glm::length(disc.centre - c) <= 2 * tolerance) return whole();
+    disc.has_centre = true;
+    for (int k = 0; k < n; ++k) disc.faces.push_back({n, k, (k + 1) % n});
+}
+
+}  // namespace deburr

@@ -1,0 +1,169 @@
+#include "polygonizer/triage/refinement.hpp"
+
+#include <algorithm>
+#include <ranges>
+
+#include "polygonizer/mesh/polygon_triangles.hpp"
+#include "polygonizer/triage/parallel_family.hpp"
+
+namespace deburr {
+namespace {
+
+// A triangle, and the way out at its corners.
+struct Part {
+    Vec3 x[3], normal[3];
+};
+
+// Of each cell the most needed.
+void worst_of_each(std::vector<Cut>& cuts) {
+    std::sort(cuts.begin(), cuts.end(),
+              [](const Cut& a, const Cut& b) { return a.cell != b.cell ? a.cell < b.cell : a.error > b.error; });
+    cuts.erase(std::unique(cuts.begin(), cuts.end(), [](const Cut& a, const Cut& b) { return a.cell == b.cell; }),
+               cuts.end());
+}
+
+Part part_of(const Mesh& mesh, const Triangle& t) {
+    Part part;
+    for (std::size_t k = 0; k < 3; ++k) {
+        part.x[k] = mesh.positions[std::size_t(t.vertex[k])];
+        part.normal[k] = mesh.normals[std::size_t(t.normal[k])];
+    }
+    return part;
+}
+
+// Halves the edge of the triangle along which the surface's normal turns most; along a sweep it
+// does not turn.
+Plane halving(const Part& part, const LocalDensity& density) {
+    double most = -1;
+    Plane plane{};
+    Vec3 sweep(0.0);
+    const bool swept = is_swept(density, sweep);
+    for (std::size_t k = 0; k < 3; ++k) {
+        const std::size_t l = (k + 1) % 3;
+        const Vec3 a = part.x[k], b = part.x[l];
+        const double turn = glm::length(part.normal[k] - part.normal[l]);
+        Vec3 along = b - a;
+        if (swept) along -= sweep * glm::dot(sweep, along);
+        if (turn <= most || glm::length(along) == 0) continue;
+        most = turn;
+        plane.normal = glm::normalize(along);
+        plane.offset = glm::dot(plane.normal, 0.5 * (a + b));
+    }
+    return plane;
+}
+
+// Whether the triangle leans too far from the surface, or is too far from it; then `distance` is how far.
+bool is_wrong(const Part& part, const LocalDensity& density, double tolerance, double& distance) {
+    // Cosine between a triangle and the surface below which its cell is halved: 75°.
+    constexpr double least_cosine = 0.25;
+    // A sliver leans for other reasons, which halving does not help: repair.hpp.
+    constexpr double sliver = 0.005;  // height over longest side
+    Vec3 normal(0.0), centre(0.0);
+    double longest2 = 0;
+    for (std::size_t k = 0; k < 3; ++k) {
+        const Vec3 d = part.x[k] - part.x[(k + 1) % 3];
+        normal += part.normal[k];
+        centre += part.x[k] / 3.0;
+        longest2 = std::max(longest2, glm::dot(d, d));
+    }
+    const Vec3 area = glm::cross(part.x[1] - part.x[0], part.x[2] - part.x[0]);
+    const ValueGradient here = density.gradient_at(centre);
+    const double slope = glm::length(here.gradient), size = glm::length(area);
+    const double side = glm::dot(here.gradient, normal) > 0 ? 1 : -1;
+    const bool leans = size > sliver * longest2 && side * glm::dot(area, here.gradient) < least_cosine * size * slope;
+    distance = slope > 0 ? std::abs(here.value - 0.5) / slope : 0;
+    if (std::isfinite(tolerance))
+        for (std::size_t k = 0; k < 3; ++k) {
+            const ValueGradient middle = density.gradient_at(0.5 * (part.x[k] + part.x[(k + 1) % 3]));
+            const double steep = glm::length(middle.gradient);
+            if (steep > 0) distance = std::max(distance, std::abs(middle.value - 0.5) / steep);
+        }
+    return leans || distance > tolerance;
+}
+
+}  // namespace
+
+std::vector<Cut> cells_to_halve(const Mesh& mesh, const std::vector<Origin>& origins, const Subdivision& subdivision,
+                                double tolerance) {
+    std::vector<Cut> cuts;
+    for (std::size_t k = 0; k < origins.size(); ++k) {
+        if (origins[k].cell < 0) continue;
+        const LocalDensity& density = *subdivision.open(origins[k].cell, origins[k].leaf)->density;
+        const Part part = part_of(mesh, mesh.triangles[k]);
+        double distance;
+        if (is_wrong(part, density, tolerance, distance))
+            cuts.push_back({origins[k].cell, distance, halving(part, density)});
+    }
+    worst_of_each(cuts);
+    return cuts;
+}
+
+std::vector<Cut> cells_to_halve(const Subspace& subspace, double tolerance) {
+    const CellComplex& complex = subspace.complex();
+    std::vector<Cut> cuts;
+    std::vector<std::vector<int>> loop(1);
+    for (int f = 0; f < int(complex.faces.size()); ++f) {
+        const int leaf = subspace.leaf_of(f);
+        if (leaf < 0) continue;
+        const auto& face = complex.faces[std::size_t(f)];
+        const bool back = subspace.inside(face.back);
+        if (back == subspace.inside(face.front)) continue;
+        const int inner = back ? face.back : face.front, cell = subspace.origin(inner);
+        const LocalDensity& density = *subspace.open(inner, leaf)->density;
+        loop[0] = complex.corners(f);
+        Vec3 area = complex.area_vector(f);
+        if (!back) {
+            std::ranges::reverse(loop[0]);
+            area = -area;
+        }
+        const double size = glm::length(area);
+        const double outward = subspace.side(inner, leaf) == Side::outside ? 1 : -1;  // along the gradient
+        for (const auto& t : triangles_of(loop, complex.vertices, size > 0 ? area / size : Vec3(0.0))) {
+            Part part;
+            for (std::size_t k = 0; k < 3; ++k) {
+                part.x[k] = complex.vertices[std::size_t(t[k])];
+                const Vec3 g = density.gradient_at(part.x[k]).gradient;
+                const double slope = glm::length(g);
+                part.normal[k] = slope > 0 ? g * (outward / slope) : Vec3(0.0);
+            }
+            double distance;
+            if (is_wrong(part, density, tolerance, distance)) cuts.push_back({cell, distance, halving(part, density)});
+        }
+    }
+    worst_of_each(cuts);
+    return cuts;
+}
+
+std::vector<Cut> cells_around(const Mesh& mesh, const std::vector<Origin>& origins, const std::vector<int>& triangles,
+                              const Subdivision& subdivision) {
+    std::vector<char> near(mesh.positions.size(), false);
+    for (const int t : triangles)
+        for (const int v : mesh.triangles[std::size_t(t)].vertex) near[std::size_t(v)] = true;
+    std::vector<Cut> cuts;
+    for (std::size_t k = 0; k < origins.size(); ++k) {
+        if (origins[k].cell < 0) continue;
+        const Triangle& t = mesh.triangles[k];
+        const auto count = std::count_if(t.vertex.begin(), t.vertex.end(), [&](int v) { return near[std::size_t(v)]; });
+        if (count < 2) continue;
+        const Plane plane = halving(part_of(mesh, t), *subdivision.open(origins[k].cell, origins[k].leaf)->density);
+        if (plane.normal != Vec3(0.0)) cuts.push_back({origins[k].cell, glm::length(mesh.area_vector(t)), plane});
+    }
+    worst_of_each(cuts);
+    return cuts;
+}
+
+std::vector<int> with_neighbours(const CellComplex& complex, const std::vector<int>& cells) {
+    std::vector<int> all = cells;
+    for (const int c : cells)
+        for (const int f : complex.cells[std::size_t(c)])
+            for (const CellComplex::Step s : complex.faces[std::size_t(f)].loop)
+                for (const int around : complex.edges[std::size_t(s >> 1)].faces)
+                    for (const int beside :
+                         {complex.faces[std::size_t(around)].back, complex.faces[std::size_t(around)].front})
+                        if (beside >= 0) all.push_back(beside);
+    std::sort(all.begin(), all.end());
+    all.erase(std::unique(all.begin(), all.end()), all.end());
+    return all;
+}
+
+}  // namespace deburr

@@ -1,0 +1,160 @@
+#include "polygonizer/triage/subdivision.hpp"
+
+#include <algorithm>
+#include <cassert>
+
+#include "bounds/solid_range.hpp"
+#include "polygonizer/triage/density_side.hpp"
+#include "polygonizer/triage/parallel_family.hpp"
+
+namespace deburr {
+
+Subdivision::Subdivision(const SolidTree& solid, const Box& box) : complex(box, 1e-9 * glm::length(box.hi - box.lo)) {
+    Place whole;
+    whole.solid = solid.nodes;
+    for (std::size_t k = 0; k < solid.leaves.size(); ++k)
+        whole.open.push_back({int(k), std::make_shared<DensityTree>(solid.leaves[k].density), nullptr});
+    places.push_back(std::move(whole));
+    refused_.emplace_back();
+    place_of.push_back(0);
+    place_of[0] = new_place(0, 0);
+    subdivide(0);
+}
+
+// Of corners_, along a normal.
+Range Subdivision::extent(Vec3 normal) {
+    for (const Extent& e : extents_) {
+        if (e.normal == normal) return e.along;
+        if (e.normal == -normal) return {-e.along.hi, -e.along.lo};
+    }
+    const Range along = extent_along(normal, corners_);
+    constexpr std::size_t usual = 8;  // normals; what has more would look for them too long
+    if (extents_.size() < usual) extents_.push_back({normal, along});
+    return along;
+}
+
+// Rounding is monotone: the least of differences is the difference from the least.
+Range Subdivision::distances(const HalfSpace& h) {
+    const Range s = extent(h.normal);
+    return {s.lo - h.offset, s.hi - h.offset};
+}
+
+// ρ of the half-spaces over corners_, to ranges_.
+void Subdivision::range_over_cell(const std::vector<HalfSpace>& half_spaces) {
+    ranges_.clear();
+    for (const HalfSpace& h : half_spaces) {
+        const Range d = distances(h);
+        ranges_.push_back(rho_between(h, d.lo, d.hi, complex.tolerance));
+    }
+}
+
+// The leaf within corners_.
+OpenLeaf Subdivision::localize(const OpenLeaf& leaf, Side& side) {
+    range_over_cell(leaf.tree->half_spaces);
+    Pruned pruned = prune_further(*leaf.tree, ranges_, is_decided);
+    side = decide(pruned.range);
+    if (side != Side::straddling) return leaf;
+    OpenLeaf local = leaf;
+    if (!pruned.tree.nodes.empty()) {
+        local.tree = std::make_shared<DensityTree>(std::move(pruned.tree));
+        local.density = nullptr;
+    }
+    // Part of a cell that was small enough, or that nothing more divides: small enough too.
+    if (!local.density && (leaf.density || local.tree->half_spaces.size() <= 2 * many))
+        local.density = std::make_shared<LocalDensity>(*local.tree);
+    if (local.density) {
+        range_over_cell(local.density->half_spaces());
+        side = decide(local.density->range(ranges_));
+        if (side == Side::straddling && is_parallel_family(*local.density)) {
+            const Range s = extent(local.density->half_spaces()[0].normal);
+            const auto roots = level_planes(*local.density, s, complex.tolerance);
+            if (roots.planes.empty()) side = roots.inside ? Side::inside : Side::outside;
+        }
+    }
+    return local;
+}
+
+void Subdivision::look_at(int cell) {
+    const std::pair now{cell, complex.cells.size()};
+    if (looked_at_ == now) return;
+    looked_at_ = now;
+    corners_.clear();
+    extents_.clear();
+    for (int v : complex.vertices_of(cell)) corners_.push_back(complex.vertices[std::size_t(v)]);
+}
+
+int Subdivision::new_place(int parent, int cell) {
+    look_at(cell);
+    Place place;
+    place.parent = parent;
+    place.solid = places[std::size_t(parent)].solid;
+    for (const OpenLeaf& leaf : places[std::size_t(parent)].open) {
+        Side side;
+        OpenLeaf local = localize(leaf, side);
+        if (side == Side::straddling)
+            place.open.push_back(std::move(local));
+        else
+            place.decided.push_back({leaf.leaf, side});
+    }
+    place.side = fold(place.solid, [&](int leaf) {
+        for (const auto& [decided, side] : place.decided)
+            if (decided == leaf) return side;
+        return Side::straddling;
+    });
+    std::erase_if(place.open, [&](const OpenLeaf& leaf) {
+        return std::none_of(place.solid.begin(), place.solid.end(),
+                            [&](const SolidTreeNode& n) { return n.op == SolidOp::leaf && n.a == leaf.leaf; });
+    });
+    places.push_back(std::move(place));
+    return int(places.size()) - 1;
+}
+
+Side Subdivision::side(int cell, int leaf) const {
+    for (int p = place_of[std::size_t(cell)]; p >= 0; p = places[std::size_t(p)].parent) {
+        const auto& decided = places[std::size_t(p)].decided;
+        const auto at = std::lower_bound(decided.begin(), decided.end(), std::pair{leaf, Side::outside});
+        if (at != decided.end() && at->first == leaf) return at->second;
+    }
+    return Side::straddling;
+}
+
+const OpenLeaf* Subdivision::open(int cell, int leaf) const {
+    for (const OpenLeaf& o : places[std::size_t(place_of[std::size_t(cell)])].open)
+        if (o.leaf == leaf) return &o;
+    return nullptr;
+}
+
+bool Subdivision::halve(int cell, const Plane& plane) {
+    const int upper = complex.cut(cell, plane);
+    if (upper < 0) return false;
+    const int parent = place_of[std::size_t(cell)];
+    refused_.push_back(refused_[std::size_t(cell)]);
+    place_of.push_back(new_place(parent, upper));
+    place_of[std::size_t(cell)] = new_place(parent, cell);
+    return true;
+}
+
+void Subdivision::subdivide(int cell) {
+    std::vector<int> todo{cell};
+    while (!todo.empty()) {
+        current_ = todo.back();
+        todo.pop_back();
+        const int at = place_of[std::size_t(current_)];
+        if (places[std::size_t(at)].side != Side::straddling) continue;
+        look_at(current_);
+        Plane plane{};
+        if (!choose(places[std::size_t(at)], plane)) {
+            // Cells of a filter that reaches all over the object stay large, with many half-spaces.
+            for (OpenLeaf& leaf : places[std::size_t(at)].open)
+                if (!leaf.density) leaf.density = std::make_shared<LocalDensity>(*leaf.tree);
+            continue;
+        }
+        if (halve(current_, plane))
+            todo.push_back(int(complex.cells.size()) - 1);
+        else
+            refused_[std::size_t(current_)].push_back(plane);
+        todo.push_back(current_);
+    }
+}
+
+}  // namespace deburr

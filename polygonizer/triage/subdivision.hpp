@@ -1,0 +1,100 @@
+// Polyhedral subdivision of space [Triage §4.2]: planes cut a box into convex cells until each lies
+// inside or outside of every rounded density that matters there, or no plane is left to cut it.
+//
+// The planes are those of the half-spaces, h, and their parallels at ±r. A plane cuts a cell only
+// if its half-space is not constant there and the cell is not decided, so planes stay local. Where
+// many half-spaces meet in a cell it is halved first, along an axis, which keeps the whole near
+// n log n; the polygons that this cuts apart are joined again (surface.hpp).
+//
+// Printed differently: the paper classifies by density classes (density_class.hpp). Ranges of ρ
+// over the cell say at least as much, and see that a sum of two small densities is small.
+#pragma once
+#include <memory>
+
+#include "bounds/local_density.hpp"
+#include "bounds/solid_tree.hpp"
+#include "polygonizer/triage/cell_complex.hpp"
+
+namespace deburr {
+
+/// A rounded density in a place where it is neither inside nor outside.
+struct OpenLeaf {
+    int leaf = 0;                                 // in SolidTree::leaves
+    std::shared_ptr<const DensityTree> tree;      // pruned to the place
+    std::shared_ptr<const LocalDensity> density;  // of it; null while it has many half-spaces
+};
+
+/// A node of the binary space partition.
+struct Place {
+    int parent = -1;
+    Side side = Side::straddling;               // of the solid
+    std::vector<OpenLeaf> open;                 // leaves that are undecided, and matter
+    std::vector<std::pair<int, Side>> decided;  // leaves decided here but not in the parent, sorted
+    std::vector<SolidTreeNode> solid;           // what the open leaves decide
+};
+
+class Subdivision {
+public:
+    /// `box` should hold the solid; where it does not, the solid is cut off by it.
+    Subdivision(const SolidTree& solid, const Box& box);
+
+    CellComplex complex;
+    std::vector<Place> places;
+    std::vector<int> place_of;  // of each cell
+
+    /// Side of the leaf throughout the cell; straddling also where nobody asked.
+    Side side(int cell, int leaf) const;
+    const OpenLeaf* open(int cell, int leaf) const;
+    /// Cuts the cell further, whatever it is; children are made into places of their own.
+    bool halve(int cell, const Plane& plane);
+    /// Cuts the cell and what comes of it as far as planes go.
+    void subdivide(int cell);
+
+private:
+    // With more half-spaces than this in a cell it is halved along an axis first: chosen, near the
+    // minimum of the triangle count over Lobb's figures.
+    static constexpr std::size_t many = 14;
+
+    // What is known of a half-space in the cell that is being looked at.
+    struct Reach {
+        const HalfSpace* half_space;
+        Range distance, rho;
+        int along;  // 1 or −1 where its normal is the plane's that is being considered, or against it; else 0
+    };
+
+    struct Candidate {
+        Plane plane;
+        Range along;  // of the cell, along its normal
+        double bias;
+    };
+    struct Extent {
+        Vec3 normal;
+        Range along;
+    };
+
+    Range extent(Vec3 normal);
+    Range distances(const HalfSpace& h);
+    void range_over_cell(const std::vector<HalfSpace>& half_spaces);
+    int new_place(int parent, int cell);
+    OpenLeaf localize(const OpenLeaf& leaf, Side& side);
+    bool choose(const Place& place, Plane& plane);
+    bool choose_neutral(const Place& place, Plane& plane) const;
+    void turn(const Place& place, Vec3 normal);
+    double cost(const Place& place, double offset, bool above);
+    bool is_refused(const Plane& plane) const;
+    void look_at(int cell);
+
+    std::pair<int, std::size_t> looked_at_{-1, 0};  // a cell, and how many there were
+    std::vector<Vec3> corners_;                     // of that cell
+    std::vector<Extent> extents_;                   // of them, along normals that were asked for
+    std::vector<Reach> reach_;                      // of its densities' half-spaces, leaf by leaf
+    std::vector<Candidate> candidates_;             // planes that may cut the cell
+    Vec3 turned_to_{0.0};                           // the normal of planes that are being considered
+    std::vector<std::vector<Plane>> refused_;       // by cell
+    int current_ = 0;
+    std::vector<Range> ranges_;
+    std::vector<Side> sides_;           // of open leaves
+    std::vector<std::size_t> varying_;  // half-spaces of theirs that vary and are not along
+};
+
+}  // namespace deburr

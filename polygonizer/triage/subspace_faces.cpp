@@ -1,0 +1,204 @@
+// What the isosurface does in the faces between cells: segments, and the points that refine them.
+#include <algorithm>
+
+#include "polygonizer/triage/parallel_family.hpp"
+#include "polygonizer/triage/subspace.hpp"
+
+namespace deburr {
+
+// Joins the places where the rim changes sign by segments [Triage §4.4.2].
+void Subspace::split_face(int face, const LocalDensity& density) {
+    const auto& loop = complex_.faces[std::size_t(face)].loop;
+    const std::size_t n = loop.size();
+    auto& signs = rim_signs_;
+    signs.clear();
+    for (const Step s : loop) signs.push_back(edge_signs_.at(s >> 1));
+    // An edge along the surface takes the sign before it.
+    const auto first = std::find_if(signs.begin(), signs.end(), [](Sign s) { return s != Sign::none; });
+    if (first == signs.end()) {
+        Vec3 centroid(0.0);
+        for (const Step s : loop) centroid += complex_.vertices[std::size_t(complex_.start(s))];
+        const Sign sign = point_sign(centroid / double(n), density);
+        return face_labels_.set(face, sign == Sign::above ? sign : Sign::below);
+    }
+    const std::size_t offset = std::size_t(first - signs.begin());
+    auto& changes = changes_;  // vertices
+    auto& after = after_;      // of each change
+    changes.clear();
+    after.clear();
+    Sign current = *first;
+    for (std::size_t k = 1; k <= n; ++k) {
+        const std::size_t at = (offset + k) % n;
+        if (signs[at] == Sign::none || signs[at] == current) continue;
+        changes.push_back(complex_.start(loop[at]));
+        current = signs[at];
+        after.push_back(current);
+    }
+    if (changes.empty()) return face_labels_.set(face, current);
+
+    Sign middle = Sign::unknown;
+    if (changes.size() > 2) {
+        Vec3 centroid(0.0);
+        for (const int v : changes) centroid += complex_.vertices[std::size_t(v)];
+        middle = point_sign(centroid / double(changes.size()), density);
+        if (middle == Sign::none) middle = Sign::below;
+    } else {
+        middle = after[1];
+    }
+    face_labels_.set(face, middle);
+    int rest = face;
+    for (std::size_t k = 0; k < changes.size(); ++k) {
+        if (after[k] == middle) continue;
+        const int a = changes[k], b = changes[(k + 1) % changes.size()];
+        if (a == b) continue;
+        const std::optional<Vec3> between = refine(rest, a, b, density);
+        if (!between) {
+            // An arc of the rim that is as straight as the segment would leave a face of no area.
+            const auto& l = complex_.faces[std::size_t(rest)].loop;
+            const Vec3 xa = complex_.vertices[std::size_t(a)], d = complex_.vertices[std::size_t(b)] - xa;
+            bool straight = true;
+            std::size_t at = 0;
+            while (complex_.start(l[at]) != a) at = (at + 1) % l.size();
+            for (; complex_.start(l[at]) != b && straight; at = (at + 1) % l.size()) {
+                const Vec3 x = complex_.vertices[std::size_t(complex_.start(l[at]))] - xa;
+                straight = glm::length(glm::cross(x, d)) <= complex_.tolerance * glm::length(d);
+            }
+            if (straight) continue;
+        }
+        const std::size_t edges = complex_.edges.size(), vertices = complex_.vertices.size();
+        const int cut_off = between ? complex_.split_face(rest, a, b, {&*between, 1}) : complex_.split_face(rest, a, b);
+        leaf_of_face_.resize(complex_.faces.size(), leaf_of_face_[std::size_t(rest)]);
+        face_labels_.set(cut_off, after[k]);
+        for (std::size_t e = edges; e < complex_.edges.size(); ++e) edge_signs_.set(int(e), Sign::none);
+        for (std::size_t v = vertices; v < complex_.vertices.size(); ++v) vertex_signs_.set(int(v), Sign::none);
+    }
+}
+
+// A point of the surface near the segment's middle, in the face [Triage §4.4.3]; none if the segment
+// is straight, or none is found.
+std::optional<Vec3> Subspace::refine(int face, int a, int b, const LocalDensity& density) const {
+    const Vec3 xa = complex_.vertices[std::size_t(a)], xb = complex_.vertices[std::size_t(b)];
+    const Vec3 middle = 0.5 * (xa + xb);
+    const double length = glm::length(xb - xa);
+    const ValueGradient here = density.gradient_at(middle);
+    const double f = here.value - 0.5;
+    if (std::abs(f) <= on_level + 1e-7 * length * glm::length(here.gradient)) return {};
+    const Vec3 area = complex_.area_vector(face);
+    if (glm::length(area) <= 0) return {};
+    const Vec3 normal = glm::normalize(area);
+    // Along the gradient; in a swept surface up to a slide along it, so that every face that
+    // crosses the sweep has its point at the same place of the profile.
+    Vec3 line = here.gradient - normal * glm::dot(normal, here.gradient), sweep;
+    if (is_swept(density, sweep) && std::abs(glm::dot(sweep, normal)) > 0.1)
+        line = here.gradient - sweep * (glm::dot(normal, here.gradient) / glm::dot(normal, sweep));
+    // Where the segment runs along the rim the gradient may lead out of the face: then across it.
+    const Vec3 across = glm::cross(normal, xb - xa);
+    for (const Vec3 direction : {line, across}) {
+        if (glm::length(direction) <= 1e-9 * (direction == line ? glm::length(here.gradient) : length)) continue;
+        Vec3 root;
+        if (!search(face, middle, glm::normalize(direction) * (f > 0 ? -1.0 : 1.0), normal, length, density, root))
+            continue;
+        return on_seam({&face, 1}, root, length, density);
+    }
+    return {};
+}
+
+// A point of this leaf's surface on faces that belong to the surfaces of leaves before it, moved to
+// where the surfaces meet: the faces are flat, and near theirs only. Faces on planes keep it in
+// their plane. The point stays where it is if that leads farther than `reach`.
+Vec3 Subspace::on_seam(std::span<const int> faces, Vec3 start, double reach, const LocalDensity& density) const {
+    const bool seam = std::any_of(faces.begin(), faces.end(), [&](int f) {
+        return leaf_of_face_[std::size_t(f)] >= 0 && leaf_of_face_[std::size_t(f)] != leaf_;
+    });
+    if (!seam) return start;
+    std::vector<const LocalDensity*> surfaces{&density};
+    std::vector<Vec3> planes;
+    for (const int f : faces) {
+        const int leaf = leaf_of_face_[std::size_t(f)];
+        if (leaf < 0) {
+            const Vec3 area = complex_.area_vector(f);
+            if (glm::length(area) <= 0) continue;
+            const Vec3 n = glm::normalize(area);
+            const bool known = std::any_of(planes.begin(), planes.end(), [&](Vec3 p) {
+                constexpr double parallel = 1e-6;  // sine
+                return glm::length(glm::cross(p, n)) < parallel;
+            });
+            if (!known) planes.push_back(n);
+            continue;
+        }
+        const int cell = complex_.faces[std::size_t(f)].back;
+        const OpenLeaf* open = leaf == leaf_ ? nullptr : this->open(cell, leaf);
+        if (open && std::find(surfaces.begin(), surfaces.end(), open->density.get()) == surfaces.end())
+            surfaces.push_back(open->density.get());
+    }
+    const std::size_t count = surfaces.size() + planes.size();
+    if (surfaces.size() < 2 || count > 3) return start;
+    Vec3 x = start;
+    constexpr int steps = 20;  // of Newton's method, which takes 4
+    for (int step = 0; step < steps; ++step) {
+        Vec3 rows[3] = {Vec3(0.0), Vec3(0.0), Vec3(0.0)}, right(0.0);
+        std::size_t k = 0;
+        for (const LocalDensity* surface : surfaces) {
+            const ValueGradient v = surface->gradient_at(x);
+            const double slope = glm::length(v.gradient);
+            if (!(slope > 0)) return start;
+            rows[k] = v.gradient / slope;
+            right[int(k)] = (0.5 - v.value) / slope;
+            ++k;
+        }
+        for (const Vec3& n : planes) {
+            rows[k] = n;
+            right[int(k)] = glm::dot(n, start - x);
+            ++k;
+        }
+        if (k == 2) rows[2] = glm::cross(rows[0], rows[1]);  // the shortest step
+        const double size = std::abs(glm::determinant(Mat3(rows[0], rows[1], rows[2])));
+        constexpr double tangent = 1e-4;  // where surfaces touch rather than cross
+        if (size < tangent) return start;
+        const Vec3 move = glm::inverse(glm::transpose(Mat3(rows[0], rows[1], rows[2]))) * right;
+        x += move;
+        if (!(glm::length(x - start) <= reach)) return start;
+        if (glm::length(move) <= 1e-3 * complex_.tolerance) break;
+    }
+    return x;
+}
+
+// The surface nearest to `middle` on a line in the face: ahead if it is there, else behind.
+bool Subspace::search(int face, Vec3 middle, Vec3 line, Vec3 normal, double length, const LocalDensity& density,
+                      Vec3& root) const {
+    const double f = density.at(middle) - 0.5;
+    double ahead = infinity, behind = -infinity;
+    const Vec3 across = glm::cross(normal, line);
+    for (const Step s : complex_.faces[std::size_t(face)].loop) {
+        const Vec3 p = complex_.vertices[std::size_t(complex_.start(s))] - middle;
+        const Vec3 q = complex_.vertices[std::size_t(complex_.end(s))] - middle;
+        const double sp = glm::dot(across, p), sq = glm::dot(across, q);
+        if ((sp < 0) == (sq < 0)) continue;
+        const double t = glm::dot(line, p + (q - p) * (sp / (sp - sq)));
+        if (t > 1e-9 * length)
+            ahead = std::min(ahead, t);
+        else if (t < -1e-9 * length)
+            behind = std::max(behind, t);
+    }
+    constexpr int samples = 8;
+    for (const double reach : {ahead, behind}) {
+        if (!std::isfinite(reach)) continue;
+        Vec3 last = middle;
+        double flast = f;
+        for (int k = 1; k <= samples; ++k) {
+            const Vec3 x = middle + line * (reach * k / samples);
+            const double fx = density.at(x) - 0.5;
+            if ((fx > 0) == (f > 0)) {
+                last = x;
+                flast = fx;
+                continue;
+            }
+            root = root_between(density, last, flast, x, fx);
+            if (std::abs(reach - glm::dot(root - middle, line)) <= 1e-6 * length) break;  // on the rim
+            return true;
+        }
+    }
+    return false;
+}
+
+}  // namespace deburr

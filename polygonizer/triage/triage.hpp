@@ -1,0 +1,30 @@
+// Triage polygonization of a solid [Triage].
+#pragma once
+#include "bounds/solid_tree.hpp"
+#include "polygonizer/mesh/cancel.hpp"
+#include "polygonizer/mesh/mesh.hpp"
+
+namespace deburr {
+
+struct TriageOptions {
+    /// Largest distance between mesh and surface that is accepted; infinity: the paper's one
+    /// refinement of each edge.
+    double tolerance = infinity;
+    /// Looked at between the rounds of refinement.
+    StopFlag stop = nullptr;
+};
+
+struct TriageStatistics {
+    std::size_t cells = 0, open_cells = 0;  // open: polygonized by subspace polygonization
+    std::size_t rounds = 1;                 // of refinement
+};
+
+/// A closed, oriented 2-manifold mesh of the solid. What leaves `box` is cut off by it. Throws Stopped.
+Mesh triage(const SolidTree& solid, const Box& box, const TriageOptions& options = {},
+            TriageStatistics* statistics = nullptr);
+
+/// The box to polygonize a solid in: around it, with a margin; infinite sides are brought to
+/// finite ones.
+Box polygonization_box(const SolidTree& solid);
+
+}  // namespace deburr

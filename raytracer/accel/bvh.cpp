@@ -1,0 +1,73 @@
+#include "raytracer/accel/bvh.hpp"
+
+#include <algorithm>
+#include <stdexcept>
+
+namespace deburr {
+namespace {
+
+// How far off a ray in single precision can be, where coordinates are at most 1: its origin and the
+// boxes are rounded by 2⁻²⁵, differences of the two by 2⁻²⁴; reciprocal, direction and product each
+// stretch a distance of at most 2√3 by 2⁻²⁴. That is 12·2⁻²⁴ at most.
+constexpr double slack = 0x1p-19;
+
+}  // namespace
+
+BoxFrame::BoxFrame(const Box& around) : middle(0.5 * (around.lo + around.hi)) {
+    const double side = largest(around.hi - around.lo);
+    if (side > 0) per_unit = 2 / side;
+}
+
+BoxTree::BoxTree(const Builder& from, int root) {
+    if (root == Builder::nothing) return;
+    box_ = from.parts_[std::size_t(root)].box;
+    frame_ = BoxFrame(box_);
+    if (collapse(from, root, 0) < 0) {  // one item alone
+        nodes_.push_back(node_of(from, {root}));
+        nodes_[0].child[0] = ~from.parts_[std::size_t(root)].a;
+    }
+}
+
+// The largest of the children is opened until there are four, or items only.
+std::int32_t BoxTree::collapse(const Builder& from, int root, int depth) {
+    const auto part = [&](int i) -> const Builder::Part& { return from.parts_[std::size_t(i)]; };
+    if (part(root).b < 0) return ~part(root).a;
+    if (depth >= deepest) throw std::length_error("expected a tree of at most 150 levels");
+    std::vector<int> children{part(root).a, part(root).b};
+    while (children.size() < 4) {
+        int largest = -1;
+        for (std::size_t i = 0; i < children.size(); ++i)
+            if (part(children[i]).b >= 0 &&
+                (largest < 0 || half_area(part(children[i]).box) > half_area(part(children[std::size_t(largest)]).box)))
+                largest = int(i);
+        if (largest < 0) break;
+        const int open = children[std::size_t(largest)];
+        children[std::size_t(largest)] = part(open).a;
+        children.push_back(part(open).b);
+    }
+    const auto number = std::int32_t(nodes_.size());
+    nodes_.push_back(node_of(from, children));
+    for (std::size_t i = 0; i < children.size(); ++i) {
+        const std::int32_t child = collapse(from, children[i], depth + 1);
+        nodes_[std::size_t(number)].child[i] = child;
+    }
+    return number;
+}
+
+BoxTree::Node BoxTree::node_of(const Builder& from, const std::vector<int>& children) const {
+    Node n;
+    for (std::size_t i = 0; i < 4; ++i) {
+        n.child[i] = 0;
+        for (int k = 0; k < 3; ++k) {
+            n.side[k][i] = std::numeric_limits<float>::max();
+            n.side[k][i + 4] = -std::numeric_limits<float>::max();
+            if (i >= children.size()) continue;
+            const Box& box = from.parts_[std::size_t(children[i])].box;
+            n.side[k][i] = float(frame_.place(box.lo)[k] - slack);
+            n.side[k][i + 4] = float(frame_.place(box.hi)[k] + slack);
+        }
+    }
+    return n;
+}
+
+}  // namespace deburr

@@ -1,0 +1,106 @@
+// Binary trees for BoxTree: what is not laid out by a BSP is split by the surface-area heuristic
+// (MacDonald & Booth 1990) in bins (Wald 2007).
+#include <tbb/parallel_invoke.h>
+
+#include <algorithm>
+
+#include "raytracer/accel/bvh.hpp"
+
+namespace deburr {
+namespace {
+
+constexpr int bins = 16;
+// Fewer parts are not worth a task.
+constexpr std::size_t parts_of_a_task = 4096;
+// From here on parts are halved, so that a ray's stack has room for every tree.
+constexpr int deepest_by_area = 40;
+
+Vec3 middle(const Box& b) { return 0.5 * b.lo + 0.5 * b.hi; }
+
+struct Bin {
+    Box box;
+    std::size_t count = 0;
+};
+
+}  // namespace
+
+int BoxTree::Builder::item(std::uint32_t number, const Box& box) {
+    parts_.push_back({box, int(number), -1});
+    return int(parts_.size()) - 1;
+}
+
+int BoxTree::Builder::join(int a, int b) {
+    if (a == nothing) return b;
+    if (b == nothing) return a;
+    parts_.push_back({hull(box(a), box(b)), a, b});
+    return int(parts_.size()) - 1;
+}
+
+int BoxTree::Builder::join_by_area(std::vector<int> parts) {
+    std::erase(parts, nothing);
+    if (parts.empty()) return nothing;
+    const int first = int(parts_.size());
+    parts_.resize(parts_.size() + parts.size() - 1);
+    return split(parts, 0, parts.size(), first, 0);
+}
+
+// n parts have n − 1 joins: where each subtree's are is known beforehand. It does not depend on the number
+// of threads.
+int BoxTree::Builder::split(std::vector<int>& order, std::size_t first, std::size_t end, int place, int depth) {
+    if (end - first == 1) return order[first];
+    const auto box_at = [&](std::size_t i) -> const Box& { return box(order[i]); };
+    Box middles;
+    for (std::size_t i = first; i < end; ++i) middles = hull(middles, {middle(box_at(i)), middle(box_at(i))});
+    double best = infinity;
+    int best_axis = -1, best_bin = 0;
+    const auto bin_of = [&](int part, int axis) {
+        const double share = (middle(box(part))[axis] - middles.lo[axis]) / (middles.hi[axis] - middles.lo[axis]);
+        return std::clamp(int(share * bins), 0, bins - 1);
+    };
+    for (int axis = 0; axis < 3 && depth < deepest_by_area; ++axis) {
+        if (!(middles.hi[axis] > middles.lo[axis])) continue;
+        Bin all[bins];
+        for (std::size_t i = first; i < end; ++i) {
+            Bin& bin = all[bin_of(order[i], axis)];
+            bin.box = hull(bin.box, box_at(i));
+            ++bin.count;
+        }
+        double upper_cost[bins];
+        Bin sum;
+        const auto add = [&](const Bin& bin) {
+            sum.box = hull(sum.box, bin.box);
+            sum.count += bin.count;
+            return sum.count ? half_area(sum.box) * double(sum.count) : 0.0;
+        };
+        for (int k = bins - 1; k > 0; --k) upper_cost[k] = add(all[k]);
+        sum = {};
+        for (int k = 1; k < bins; ++k) {
+            const double cost = add(all[k - 1]) + upper_cost[k];
+            if (sum.count == 0 || sum.count == end - first || !(cost < best)) continue;
+            best = cost;
+            best_axis = axis;
+            best_bin = k;
+        }
+    }
+    std::size_t middle_one = first + (end - first) / 2;  // where all middles are one, or too deep
+    if (best_axis >= 0) {
+        const auto upper =
+            std::stable_partition(order.begin() + std::ptrdiff_t(first), order.begin() + std::ptrdiff_t(end),
+                                  [&](int part) { return bin_of(part, best_axis) < best_bin; });
+        middle_one = std::size_t(upper - order.begin());
+    }
+    Part to{{}, 0, 0};
+    const auto lower_half = [&] { to.a = split(order, first, middle_one, place + 1, depth + 1); };
+    const auto upper_half = [&] { to.b = split(order, middle_one, end, place + int(middle_one - first), depth + 1); };
+    if (end - first < parts_of_a_task) {
+        lower_half();
+        upper_half();
+    } else {
+        tbb::parallel_invoke(lower_half, upper_half);
+    }
+    to.box = hull(box(to.a), box(to.b));
+    parts_[std::size_t(place)] = to;
+    return place;
+}
+
+}  // namespace deburr

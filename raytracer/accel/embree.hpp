@@ -1,0 +1,119 @@
+// Embree 3 or 4: what its users share.
+//
+// The library, of 42 MB, is loaded by the first of them: linked, it cost every call a millisecond.
+#pragma once
+#if __has_include(<embree4/rtcore.h>)
+#include <embree4/rtcore.h>
+#else
+#include <embree3/rtcore.h>
+#endif
+
+#include <memory>
+#include <mutex>
+#include <string>
+
+#include "raytracer/util/errors.hpp"
+
+namespace deburr {
+
+/// The functions of Embree that we call, under our names.
+struct EmbreeLibrary {
+    decltype(&rtcNewDevice) new_device;
+    decltype(&rtcReleaseDevice) release_device;
+    decltype(&rtcGetDeviceError) device_error;
+    decltype(&rtcNewScene) new_scene;
+    decltype(&rtcReleaseScene) release_scene;
+    decltype(&rtcSetSceneFlags) set_scene_flags;
+    decltype(&rtcSetSceneBuildQuality) set_scene_build_quality;
+    decltype(&rtcCommitScene) commit_scene;
+    decltype(&rtcNewGeometry) new_geometry;
+    decltype(&rtcCommitGeometry) commit_geometry;
+    decltype(&rtcAttachGeometry) attach_geometry;
+    decltype(&rtcReleaseGeometry) release_geometry;
+    decltype(&rtcSetNewGeometryBuffer) set_new_geometry_buffer;
+    decltype(&rtcSetGeometryUserPrimitiveCount) set_primitive_count;
+    decltype(&rtcSetGeometryBoundsFunction) set_bounds_function;
+    decltype(&rtcSetGeometryUserData) set_user_data;
+    decltype(&rtcSetGeometryIntersectFunction) set_intersect_function;
+    decltype(&rtcSetGeometryOccludedFunction) set_occluded_function;
+    decltype(&rtcIntersect1) intersect;
+    decltype(&rtcOccluded1) occluded;
+};
+
+/// Throws UnsupportedError if it cannot be loaded.
+const EmbreeLibrary& embree();
+
+/// A query's own; further members may be added by derivation.
+#if RTC_VERSION_MAJOR >= 4
+struct EmbreeContext : RTCRayQueryContext {
+    EmbreeContext() { rtcInitRayQueryContext(this); }
+};
+#else
+struct EmbreeContext : RTCIntersectContext {
+    EmbreeContext() { rtcInitIntersectContext(this); }
+};
+#endif
+
+/// One scene, to be filled and then committed.
+class EmbreeScene {
+public:
+    EmbreeScene() : device_(shared_device()), scene_(library_.new_scene(device_.get())) {
+        library_.set_scene_flags(scene_, RTC_SCENE_FLAG_ROBUST);
+        library_.set_scene_build_quality(scene_, RTC_BUILD_QUALITY_HIGH);
+    }
+    EmbreeScene(const EmbreeScene&) = delete;
+    EmbreeScene& operator=(const EmbreeScene&) = delete;
+    ~EmbreeScene() { library_.release_scene(scene_); }
+
+    RTCGeometry new_geometry(RTCGeometryType type) { return library_.new_geometry(device_.get(), type); }
+    void add(RTCGeometry geometry) {
+        library_.commit_geometry(geometry);
+        library_.attach_geometry(scene_, geometry);
+        library_.release_geometry(geometry);
+    }
+    /// `what` is in it, if it does not fit.
+    void commit(const std::string& what) {
+        library_.commit_scene(scene_);
+        if (library_.device_error(device_.get()) != RTC_ERROR_NONE)
+            throw WorkError("Embree cannot hold " + what + ": out of memory");
+    }
+
+#if RTC_VERSION_MAJOR >= 4
+    void intersect(RTCRayHit& ray, EmbreeContext& context) const {
+        RTCIntersectArguments arguments;
+        rtcInitIntersectArguments(&arguments);
+        arguments.context = &context;
+        library_.intersect(scene_, &ray, &arguments);
+    }
+    void occluded(RTCRay& ray, EmbreeContext& context) const {
+        RTCOccludedArguments arguments;
+        rtcInitOccludedArguments(&arguments);
+        arguments.context = &context;
+        library_.occluded(scene_, &ray, &arguments);
+    }
+#else
+    void intersect(RTCRayHit& ray, EmbreeContext& context) const { library_.intersect(scene_, &context, &ray); }
+    void occluded(RTCRay& ray, EmbreeContext& context) const { library_.occluded(scene_, &context, &ray); }
+#endif
+
+private:
+    using Device = std::shared_ptr<RTCDeviceTy>;
+    static Device shared_device() {
+        static std::mutex mutex;
+        static std::weak_ptr<RTCDeviceTy> known;
+        const std::lock_guard lock(mutex);
+        Device device = known.lock();
+        if (device) return device;
+        RTCDevice fresh = embree().new_device(nullptr);
+        if (!fresh) throw WorkError("Embree does not start on this machine");
+        device = Device(fresh, embree().release_device);
+        known = device;
+        return device;
+    }
+
+    const EmbreeLibrary& library_ = embree();
+    Device device_;
+    RTCScene scene_;
+};
+
+}  // namespace deburr

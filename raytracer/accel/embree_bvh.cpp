@@ -1,0 +1,120 @@
+// Every box that the exact ray touches is found, though Embree works in single precision. In a BoxFrame
+// coordinates and distances to the planes of boxes are at most 1 and 2, with u = 2⁻²⁴ the unit of rounding:
+// for a box side at B and a ray at o, going d along its axis, Embree computes t = (B − o)·(1/d), or, with user
+// geometry even in a robust scene, B·(1/d) − o·(1/d), fused or not. Off the side, in position, that is
+//
+//     ½u (B rounded) + ½u (o) + 2u (d, over a distance of 2) + 10u (1/d by an approximation and one step of
+//     Newton's) + 4u (the products) + 2u (the difference)  <  20u  <  2⁻¹⁸ = 64u,
+//
+// and boxes are larger by the latter. So, where a ray touches a box at s, each axis has t ≤ s at the near side
+// and t ≥ s at the far one. That holds along axes too: Embree takes 10¹⁸ for 1/0, and the ray is off either
+// side by 44u at least, unless it touches neither box nor margin. The rest of the margin, 2⁻¹⁹, is more than
+// what double precision makes of a ray that starts 2²⁸ sizes away.
+#include "raytracer/accel/embree_bvh.hpp"
+
+#include "raytracer/accel/bvh.hpp"
+#include "raytracer/accel/embree.hpp"
+
+namespace deburr {
+namespace {
+
+constexpr double slack = 0x1p-18;
+
+// Of one ray; the callbacks find it as Embree's context.
+struct Query : EmbreeContext {
+    const std::uint32_t* numbers;
+    const BoxFrame* frame;
+    double t0;
+    double (*call)(void*, std::uint32_t);
+    void* visit;
+
+    void look(std::uint32_t item, RTCRay& ray) const {
+        const double until = call(visit, numbers[item]);
+        if (until < 0)
+            ray.tfar = -std::numeric_limits<float>::infinity();
+        else if (until < infinity)
+            ray.tfar = std::min(ray.tfar, frame->distance(until - t0));
+    }
+};
+
+// There is one ray in them, as there is in the queries.
+void on_intersect(const RTCIntersectFunctionNArguments* a) {
+    static_cast<const Query*>(static_cast<EmbreeContext*>(a->context))
+        ->look(a->primID, reinterpret_cast<RTCRayHit*>(a->rayhit)->ray);
+}
+
+void on_occluded(const RTCOccludedFunctionNArguments* a) {
+    static_cast<const Query*>(static_cast<EmbreeContext*>(a->context))
+        ->look(a->primID, *reinterpret_cast<RTCRay*>(a->ray));
+}
+
+}  // namespace
+
+struct EmbreeBoxes::Embree {
+    EmbreeScene scene;
+    BoxFrame frame;
+    std::vector<std::uint32_t> numbers;
+
+    explicit Embree(const std::vector<NumberedBox>& boxes) {
+        Box around;
+        for (const NumberedBox& b : boxes) around = hull(around, b.box);
+        frame = BoxFrame(around);
+        numbers.reserve(boxes.size());
+        for (const NumberedBox& b : boxes) numbers.push_back(b.number);
+        RTCGeometry geometry = scene.new_geometry(RTC_GEOMETRY_TYPE_USER);
+        embree().set_primitive_count(geometry, unsigned(boxes.size()));
+        const std::pair<const BoxFrame*, const NumberedBox*> from{&frame, boxes.data()};
+        embree().set_bounds_function(
+            geometry,
+            [](const RTCBoundsFunctionArguments* a) {
+                const auto& [frame, boxes] =
+                    *static_cast<const std::pair<const BoxFrame*, const NumberedBox*>*>(a->geometryUserPtr);
+                const Box& box = boxes[a->primID].box;
+                const Vec3 lo = frame->place(box.lo) - slack, hi = frame->place(box.hi) + slack;
+                *a->bounds_o = {float(lo.x), float(lo.y), float(lo.z), 0, float(hi.x), float(hi.y), float(hi.z), 0};
+            },
+            nullptr);
+        embree().set_user_data(geometry, const_cast<void*>(static_cast<const void*>(&from)));
+        embree().set_intersect_function(geometry, on_intersect);
+        embree().set_occluded_function(geometry, on_occluded);
+        scene.add(geometry);
+        scene.commit("the cells");
+    }
+};
+
+EmbreeBoxes::EmbreeBoxes(const std::vector<NumberedBox>& boxes) : embree_(std::make_unique<Embree>(boxes)) {}
+EmbreeBoxes::EmbreeBoxes(EmbreeBoxes&&) noexcept = default;
+EmbreeBoxes& EmbreeBoxes::operator=(EmbreeBoxes&&) noexcept = default;
+EmbreeBoxes::~EmbreeBoxes() = default;
+
+void EmbreeBoxes::run(const Vec3& origin, const Vec3& direction, double t0, double t1, Order order, Call call,
+                      void* visit) const {
+    const Embree& e = *embree_;
+    Query query;
+    query.numbers = e.numbers.data();
+    query.frame = &e.frame;
+    query.t0 = t0;
+    query.call = call;
+    query.visit = visit;
+    const Vec3 start = e.frame.place(origin + direction * t0);
+    RTCRayHit rayhit;
+    RTCRay& ray = rayhit.ray;
+    ray.org_x = float(start.x);
+    ray.org_y = float(start.y);
+    ray.org_z = float(start.z);
+    ray.tnear = 0;
+    ray.dir_x = float(direction.x);
+    ray.dir_y = float(direction.y);
+    ray.dir_z = float(direction.z);
+    ray.time = 0;
+    ray.tfar = e.frame.distance(t1 - t0);
+    ray.mask = ~0u;
+    ray.id = 0;
+    ray.flags = 0;
+    if (order == Order::any) return e.scene.occluded(ray, query);
+    rayhit.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+    rayhit.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
+    e.scene.intersect(rayhit, query);
+}
+
+}  // namespace deburr

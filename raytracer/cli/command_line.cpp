@@ -1,0 +1,114 @@
+#include "raytracer/cli/command_line.hpp"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <signal.h>
+#include <unistd.h>
+
+#include <cstdio>
+#include <new>
+#include <string>
+#include <vector>
+
+#include "bounds/decision_diagram.hpp"
+#include "polygonizer/triage/triage.hpp"
+#include "raytracer/cli/commands.hpp"
+#include "raytracer/scene/scene_reader.hpp"
+#include "raytracer/util/errors.hpp"
+#include "raytracer/util/interrupt.hpp"
+#include "raytracer/util/message.hpp"
+
+namespace deburr {
+namespace {
+
+int fail(int code, const std::string& what) {
+    message(what);
+    return code;
+}
+
+// A file that is opened while one of the three standard ones is closed would take its place, and
+// messages would end up in it.
+void open_standard_files() {
+    for (int descriptor = 0; descriptor < 3; ++descriptor)
+        if (fcntl(descriptor, F_GETFD) < 0 && open("/dev/null", O_RDWR) < 0) _exit(1);
+}
+
+// The first word that the command has no use for.
+void refuse_rest(const CLI::App& app, const std::string& name, const char* kind) {
+    for (const std::string& word : app.remaining()) {
+        const bool option = word.size() > 1 && word[0] == '-';
+        throw UsageError(fmt::format("{} '{}' (see {} --help)", option ? "unknown option" : kind,
+                                     option ? word.substr(0, word.find('=')) : word, name));
+    }
+}
+
+// CLI11's own words for what is wrong begin with the option, "--size: 1 required WxH missing",
+// or, where a flag was given a value, are "Could not convert: --quiet = foo".
+std::string in_our_words(const CLI::ParseError& error) {
+    const std::string what = error.what();
+    const std::string option = what.substr(0, what.find(':'));
+    if (const std::size_t flag = what.find("--"), equals = what.find(" = ");
+        dynamic_cast<const CLI::ConversionError*>(&error) && equals < what.size() && flag < equals)
+        return fmt::format("{}: expected no value, got '{}'", what.substr(flag, equals - flag),
+                           what.substr(equals + 3));
+    if (!dynamic_cast<const CLI::ArgumentMismatch*>(&error)) return what;
+    if (what.find("missing") != std::string::npos) return option + ": expected a value, got none";
+    return option + ": expected once, got it several times";
+}
+
+int run(CLI::App& program, const std::vector<Command>& commands, int argc, char** argv) {
+    try {
+        program.parse(argc, argv);
+    } catch (const CLI::Success& asked) {  // --help, --version
+        program.exit(asked);
+        return 0;
+    } catch (const CLI::ParseError& error) {
+        throw UsageError(in_our_words(error));
+    }
+    for (const Command& command : commands) {
+        if (!command.app->parsed()) continue;
+        refuse_rest(program, "deburr", "unexpected argument");
+        refuse_rest(*command.app, "deburr " + command.app->get_name(), "unexpected argument");
+        return command.run();
+    }
+    refuse_rest(program, "deburr", "unknown command");
+    std::string names;
+    for (const Command& command : commands) names += (names.empty() ? "" : ", ") + command.app->get_name();
+    throw UsageError(fmt::format("expected a command: {} (see deburr --help)", names));
+}
+
+}  // namespace
+
+int run_program(int argc, char** argv, const std::vector<Command (*)(CLI::App&)>& more) {
+    open_standard_files();
+    signal(SIGXFSZ, SIG_IGN);  // a file that grows too large is an error of write, not an end
+    try {
+        CLI::App program("Deburr renders CSG models with every edge rounded.", "deburr");
+        program.set_version_flag("--version", "deburr " DEBURR_VERSION);
+        program.allow_extras();
+        std::vector<Command> commands = {add_render_command(program), add_mesh_command(program),
+                                         add_compare_command(program), add_info_command(program),
+                                         add_export_pov_command(program)};
+        for (const auto add : more) commands.push_back(add(program));
+        for (const Command& command : commands) command.app->allow_extras();
+        const int code = run(program, commands, argc, argv);
+        if (std::fflush(stdout) != 0 || std::ferror(stdout)) return fail(1, "cannot write to the standard output");
+        return code;
+    } catch (const Stopped&) {
+        return fail(interrupted_exit_code, "interrupted: nothing is written");
+    } catch (const UsageError& error) {
+        return fail(2, error.what());
+    } catch (const SceneError& error) {
+        return fail(2, error.what());
+    } catch (const UnsupportedError& error) {
+        return fail(3, error.what());
+    } catch (const TooEntangled& error) {
+        return fail(3, error.what());
+    } catch (const std::bad_alloc&) {
+        return fail(1, "out of memory");
+    } catch (const std::exception& error) {
+        return fail(1, error.what());
+    }
+}
+
+}  // namespace deburr

@@ -1,0 +1,161 @@
+// deburr compare SCENE, deburr compare A B: how far the two roads, or two files, are apart.
+#include <fmt/format.h>
+#include <tbb/global_control.h>
+#include <tbb/info.h>
+
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "raytracer/cli/commands.hpp"
+#include "raytracer/cli/options.hpp"
+#include "raytracer/image/image_difference.hpp"
+#include "raytracer/image/image_file.hpp"
+#include "raytracer/mesh/mesh_tracer.hpp"
+#include "raytracer/mesh/scene_mesh.hpp"
+#include "raytracer/render/integrator.hpp"
+#include "raytracer/render/render_tiles.hpp"
+#include "raytracer/trace/implicit_tracer.hpp"
+#include "raytracer/util/errors.hpp"
+#include "raytracer/util/interrupt.hpp"
+#include "raytracer/util/whole_file.hpp"
+
+namespace deburr {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+struct CompareOptions : Options {
+    std::string second, via, tolerance, json;
+    std::string most_missed, most_distance, most_rmse;
+};
+
+Film trace(const Scene& scene, const RayTracer& tracer, Size size, int spp, std::uint64_t seed,
+           const std::atomic<bool>& stop) {
+    const Integrator integrator(scene, tracer, {size.width, size.height, spp, seed, false});
+    return render(
+               Film(size.width, size.height, {0, 0, size.width, size.height}, compared_layers()),
+               [&](const Window& block, Pixel* pixels, PixelLayers* layers, TraceCounters& counters) {
+                   integrator.block(block, pixels, layers, counters);
+               },
+               stop)
+        .film;
+}
+
+Json json_of(const DifferenceFigures& f) { return {{"mean", f.mean}, {"p99", f.p99}, {"max", f.max}}; }
+
+Json json_of(const PictureDifference& d) {
+    const double missed =
+        d.on_object ? 100.0 * double(d.only_first + d.only_second + d.other_solid) / double(d.on_object) : 0;
+    Json j = {{"pixels", d.pixels},           {"pixels_on_object", d.on_object}, {"only_first", d.only_first},
+              {"only_second", d.only_second}, {"other_solid", d.other_solid},    {"missed_percent", missed}};
+    if (d.distance) {
+        j["distance_unit"] = d.in_radii ? "radius" : "scene";
+        j["distance"] = json_of(*d.distance);
+    }
+    if (d.normal_degrees) j["normal_degrees"] = json_of(*d.normal_degrees);
+    j["rmse"] = d.rmse;
+    j["psnr"] = std::isfinite(d.psnr) ? Json(d.psnr) : Json(nullptr);
+    j["perceptual_fails"] = d.perceptual_fails;
+    return j;
+}
+
+std::vector<double> radii(const SceneMesh& mesh) {
+    std::vector<double> all;
+    for (const SolidTree& tree : mesh.trees) all.push_back(tree.least_radius());
+    return all;
+}
+
+int run_compare(const CompareOptions& o) {
+    if (o.scene.empty()) throw UsageError("compare: expected a scene file, or two pictures");
+    check_image_names("-o", o.outputs);
+    const auto limit_of = [](const char* name, const std::string& text) {
+        return text.empty() ? infinity : parse_limit(name, text);
+    };
+    const double most_missed = limit_of("--max-missed", o.most_missed);
+    const double most_distance = limit_of("--max-distance", o.most_distance);
+    const double most_rmse = limit_of("--max-rmse", o.most_rmse);
+    const int threads = o.threads.value_or(tbb::info::default_concurrency());
+    const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, std::size_t(threads));
+    const std::atomic<bool>& stop = catch_interrupts(!o.quiet);
+
+    Film a, b;
+    std::vector<double> units;
+    Json j;
+    if (!o.second.empty()) {
+        a = read_picture(o.scene);
+        b = read_picture(o.second);
+        if (a.window != b.window)
+            throw UsageError(fmt::format("compare: expected pictures of one size, got {}x{} and {}x{}", a.window.width,
+                                         a.window.height, b.window.width, b.window.height));
+        j["first"] = o.scene;
+        j["second"] = o.second;
+    } else {
+        const MeshSettings settings = picture_mesh_settings(o.via, o.tolerance);
+        const Scene scene = load_scene(o);
+        const Size size = picture_size(o, scene);
+        const int spp = o.spp.value_or(1);
+        const SceneMesh mesh = mesh_scene(scene, settings, {&stop});
+        units = radii(mesh);
+        a = trace(scene, ImplicitTracer(scene.solids), size, spp, o.seed, stop);
+        b = trace(scene, MeshTracer(mesh.mesh, mesh.near), size, spp, o.seed, stop);
+        if (stop) return interrupted_exit_code;
+        j["scene"] = scene.file;
+        j["first"] = "implicit";
+        j["second"] = mesh.method_names();
+        j["triangles"] = mesh.mesh.triangles.size();
+    }
+    const PictureDifference d = difference(a, b, units);
+    j.update(json_of(d));
+    const double missed = j["missed_percent"].get<double>();
+    const double distance = d.distance ? d.distance->p99 : 0;
+    const bool within = missed <= most_missed && distance <= most_distance && d.rmse <= most_rmse;
+    j["within_limits"] = within;
+    for (const std::string& path : o.outputs) write_difference(path, a, b);
+    if (!o.json.empty()) write_whole_file(o.json, j.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
+    if (!o.quiet)
+        for (const auto& [name, value] : j.items()) {
+            if (value.is_object())
+                fmt::print("{:<20}mean {:.6g}, 99 % {:.6g}, max {:.6g}\n", name, value["mean"].get<double>(),
+                           value["p99"].get<double>(), value["max"].get<double>());
+            else if (value.is_number_float())
+                fmt::print("{:<20}{:.6g}\n", name, value.get<double>());
+            else if (value.is_string())
+                fmt::print("{:<20}{}\n", name, value.get<std::string>());
+            else
+                fmt::print("{:<20}{}\n", name, value.is_null() ? "infinite" : value.dump());
+        }
+    return within ? 0 : 1;
+}
+
+}  // namespace
+
+Command add_compare_command(CLI::App& program) {
+    CLI::App* command = program.add_subcommand(
+        "compare", "say how far a scene's implicit picture and its mesh's, or two pictures, are apart");
+    const auto options = std::make_shared<CompareOptions>();
+    add_scene_options(*command, *options);
+    command->add_option("SECOND", options->second, "a second picture; the first takes the scene's place")
+        ->type_name("");
+    add_output_option(*command, *options, known_extensions());
+    add_picture_options(*command, *options);
+    command
+        ->add_option("--via", options->via,
+                     mesh_method_names() + "; default: triage, and octree for solids with free forms")
+        ->type_name("NAME");
+    command
+        ->add_option("--tolerance", options->tolerance,
+                     "of the mesh, as for mesh; default: 0.03 of each solid's least radius")
+        ->type_name("D");
+    command->add_option("--json", options->json, "write the figures as JSON")->type_name("FILE");
+    command
+        ->add_option("--max-missed", options->most_missed,
+                     "exit code 1 if more pixels, in percent of the object's, see another solid or none")
+        ->type_name("P");
+    command->add_option("--max-distance", options->most_distance, "exit code 1 if not 99 % of the hits are nearer")
+        ->type_name("D");
+    command->add_option("--max-rmse", options->most_rmse, "exit code 1 if colours differ more")->type_name("E");
+    add_run_options(*command, *options);
+    return {command, [options] { return run_compare(*options); }};
+}
+
+}  // namespace deburr

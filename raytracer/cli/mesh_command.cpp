@@ -1,0 +1,208 @@
+// deburr mesh SCENE -o FILE …: the solids as a closed mesh.
+#include <fmt/format.h>
+#include <tbb/global_control.h>
+#include <tbb/info.h>
+
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "polygonizer/mesh/export.hpp"
+#include "polygonizer/mesh/metrics.hpp"
+#include "raytracer/cli/commands.hpp"
+#include "raytracer/cli/options.hpp"
+#include "raytracer/cli/statistics.hpp"
+#include "raytracer/mesh/scene_mesh.hpp"
+#include "raytracer/util/errors.hpp"
+#include "raytracer/util/interrupt.hpp"
+#include "raytracer/util/message.hpp"
+#include "raytracer/util/progress.hpp"
+#include "raytracer/util/whole_file.hpp"
+
+namespace deburr {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+struct MeshCommandOptions : Options {
+    std::string method, tolerance, grid, edge, level, hard_angle, faces;
+};
+
+MeshSettings settings(const MeshCommandOptions& o) {
+    MeshSettings s;
+    if (!o.method.empty()) s.method = parse_mesh_method("--method", o.method);
+    if (!o.tolerance.empty()) s.tolerance = parse_tolerance(o.tolerance);
+    if (!o.grid.empty()) s.grid = parse_positive("--grid", o.grid);
+    if (!o.edge.empty()) s.edge = parse_positive("--edge", o.edge);
+    if (!o.level.empty()) s.level = int(parse_whole("--level", o.level, 1, 12));
+    if (!o.hard_angle.empty()) {
+        s.hard_angle = parse_positive("--hard-edges", o.hard_angle);
+        if (s.hard_angle > 180)
+            throw UsageError(fmt::format("--hard-edges: expected degrees up to 180, got '{}'", o.hard_angle));
+    }
+    if (!o.edge.empty() && !o.level.empty())
+        throw UsageError("--edge: expected it without --level, which says the same");
+    const auto only = [&](const char* option, const std::string& given, MeshMethod method) {
+        if (!given.empty() && s.method != method)
+            throw UsageError(
+                fmt::format("{}: expected --method {}, got '{}'", option, mesh_method_name(method), o.method));
+    };
+    if (!o.tolerance.empty() && s.method == MeshMethod::marching_cubes)
+        throw UsageError("--tolerance: expected --method triage or octree, got 'marching-cubes'");
+    only("--grid", o.grid, MeshMethod::marching_cubes);
+    only("--edge", o.edge, MeshMethod::octree);
+    only("--level", o.level, MeshMethod::octree);
+    only("--hard-edges", o.hard_angle, MeshMethod::octree);
+    return s;
+}
+
+Json json_of(const Spread& s) { return {{"mean", s.mean}, {"max", s.max}}; }
+
+Json json_of(const MeshMetrics& m) {
+    const Topology& t = m.topology;
+    return {{"vertices", t.vertices},
+            {"edges", t.edges},
+            {"triangles", t.triangles},
+            {"polygons", m.polygons},
+            {"closed", t.closed()},
+            {"manifold", t.manifold()},
+            {"open_edges", t.open_edges},
+            {"nonmanifold_edges", t.nonmanifold_edges},
+            {"nonmanifold_vertices", t.nonmanifold_vertices},
+            {"shells", t.shells},
+            {"euler", t.euler},
+            {"area", m.area},
+            {"volume", m.volume},
+            {"vertex_distance_mean", m.vertex_distance_mean},
+            {"vertex_distance_max", m.vertex_distance},
+            {"vertex_normal_degrees", json_of(m.vertex_normal_degrees)},
+            {"triangle_distance_first_order", json_of(m.first_order)},
+            {"triangle_distance", json_of(m.distance)},
+            {"triangle_normal_degrees", json_of(m.normal_degrees)},
+            {"inverted", m.inverted},
+            {"degenerate", m.degenerate},
+            {"edge_length_mean", m.edge_mean},
+            {"edge_length_spread", m.edge_spread}};
+}
+
+void print_table(const Json& j, const std::string& prefix = "") {
+    for (const auto& [name, value] : j.items()) {
+        if (value.is_object())
+            print_table(value, prefix + name + " ");
+        else if (value.is_number_float())
+            fmt::print("{:<40}{:.6g}\n", prefix + name, value.get<double>());
+        else if (!value.is_array())
+            fmt::print("{:<40}{}\n", prefix + name, value.is_string() ? value.get<std::string>() : value.dump());
+    }
+}
+
+int run_mesh(const MeshCommandOptions& o) {
+    if (o.scene.empty()) throw UsageError("mesh: expected a scene file");
+    if (o.outputs.empty() && !o.stats && o.stats_json.empty())
+        throw UsageError("mesh: expected an output file, -o FILE");
+    for (const std::string& path : o.outputs)
+        if (!mesh_format(path))
+            throw UsageError(
+                fmt::format("-o: expected a name that ends in one of {}, got '{}'", known_mesh_extensions(), path));
+    std::vector<std::string> files = o.outputs;
+    if (!o.stats_json.empty()) files.push_back(o.stats_json);
+    check_distinct(files);
+    const MeshSettings method = settings(o);
+    const auto faces = o.faces.empty() ? 0 : std::size_t(parse_whole("--faces", o.faces, 4, 100'000'000));
+    const int threads = o.threads.value_or(tbb::info::default_concurrency());
+    const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, std::size_t(threads));
+
+    PhaseClock clock;
+    clock.begin("read");
+    const Scene scene = load_scene(o);
+    for (const std::string& path : files) check_writable(path);
+    clock.begin("polygonize");
+    const std::atomic<bool>& stop = catch_interrupts(!o.quiet);
+    // How many meshes --faces takes is not known before.
+    Progress progress(1, Progress::standard_error(o.quiet || faces));
+    SceneMesh mesh;
+    try {
+        mesh = faces ? mesh_scene(scene, method, faces, &stop)
+                     : mesh_scene(scene, method, {&stop, [&](double share) { progress.advance(share); }});
+    } catch (...) {
+        progress.stop();
+        throw;
+    }
+    clock.end();
+    constexpr double worth_a_line = 1;  // second
+    if (clock.wall("polygonize") < worth_a_line)
+        progress.stop();
+    else
+        progress.finish();
+    for (const std::string& warning : mesh.warnings)
+        if (!o.quiet) fmt::print(stderr, "deburr: {}\n", warning);
+    if (o.verbose && !o.quiet)
+        fmt::print(stderr, "deburr: {} triangles, {} vertices in {:.3f} s\n", mesh.mesh.triangles.size(),
+                   mesh.mesh.positions.size(), clock.wall("polygonize"));
+
+    clock.begin("write");
+    MeshNotes notes{scene.names, {}};
+    for (const Material& m : scene.materials) notes.colors.push_back(m.color.a);
+    for (const std::string& path : o.outputs) write_whole_file(path, encode(mesh.mesh, *mesh_format(path), notes));
+    clock.end();
+
+    if (o.stats || !o.stats_json.empty()) {
+        clock.begin("measure");
+        const MeshMetrics metrics = combined(measure_parts(mesh));
+        clock.end();
+        Json j;
+        j["scene"] = scene.file;
+        j["method"] = mesh.method_names();
+        j["parameters"] = scene.parameters;
+        j["mesh"] = json_of(metrics);
+        if (mesh.triage.cells)
+            j["triage"] = {
+                {"cells", mesh.triage.cells}, {"open_cells", mesh.triage.open_cells}, {"rounds", mesh.triage.rounds}};
+        if (const OctreeStatistics& t = mesh.octree; t.cells)
+            j["octree"] = {{"level", t.level},
+                           {"edge", t.edge},
+                           {"range_tests", t.range_tests},
+                           {"cells", t.cells},
+                           {"open_cells", t.open_cells},
+                           {"hard_points", t.hard_points},
+                           {"partitions", t.partitions},
+                           {"rounds", t.rounds}};
+        for (const PhaseTime& t : clock.times()) j["seconds"][t.name] = t.wall;
+        if (o.stats) print_table(j);
+        if (!o.stats_json.empty())
+            write_whole_file(o.stats_json, j.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
+    }
+    return 0;
+}
+
+}  // namespace
+
+Command add_mesh_command(CLI::App& program) {
+    CLI::App* command = program.add_subcommand("mesh", "write a scene's solids as a closed mesh");
+    const auto options = std::make_shared<MeshCommandOptions>();
+    add_scene_options(*command, *options);
+    add_output_option(*command, *options, known_mesh_extensions());
+    command
+        ->add_option("--method", options->method,
+                     mesh_method_names() + "; default: triage, and octree for solids with free forms")
+        ->type_name("NAME");
+    command
+        ->add_option("--tolerance", options->tolerance,
+                     "triage, octree: refine until no point of the mesh is farther from the surface")
+        ->type_name("D");
+    command->add_option("--grid", options->grid, "marching-cubes: side of a cube; default: half the least radius")
+        ->type_name("H");
+    command->add_option("--edge", options->edge, "octree: side of a cell, nearly the mean length of edges")
+        ->type_name("L");
+    command->add_option("--level", options->level, "octree: 2^N cells along each solid's longest side")->type_name("N");
+    command
+        ->add_option("--hard-edges", options->hard_angle,
+                     "octree: degrees between faces from which their edge is kept; default: 15")
+        ->type_name("A");
+    command->add_option("--faces", options->faces, "as near to this number of triangles as the method comes")
+        ->type_name("N");
+    add_run_options(*command, *options);
+    add_statistics_options(*command, *options);
+    return {command, [options] { return run_mesh(*options); }};
+}
+
+}  // namespace deburr

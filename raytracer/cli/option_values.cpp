@@ -1,0 +1,179 @@
+#include "raytracer/cli/option_values.hpp"
+
+#include <fmt/format.h>
+
+#include <charconv>
+#include <cmath>
+#include <filesystem>
+#include <limits>
+#include <optional>
+#include <set>
+
+#include "raytracer/util/errors.hpp"
+
+namespace deburr {
+namespace {
+
+[[noreturn]] void expected(std::string_view option, const std::string& what, std::string_view found) {
+    throw UsageError(fmt::format("{}: expected {}, got '{}'", option, what, found));
+}
+
+// Digits alone, without sign or blanks.
+std::optional<std::uint64_t> digits(std::string_view text) {
+    std::uint64_t value = 0;
+    const char* end = text.data() + text.size();
+    const auto [at, error] = std::from_chars(text.data(), end, value);
+    if (error != std::errc() || at != end || text.empty()) return std::nullopt;
+    return value;
+}
+
+std::optional<std::int64_t> whole(std::string_view text, std::int64_t least, std::int64_t most) {
+    const auto value = digits(text);
+    if (!value || *value > std::uint64_t(most) || std::int64_t(*value) < least) return std::nullopt;
+    return std::int64_t(*value);
+}
+
+// NaN if the text is no finite number.
+double number_of(std::string_view text) {
+    double x = 0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), x);
+    const bool whole = error == std::errc() && end == text.data() + text.size();
+    return whole && std::isfinite(x) ? x : std::nan("");
+}
+
+// "AxB"
+std::optional<Size> sides(std::string_view text) {
+    const std::size_t x = text.find('x');
+    if (x == std::string_view::npos) return std::nullopt;
+    const auto width = whole(text.substr(0, x), 1, largest_side);
+    const auto height = whole(text.substr(x + 1), 1, largest_side);
+    if (!width || !height) return std::nullopt;
+    return Size{int(*width), int(*height)};
+}
+
+}  // namespace
+
+std::int64_t parse_whole(std::string_view option, std::string_view text, std::int64_t least, std::int64_t most) {
+    if (const auto value = whole(text, least, most)) return *value;
+    expected(option, fmt::format("a whole number from {} to {}", least, most), text);
+}
+
+double parse_positive(std::string_view option, std::string_view text) {
+    const double x = number_of(text);
+    if (x > 0) return x;
+    expected(option, "a number > 0", text);
+}
+
+double parse_limit(std::string_view option, std::string_view text) {
+    const double x = number_of(text);
+    if (x >= 0) return x;
+    expected(option, "a number >= 0", text);
+}
+
+std::uint64_t parse_seed(std::string_view option, std::string_view text) {
+    if (const auto value = digits(text)) return *value;
+    expected(option, "a whole number from 0 to 2^64-1", text);
+}
+
+Size parse_size(std::string_view option, std::string_view text) {
+    const auto size = sides(text);
+    if (!size) expected(option, fmt::format("WxH, each from 1 to {}", largest_side), text);
+    if (std::int64_t(size->width) * size->height > most_pixels)
+        expected(option, fmt::format("WxH of at most {} pixels", most_pixels), text);
+    return *size;
+}
+
+Window parse_crop(std::string_view option, std::string_view text) {
+    const std::size_t first = text.find('+');
+    const std::size_t second = first == std::string_view::npos ? first : text.find('+', first + 1);
+    if (second != std::string_view::npos) {
+        const auto size = sides(text.substr(0, first));
+        const auto x = whole(text.substr(first + 1, second - first - 1), 0, largest_side);
+        const auto y = whole(text.substr(second + 1), 0, largest_side);
+        if (size && x && y) return {int(*x), int(*y), size->width, size->height};
+    }
+    expected(option, "WxH+X+Y, for example 100x50+20+10", text);
+}
+
+void check_crop(std::string_view option, const Window& crop, Size picture) {
+    if (crop.x + crop.width > picture.width || crop.y + crop.height > picture.height)
+        expected(option, fmt::format("a window within the picture of {}x{}", picture.width, picture.height),
+                 fmt::format("{}x{}+{}+{}", crop.width, crop.height, crop.x, crop.y));
+}
+
+std::vector<ImageLayer> parse_layers(std::string_view option, std::string_view text) {
+    std::string known;
+    for (const ImageLayer layer : all_layers())
+        known += fmt::format("{}{}", known.empty() ? "" : ", ", layer_name(layer));
+    std::vector<ImageLayer> layers;
+    for (std::string_view rest = text;;) {
+        const std::size_t comma = rest.find(',');
+        const std::string_view name = rest.substr(0, comma);
+        const auto layer = find_layer(name);
+        if (!layer) expected(option, "some of " + known, name);
+        layers.push_back(*layer);
+        if (comma == std::string_view::npos) return layers;
+        rest.remove_prefix(comma + 1);
+    }
+}
+
+Criterion parse_criterion(std::string_view option, std::string_view text) {
+    if (text == "exact") return Criterion::exact;
+    if (text == "lobb") return Criterion::lobb;
+    expected(option, "exact or lobb", text);
+}
+
+Accel parse_accel(std::string_view option, std::string_view text) {
+    if (text == "bsp") return Accel::bsp;
+    if (text == "embree") return Accel::embree;
+    expected(option, "bsp or embree", text);
+}
+
+MeshMethod parse_mesh_method(const std::string& option, const std::string& name) {
+    if (name == "triage") return MeshMethod::triage;
+    if (name == "marching-cubes") return MeshMethod::marching_cubes;
+    if (name == "octree") return MeshMethod::octree;
+    expected(option, mesh_method_names(), name);
+}
+
+double parse_tolerance(const std::string& text) {
+    return text == "inf" ? infinity : parse_positive("--tolerance", text);
+}
+
+MeshSettings picture_mesh_settings(const std::string& via, const std::string& tolerance) {
+    MeshSettings settings = picture_mesh_settings();
+    if (!via.empty()) settings.method = parse_mesh_method("--via", via);
+    if (!tolerance.empty()) {
+        settings.tolerance_in_radii = settings.tolerance_in_sizes = infinity;
+        settings.tolerance = parse_tolerance(tolerance);
+    }
+    return settings;
+}
+
+void parse_define(std::string_view option, std::string_view text, std::map<std::string, std::string>& defines) {
+    const auto letter = [](char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_'; };
+    const std::size_t equals = text.find('=');
+    bool fine = equals != std::string_view::npos && equals > 0 && equals + 1 < text.size() && letter(text[0]);
+    for (std::size_t i = 1; fine && i < equals; ++i) fine = letter(text[i]) || (text[i] >= '0' && text[i] <= '9');
+    if (!fine) expected(option, "name=value", text);
+    const std::string name(text.substr(0, equals)), value(text.substr(equals + 1));
+    if (!defines.emplace(name, value).second) expected(option, fmt::format("'{}' once", name), text);
+}
+
+void check_image_names(std::string_view option, const std::vector<std::string>& paths) {
+    for (const std::string& path : paths)
+        if (!image_kind(path)) expected(option, "a file name that ends in " + known_extensions(), path);
+    check_distinct(paths);
+}
+
+void check_distinct(const std::vector<std::string>& paths) {
+    std::set<std::filesystem::path> seen;
+    for (const std::string& path : paths) {
+        std::error_code error;  // a folder that cannot be looked into is found when it is written to
+        auto canonical = std::filesystem::weakly_canonical(path, error);
+        if (error) canonical = path;
+        if (!seen.insert(std::filesystem::absolute(canonical)).second) expected("outputs", "different files", path);
+    }
+}
+
+}  // namespace deburr

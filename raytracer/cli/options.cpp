@@ -1,0 +1,145 @@
+#include "raytracer/cli/options.hpp"
+
+#include <fmt/format.h>
+
+#include <cerrno>
+#include <cstring>
+#include <fstream>
+#include <unordered_set>
+
+#include "bounds/canonical_solids.hpp"
+#include "bounds/solid_tree.hpp"
+#include "raytracer/scene/scene_reader.hpp"
+#include "raytracer/util/errors.hpp"
+
+namespace deburr {
+namespace {
+
+constexpr int most_samples = 1 << 20;
+constexpr int most_threads = 1024;
+
+// An option whose text goes to a function; CLI11's own conversions know nothing of our ranges.
+template <class Function>
+void add(CLI::App& command, const char* name, const char* type, const std::string& help, Function take) {
+    command.add_option_function<std::string>(name, std::function<void(const std::string&)>(take), help)
+        ->type_name(type);
+}
+
+}  // namespace
+
+void add_scene_options(CLI::App& command, Options& o) {
+    command.add_option("SCENE", o.scene, "the scene, a Lua file")->type_name("");
+    command
+        .add_option_function<std::vector<std::string>>(
+            "-D",
+            [&o](const std::vector<std::string>& all) {
+                for (const std::string& text : all) parse_define("-D", text, o.defines);
+            },
+            "set a parameter of the scene; repeatable")
+        ->type_name("name=value")
+        ->allow_extra_args(false);
+}
+
+void add_output_option(CLI::App& command, Options& o, const std::string& formats) {
+    command.add_option("-o,--output", o.outputs, "write this file (" + formats + "); repeatable")
+        ->type_name("FILE")
+        ->allow_extra_args(false);
+}
+
+void add_size_option(CLI::App& command, Options& o) {
+    add(command, "--size", "WxH", "size of the picture; default: what the scene says",
+        [&o](const std::string& text) { o.size = parse_size("--size", text); });
+}
+
+void add_picture_options(CLI::App& command, Options& o) {
+    add_size_option(command, o);
+    add(command, "--spp", "N", "samples per pixel, 1: one ray through its centre; default: the scene's",
+        [&o](const std::string& text) { o.spp = int(parse_whole("--spp", text, 1, most_samples)); });
+    add(command, "--crop", "WxH+X+Y", "only this part of the picture",
+        [&o](const std::string& text) { o.crop = parse_crop("--crop", text); });
+    add(command, "--seed", "N", "seed of all random numbers; default: 0",
+        [&o](const std::string& text) { o.seed = parse_seed("--seed", text); });
+    add(command, "--aov", "LIST", "further layers of an EXR: some of P,N,Z,albedo,id,cost",
+        [&o](const std::string& text) { o.layers = parse_layers("--aov", text); });
+    command.add_flag("--float", o.float_color, "32 bits for the colour of an EXR, not 16");
+    add(command, "--criterion", "exact|lobb", "when a ray's segment has one root at most; default: exact",
+        [&o](const std::string& text) { o.criterion = parse_criterion("--criterion", text); });
+}
+
+void add_run_options(CLI::App& command, Options& o) {
+    add(command, "--threads", "N", "default: as many as there are processors",
+        [&o](const std::string& text) { o.threads = int(parse_whole("--threads", text, 1, most_threads)); });
+    command.add_flag("-q,--quiet", o.quiet, "say nothing but errors");
+    command.add_flag("-v,--verbose", o.verbose, "say what is done");
+}
+
+void add_statistics_options(CLI::App& command, Options& o) {
+    command.add_flag("--stats", o.stats, "print what the run did, and in what time");
+    command.add_option("--stats-json", o.stats_json, "write the same as JSON")->type_name("FILE");
+}
+
+namespace {
+
+// Neither overflows nor vanishes, nor do a few hundred of its like.
+bool is_ordinary(double x) { return std::abs(x) < 1e20; }
+
+bool is_ordinary(const Affine& map) {
+    const Mat3 inverse = glm::inverse(map.linear);
+    bool fine = true;
+    for (int i = 0; i < 3; ++i)
+        for (int k = 0; k < 3; ++k)
+            fine &= is_ordinary(map.linear[i][k]) && is_ordinary(inverse[i][k]) && is_ordinary(map.shift[i]);
+    return fine;
+}
+
+// What only shows once all placements of a solid are taken together. A leaf that is ordinary once
+// it is placed by an ordinary map is one wherever such a map places it.
+void check_placements(const Scene& scene) {
+    std::unordered_set<const SolidNode*> ordinary;
+    const auto check = [&](const Solid& leaf, const Affine& map) {
+        const bool fine = is_ordinary(map);
+        if (fine && ordinary.count(&leaf.node())) return;
+        const SolidTree tree = flatten(leaf.transformed(map));
+        bool all = fine;
+        for (const HalfSpace& h : tree.leaves[0].density.half_spaces)
+            all &= is_ordinary(h.offset) && is_ordinary(h.radius);
+        if (all) ordinary.insert(&leaf.node());
+    };
+    try {
+        for (const Solid& solid : scene.solids) {
+            if (solid.node().leaves > most_half_spaces) flatten(solid);  // says so
+            for_each_leaf(solid, check);
+        }
+    } catch (const SingularPlacement& error) {
+        const std::string where = error.line > 0 ? fmt::format("{}:{}", scene.file, error.line) : scene.file;
+        throw SceneError(fmt::format("{}: {}", where, error.what()));
+    }
+}
+
+}  // namespace
+
+Scene load_scene(const Options& o) {
+    if (o.scene.empty()) throw UsageError("expected a scene file");
+    std::ifstream file(o.scene);
+    if (!file || (file.peek(), file.bad()))  // a folder opens but cannot be read
+        throw UsageError(fmt::format("cannot read scene '{}': {}", o.scene, std::strerror(errno)));
+    file.close();
+    Scene scene = read_scene(o.scene, o.defines);
+    for (const auto& [name, value] : o.defines) {
+        if (scene.parameters.count(name)) continue;
+        std::string known;
+        for (const auto& [has, unused] : scene.parameters) known += (known.empty() ? "" : ", ") + has;
+        throw UsageError(fmt::format("-D: expected a parameter of '{}' ({}), got '{}'", o.scene,
+                                     known.empty() ? "it has none" : known, name));
+    }
+    check_placements(scene);
+    return scene;
+}
+
+Size picture_size(const Options& o, const Scene& scene) {
+    if (o.size) return *o.size;
+    // The same limits as for --size, said of the scene.
+    return parse_size(scene.file + ": image", fmt::format("{}x{}", scene.width, scene.height));
+}
+
+}  // namespace deburr

@@ -1,0 +1,52 @@
+// The command line's options. Those that several commands share are added here, so that they are
+// spelled, explained and checked alike everywhere.
+#pragma once
+#include <CLI/CLI.hpp>
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "raytracer/cli/option_values.hpp"
+#include "raytracer/scene/scene.hpp"
+
+namespace deburr {
+
+struct Options {
+    std::string scene;
+    std::map<std::string, std::string> defines;  // -D
+
+    std::vector<std::string> outputs;  // -o
+
+    std::optional<Size> size;
+    std::optional<int> spp;
+    std::optional<Window> crop;
+    std::uint64_t seed = 0;
+    std::vector<ImageLayer> layers;  // --aov
+    bool float_color = false;
+    Criterion criterion = Criterion::exact;
+
+    std::optional<int> threads;
+    bool quiet = false, verbose = false;
+
+    bool stats = false;
+    std::string stats_json;
+};
+
+/// Each adds a group of options to a command and keeps a reference to `options`.
+void add_scene_options(CLI::App& command, Options& options);                              // SCENE -D
+void add_output_option(CLI::App& command, Options& options, const std::string& formats);  // -o
+void add_size_option(CLI::App& command, Options& options);                                // --size
+void add_picture_options(CLI::App& command, Options& options);     // --size --spp --crop --seed …
+void add_run_options(CLI::App& command, Options& options);         // --threads -q -v
+void add_statistics_options(CLI::App& command, Options& options);  // --stats --stats-json
+
+/// The scene that the options name, with their parameters. Throws UsageError if there is none or if
+/// it does not ask for a parameter that was given, SceneError if it is wrong.
+Scene load_scene(const Options& options);
+
+/// The whole picture's size: --size, or else what the scene says.
+Size picture_size(const Options& options, const Scene& scene);
+
+}  // namespace deburr

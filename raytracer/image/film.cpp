@@ -1,0 +1,54 @@
+#include "raytracer/image/film.hpp"
+
+#include <set>
+#include <stdexcept>
+#include <string>
+
+namespace deburr {
+namespace {
+
+void put(ImageLayer layer, const PixelLayers& from, double* to) {
+    const auto put_vector = [to](Vec3 v) {
+        for (int k = 0; k < 3; ++k) to[k] = v[k];
+    };
+    switch (layer) {
+        case ImageLayer::position: return put_vector(from.position);
+        case ImageLayer::normal: return put_vector(from.normal);
+        case ImageLayer::albedo: return put_vector(from.albedo);
+        case ImageLayer::z: *to = from.z; return;
+        case ImageLayer::id: *to = double(from.id); return;
+        case ImageLayer::cost: *to = from.cost; return;
+    }
+}
+
+}  // namespace
+
+Film::Film(int width, int height, Window window, const std::vector<ImageLayer>& layers)
+    : width(width), height(height), window(window), pixels(std::size_t(window.width) * std::size_t(window.height)) {
+    for (const ImageLayer layer : layers) {
+        LayerPlane& plane = planes_.try_emplace(layer, layer, pixels.size()).first->second;
+        for (std::size_t i = 0; i < pixels.size(); ++i) put(layer, {}, plane.pixel(i));
+    }
+}
+
+const LayerPlane& Film::layer(ImageLayer layer) const {
+    const auto at = planes_.find(layer);
+    if (at == planes_.end()) throw std::logic_error("layer " + std::string(layer_name(layer)) + " was not kept");
+    return at->second;
+}
+
+void Film::set_layers(const Window& block, const PixelLayers* layers) {
+    for (auto& [layer, plane] : planes_)
+        for (int y = 0; y < block.height; ++y)
+            for (int x = 0; x < block.width; ++x)
+                put(layer, layers[y * block.width + x], plane.pixel(index(block.x + x, block.y + y)));
+}
+
+double Film::bytes_per_pixel(const std::vector<ImageLayer>& layers) {
+    double bytes = sizeof(Pixel);
+    for (const ImageLayer layer : std::set<ImageLayer>(layers.begin(), layers.end()))
+        bytes += double(components(layer)) * sizeof(double);
+    return bytes;
+}
+
+}  // namespace deburr

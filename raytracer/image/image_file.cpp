@@ -1,0 +1,149 @@
+#include "raytracer/image/image_file.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <glm/gtc/type_ptr.hpp>
+
+#include "raytracer/image/camera_matrix.hpp"
+#include "raytracer/image/image_module.hpp"
+#include "raytracer/util/errors.hpp"
+#include "raytracer/util/whole_file.hpp"
+
+namespace deburr {
+namespace {
+
+// The linear value whose place on the transfer curve is v.
+double linear_of_srgb(double v) { return v <= 0.04045 ? v / 12.92 : std::pow((v + 0.055) / 1.055, 2.4); }
+
+// Where bytes begin, and, for even steps of the linear value, the byte that a step begins with. The curve
+// rises by 12.92 at most, so that a step has room for the beginning of one byte more.
+struct SrgbBytes {
+    static constexpr int steps = 4096;
+    static_assert(steps > 12.92 * 255);
+    std::array<double, 257> begin{};
+    std::array<unsigned char, steps> byte{};
+
+    SrgbBytes() {
+        for (int k = 1; k < 256; ++k) begin[std::size_t(k)] = linear_of_srgb((k - 0.5) / 255);
+        begin[256] = infinity;
+        int now = 0;
+        for (int i = 0; i < steps; ++i) {
+            while (begin[std::size_t(now) + 1] <= double(i) / steps) ++now;
+            byte[std::size_t(i)] = static_cast<unsigned char>(now);
+        }
+    }
+
+    unsigned char operator()(double linear) const {
+        if (!(linear > 0)) return 0;
+        if (linear >= 1) return 255;
+        const unsigned char at = byte[std::size_t(int(linear * steps))];
+        return at + (linear >= begin[std::size_t(at) + 1]);
+    }
+};
+
+const SrgbBytes& srgb_bytes() {
+    static const SrgbBytes bytes;
+    return bytes;
+}
+
+struct LayerChannels {
+    ImageLayer layer;
+    std::vector<const char*> names;
+    ChannelType type = ChannelType::single_float;
+};
+
+const LayerChannels layer_channels[] = {
+    {ImageLayer::position, {"P.X", "P.Y", "P.Z"}},
+    {ImageLayer::normal, {"N.X", "N.Y", "N.Z"}},
+    {ImageLayer::z, {"Z"}},
+    {ImageLayer::albedo, {"Albedo.R", "Albedo.G", "Albedo.B"}},
+    {ImageLayer::id, {"id"}, ChannelType::whole},
+    {ImageLayer::cost, {"cost"}},
+};
+
+std::vector<ImageChannel> channels(const Film& film, ImageKind kind, const ImageFormat& format) {
+    std::vector<ImageChannel> list;
+    const Pixel* pixels = film.pixels.data();
+    const auto add_color = [&](ChannelType type, auto value_of) {
+        for (int k = 0; k < 3; ++k)
+            list.push_back(image_channel(std::string(1, "RGB"[k]), type, [pixels, k, value_of](std::size_t i) {
+                return value_of(glm::value_ptr(pixels[i].color)[k]);
+            }));
+    };
+    const auto as_it_is = [](double value) { return value; };
+    if (kind == ImageKind::display) {
+        add_color(ChannelType::byte, [&byte = srgb_bytes()](double value) { return byte(value); });
+        return list;
+    }
+    if (kind == ImageKind::linear) {
+        add_color(ChannelType::single_float, as_it_is);
+        return list;
+    }
+    const auto color = format.float_color ? ChannelType::single_float : ChannelType::half_float;
+    add_color(color, as_it_is);
+    list.push_back(image_channel("A", color, [pixels](std::size_t i) { return pixels[i].alpha; }));
+    for (const auto& [layer, names, type] : layer_channels) {
+        if (!film.keeps(layer)) continue;
+        for (int k = 0; k < components(layer); ++k)
+            list.push_back(image_channel(names[std::size_t(k)], type,
+                                         [&plane = film.layer(layer), k](std::size_t i) { return plane.at(i, k); }));
+    }
+    return list;
+}
+
+std::vector<ImageAttribute> attributes(const Film& film, const ImageNotes& notes, bool exr) {
+    std::vector<ImageAttribute> all;
+    all.push_back({"Software", "Deburr " DEBURR_VERSION});
+    // As OpenEXR's standard attributes are named, and as the others' are.
+    if (!notes.date.empty()) all.push_back({exr ? "capDate" : "DateTime", notes.date});
+    if (exr) {
+        all.push_back({"worldToCamera", world_to_camera(notes.camera)});
+        all.push_back({"worldToNDC", world_to_ndc(notes.camera, film.width, film.height)});
+        all.push_back({"utcOffset", 0.0f});
+        all.push_back({"samplesPerPixel", notes.spp});
+        if (notes.render_seconds) all.push_back({"renderTimeSeconds", float(*notes.render_seconds)});
+    }
+    for (const auto& [name, value] : notes.attributes) all.push_back({"deburr." + name, value});
+    if (!film.complete) {
+        if (exr)
+            all.push_back({"deburr.incomplete", 1});
+        else
+            all.push_back({"deburr.incomplete", "1"});  // other formats keep text only
+    }
+    return all;
+}
+
+}  // namespace
+
+unsigned char srgb_byte(double linear) { return srgb_bytes()(linear); }
+
+void write_raster(const std::string& path, const ImageRaster& image, int threads, const ShareDone& done) {
+    const std::string extension = image_extension(path);
+    std::string bytes;
+    try {
+        bytes = extension == ".exr"   ? exr_encoder()(image, threads, done)
+                : extension == ".png" ? encode_png(image, done)
+                                      : image_module().encode(extension, image, done);
+    } catch (const UnsupportedError&) {
+        throw;
+    } catch (const std::exception& error) {
+        throw WorkError(fmt::format("cannot write '{}': {}", path, error.what()));
+    }
+    write_whole_file(path, bytes);
+    if (done) done(1);
+}
+
+void write_image(const std::string& path, const Film& film, const ImageFormat& format, const ImageNotes& notes,
+                 const ShareDone& done) {
+    const auto kind = image_kind(path);
+    if (!kind) throw WorkError(fmt::format("cannot write '{}': unknown image format", path));
+    const bool exr = *kind == ImageKind::exr;
+    write_raster(path,
+                 {film.width, film.height, film.window, channels(film, *kind, format), attributes(film, notes, exr)},
+                 format.threads, done);
+}
+
+}  // namespace deburr

@@ -1,0 +1,115 @@
+#include "raytracer/mesh/mesh_tracer.hpp"
+
+#include <algorithm>
+
+#include "raytracer/accel/embree.hpp"
+#include "raytracer/mesh/split_distant_triangles.hpp"
+
+namespace deburr {
+namespace {
+
+// Embree's intersections are off by a few units in the last place of the coordinates; a ray that
+// leaves a surface starts this many of them away from it.
+constexpr double lift = 64 * double(std::numeric_limits<float>::epsilon());
+
+// How far it is turned beyond the side view, as a share of the angle: far above rounding, far below
+// what is seen.
+constexpr double least_tilt = 1e-6;
+
+RTCRay ray_of(const Ray& ray, double t_max) {
+    RTCRay r{};
+    r.org_x = float(ray.origin.x);
+    r.org_y = float(ray.origin.y);
+    r.org_z = float(ray.origin.z);
+    r.dir_x = float(ray.direction.x);
+    r.dir_y = float(ray.direction.y);
+    r.dir_z = float(ray.direction.z);
+    r.tnear = 0;
+    r.tfar = float(std::min(t_max, double(std::numeric_limits<float>::max())));
+    r.mask = ~0u;
+    return r;
+}
+
+// Where the ray meets the plane of the triangle x + u·e1 + v·e2, in double precision: single leaves
+// 10⁻⁷ of the triangle's size, and floors reach far. Nearly along the plane, u and v stay.
+void meet(const Ray& ray, Vec3 x, Vec3 e1, Vec3 e2, double& u, double& v) {
+    const Vec3 area = glm::cross(e1, e2);
+    const double rate = glm::dot(area, ray.direction);
+    if (std::abs(rate) <= 1e-9 * glm::length(area)) return;
+    const Vec3 moment = glm::cross(ray.origin - x, ray.direction);
+    u = glm::dot(e2, moment) / -rate;
+    v = glm::dot(e1, moment) / rate;
+}
+
+}  // namespace
+
+struct MeshTracer::Embree {
+    EmbreeScene scene;
+
+    explicit Embree(const Mesh& mesh) {
+        if (!mesh.triangles.empty()) add(mesh);
+        scene.commit("the mesh");
+    }
+
+private:
+    void add(const Mesh& mesh) {
+        RTCGeometry geometry = scene.new_geometry(RTC_GEOMETRY_TYPE_TRIANGLE);
+        auto* vertices = static_cast<float*>(embree().set_new_geometry_buffer(
+            geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, 3 * sizeof(float), mesh.positions.size()));
+        auto* indices = static_cast<unsigned*>(embree().set_new_geometry_buffer(
+            geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, 3 * sizeof(unsigned), mesh.triangles.size()));
+        if (vertices && indices) {
+            for (const Vec3& x : mesh.positions)
+                for (int k = 0; k < 3; ++k) *vertices++ = float(x[k]);
+            for (const Triangle& t : mesh.triangles)
+                for (const int v : t.vertex) *indices++ = unsigned(v);
+        }
+        scene.add(geometry);
+    }
+};
+
+MeshTracer::MeshTracer(Mesh mesh, const Box& near)
+    : mesh_(split_far(std::move(mesh), near)), embree_(std::make_unique<Embree>(mesh_)) {}
+MeshTracer::~MeshTracer() = default;
+
+Hit MeshTracer::first_hit(const Ray& ray, double t_max, TraceCounters& counters) const {
+    ++counters.rays;
+    RTCRayHit query{};
+    query.ray = ray_of(ray, t_max);
+    query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+    EmbreeContext context;
+    embree_->scene.intersect(query, context);
+    Hit hit;
+    if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID) return hit;
+    const Triangle& t = mesh_.triangles[query.hit.primID];
+    const auto at = [&](std::size_t k) { return mesh_.positions[std::size_t(t.vertex[k])]; };
+    const auto normal = [&](std::size_t k) { return mesh_.normals[std::size_t(t.normal[k])]; };
+    const Vec3 e1 = at(1) - at(0), e2 = at(2) - at(0);
+    double u = query.hit.u, v = query.hit.v;
+    meet(ray, at(0), e1, e2, u, v);
+    const double w = 1 - u - v;
+    hit.position = at(0) + u * e1 + v * e2;
+    const Vec3 n = w * normal(0) + u * normal(1) + v * normal(2);
+    const Vec3 facet = glm::cross(e1, e2);
+    hit.normal = glm::length(n) > 0 ? glm::normalize(n) : glm::normalize(facet);
+    // Near an outline the normal between corners may look away though the facet does not; it is
+    // turned until it is seen from the side, or the outline would be black.
+    const double away = glm::dot(hit.normal, ray.direction);
+    if (away * glm::dot(facet, ray.direction) < 0)
+        hit.normal = glm::normalize(hit.normal - (1 + least_tilt) * away * ray.direction);
+    hit.t = std::max(glm::dot(hit.position - ray.origin, ray.direction), double(std::numeric_limits<float>::min()));
+    hit.solid = t.solid;
+    hit.material = t.material;
+    hit.offset = lift * std::max(largest(hit.position), largest(ray.origin));
+    return hit;
+}
+
+bool MeshTracer::occluded(const Ray& ray, double t_max, TraceCounters& counters) const {
+    ++counters.shadow_rays;
+    RTCRay query = ray_of(ray, t_max);
+    EmbreeContext context;
+    embree_->scene.occluded(query, context);
+    return query.tfar < 0;
+}
+
+}  // namespace deburr

@@ -1,0 +1,223 @@
+#include "raytracer/mesh/scene_mesh.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "bounds/bounding_box.hpp"
+#include "polygonizer/marching_cubes/marching_cubes.hpp"
+#include "polygonizer/mesh/separate_touching.hpp"
+#include "polygonizer/octree/octree_cells.hpp"
+#include "raytracer/util/errors.hpp"
+#include "raytracer/util/in_parallel.hpp"
+
+namespace deburr {
+namespace {
+
+// A grid of more cubes than this is refused: it would take tens of gigabytes.
+constexpr double most_cubes = 2e9;
+
+bool finite(const Box& box) { return box.empty() || box.finite(); }
+
+// All that is finite of the scene, and the eye: infinite solids are cut off around it.
+Box finite_part(const Scene& scene, const std::vector<Box>& boxes) {
+    Box all;
+    for (const Box& b : boxes)
+        if (!b.empty() && b.finite()) all = hull(all, b);
+    if (all.empty()) {
+        all = hull(Box{scene.camera.target, scene.camera.target}, Box{scene.camera.eye, scene.camera.eye});
+        for (const Box& b : boxes)
+            for (int k = 0; k < 3; ++k)
+                for (const double side : {b.lo[k], b.hi[k]})
+                    if (std::isfinite(side)) {
+                        all.lo[k] = std::min(all.lo[k], side);
+                        all.hi[k] = std::max(all.hi[k], side);
+                    }
+    }
+    return all;
+}
+
+// Triage follows half-spaces: what has none it cannot see.
+void need_densities(const SolidTree& solid, std::size_t id) {
+    if (solid.has_field())
+        throw UnsupportedError(fmt::format(
+            "--method triage: expected rounded polyhedra, got a free form in solid {}; use octree or marching-cubes",
+            id));
+}
+
+Mesh by_octree(const SolidTree& tree, const Box& box, bool cut_off, const MeshSettings& settings, std::size_t id,
+               StopFlag stop, OctreeStatistics& statistics) {
+    const Vec3 size = box.hi - box.lo;
+    const double longest = largest(size), own = octree_edge(tree, box);
+    OctreeOptions options;
+    options.edge = settings.level > 0 ? std::ldexp(longest, -settings.level) : settings.edge > 0 ? settings.edge : own;
+    // What has been cut off is many times as large as it looks.
+    if (cut_off && settings.level == 0) options.edge = std::max(options.edge, own);
+    options.edge *= settings.coarseness;
+    options.hard_angle = settings.hard_angle;
+    options.stop = stop;
+    const double radius = tree.least_radius();
+    const double relative = radius > 0 ? settings.tolerance_in_radii * radius : settings.tolerance_in_sizes * longest;
+    options.tolerance = std::min(settings.tolerance, tree.has_field() || radius > 0 ? relative : infinity);
+    try {
+        return octree(tree, box, options, &statistics);
+    } catch (const OpenMeshError& error) {
+        throw WorkError(fmt::format("solid {}: {}", id, error.what()));
+    } catch (const std::length_error&) {
+        throw UnsupportedError(fmt::format("--edge: cells of {:g} would be more than {} for solid {}", options.edge,
+                                           CellTree::most_cells, id));
+    }
+}
+
+// Of polygonizing the solid, relative to others.
+double work_of(const SolidTree& solid) {
+    std::size_t half_spaces = 1;
+    for (const SolidLeaf& leaf : solid.leaves)
+        half_spaces += leaf.field ? std::size_t(leaf.field->size()) : leaf.density.half_spaces.size();
+    return double(half_spaces);
+}
+
+struct SolidMesh {
+    Mesh mesh;
+    std::optional<MeshMethod> method;
+    TriageStatistics triage;
+    OctreeStatistics octree;
+};
+
+// `id` is for messages. Where the solid has been cut off, its box is not its own.
+SolidMesh polygonize(const SolidTree& tree, bool cut_off, const MeshSettings& settings, std::size_t id, StopFlag stop) {
+    SolidMesh result;
+    const Box box = polygonization_box(tree);
+    if (box.empty()) return result;
+    result.method = settings.method.value_or(tree.has_field() ? MeshMethod::octree : MeshMethod::triage);
+    if (result.method == MeshMethod::octree) {
+        result.mesh = by_octree(tree, box, cut_off, settings, id, stop, result.octree);
+    } else if (result.method == MeshMethod::triage) {
+        need_densities(tree, id);
+        const double radius = tree.least_radius();
+        const double relative = radius > 0 ? settings.tolerance_in_radii * radius : infinity;
+        result.mesh =
+            triage(tree, box, {settings.coarseness * std::min(settings.tolerance, relative), stop}, &result.triage);
+    } else {
+        const double grid = settings.coarseness * (settings.grid > 0 ? settings.grid : marching_cubes_grid(tree, box));
+        if (marching_cubes_count(box, grid) > most_cubes)
+            throw UnsupportedError(fmt::format("--grid: a grid of {:g} would have more than {:g} cubes for solid {}",
+                                               grid, most_cubes, id));
+        result.mesh = marching_cubes(tree, box, grid, stop);
+    }
+    return result;
+}
+
+void add_statistics(SceneMesh& to, const SolidMesh& from) {
+    if (from.method && std::find(to.methods.begin(), to.methods.end(), *from.method) == to.methods.end())
+        to.methods.push_back(*from.method);
+    if (from.method == MeshMethod::triage) {
+        to.triage.cells += from.triage.cells;
+        to.triage.open_cells += from.triage.open_cells;
+        to.triage.rounds = std::max(to.triage.rounds, from.triage.rounds);
+    } else if (from.method == MeshMethod::octree) {
+        OctreeStatistics& sum = to.octree;
+        const OctreeStatistics& one = from.octree;
+        sum.level = std::max(sum.level, one.level);
+        sum.edge = sum.edge > 0 ? std::min(sum.edge, one.edge) : one.edge;
+        sum.range_tests += one.range_tests;
+        sum.cells += one.cells;
+        sum.open_cells += one.open_cells;
+        sum.hard_points += one.hard_points;
+        sum.partitions += one.partitions;
+        sum.rounds = std::max(sum.rounds, one.rounds);
+    }
+}
+
+}  // namespace
+
+std::string SceneMesh::method_names() const {
+    std::string names;
+    for (const MeshMethod m : methods) names += (names.empty() ? "" : ", ") + mesh_method_name(m);
+    return names;
+}
+
+SceneMesh mesh_scene(const Scene& scene, const MeshSettings& settings, const MeshWatch& watch) {
+    SceneMesh result;
+    std::vector<Box> boxes;
+    for (const Solid& solid : scene.solids) {
+        result.trees.push_back(flatten(solid));
+        boxes.push_back(bounding_box(result.trees.back()));
+    }
+    result.near = finite_part(scene, boxes);
+    const Vec3 size = result.near.hi - result.near.lo;
+    const Box limit = inflated(result.near, settings.reach * std::max(largest(size), 1e-6));
+    const std::size_t count = scene.solids.size();
+    for (std::size_t i = 0; i < count; ++i) {
+        if (finite(boxes[i])) continue;
+        // Cut off on infinite sides only; the others keep their margin.
+        Box margin = inflated(boxes[i], 0.05 * largest(size));
+        for (int k = 0; k < 3; ++k) {
+            margin.lo[k] = std::isfinite(margin.lo[k]) ? margin.lo[k] : limit.lo[k];
+            margin.hi[k] = std::isfinite(margin.hi[k]) ? margin.hi[k] : limit.hi[k];
+        }
+        result.trees[i] = flatten(scene.solids[i] & Solid::sharp(Density::box(margin.lo, margin.hi)));
+        result.warnings.push_back(fmt::format("solid {} is unbounded: its mesh is cut off", i + 1));
+    }
+    double work = 0;
+    for (const SolidTree& tree : result.trees) work += work_of(tree);
+    std::vector<SolidMesh> parts(count);
+    in_parallel(count, [&](std::size_t i) {
+        throw_if_stopped(watch.stop);
+        parts[i] = polygonize(result.trees[i], !finite(boxes[i]), settings, i + 1, watch.stop);
+        if (watch.done) watch.done(work_of(result.trees[i]) / work);
+    });
+    for (std::size_t i = 0; i < count; ++i) {
+        add_statistics(result, parts[i]);
+        if (parts[i].mesh.triangles.empty())
+            result.warnings.push_back(fmt::format("solid {} is not in the mesh: it is empty{}", i + 1,
+                                                  parts[i].method ? ", or thinner than the mesh is fine" : ""));
+        result.mesh.append(parts[i].mesh, int(i));
+        result.parts.push_back(std::move(parts[i].mesh));
+    }
+    separate_touching(result.mesh);
+    auto moved = result.mesh.positions.begin();
+    for (Mesh& part : result.parts)
+        for (Vec3& x : part.positions) x = *moved++;
+    return result;
+}
+
+SceneMesh mesh_scene(const Scene& scene, MeshSettings settings, std::size_t faces, StopFlag stop) {
+    // Triangles go with the inverse square of lengths, and triage's with the inverse of its tolerance;
+    // near the wanted number the last two meshes tell better.
+    constexpr int most_rounds = 12;
+    constexpr double near_enough = 0.001, worth_a_warning = 0.01;
+    constexpr double largest_step = 16, least_slope = 0.5, greatest_slope = 4;
+    if (settings.method.value_or(MeshMethod::triage) == MeshMethod::triage && !std::isfinite(settings.tolerance))
+        settings.tolerance_in_radii = rendering_tolerance;
+    SceneMesh best;
+    double slope = settings.method == MeshMethod::triage || !settings.method ? 1 : 2, error = infinity;
+    double last_coarseness = 0, last_count = 0;
+    for (int round = 0; round < most_rounds && error > near_enough; ++round) {
+        SceneMesh mesh = mesh_scene(scene, settings, {stop, {}});
+        const double count = double(std::max<std::size_t>(mesh.mesh.triangles.size(), 1));
+        if (last_count > 0 && count != last_count && settings.coarseness != last_coarseness)
+            slope = std::clamp(-std::log(count / last_count) / std::log(settings.coarseness / last_coarseness),
+                               least_slope, greatest_slope);
+        last_coarseness = settings.coarseness;
+        last_count = count;
+        settings.coarseness *= std::clamp(std::pow(count / double(faces), 1 / slope), 1 / largest_step, largest_step);
+        const double off = std::abs(count - double(faces)) / double(faces);
+        if (off >= error) continue;
+        error = off;
+        best = std::move(mesh);
+    }
+    if (error > worth_a_warning)
+        best.warnings.push_back(
+            fmt::format("--faces: the nearest to {} that was found is {}", faces, best.mesh.triangles.size()));
+    return best;
+}
+
+std::vector<MeshMetrics> measure_parts(const SceneMesh& mesh) {
+    std::vector<MeshMetrics> all;
+    for (std::size_t i = 0; i < mesh.parts.size(); ++i) all.push_back(measure(mesh.parts[i], mesh.trees[i]));
+    return all;
+}
+
+}  // namespace deburr

@@ -1,0 +1,44 @@
+// A scene's solids as meshes, by whichever method.
+#pragma once
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "polygonizer/mesh/metrics.hpp"
+#include "polygonizer/triage/triage.hpp"
+#include "raytracer/mesh/mesh_settings.hpp"
+#include "raytracer/scene/scene.hpp"
+
+namespace deburr {
+
+struct SceneMesh {
+    Mesh mesh;                // of all solids
+    std::vector<Mesh> parts;  // solid by solid
+    Box near;                 // of the finite solids: infinite ones are cut off far around it
+    std::vector<SolidTree> trees;
+    std::vector<MeshMethod> methods;  // that were used, each once
+    TriageStatistics triage;          // sums
+    OctreeStatistics octree;          // sums; the least edge, the highest level
+    std::vector<std::string> warnings;
+
+    std::string method_names() const;  // "octree, triage"
+};
+
+/// How the making of a mesh is watched.
+struct MeshWatch {
+    StopFlag stop = nullptr;                // once it is set, Stopped is thrown soon
+    std::function<void(double)> done = {};  // the share of the work that is done since the last call; any thread
+};
+
+/// Solids are polygonized in parallel; the mesh does not depend on that. Those that reach to infinity are
+/// cut off, at a distance that leaves the others in sight, and a warning says so. Throws UnsupportedError
+/// if a grid would be too fine.
+SceneMesh mesh_scene(const Scene& scene, const MeshSettings& settings, const MeshWatch& watch = {});
+
+/// As near to `faces` triangles as the method comes, found by search over its coarseness; a warning
+/// says so if that is not within 1 %.
+SceneMesh mesh_scene(const Scene& scene, MeshSettings settings, std::size_t faces, StopFlag stop = nullptr);
+
+std::vector<MeshMetrics> measure_parts(const SceneMesh& mesh);
+
+}  // namespace deburr

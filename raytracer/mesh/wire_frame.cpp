@@ -1,0 +1,233 @@
+#include "raytracer/mesh/wire_frame.hpp"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+
+namespace deburr {
+namespace {
+
+// Steps along a line, in pixels: the ends of its visible parts are found to this.
+constexpr double step = 0.5;
+// A point is asked about a little in front of the faces that are seen, and nearer to the eye, by this
+// share of its distance: far above Embree's single precision, far below a pixel.
+constexpr double lift = 1e-4;
+// Two triangles count as one plane if the farther corner of the one is this close to the other's
+// plane, as a share of its size. Roots that make a strip are exact to 1e-10.
+constexpr double flat = 1e-6;
+
+int opposite(const Triangle& t, int a, int b) {
+    for (const int v : t.vertex)
+        if (v != a && v != b) return v;
+    return t.vertex[0];
+}
+
+bool in_one_plane(const Mesh& mesh, const MeshEdge& e) {
+    const Triangle& s = mesh.triangles[std::size_t(e.left)];
+    const Triangle& t = mesh.triangles[std::size_t(e.right)];
+    const Vec3 m = mesh.area_vector(s), n = mesh.area_vector(t);
+    if (s.material != t.material || s.solid != t.solid || glm::dot(m, n) <= 0) return false;
+    // From the larger one's plane: that of a sliver is ill-defined.
+    const bool first = glm::length(m) > glm::length(n);
+    const Vec3 normal = glm::normalize(first ? m : n);
+    const auto at = [&](int v) { return mesh.positions[std::size_t(v)]; };
+    const double size = std::sqrt(glm::length(first ? m : n));
+    return std::abs(glm::dot(normal, at(opposite(first ? t : s, e.a, e.b)) - at(e.a))) < flat * size;
+}
+
+struct Line3 {
+    Vec3 a, b;    // ends
+    Vec3 na, nb;  // lifted along these
+};
+
+// Clips to what lies in front of the camera; false if nothing does.
+bool clip(Line3& line, const PinholeCamera& camera) {
+    // Of the line's length; nearer, a point would be seen at no place that fits a picture.
+    const double near = 1e-4 * glm::length(line.b - line.a);
+    const double za = glm::dot(line.a - camera.eye(), camera.forward());
+    const double zb = glm::dot(line.b - camera.eye(), camera.forward());
+    if (za <= near && zb <= near) return false;
+    const auto cut = [&](Vec3& hidden, Vec3 seen, double zh, double zs) {
+        hidden = glm::mix(hidden, seen, (near - zh) / (zs - zh));
+    };
+    if (za <= near)
+        cut(line.a, line.b, za, zb);
+    else if (zb <= near)
+        cut(line.b, line.a, zb, za);
+    return true;
+}
+
+// The part of p + t (q − p), t in [0, 1], that is within a margin of the picture.
+bool clip(Vec2 p, Vec2 q, int width, int height, double& t0, double& t1) {
+    constexpr double margin = 8;
+    t0 = 0, t1 = 1;
+    const double lo[2] = {-margin, -margin}, hi[2] = {width + margin, height + margin};
+    for (int k = 0; k < 2; ++k) {
+        const double d = q[k] - p[k];
+        if (d == 0) {
+            if (p[k] < lo[k] || p[k] > hi[k]) return false;
+            continue;
+        }
+        double a = (lo[k] - p[k]) / d, b = (hi[k] - p[k]) / d;
+        if (a > b) std::swap(a, b);
+        t0 = std::max(t0, a);
+        t1 = std::min(t1, b);
+    }
+    return t0 < t1;
+}
+
+bool seen(Vec3 x, Vec3 normal, const RayTracer& hiding, const PinholeCamera& camera) {
+    const double distance = glm::length(x - camera.eye());
+    const Vec3 start = x + (normal + glm::normalize(camera.eye() - x)) * (lift * distance);
+    const Vec3 way = camera.eye() - start;
+    const double length = glm::length(way);
+    TraceCounters unused;
+    return !hiding.occluded({start, way / length}, length, unused);
+}
+
+void add_visible(Line3 line, const RayTracer* hiding, const PinholeCamera& camera, int width, int height,
+                 std::vector<Stroke>& out) {
+    if (!clip(line, camera)) return;
+    const Vec3 p = camera.project(line.a), q = camera.project(line.b);
+    const Vec2 from(p), to(q);
+    double t0, t1;
+    if (!clip(from, to, width, height, t0, t1)) return;
+    if (!hiding) {
+        out.push_back({glm::mix(from, to, t0), glm::mix(from, to, t1)});
+        return;
+    }
+    // Even steps on the picture; 1/z is linear there.
+    const int steps = std::max(2, int(std::ceil((t1 - t0) * glm::length(to - from) / step)));
+    double begin = -1;
+    for (int i = 0; i <= steps; ++i) {
+        bool visible = false;
+        if (i < steps) {
+            const double t = t0 + (t1 - t0) * (i + 0.5) / steps;
+            const double u = t / q.z / ((1 - t) / p.z + t / q.z);
+            visible = seen(glm::mix(line.a, line.b, u), glm::mix(line.na, line.nb, u), *hiding, camera);
+        }
+        const double at = t0 + (t1 - t0) * i / steps;
+        if (visible && begin < 0) begin = at;
+        if (!visible && begin >= 0) {
+            out.push_back({glm::mix(from, to, begin), glm::mix(from, to, at)});
+            begin = -1;
+        }
+    }
+}
+
+template <class LineOf>
+std::vector<Stroke> strokes_of(std::size_t lines, LineOf line_of, const RayTracer* hiding, const PinholeCamera& camera,
+                               int width, int height) {
+    std::vector<std::vector<Stroke>> parts(lines);  // in the lines' order, whatever thread did it
+    tbb::parallel_for(std::size_t(0), lines, [&](std::size_t i) {
+        Line3 line;
+        if (line_of(i, line)) add_visible(line, hiding, camera, width, height, parts[i]);
+    });
+    std::vector<Stroke> all;
+    for (const auto& part : parts) all.insert(all.end(), part.begin(), part.end());
+    return all;
+}
+
+}  // namespace
+
+std::vector<MeshEdge> mesh_edges(const Mesh& mesh, EdgeChoice choice) {
+    struct Half {
+        int lo, hi, triangle;
+    };
+    std::vector<Half> halves;
+    for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
+        for (std::size_t k = 0; k < 3; ++k) {
+            const auto [lo, hi] = std::minmax(mesh.triangles[t].vertex[k], mesh.triangles[t].vertex[(k + 1) % 3]);
+            halves.push_back({lo, hi, int(t)});
+        }
+    std::sort(halves.begin(), halves.end(), [](const Half& x, const Half& y) {
+        return std::tie(x.lo, x.hi, x.triangle) < std::tie(y.lo, y.hi, y.triangle);
+    });
+    std::vector<MeshEdge> edges;
+    for (std::size_t k = 0; k < halves.size();) {
+        std::size_t end = k + 1;
+        while (end < halves.size() && halves[end].lo == halves[k].lo && halves[end].hi == halves[k].hi) ++end;
+        const MeshEdge edge{halves[k].lo, halves[k].hi, halves[k].triangle, end == k + 2 ? halves[k + 1].triangle : -1};
+        if (choice == EdgeChoice::triangles || edge.right < 0 || !in_one_plane(mesh, edge)) edges.push_back(edge);
+        k = end;
+    }
+    return edges;
+}
+
+std::vector<Stroke> wire_frame(const Mesh& mesh, const std::vector<MeshEdge>& edges, const RayTracer& hiding,
+                               const PinholeCamera& camera, int width, int height, WireMode mode) {
+    const auto line_of = [&](std::size_t i, Line3& line) {
+        const MeshEdge& e = edges[i];
+        line.a = mesh.positions[std::size_t(e.a)];
+        line.b = mesh.positions[std::size_t(e.b)];
+        Vec3 normal(0.0);
+        bool front = false;
+        for (const int t : {e.left, e.right}) {
+            if (t < 0) continue;
+            const Vec3 area = mesh.area_vector(mesh.triangles[std::size_t(t)]);
+            const double size = glm::length(area);
+            if (size == 0) continue;
+            if (glm::dot(area, camera.eye() - line.a) <= 0) continue;
+            front = true;
+            normal += area / size;
+        }
+        line.na = line.nb = glm::length(normal) > 0 ? glm::normalize(normal) : normal;
+        return front;  // no part of an edge between two faces that look away is seen
+    };
+    return strokes_of(edges.size(), line_of, mode == WireMode::visible ? &hiding : nullptr, camera, width, height);
+}
+
+std::vector<Stroke> visible_line(const std::vector<Vec3>& points, const std::vector<Vec3>& normals,
+                                 const RayTracer& hiding, const PinholeCamera& camera, int width, int height) {
+    const auto line_of = [&](std::size_t i, Line3& line) {
+        line = {points[i], points[i + 1], normals[i], normals[i + 1]};
+        return true;
+    };
+    return strokes_of(points.empty() ? 0 : points.size() - 1, line_of, &hiding, camera, width, height);
+}
+
+void draw_strokes(Film& film, const std::vector<Stroke>& strokes, Vec3 color, double line_width) {
+    const Window& w = film.window;
+    // The most that any line covers of the pixel: where lines meet they are no darker.
+    std::vector<float> covered(film.pixels.size(), 0);
+    const double reach = 0.5 * line_width + 0.5;
+    for (const Stroke& s : strokes) {
+        const Vec2 d = s.to - s.from;
+        const int y1 = std::min(w.y + w.height - 1, int(std::floor(std::max(s.from.y, s.to.y) + reach)));
+        for (int y = std::max(w.y, int(std::floor(std::min(s.from.y, s.to.y) - reach))); y <= y1; ++y) {
+            // The part of the line that is near this row.
+            double t0 = 0, t1 = 1;
+            if (d.y != 0) {
+                const double a = (y - reach - s.from.y) / d.y, b = (y + 1 + reach - s.from.y) / d.y;
+                t0 = std::clamp(std::min(a, b), 0.0, 1.0);
+                t1 = std::clamp(std::max(a, b), 0.0, 1.0);
+            }
+            const double xa = s.from.x + t0 * d.x, xb = s.from.x + t1 * d.x;
+            const double left = std::min(xa, xb), right = std::max(xa, xb);
+            const int x1 = std::min(w.x + w.width - 1, int(std::floor(right + reach)));
+            for (int x = std::max(w.x, int(std::floor(left - reach))); x <= x1; ++x) {
+                const double share = std::clamp(reach - distance_to_segment({x + 0.5, y + 0.5}, s.from, s.to), 0.0,
+                                                std::min(1.0, line_width));
+                float& c = covered[std::size_t(y - w.y) * std::size_t(w.width) + std::size_t(x - w.x)];
+                c = std::max(c, float(share));
+            }
+        }
+    }
+    for (std::size_t i = 0; i < covered.size(); ++i)
+        if (covered[i] > 0) film.pixels[i].color = glm::mix(film.pixels[i].color, color, double(covered[i]));
+}
+
+Mesh flat_shaded(Mesh mesh) {
+    std::vector<Vec3> normals;
+    for (Triangle& t : mesh.triangles) {
+        const Vec3 area = mesh.area_vector(t);
+        const double size = glm::length(area);
+        const int n = int(normals.size());
+        normals.push_back(size > 0 ? area / size : mesh.normals[std::size_t(t.normal[0])]);
+        t.normal = {n, n, n};
+    }
+    mesh.normals = std::move(normals);
+    return mesh;
+}
+
+}  // namespace deburr

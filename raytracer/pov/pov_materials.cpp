@@ -1,0 +1,126 @@
+#include "raytracer/pov/pov_materials.hpp"
+
+#include <algorithm>
+#include <numbers>
+
+#include "raytracer/pov/pov_text.hpp"
+#include "raytracer/render/bsdf.hpp"
+#include "raytracer/render/integrator.hpp"
+#include "raytracer/render/lights.hpp"
+
+namespace deburr {
+namespace {
+
+using std::numbers::pi;
+
+// POV-Ray's light falls off as 2/(1 + (d/fade)²): as 1/d² from a few `fade` on, where it is this part of
+// the distance to what the camera looks at.
+constexpr double fade_part = 1e-3;
+// Its highlights may not be sharper; a highlight of a point light is a pixel then.
+constexpr double least_alpha = 0.02;
+
+std::string pigment(const Texture& t) {
+    switch (t.kind) {
+        case Texture::Kind::checker:
+            return fmt::format("pigment {{ checker {}, {} scale {} translate {} }}", pov_color(t.a), pov_color(t.b),
+                               t.scale, pov_vector(t.origin));
+        case Texture::Kind::wood: {
+            // Rings around z, turned to the trunk's axis.
+            const Vec3 axis = glm::normalize(t.axis);
+            const Vec3 side = std::abs(axis.y) < 0.9 ? Vec3(0, 1, 0) : Vec3(0, 0, 1);
+            const Vec3 across = glm::normalize(glm::cross(axis, side));
+            const Vec3 away = glm::cross(axis, across);
+            return fmt::format(
+                "pigment {{ wood turbulence 0.1 color_map {{ [0 {}] [0.9 {}] [1 {}] }} scale {} "
+                "matrix <{}, {}, {}, {}, {}, {}, {}, {}, {}, 0, 0, 0> translate {} }}",
+                pov_color(t.a), pov_color(t.b), pov_color(t.a), t.scale, across.x, across.y, across.z, away.x, away.y,
+                away.z, axis.x, axis.y, axis.z, pov_vector(t.origin));
+        }
+        case Texture::Kind::constant: break;
+    }
+    return fmt::format("pigment {{ {} }}", pov_color(t.a));
+}
+
+// The peak of a GGX lobe of this α over that of a white matte surface is 1/(4α²); Blinn's of the same
+// width has the exponent 2/α² − 2.
+std::string highlight(double alpha, double f0) {
+    alpha = std::max(alpha, least_alpha);
+    return fmt::format("specular {} roughness {}", f0 / (4 * alpha * alpha),
+                       1 / std::max(1.0, 2 / (alpha * alpha) - 2));
+}
+
+}  // namespace
+
+std::string pov_settings(const Scene& scene) {
+    const SkyLight sky(scene.background);
+    const Vec3 ambient = scene.ambient + sky.mean({0, 1, 0});
+    return fmt::format("global_settings {{ assumed_gamma 1.0 max_trace_level {} ambient_light {} }}\n",
+                       std::max(2, scene.bounces + 1), pov_color(ambient));
+}
+
+std::string pov_camera(const Camera& camera, Size size) {
+    // From rays through three of the picture's corners, scaled to a common depth.
+    const PinholeCamera pinhole(camera, size.width, size.height);
+    const auto at = [&](double x, double y) {
+        const Vec3 d = pinhole.ray(x, y).direction;
+        return d / glm::dot(d, pinhole.forward());
+    };
+    const Vec3 corner = at(0, 0);
+    return fmt::format("camera {{\n  perspective\n  location {}\n  direction {}\n  right {}\n  up {}\n}}\n",
+                       pov_vector(camera.eye), pov_vector(pinhole.forward()), pov_vector(at(size.width, 0) - corner),
+                       pov_vector(corner - at(0, size.height)));
+}
+
+std::string pov_background(const Background& b) {
+    if (!b.sky) return fmt::format("background {{ {} }}\n", pov_color(b.color));
+    return fmt::format("sky_sphere {{ pigment {{ function {{ sqrt(max(0, y)) }} color_map {{ [0 {}] [1 {}] }} }} }}\n",
+                       pov_color(b.horizon), pov_color(b.zenith));
+}
+
+std::string pov_light(const Light& light, const Scene& scene) {
+    const Vec3 target = scene.camera.target;
+    // POV-Ray's diffuse reflection is the colour times the cosine, without 1/π.
+    const Vec3 color = light.color * light.power / pi;
+    if (light.kind == Light::Kind::directional) {
+        const Vec3 way = glm::normalize(light.direction);
+        const double far = 1e3 * std::max(1.0, glm::length(scene.camera.eye - target));
+        return fmt::format("light_source {{ {}, {} parallel point_at {} }}\n", pov_vector(target - far * way),
+                           pov_color(color), pov_vector(target));
+    }
+    const double fade = fade_part * std::max(epsilon, glm::length(light.position - target));
+    const double strength = 1 / (2 * fade * fade);
+    const std::string falls = fmt::format("fade_distance {} fade_power 2", fade);
+    if (light.kind == Light::Kind::point)
+        return fmt::format("light_source {{ {}, {} {} }}\n", pov_vector(light.position),
+                           pov_color(color * strength / (4 * pi)), falls);
+    // A Lambertian emitter's intensity along its normal is power/π.
+    const int side = std::max(1, int(std::lround(std::sqrt(light.samples))));
+    return fmt::format("light_source {{ {}, {} area_light {}, {}, {}, {} {} }}\n", pov_vector(light.position),
+                       pov_color(color * strength / pi), pov_vector(light.u), pov_vector(light.v), side, side, falls);
+}
+
+std::string pov_material(const Material& m) {
+    const double alpha = m.roughness * m.roughness;
+    const bool smooth = alpha < smooth_alpha;
+    const double f0 = fresnel_dielectric(1.0, m.ior);
+    std::string finish, interior, paint = pigment(m.color);
+    switch (m.kind) {
+        case Material::Kind::matte: finish = "diffuse 1 ambient 1"; break;
+        case Material::Kind::plastic:
+            finish = fmt::format("diffuse 1 ambient 1 {}", smooth ? "" : highlight(alpha, f0));
+            break;
+        case Material::Kind::metal:
+            finish = fmt::format("diffuse 0 ambient 0 metallic {} reflection {{ 1 metallic }}",
+                                 smooth ? "" : highlight(alpha, 1));
+            break;
+        case Material::Kind::mirror: finish = "diffuse 0 ambient 0 reflection { 1 metallic }"; break;
+        case Material::Kind::glass:
+            paint = fmt::format("pigment {{ rgbf <{}, {}, {}, 1> }}", m.color.a.x, m.color.a.y, m.color.a.z);
+            finish = "diffuse 0 ambient 0 reflection { 0, 1 fresnel } conserve_energy";
+            interior = fmt::format(" interior {{ ior {} }}", m.ior);
+            break;
+    }
+    return fmt::format("material {{ texture {{ {} finish {{ {} }} }}{} }}\n", paint, finish, interior);
+}
+
+}  // namespace deburr

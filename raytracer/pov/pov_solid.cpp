@@ -1,0 +1,161 @@
+#include "raytracer/pov/pov_solid.hpp"
+
+#include <algorithm>
+
+#include "bounds/bounding_box.hpp"
+#include "bounds/box_range.hpp"
+#include "raytracer/pov/pov_csg.hpp"
+#include "raytracer/pov/pov_field.hpp"
+#include "raytracer/pov/pov_text.hpp"
+#include "raytracer/util/errors.hpp"
+
+namespace deburr {
+namespace {
+
+// Parts that a density with sharp half-spaces is divided into; each is an isosurface.
+constexpr int most_parts = 64;
+// The container's walls keep clear of the surface by this part of its size, or flat faces would lie in
+// them.
+constexpr double clear_of_walls = 1e-3;
+constexpr double default_accuracy = 1e-4;
+
+// Of the sharp half-spaces, the operators' sets.
+PovCsg sharp_csg(const DensityTree& tree) {
+    std::vector<PovCsg> done;
+    for (const TreeNode& n : tree.nodes) {
+        const auto take = [&](int i) { return std::move(done[std::size_t(i)]); };
+        PovCsg csg = PovCsg::nothing();
+        switch (n.op) {
+            case Op::constant:
+                if (n.value > 0.5) csg = PovCsg::everything();
+                break;
+            case Op::half_space: {
+                const HalfSpace& h = tree.half_spaces[std::size_t(n.a)];
+                csg = PovCsg::plane({h.normal, h.offset});
+                break;
+            }
+            case Op::sum:
+            case Op::disjunction: csg = PovCsg::unite(take(n.a), take(n.b)); break;
+            case Op::product:
+            case Op::conjunction: csg = PovCsg::intersect(take(n.a), take(n.b)); break;
+            case Op::difference: csg = PovCsg::subtract(take(n.a), take(n.b)); break;
+            case Op::complement: csg = PovCsg::subtract(PovCsg::everything(), take(n.a)); break;
+            case Op::ball_share: csg = take(n.a); break;
+        }
+        done.push_back(std::move(csg));
+    }
+    return std::move(done.back());
+}
+
+class Leaves {
+public:
+    /// `in_csg`: more than the first root of a ray is asked for.
+    Leaves(const PovSurface& surface, const SolidLeaf& leaf, bool in_csg)
+        : surface_(surface), leaf_(leaf), all_roots_(in_csg) {}
+
+    PovCsg csg() {
+        if (leaf_.field)
+            throw UnsupportedError(of_leaf("expected rounded densities for POV-Ray, got another function"));
+        if (leaf_.density.nodes.back().op == Op::ball_share && !surface_.sharp)
+            throw UnsupportedError(of_leaf("expected rounded densities for POV-Ray, got a true convolution"));
+        return csg(leaf_.density);
+    }
+    bool cut() const { return cut_; }
+
+private:
+    std::string of_leaf(const std::string& what) const {
+        return leaf_.line > 0 ? fmt::format("the solid of line {}: {}", leaf_.line, what) : what;
+    }
+
+    PovCsg csg(const DensityTree& tree) {
+        const auto is_sharp = [&](const HalfSpace& h) { return surface_.sharp || h.radius == 0; };
+        const auto first_sharp = std::find_if(tree.half_spaces.begin(), tree.half_spaces.end(), is_sharp);
+        if (std::all_of(tree.half_spaces.begin(), tree.half_spaces.end(), is_sharp)) return sharp_csg(tree);
+        if (first_sharp == tree.half_spaces.end()) return isosurface(tree);
+        all_roots_ = true;
+        const BoundPlane plane{first_sharp->normal, first_sharp->offset};
+        const std::size_t index = std::size_t(first_sharp - tree.half_spaces.begin());
+        return PovCsg::unite(PovCsg::intersect(PovCsg::plane(plane), divided(tree, index, 1)),
+                             PovCsg::intersect(PovCsg::plane({-plane.normal, -plane.offset}), divided(tree, index, 0)));
+    }
+
+    // The tree where a half-space's density is `value`.
+    PovCsg divided(const DensityTree& tree, std::size_t half_space, double value) {
+        std::vector<Range> ranges(tree.half_spaces.size(), {0, 1});
+        ranges[half_space] = {value, value};
+        const Pruned part = prune(tree, ranges);
+        if (classify(part.range) == Side::outside) return PovCsg::nothing();
+        if (classify(part.range) == Side::inside) return PovCsg::everything();
+        if (++parts_ > most_parts)
+            throw UnsupportedError(of_leaf(fmt::format(
+                "expected sharp half-spaces that divide a rounded density into {} parts at most for POV-Ray, got more",
+                most_parts)));
+        return csg(part.tree);
+    }
+
+    PovCsg isosurface(const DensityTree& tree) {
+        if (tree.nodes.back().op == Op::half_space) {  // ρ = ½ on the plane itself
+            const HalfSpace& h = tree.half_spaces[std::size_t(tree.nodes.back().a)];
+            return PovCsg::plane({h.normal, h.offset});
+        }
+        Box box = intersection(bounding_box(tree), bounding_box(leaf_.density));
+        if (box.empty()) return PovCsg::nothing();
+        if (!box.finite()) {
+            cut_ = true;
+            box = intersection(box, surface_.limit);
+            if (box.empty()) return PovCsg::nothing();
+        }
+        const Vec3 size = box.hi - box.lo;
+        box = inflated(box, clear_of_walls * std::max({size.x, size.y, size.z}));
+        double radius = infinity;
+        for (const HalfSpace& h : tree.half_spaces) radius = std::min(radius, h.radius);
+        const PovField field(tree, leaf_.line);
+        std::string text = fmt::format(
+            "isosurface {{\n  function {{ 0.5 - {} }}\n  contained_by {{ box {{ {}, {} }} }}\n  max_gradient {}\n  "
+            "accuracy {}\n",
+            field.formula(), pov_vector(box.lo), pov_vector(box.hi),
+            surface_.max_gradient > 0 ? surface_.max_gradient : field.greatest_slope(box),
+            surface_.accuracy > 0 ? surface_.accuracy : default_accuracy * radius);
+        text += all_roots_ ? "  all_intersections\n}" : "}";
+        return PovCsg::object(text);
+    }
+
+    const PovSurface& surface_;
+    const SolidLeaf& leaf_;
+    bool all_roots_;
+    int parts_ = 1;
+    bool cut_ = false;
+};
+
+}  // namespace
+
+PovSolid pov_solid(const SolidTree& solid, const PovSurface& surface, const std::function<std::string(int)>& material) {
+    PovSolid result;
+    bool only_unions = true;
+    for (const SolidTreeNode& n : solid.nodes) only_unions &= n.op != SolidOp::intersect && n.op != SolidOp::subtract;
+    std::vector<PovCsg> done;
+    for (const SolidTreeNode& n : solid.nodes) {
+        const auto take = [&](int i) { return std::move(done[std::size_t(i)]); };
+        PovCsg csg = PovCsg::nothing();
+        switch (n.op) {
+            case SolidOp::nothing: break;
+            case SolidOp::everything: csg = PovCsg::everything(); break;
+            case SolidOp::leaf: {
+                const SolidLeaf& leaf = solid.leaves[std::size_t(n.a)];
+                Leaves leaves(surface, leaf, !only_unions);
+                csg = leaves.csg();
+                result.cut |= leaves.cut();
+                if (!csg.is_nothing()) csg = PovCsg::object(csg.text(material(leaf.material)));
+                break;
+            }
+            case SolidOp::unite: csg = PovCsg::unite(take(n.a), take(n.b)); break;
+            case SolidOp::intersect: csg = PovCsg::intersect(take(n.a), take(n.b)); break;
+            case SolidOp::subtract: csg = PovCsg::subtract(take(n.a), take(n.b)); break;
+        }
+        done.push_back(std::move(csg));
+    }
+    if (!done.back().is_nothing()) result.text = done.back().text();
+    return result;
+}
+
+}  // namespace deburr

@@ -1,0 +1,122 @@
+// How surfaces scatter light: matte, plastic, metal and mirror, as a layer over a base; glass is
+// Fresnel's and Snell's laws, used by the integrator.
+//
+// The layer is a GGX microfacet surface [Walter et al. 2007] with Smith's height-correlated
+// masking [Heitz 2014], sampled by its visible normals [Dupuy & Benyoub 2023]; a plastic's reflects
+// by Fresnel's equations, a metal's by Schlick's approximation with its colour as F0. What the
+// layer does not reflect at once, 1 − E where E is its directional albedo, goes to the base, which
+// scatters it in the form that keeps reciprocity [Kelemen & Szirmay-Kalos 2001]
+//
+//     base · (1 − E(in)) (1 − E(out)) / (π (1 − E_mean))
+//
+// For plastic base is its colour. For metal, where E is that of a white one, it is the light
+// reflected more than once between facets [Kulla & Conty 2017]. Either way a white material in a
+// white furnace is invisible. Matte is a base without a layer, mirror a smooth layer tinted by its
+// colour.
+#pragma once
+#include <array>
+
+#include "raytracer/render/sampler.hpp"
+#include "raytracer/scene/scene.hpp"
+
+namespace deburr {
+
+/// A layer with GGX α below this is smooth: a perfect mirror, which shows no highlight of point and
+/// directional lights. A sharper highlight of them would be smaller than a pixel, and all noise.
+constexpr double smooth_alpha = 0.0025;
+
+/// Share of unpolarized light that a smooth boundary reflects; `ior` is that of the far side over
+/// that of the near one; 1 at total internal reflection.
+double fresnel_dielectric(double cosine, double ior);
+Vec3 fresnel_schlick(Vec3 f0, double cosine);
+
+/// Both for a unit vector `to_eye` away from the surface, on the side of the unit `normal`.
+Vec3 reflected(Vec3 to_eye, Vec3 normal);
+/// False at total internal reflection. `ior` as above.
+bool refracted(Vec3 to_eye, Vec3 normal, double ior, Vec3& direction);
+
+/// Cosine-distributed direction around a unit normal.
+Vec3 cosine_direction(Vec3 normal, Vec2 u);
+
+/// GGX microfacets around a normal; directions are given by their cosines with it.
+struct Ggx {
+    double alpha = 0.04;
+
+    double distribution(double cos_half) const;
+    /// G2 / (4 cos_in cos_out).
+    double visibility(double cos_in, double cos_out) const;
+    /// G2 / G1(out), the weight of a sampled reflection beside Fresnel's.
+    double shadowing(double cos_in, double cos_out) const;
+    /// Density per solid angle of the reflections about sampled facets.
+    double density(double cos_out, double cos_half) const;
+    /// A facet's normal, as often as `to_eye` sees it.
+    Vec3 facet(Vec3 to_eye, Vec3 normal, Vec2 u) const;
+    /// The same about z, for the cosine and sine of 2π u.y and for stretched(to_eye).
+    Vec3 facet_about_z(Vec3 stretched_eye, double u, Vec2 turn) const;
+    Vec3 stretched(Vec3 to_eye) const { return glm::normalize(Vec3(alpha * to_eye.x, alpha * to_eye.y, to_eye.z)); }
+};
+
+/// What all points of a material have in common.
+class SurfaceLayer {
+public:
+    explicit SurfaceLayer(const Material& material);
+    /// Whether both materials' layers are the same: a material's is dear to make.
+    static bool same(const Material& a, const Material& b);
+
+    Material::Kind kind() const { return kind_; }
+    bool smooth() const { return smooth_; }
+    const Ggx& ggx() const { return ggx_; }
+    double ior() const { return ior_; }
+    /// E of the layer (metal, mirror: of a white one), and its mean weighted by the cosine.
+    double albedo(double cosine) const;
+    double mean_albedo() const { return mean_; }
+    /// 1/(π (1 − E_mean)), of what the layer lets through; 0 if that is nothing.
+    double base_share() const { return base_share_; }
+    Vec3 fresnel(Vec3 color, double cosine) const;
+
+private:
+    double integrate(double cosine) const;
+    static constexpr int steps = 32;
+    Material::Kind kind_;
+    bool smooth_;
+    Ggx ggx_;
+    double ior_;
+    double mean_ = 0.0, base_share_ = 0.0;
+    std::array<double, steps + 1> albedo_{};  // at cosine (i / steps)²
+};
+
+/// An opaque material at one point, as seen from one direction. Directions are unit and lead away
+/// from the surface.
+class Bsdf {
+public:
+    /// The layer is no sharper than `least_alpha`, but for its albedo; smooth ones stay smooth.
+    Bsdf(const SurfaceLayer& layer, Vec3 color, Vec3 normal, Vec3 to_eye, double least_alpha = 0);
+
+    struct Value {
+        Vec3 base{0.0}, layer{0.0};
+    };
+    /// Times the cosine of `to_light`; without the layer if that is smooth.
+    Value value(Vec3 to_light) const;
+    /// Per solid angle, with which sample_layer finds `to_light`; infinity if smooth.
+    double layer_density(Vec3 to_light) const;
+
+    /// Direction and value/density; false where there is none.
+    bool sample_layer(Vec2 u, Vec3& to_light, Vec3& weight) const;
+    Vec3 sample_base(Vec2 u, Vec3& to_light) const;
+
+    /// What they return of a uniformly white world; the layer of a metal by approximation.
+    Vec3 base_albedo() const;
+    Vec3 layer_albedo() const;
+
+    const SurfaceLayer& layer() const { return layer_; }
+    Vec3 normal() const { return normal_; }
+    Vec3 to_eye() const { return to_eye_; }
+
+private:
+    const SurfaceLayer& layer_;
+    Vec3 color_, base_, normal_, to_eye_;
+    double cos_eye_, albedo_eye_;
+    Ggx ggx_;
+};
+
+}  // namespace deburr

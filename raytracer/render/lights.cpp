@@ -1,0 +1,115 @@
+#include "raytracer/render/lights.hpp"
+
+#include <numbers>
+
+namespace deburr {
+
+using std::numbers::pi;
+
+LightSource::LightSource(const Light& light)
+    : kind_(light.kind),
+      position_(light.position),
+      direction_(0.0),
+      u_(light.u),
+      v_(light.v),
+      emitted_(light.color * light.power) {
+    switch (kind_) {
+        case Light::Kind::point: emitted_ /= 4 * pi; break;
+        case Light::Kind::directional: {
+            const double length = glm::length(light.direction);
+            if (length > 0) direction_ = light.direction / length;
+            break;
+        }
+        case Light::Kind::area: {
+            const Vec3 normal = glm::cross(u_, v_);
+            area_ = glm::length(normal);
+            samples_ = std::max(1, light.samples);
+            if (area_ > 0) {
+                direction_ = normal / area_;
+                emitted_ /= pi * area_;
+            }
+            break;
+        }
+    }
+}
+
+Incident LightSource::at(Vec3 point, Vec2 u) const {
+    Incident light;
+    if (kind_ == Light::Kind::directional) {
+        light.direction = -direction_;
+        light.irradiance = emitted_;
+        return light;
+    }
+    Vec3 place = position_;
+    if (kind_ == Light::Kind::area) place += (u.x - 0.5) * u_ + (u.y - 0.5) * v_;
+    const Vec3 way = place - point;
+    const double square = glm::dot(way, way);
+    if (!(square > 0)) return light;
+    light.distance = std::sqrt(square);
+    const double inverse = 1 / light.distance;
+    light.direction = way * inverse;
+    if (kind_ == Light::Kind::point) {
+        light.irradiance = emitted_ * (inverse * inverse);
+        return light;
+    }
+    const double cosine = -glm::dot(direction_, light.direction);
+    if (!(cosine > 0) || !(area_ > 0)) return light;
+    light.density = square / (cosine * area_);
+    light.irradiance = emitted_ / light.density;
+    return light;
+}
+
+LightSource::Emission LightSource::seen(const Ray& ray, double t_max) const {
+    if (kind_ != Light::Kind::area || !(area_ > 0)) return {};
+    const double cosine = -glm::dot(direction_, ray.direction);
+    if (!(cosine > 0)) return {};
+    const double t = -glm::dot(position_ - ray.origin, direction_) / cosine;
+    if (!(t > 0 && t < t_max)) return {};
+    const Vec3 offset = ray.origin + t * ray.direction - position_;
+    // Coordinates in the oblique frame (u, v) by Cramer's rule.
+    const double a = glm::dot(glm::cross(offset, v_), direction_) / area_;
+    const double b = glm::dot(glm::cross(u_, offset), direction_) / area_;
+    if (std::abs(a) > 0.5 || std::abs(b) > 0.5) return {};
+    return {emitted_, t * t / (cosine * area_)};
+}
+
+namespace {
+
+// The sky's gradient is mix(horizon, zenith, √y). The cosine-weighted mean of √max(0, y) around a
+// normal at height c, by a product rule in polar coordinates around the normal, equal areas of the
+// projected disk: sin²θ and φ uniform.
+double mean_zenith_share(double c) {
+    constexpr int rings = 48, sectors = 48;
+    static const auto cosines = [] {
+        std::array<double, sectors> all;
+        for (int j = 0; j < sectors; ++j) all[std::size_t(j)] = std::cos(pi * (j + 0.5) / sectors);
+        return all;
+    }();
+    const double s = std::sqrt(std::max(0.0, 1 - c * c));
+    double sum = 0;
+    for (int i = 0; i < rings; ++i) {
+        const double sine2 = (i + 0.5) / rings;
+        const double a = c * std::sqrt(1 - sine2), b = s * std::sqrt(sine2);
+        for (const double cosine : cosines) sum += std::sqrt(std::max(0.0, a + b * cosine));
+    }
+    return sum / (rings * sectors);
+}
+
+}  // namespace
+
+SkyLight::SkyLight(const Background& background) : background_(background) {
+    const Vec3 none(0.0);
+    black_ = background.sky ? background.horizon == none && background.zenith == none : background.color == none;
+    if (!background.sky) return;
+    for (int i = 0; i <= steps; ++i) zenith_share_[std::size_t(i)] = mean_zenith_share(2.0 * i / steps - 1);
+}
+
+Vec3 SkyLight::mean(Vec3 normal) const {
+    if (!background_.sky) return background_.color;
+    const double at = glm::clamp(0.5 * (normal.y + 1), 0.0, 1.0) * steps;
+    const auto i = std::min(std::size_t(at), std::size_t(steps - 1));
+    const double share = glm::mix(zenith_share_[i], zenith_share_[i + 1], at - double(i));
+    return glm::mix(background_.horizon, background_.zenith, share);
+}
+
+}  // namespace deburr

@@ -1,0 +1,69 @@
+// Light that comes straight from its source: point, directional and area lights, and the sky.
+//
+// Radiometry as in scene.hpp. An area light shines from one side only. It is a rectangle of light
+// and not an object: it casts no shadow, hides nothing, and is seen by nothing but reflections.
+#pragma once
+#include <array>
+
+#include "raytracer/render/sampler.hpp"
+#include "raytracer/scene/scene.hpp"
+#include "raytracer/trace/ray_tracer.hpp"
+
+namespace deburr {
+
+/// Light that could reach a point from one direction.
+struct Incident {
+    Vec3 direction{0.0};  // unit, to the light
+    double distance = infinity;
+    Vec3 irradiance{0.0};       // on a surface that faces it, if nothing is in between;
+                                // area: an estimate of it from this one point of the light
+    double density = infinity;  // of the direction, per solid angle; infinity: there is only one
+};
+
+class LightSource {
+public:
+    explicit LightSource(const Light& light);
+
+    /// Incidents per shading point: 1 where there is only one.
+    int samples() const { return samples_; }
+    bool extended() const { return kind_ == Light::Kind::area; }
+    /// At `point`, from the place `u` of the light (area: uniform over it). Irradiance 0 where the
+    /// light does not shine.
+    Incident at(Vec3 point, Vec2 u) const;
+
+    struct Emission {
+        Vec3 radiance{0.0};
+        double density = 0.0;  // with which at() would have found the ray's direction
+    };
+    /// What the ray sees of the light itself at a distance in (0, t_max): area lights only.
+    Emission seen(const Ray& ray, double t_max) const;
+
+private:
+    Light::Kind kind_;
+    int samples_ = 1;
+    Vec3 position_, direction_;  // direction_: area: its normal
+    Vec3 u_, v_;
+    Vec3 emitted_;  // point: radiant intensity; directional: irradiance; area: radiance
+    double area_ = 0.0;
+};
+
+/// The background, and the light that a diffuse surface gets from it.
+class SkyLight {
+public:
+    explicit SkyLight(const Background& background);
+
+    bool black() const { return black_; }
+    Vec3 towards(Vec3 direction) const { return background_.towards(direction); }
+    /// Mean radiance, weighted by the cosine, over the hemisphere around a unit normal:
+    /// irradiance/π of a surface that sees nothing but sky. Off by less than 10⁻³ of zenith −
+    /// horizon.
+    Vec3 mean(Vec3 normal) const;
+
+private:
+    static constexpr int steps = 64;
+    Background background_;
+    bool black_;
+    std::array<double, steps + 1> zenith_share_{};  // by normal.y, from -1 to 1
+};
+
+}  // namespace deburr

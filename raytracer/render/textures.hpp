@@ -1,0 +1,18 @@
+// Colours that vary through space; solid, so that a cut shows the inside of the material.
+// They are points without extent: samples of the pixel smooth them.
+#pragma once
+#include "raytracer/scene/scene.hpp"
+
+namespace deburr {
+
+/// Colour just below the surface at `position`; `normal` is unit and points out of the solid.
+Vec3 pattern_color(const Texture& texture, Vec3 position, Vec3 normal);
+inline Vec3 color_at(const Texture& texture, Vec3 position, Vec3 normal) {
+    return texture.kind == Texture::Kind::constant ? texture.a : pattern_color(texture, position, normal);
+}
+
+/// Gradient noise [after Perlin, Improving Noise, 2002] with a lattice of hashed gradients: smooth,
+/// 0 at integer points, within [-1, 1], the same on every machine.
+double noise(Vec3 x);
+
+}  // namespace deburr

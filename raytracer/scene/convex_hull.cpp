@@ -1,0 +1,182 @@
+#include "raytracer/scene/convex_hull.hpp"
+
+#include <fmt/format.h>
+#include <libqhull_r/libqhull_r.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <memory>
+#include <stdexcept>
+#include <tuple>
+
+namespace deburr {
+namespace {
+
+// Relative to the size of the body: thinner than this has no volume, planes nearer than this are
+// one. Chosen: points computed in a scene are off by some 10⁻¹⁵, features as small as 10⁻⁹ of the
+// whole are not meant.
+constexpr double flatness = 1e-9;
+
+bool before(Vec3 a, Vec3 b) { return std::tie(a.x, a.y, a.z) < std::tie(b.x, b.y, b.z); }
+
+Vec3 without_negative_zero(Vec3 v) { return v + Vec3(0.0); }
+
+// The point of `points` for which `measure` is largest.
+template <class Measure>
+Vec3 farthest(const std::vector<Vec3>& points, Measure measure) {
+    return *std::max_element(points.begin(), points.end(), [&](Vec3 a, Vec3 b) { return measure(a) < measure(b); });
+}
+
+// Three points far from each other: the plane through them is as accurate as the points.
+struct Triangle {
+    Vec3 a, b, c;
+
+    explicit Triangle(const std::vector<Vec3>& points)
+        : a(points[0]),
+          b(farthest(points, [&](Vec3 p) { return glm::distance(p, a); })),
+          c(farthest(points, [&](Vec3 p) { return glm::length(glm::cross(b - a, p - a)); })) {}
+
+    Vec3 normal() const { return glm::cross(b - a, c - a); }  // not of unit length
+};
+
+double size_of(const std::vector<Vec3>& points) {
+    Vec3 lo(infinity), hi(-infinity);
+    for (Vec3 p : points) {
+        lo = glm::min(lo, p);
+        hi = glm::max(hi, p);
+    }
+    return glm::distance(lo, hi);
+}
+
+void check_volume(const std::vector<Vec3>& points) {
+    if (points.size() < 4)
+        throw std::runtime_error(fmt::format("expected at least 4 different points, got {}", points.size()));
+    const double size = size_of(points);
+    const Triangle base(points);
+    const Vec3 normal = base.normal();
+    const double area = glm::length(normal);
+    const Vec3 top = farthest(points, [&](Vec3 p) { return std::abs(glm::dot(normal, p - base.a)); });
+    if (!(area > flatness * size * size) || !(std::abs(glm::dot(normal / area, top - base.a)) > flatness * size))
+        throw std::runtime_error("expected points that span a volume, got points in one plane");
+}
+
+struct Hull {
+    std::unique_ptr<qhT> qh = std::make_unique<qhT>();
+    std::FILE* log = std::fopen("/dev/null", "w");
+
+    Hull() { qh_zero(qh.get(), log); }
+    Hull(const Hull&) = delete;
+    Hull& operator=(const Hull&) = delete;
+    ~Hull() {
+        int blocks = 0, bytes = 0;
+        qh_freeqhull(qh.get(), !qh_ALL);
+        qh_memfreeshort(qh.get(), &blocks, &bytes);
+        if (log) std::fclose(log);
+    }
+};
+
+// Unit, and without rounding where it is parallel to an axis.
+Vec3 unit(Vec3 v) {
+    v /= glm::max(std::abs(v.x), glm::max(std::abs(v.y), std::abs(v.z)));
+    return without_negative_zero(v / glm::length(v));
+}
+
+HullFace touching(Vec3 normal, const std::vector<Vec3>& points) {
+    double offset = -infinity;
+    for (Vec3 p : points) offset = glm::max(offset, glm::dot(normal, p));
+    return {normal, offset + 0.0};
+}
+
+}  // namespace
+
+std::vector<HullFace> convex_hull(std::vector<Vec3> points) {
+    for (Vec3& p : points) p = without_negative_zero(p);
+    std::sort(points.begin(), points.end(), before);
+    points.erase(std::unique(points.begin(), points.end()), points.end());
+    check_volume(points);
+    const double size = size_of(points);
+
+    std::vector<double> coordinates;
+    for (Vec3 p : points) coordinates.insert(coordinates.end(), {p.x, p.y, p.z});
+    Hull hull;
+    qhT* qh = hull.qh.get();  // the name that qhull's macros use
+    char command[] = "qhull";
+    if (qh_new_qhull(qh, 3, int(points.size()), coordinates.data(), False, command, nullptr, hull.log))
+        throw std::runtime_error("expected points that span a volume, got points too nearly in one plane");
+
+    std::vector<HullFace> faces;
+    const facetT* facet = nullptr;
+    FORALLfacets {
+        std::vector<Vec3> corners;
+        vertexT *vertex = nullptr, **vertexp = nullptr;
+        FOREACHvertex_(facet->vertices) { corners.push_back(points[std::size_t(qh_pointid(qh, vertex->point))]); }
+        std::sort(corners.begin(), corners.end(), before);
+        const Vec3 outward(facet->normal[0], facet->normal[1], facet->normal[2]);
+        const Vec3 normal = Triangle(corners).normal();
+        if (glm::length(normal) == 0) continue;
+        faces.push_back(touching(unit(glm::dot(normal, outward) < 0 ? -normal : normal), corners));
+    }
+    std::sort(faces.begin(), faces.end(), [](const HullFace& a, const HullFace& b) {
+        return a.normal != b.normal ? before(a.normal, b.normal) : a.offset < b.offset;
+    });
+    std::vector<HullFace> merged;
+    for (const HullFace& face : faces) {
+        const auto same = [&](const HullFace& other) {
+            return glm::distance(face.normal, other.normal) < flatness &&
+                   std::abs(face.offset - other.offset) < flatness * size;
+        };
+        // Sorted by x first: only the latest can be near.
+        auto other = merged.rbegin();
+        while (other != merged.rend() && face.normal.x - other->normal.x < flatness && !same(*other)) ++other;
+        if (other == merged.rend() || !same(*other)) merged.push_back(face);
+    }
+    return merged;
+}
+
+std::vector<HullFace> prism(std::vector<glm::dvec2> polygon, double y0, double y1) {
+    if (!(y0 < y1)) throw std::runtime_error(fmt::format("expected y0 < y1, got {} and {}", y0, y1));
+    polygon.erase(std::unique(polygon.begin(), polygon.end()), polygon.end());
+    while (polygon.size() > 1 && polygon.front() == polygon.back()) polygon.pop_back();
+    if (polygon.size() < 3)
+        throw std::runtime_error(
+            fmt::format("expected a polygon of at least 3 different points, got {}", polygon.size()));
+
+    const auto cross = [](glm::dvec2 a, glm::dvec2 b) { return a.x * b.y - a.y * b.x; };
+    const std::size_t n = polygon.size();
+    double area = 0, size = 0;
+    for (std::size_t i = 0; i < n; ++i) {
+        const glm::dvec2 a = polygon[i] - polygon[0], b = polygon[(i + 1) % n] - polygon[0];
+        area += cross(a, b) / 2;
+        size = glm::max(size, glm::length(a));
+    }
+    if (!(std::abs(area) > flatness * size * size))
+        throw std::runtime_error("expected a polygon with an area, got points on one line");
+    if (area < 0) std::reverse(polygon.begin(), polygon.end());
+    // The start does not matter: begin at the least point, which is a corner whatever lies on
+    // sides.
+    std::rotate(polygon.begin(),
+                std::min_element(polygon.begin(), polygon.end(),
+                                 [](auto a, auto b) { return std::tie(a.x, a.y) < std::tie(b.x, b.y); }),
+                polygon.end());
+
+    std::vector<HullFace> faces{{Vec3(0, 1, 0), y1}, {Vec3(0, -1, 0), -y0 + 0.0}};
+    for (std::size_t i = 0; i < n; ++i) {
+        const glm::dvec2 a = polygon[i], side = polygon[(i + 1) % n] - a;
+        // Convex where no point is outside of any side: this also finds stars, which turn one way.
+        const auto outside = [&](glm::dvec2 p) { return cross(side, p - a) < -flatness * size * glm::length(side); };
+        if (outside(polygon[(i + 2) % n])) {
+            const glm::dvec2 corner = polygon[(i + 1) % n];
+            throw std::runtime_error(
+                fmt::format("expected a convex polygon, got a corner to the inside at ({}, {})", corner.x, corner.y));
+        }
+        if (std::any_of(polygon.begin(), polygon.end(), outside))
+            throw std::runtime_error("expected a convex polygon, got one whose sides cross");
+        const Vec3 normal = unit(Vec3(side.y, 0, -side.x));
+        // Several sides on one line are one face.
+        if (i > 0 && glm::distance(faces.back().normal, normal) < flatness) continue;
+        faces.push_back({normal, glm::dot(normal, Vec3(a.x, 0, a.y)) + 0.0});
+    }
+    return faces;
+}
+
+}  // namespace deburr

@@ -1,0 +1,300 @@
+#include "raytracer/scene/lua_library.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <cstring>
+#include <limits>
+#include <lua.hpp>
+
+#include "raytracer/scene/lua_sandbox.hpp"
+
+namespace deburr {
+namespace {
+
+constexpr lua_Integer random_seed = 1991;  // any will do; it is the papers' decade
+
+constexpr const char* gone_from_base[] = {"load", "loadfile", "loadstring",     "dofile",
+                                          "warn", "next",     "collectgarbage", "require"};
+constexpr const char* gone_from_string[] = {"dump", "find", "match", "gmatch", "gsub"};
+constexpr const char* gone_libraries[] = {"io", "os", "package", "debug", "utf8"};
+
+template <class Names>
+bool among(const Names& names, const char* name) {
+    return std::any_of(std::begin(names), std::end(names),
+                       [&](const char* other) { return std::strcmp(other, name) == 0; });
+}
+
+// __index of the libraries; upvalue: "" or the prefix of the library's names.
+int missing_name(lua_State* lua) {
+    const char* prefix = lua_tostring(lua, lua_upvalueindex(1));
+    if (lua_type(lua, 2) != LUA_TSTRING) {
+        lua_pushnil(lua);
+        return 1;
+    }
+    const char* name = lua_tostring(lua, 2);
+    const bool base = *prefix == 0;
+    if ((base && (among(gone_from_base, name) || among(gone_libraries, name))) ||
+        (std::strcmp(prefix, "string.") == 0 && among(gone_from_string, name)))
+        return luaL_error(lua, "%s%s: not available in a scene%s", prefix, name,
+                          std::strcmp(name, "next") == 0 ? ", use pairs" : "");
+    return luaL_error(lua, "expected a known name, got '%s%s'", prefix, name);
+}
+
+// The library is at the top of the stack.
+void refuse_missing_names(lua_State* lua, const char* prefix) {
+    lua_createtable(lua, 0, 2);
+    lua_pushstring(lua, prefix);
+    lua_pushcclosure(lua, missing_name, 1);
+    lua_setfield(lua, -2, "__index");
+    lua_pushboolean(lua, 0);
+    lua_setfield(lua, -2, "__metatable");
+    lua_setmetatable(lua, -2);
+}
+
+// Goes on with the original, upvalue 1, which has no upvalues of its own: in the same frame, so
+// that its errors name the scene's line.
+int call_original(lua_State* lua) { return lua_tocfunction(lua, lua_upvalueindex(1))(lua); }
+
+// Puts `wrapper` before the function `name` of the library at the top of the stack.
+void wrap(lua_State* lua, const char* name, lua_CFunction wrapper) {
+    lua_getfield(lua, -1, name);
+    lua_pushcclosure(lua, wrapper, 1);
+    lua_setfield(lua, -2, name);
+}
+
+std::int64_t as_work(double amount) {
+    return amount < 1e18 ? std::int64_t(std::max(amount, 0.0)) : std::numeric_limits<std::int64_t>::max();
+}
+
+int print(lua_State* lua) {
+    const int arguments = lua_gettop(lua);
+    for (int i = 1; i <= arguments; ++i) {
+        const char* text = luaL_tolstring(lua, i, nullptr);
+        std::fprintf(stderr, "%s%s", i > 1 ? "\t" : "", text);
+        lua_pop(lua, 1);
+    }
+    std::fputc('\n', stderr);
+    return 0;
+}
+
+// Finalizers run with hooks off. Lua marks an object for one when its metatable is set, so what is
+// added to the metatable later does not matter.
+int set_metatable(lua_State* lua) {
+    if (lua_istable(lua, 2)) {
+        lua_pushliteral(lua, "__gc");
+        if (lua_rawget(lua, 2) != LUA_TNIL)
+            return luaL_error(lua, "setmetatable: expected no __gc, which is not available in a scene");
+        lua_pop(lua, 1);
+    }
+    return call_original(lua);
+}
+
+// Every coroutine counts instructions by itself, and what it does before its first sample would go
+// unseen: so it is paid for here.
+int create_coroutine(lua_State* lua) {
+    Sandbox::spend(lua, Sandbox::sample_interval);
+    return call_original(lua);
+}
+
+// ("").rep(1e18) loops as often as it says.
+int repeat_string(lua_State* lua) {
+    std::size_t size = 0, separator = 0;
+    luaL_checklstring(lua, 1, &size);
+    const auto times = double(luaL_checkinteger(lua, 2));
+    luaL_optlstring(lua, 3, "", &separator);
+    constexpr double most = 1 << 24;
+    if (times * double(std::max<std::size_t>(size + separator, 1)) > most)
+        return luaL_error(lua, "string.rep: expected a result of at most 16777216 bytes, got more");
+    Sandbox::spend(lua, as_work(times));
+    return call_original(lua);
+}
+
+// Table functions believe a __len, and loop that often in C; so they take plain tables only.
+void check_plain(lua_State* lua, int index) {
+    luaL_checktype(lua, index, LUA_TTABLE);
+    if (lua_getmetatable(lua, index)) luaL_error(lua, "expected a table without metatable, got one that has it");
+}
+
+int over_whole_table(lua_State* lua) {  // concat, unpack, insert and remove at a place
+    check_plain(lua, 1);
+    Sandbox::spend(lua, as_work(double(lua_rawlen(lua, 1))));
+    return call_original(lua);
+}
+
+// insert(t, x) and remove(t), at the end, cost nothing that grows.
+int insert_into_table(lua_State* lua) {
+    if (lua_gettop(lua) > 2) return over_whole_table(lua);
+    check_plain(lua, 1);
+    return call_original(lua);
+}
+
+int remove_from_table(lua_State* lua) {
+    if (lua_gettop(lua) > 1) return over_whole_table(lua);
+    check_plain(lua, 1);
+    return call_original(lua);
+}
+
+int sort_table(lua_State* lua) {
+    check_plain(lua, 1);
+    const double size = double(lua_rawlen(lua, 1));
+    Sandbox::spend(lua, as_work(4 * size * std::log2(size + 2)));
+    return call_original(lua);
+}
+
+int move_range(lua_State* lua) {
+    check_plain(lua, 1);
+    if (!lua_isnoneornil(lua, 5)) check_plain(lua, 5);
+    Sandbox::spend(lua, as_work(double(luaL_checkinteger(lua, 3)) - double(luaL_checkinteger(lua, 2))));
+    return call_original(lua);
+}
+
+// Without argument it would seed from the clock.
+int seed_random(lua_State* lua) {
+    if (lua_gettop(lua) == 0) lua_pushinteger(lua, random_seed);
+    lua_pushvalue(lua, lua_upvalueindex(1));  // not call_original: its upvalue is the generator
+    lua_insert(lua, 1);
+    lua_call(lua, lua_gettop(lua) - 1, 0);
+    return 0;
+}
+
+// A key of pairs(), in their order: numbers, strings, booleans. Plain data in Lua's own memory.
+struct Key {
+    int type;  // 0 number, 1 string, 2 boolean
+    bool integer;
+    double number;  // boolean: 0 or 1
+    lua_Integer whole;
+    const char* text;
+    std::size_t size;
+
+    bool operator<(const Key& other) const {
+        if (type != other.type) return type < other.type;
+        if (type == 1) {
+            const int order = std::memcmp(text, other.text, std::min(size, other.size));
+            return order != 0 ? order < 0 : size < other.size;
+        }
+        if (number != other.number) return number < other.number;
+        if (integer != other.integer) return integer;
+        return whole < other.whole;
+    }
+};
+
+// State: the table. Upvalues: the keys in order, how many are done.
+int next_pair(lua_State* lua) {
+    luaL_checktype(lua, 1, LUA_TTABLE);  // a scene may call the iterator by itself
+    lua_Integer done = lua_tointeger(lua, lua_upvalueindex(2));
+    lua_settop(lua, 1);
+    for (;;) {
+        lua_pushinteger(lua, ++done);
+        lua_replace(lua, lua_upvalueindex(2));
+        if (lua_rawgeti(lua, lua_upvalueindex(1), done) == LUA_TNIL) return 1;
+        lua_pushvalue(lua, -1);
+        if (lua_rawget(lua, 1) != LUA_TNIL) return 2;  // else it was removed on the way
+        lua_pop(lua, 2);
+    }
+}
+
+int pairs(lua_State* lua) {
+    luaL_checkany(lua, 1);
+    if (luaL_getmetafield(lua, 1, "__pairs") != LUA_TNIL) {
+        lua_pop(lua, 1);
+        return call_original(lua);
+    }
+    luaL_checktype(lua, 1, LUA_TTABLE);
+    std::size_t count = 0;
+    for (lua_pushnil(lua); lua_next(lua, 1); lua_pop(lua, 1)) ++count;
+    Sandbox::spend(lua, as_work(4 * double(count)));
+    auto* keys = static_cast<Key*>(lua_newuserdatauv(lua, (count + 1) * sizeof(Key), 0));
+    std::size_t filled = 0;
+    for (lua_pushnil(lua); lua_next(lua, 1); lua_pop(lua, 1)) {
+        Key key{};
+        switch (lua_type(lua, -2)) {
+            case LUA_TNUMBER:
+                key.integer = lua_isinteger(lua, -2);
+                key.number = lua_tonumber(lua, -2);
+                key.whole = key.integer ? lua_tointeger(lua, -2) : 0;
+                break;
+            case LUA_TSTRING:
+                key.type = 1;
+                key.text = lua_tolstring(lua, -2, &key.size);
+                break;
+            case LUA_TBOOLEAN:
+                key.type = 2;
+                key.number = lua_toboolean(lua, -2);
+                break;
+            default:
+                return luaL_error(lua, "pairs: expected keys that have an order (numbers, strings), got a %s",
+                                  luaL_typename(lua, -2));
+        }
+        keys[filled++] = key;
+    }
+    std::sort(keys, keys + filled);
+    lua_createtable(lua, int(std::min<std::size_t>(filled, 1 << 30)), 0);
+    for (std::size_t i = 0; i < filled; ++i) {
+        const Key& key = keys[i];
+        if (key.type == 1)
+            lua_pushlstring(lua, key.text, key.size);
+        else if (key.type == 2)
+            lua_pushboolean(lua, key.number != 0);
+        else if (key.integer)
+            lua_pushinteger(lua, key.whole);
+        else
+            lua_pushnumber(lua, key.number);
+        lua_rawseti(lua, -2, lua_Integer(i) + 1);
+    }
+    lua_pushinteger(lua, 0);
+    lua_pushcclosure(lua, next_pair, 2);
+    lua_pushvalue(lua, 1);
+    lua_pushnil(lua);
+    return 3;
+}
+
+template <class Names>
+void remove_names(lua_State* lua, const Names& names) {
+    for (const char* name : names) {
+        lua_pushnil(lua);
+        lua_setfield(lua, -2, name);
+    }
+}
+
+}  // namespace
+
+void open_library(lua_State* lua) {
+    luaL_requiref(lua, LUA_TABLIBNAME, luaopen_table, 1);
+    for (const char* name : {"concat", "unpack"}) wrap(lua, name, over_whole_table);
+    wrap(lua, "sort", sort_table);
+    wrap(lua, "move", move_range);
+    wrap(lua, "insert", insert_into_table);
+    wrap(lua, "remove", remove_from_table);
+    refuse_missing_names(lua, "table.");
+    lua_pop(lua, 1);
+
+    luaL_requiref(lua, LUA_STRLIBNAME, luaopen_string, 1);
+    remove_names(lua, gone_from_string);
+    wrap(lua, "rep", repeat_string);
+    refuse_missing_names(lua, "string.");
+    lua_pop(lua, 1);
+
+    luaL_requiref(lua, LUA_MATHLIBNAME, luaopen_math, 1);
+    wrap(lua, "randomseed", seed_random);
+    lua_getfield(lua, -1, "randomseed");
+    lua_call(lua, 0, 0);
+    refuse_missing_names(lua, "math.");
+    lua_pop(lua, 1);
+
+    luaL_requiref(lua, LUA_COLIBNAME, luaopen_coroutine, 1);
+    for (const char* name : {"create", "wrap"}) wrap(lua, name, create_coroutine);
+    refuse_missing_names(lua, "coroutine.");
+    lua_pop(lua, 1);
+
+    luaL_requiref(lua, LUA_GNAME, luaopen_base, 1);
+    remove_names(lua, gone_from_base);
+    wrap(lua, "pairs", pairs);
+    wrap(lua, "setmetatable", set_metatable);
+    lua_pushcfunction(lua, print);
+    lua_setfield(lua, -2, "print");
+    refuse_missing_names(lua, "");
+    lua_pop(lua, 1);
+}
+
+}  // namespace deburr

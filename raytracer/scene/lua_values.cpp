@@ -1,0 +1,250 @@
+#include "raytracer/scene/lua_values.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <lua.hpp>
+
+#include "raytracer/scene/scene_functions.hpp"
+
+namespace deburr {
+namespace {
+
+// Deeper than any table that a scene needs: solids may be grouped, vectors are inside.
+constexpr int deepest = 12;
+static_assert(read_value_slots > 3 * deepest);
+
+// A table that is used in many places is copied there: without an end, twelve levels of a thousand
+// references each would be.
+constexpr std::size_t most_values = 5'000'000;
+
+struct Reader {
+    lua_State* lua;
+    std::int64_t& total;
+    std::size_t count = 0;
+
+    LuaValue read(int index, const std::string& place, int depth);
+    LuaValue read_table(int index, const std::string& place, int depth);
+};
+
+LuaValue Reader::read(int index, const std::string& place, int depth) {
+    ++total;
+    if (++count > most_values) throw BadValue(place, fmt::format("expected at most {} values, got more", most_values));
+    switch (lua_type(lua, index)) {
+        case LUA_TNONE:
+        case LUA_TNIL: return {};
+        case LUA_TBOOLEAN: return lua_toboolean(lua, index) != 0;
+        case LUA_TNUMBER: return lua_tonumber(lua, index);
+        case LUA_TSTRING: {
+            std::size_t size = 0;
+            const char* text = lua_tolstring(lua, index, &size);
+            return std::string(text, size);
+        }
+        case LUA_TLIGHTUSERDATA: return static_cast<const SceneObject*>(lua_touserdata(lua, index));
+        case LUA_TTABLE: return read_table(lua_absindex(lua, index), place, depth);
+        default: return LuaOther{lua_typename(lua, lua_type(lua, index))};
+    }
+}
+
+LuaValue Reader::read_table(int index, const std::string& place, int depth) {
+    if (depth == deepest)
+        throw BadValue(place, fmt::format("expected tables nested at most {} deep, got deeper", deepest));
+    // Lua's order of keys differs from run to run, and with it the error that is met first. So keys
+    // are sorted; those that are names wait on the stack, as pushing one anew might not return.
+    std::vector<lua_Integer> numbers;
+    std::vector<std::pair<std::string, int>> names;  // and where on the stack
+    std::string other;                               // the least key of another kind
+    const int top = lua_gettop(lua);
+    const auto room = [&] {
+        if (!lua_checkstack(lua, 8)) throw BadValue(place, "expected fewer fields, got too many");
+    };
+    for (lua_pushnil(lua); room(), lua_next(lua, index);) {
+        lua_pop(lua, 1);
+        if (lua_type(lua, -1) == LUA_TSTRING) {
+            std::size_t size = 0;
+            const char* text = lua_tolstring(lua, -1, &size);
+            names.emplace_back(std::string(text, size), lua_gettop(lua));
+            lua_pushvalue(lua, -1);  // one stays, one leads on
+        } else if (lua_isinteger(lua, -1)) {
+            numbers.push_back(lua_tointeger(lua, -1));
+        } else {
+            const std::string key = described(read(-1, place, depth + 1));
+            if (other.empty() || key < other) other = key;
+        }
+    }
+    if (!other.empty()) throw BadValue(place, "expected names or 1, 2, … as keys, got " + other);
+    std::sort(names.begin(), names.end());
+    std::sort(numbers.begin(), numbers.end());
+
+    auto table = std::make_shared<LuaTable>();
+    for (const auto& [name, at] : names) {
+        lua_pushvalue(lua, at);
+        lua_rawget(lua, index);
+        LuaValue value = read(-1, place + "." + name, depth + 1);
+        lua_pop(lua, 1);
+        table->fields.emplace(name, std::move(value));
+    }
+    for (const lua_Integer key : numbers) {
+        const auto next = lua_Integer(table->list.size()) + 1;
+        if (key != next)
+            throw BadValue(
+                place, fmt::format("expected a list without holes, got item {} but no item {}", numbers.back(), next));
+        lua_rawgeti(lua, index, key);
+        table->list.push_back(read(-1, place, depth + 1));
+        lua_pop(lua, 1);
+    }
+    lua_settop(lua, top);
+    return std::shared_ptr<const LuaTable>(std::move(table));
+}
+
+const LuaValue nil_value;
+
+}  // namespace
+
+LuaValue read_value(lua_State* lua, int index, const std::string& place, std::int64_t* count) {
+    std::int64_t ignored = 0;
+    return Reader{lua, count ? *count : ignored}.read(index, place, 0);
+}
+
+std::string described(const LuaValue& value) {
+    struct Describe {
+        std::string operator()(std::monostate) const { return "nothing"; }
+        std::string operator()(bool b) const { return b ? "true" : "false"; }
+        std::string operator()(double x) const { return std::isnan(x) ? "nan" : fmt::format("{}", x); }
+        std::string operator()(const std::string& s) const {
+            constexpr std::size_t longest = 40;
+            return s.size() <= longest ? "'" + s + "'" : "'" + s.substr(0, longest) + "…'";
+        }
+        std::string operator()(const SceneObject* object) const { return kind_of(*object); }
+        std::string operator()(const std::shared_ptr<const LuaTable>& table) const {
+            if (!table->fields.empty()) return "a table with names";
+            if (table->list.empty()) return "an empty table";
+            constexpr std::size_t longest = 4;
+            std::string list;
+            for (std::size_t i = 0; i < table->list.size(); ++i) {
+                if (i == longest || as_table(table->list[i])) return fmt::format("a list of {}", table->list.size());
+                list += (i ? ", " : "{") + described(table->list[i]);
+            }
+            return list + "}";
+        }
+        std::string operator()(LuaOther other) const { return std::string("a ") + other.type; }
+    };
+    return std::visit(Describe{}, value);
+}
+
+void expected(const std::string& place, const std::string& what, const LuaValue& got) {
+    throw BadValue(place, "expected " + what + ", got " + described(got));
+}
+
+bool is_nil(const LuaValue& value) { return std::holds_alternative<std::monostate>(value); }
+
+const SceneObject* as_object(const LuaValue& value) {
+    const auto* object = std::get_if<const SceneObject*>(&value);
+    return object ? *object : nullptr;
+}
+
+const LuaTable* as_table(const LuaValue& value) {
+    const auto* table = std::get_if<std::shared_ptr<const LuaTable>>(&value);
+    return table ? table->get() : nullptr;
+}
+
+static bool finite_number(const LuaValue& value) {
+    const double* x = std::get_if<double>(&value);
+    return x && std::isfinite(*x);
+}
+
+double number(const LuaValue& value, const std::string& place) {
+    if (!finite_number(value)) expected(place, "a finite number", value);
+    return std::get<double>(value);
+}
+
+double number_at_least(const LuaValue& value, const std::string& place, double least) {
+    if (!finite_number(value) || std::get<double>(value) < least)
+        expected(place, fmt::format("a number >= {}", least), value);
+    return std::get<double>(value);
+}
+
+double number_above(const LuaValue& value, const std::string& place, double limit) {
+    if (!finite_number(value) || std::get<double>(value) <= limit)
+        expected(place, fmt::format("a number > {}", limit), value);
+    return std::get<double>(value);
+}
+
+double number_between(const LuaValue& value, const std::string& place, double least, double most) {
+    if (!finite_number(value) || std::get<double>(value) < least || std::get<double>(value) > most)
+        expected(place, fmt::format("a number from {} to {}", least, most), value);
+    return std::get<double>(value);
+}
+
+int integer(const LuaValue& value, const std::string& place, int least, int most) {
+    const double* x = std::get_if<double>(&value);
+    if (!x || !(*x >= least && *x <= most) || *x != std::floor(*x))
+        expected(place, fmt::format("a whole number from {} to {}", least, most), value);
+    return int(*x);
+}
+
+const std::string& text(const LuaValue& value, const std::string& place) {
+    const auto* string = std::get_if<std::string>(&value);
+    if (!string) expected(place, "a text", value);
+    return *string;
+}
+
+static bool three_numbers(const LuaValue& value) {
+    const LuaTable* table = as_table(value);
+    return table && table->fields.empty() && table->list.size() == 3 &&
+           std::all_of(table->list.begin(), table->list.end(), finite_number);
+}
+
+Vec3 vector(const LuaValue& value, const std::string& place) {
+    if (!three_numbers(value)) expected(place, "three finite numbers {x, y, z}", value);
+    Vec3 v(0.0);
+    for (int k = 0; k < 3; ++k) v[k] = std::get<double>(as_table(value)->list[std::size_t(k)]);
+    return v;
+}
+
+Vec3 direction(const LuaValue& value, const std::string& place) {
+    const Vec3 v = vector(value, place);
+    const double largest = glm::max(std::abs(v.x), glm::max(std::abs(v.y), std::abs(v.z)));
+    if (largest == 0) expected(place, "a direction other than {0, 0, 0}", value);
+    const Vec3 scaled = v / largest;  // so that squares stay in range
+    return scaled / glm::length(scaled);
+}
+
+Vec3 color(const LuaValue& value, const std::string& place, double most) {
+    const auto in_range = [&](double x) { return x >= 0 && x <= most; };
+    if (finite_number(value) && in_range(std::get<double>(value))) return Vec3(std::get<double>(value));
+    if (three_numbers(value)) {
+        const Vec3 c = vector(value, place);
+        if (in_range(c.x) && in_range(c.y) && in_range(c.z)) return c;
+    }
+    expected(place,
+             most < infinity ? fmt::format("a colour, {{r, g, b}} or a number, from 0 to {}", most)
+                             : std::string("a colour, {r, g, b} or a number, >= 0"),
+             value);
+}
+
+Fields::Fields(const LuaValue& value, std::string place, std::initializer_list<const char*> known)
+    : place_(std::move(place)) {
+    if (const auto* table = std::get_if<std::shared_ptr<const LuaTable>>(&value)) table_ = *table;
+    if (!table_ || !table_->list.empty()) expected(place_.empty() ? "scene" : place_, "a table of named fields", value);
+    for (const auto& [name, field] : table_->fields) {
+        if (std::find(known.begin(), known.end(), name) != known.end()) continue;
+        throw BadValue(this->place(name),
+                       fmt::format("expected one of the fields {}, got '{}'", fmt::join(known, ", "), name));
+    }
+}
+
+const LuaValue* Fields::find(const std::string& name) const {
+    const auto found = table_->fields.find(name);
+    return found == table_->fields.end() ? nullptr : &found->second;
+}
+
+const LuaValue& Fields::get(const std::string& name) const {
+    const LuaValue* value = find(name);
+    return value ? *value : nil_value;
+}
+
+std::string Fields::place(const std::string& name) const { return place_.empty() ? name : place_ + "." + name; }
+
+}  // namespace deburr

@@ -1,0 +1,177 @@
+// Materials, textures, lights and skies of a scene.
+#include "raytracer/scene/scene_functions.hpp"
+
+namespace deburr {
+namespace {
+
+constexpr int most_shadow_rays = 4096;
+constexpr double largest_ior = 10;  // diamond has 2.4
+
+// The only argument; missing, it is an empty table.
+const LuaValue& fields_argument(const SceneCall& call) {
+    static const LuaValue no_fields = std::make_shared<const LuaTable>();
+    call.at_most(1);
+    return call.arguments.empty() ? no_fields : call.arguments[0];
+}
+
+void read_color(const Fields& fields, const char* name, Vec3& value, double most) {
+    if (const LuaValue* given = fields.find(name)) value = color(*given, fields.place(name), most);
+}
+
+void read_vector(const Fields& fields, const char* name, Vec3& value) {
+    if (const LuaValue* given = fields.find(name)) value = vector(*given, fields.place(name));
+}
+
+void read_texture(const Fields& fields, Texture& texture) {
+    const LuaValue* given = fields.find("color");
+    if (!given) return;
+    if (const SceneObject* object = as_object(*given)) {
+        if (!std::holds_alternative<Texture>(object->is))
+            expected(fields.place("color"), "a colour or a texture", *given);
+        texture = std::get<Texture>(object->is);
+    } else {
+        texture.a = color(*given, fields.place("color"), 1);
+    }
+}
+
+// What reflects or refracts light shows the colour of its surface only by tinting it.
+const Texture untinted{Texture::Kind::constant, Vec3(1), Vec3(1), 1, {1, 0, 0}, {0, 0, 0}};
+
+SceneResult matte(SceneCall& call) {
+    const Fields fields(fields_argument(call), call.name, {"color"});
+    Material m;
+    read_texture(fields, m.color);
+    return call.make(m);
+}
+
+SceneResult plastic(SceneCall& call) {
+    const Fields fields(fields_argument(call), call.name, {"color", "roughness", "ior"});
+    Material m{Material::Kind::plastic, {}, 0.2, 1.5};
+    read_texture(fields, m.color);
+    if (const auto* given = fields.find("roughness"))
+        m.roughness = number_between(*given, fields.place("roughness"), 0, 1);
+    if (const auto* given = fields.find("ior")) m.ior = number_between(*given, fields.place("ior"), 1, largest_ior);
+    return call.make(m);
+}
+
+SceneResult metal(SceneCall& call) {
+    const Fields fields(fields_argument(call), call.name, {"color", "roughness"});
+    Material m{Material::Kind::metal, {}, 0.2, 1.5};
+    read_texture(fields, m.color);
+    if (const auto* given = fields.find("roughness"))
+        m.roughness = number_between(*given, fields.place("roughness"), 0, 1);
+    return call.make(m);
+}
+
+SceneResult mirror(SceneCall& call) {
+    const Fields fields(fields_argument(call), call.name, {"color"});
+    Material m{Material::Kind::mirror, untinted, 0, 1.5};
+    read_texture(fields, m.color);
+    return call.make(m);
+}
+
+SceneResult glass(SceneCall& call) {
+    const Fields fields(fields_argument(call), call.name, {"color", "roughness", "ior"});
+    Material m{Material::Kind::glass, untinted, 0, 1.5};
+    read_texture(fields, m.color);
+    if (const auto* given = fields.find("roughness"))
+        m.roughness = number_between(*given, fields.place("roughness"), 0, 1);
+    if (const auto* given = fields.find("ior")) m.ior = number_between(*given, fields.place("ior"), 1, largest_ior);
+    return call.make(m);
+}
+
+void read_pattern(const Fields& fields, Texture& texture) {
+    read_color(fields, "a", texture.a, 1);
+    read_color(fields, "b", texture.b, 1);
+    if (const auto* given = fields.find("scale")) texture.scale = number_above(*given, fields.place("scale"), 0);
+    read_vector(fields, "origin", texture.origin);
+}
+
+SceneResult checker(SceneCall& call) {
+    const Fields fields(fields_argument(call), call.name, {"a", "b", "scale", "origin"});
+    Texture texture;
+    texture.kind = Texture::Kind::checker;
+    read_pattern(fields, texture);
+    return call.make(texture);
+}
+
+SceneResult wood(SceneCall& call) {
+    const Fields fields(fields_argument(call), call.name, {"a", "b", "scale", "axis", "origin"});
+    Texture texture;
+    texture.kind = Texture::Kind::wood;
+    texture.a = {0.72, 0.48, 0.27};
+    texture.b = {0.45, 0.25, 0.12};
+    read_pattern(fields, texture);
+    if (const auto* given = fields.find("axis")) texture.axis = direction(*given, fields.place("axis"));
+    return call.make(texture);
+}
+
+void read_power(const Fields& fields, Light& light) {
+    read_color(fields, "color", light.color, infinity);
+    if (const auto* given = fields.find("power")) light.power = number_at_least(*given, fields.place("power"), 0);
+}
+
+SceneResult point_light(SceneCall& call) {
+    const Fields fields(fields_argument(call), call.name, {"position", "color", "power"});
+    Light light;
+    light.position = vector(fields.get("position"), fields.place("position"));
+    read_power(fields, light);
+    return call.make(light);
+}
+
+SceneResult directional_light(SceneCall& call) {
+    const Fields fields(fields_argument(call), call.name, {"direction", "color", "power"});
+    Light light;
+    light.kind = Light::Kind::directional;
+    light.direction = direction(fields.get("direction"), fields.place("direction"));
+    read_power(fields, light);
+    return call.make(light);
+}
+
+SceneResult area_light(SceneCall& call) {
+    const Fields fields(fields_argument(call), call.name, {"position", "u", "v", "color", "power", "samples"});
+    Light light;
+    light.kind = Light::Kind::area;
+    light.position = vector(fields.get("position"), fields.place("position"));
+    light.u = vector(fields.get("u"), fields.place("u"));
+    light.v = vector(fields.get("v"), fields.place("v"));
+    const double area = glm::length(glm::cross(light.u, light.v));
+    if (!(area > 0 && std::isfinite(area)))
+        throw BadValue(fields.place("v"),
+                       "expected a side that spans an area with u, got " + described(fields.get("v")));
+    if (const auto* given = fields.find("samples"))
+        light.samples = integer(*given, fields.place("samples"), 1, most_shadow_rays);
+    read_power(fields, light);
+    return call.make(light);
+}
+
+SceneResult sky(SceneCall& call) {
+    const Fields fields(fields_argument(call), call.name, {"horizon", "zenith"});
+    Background background;
+    background.sky = true;
+    read_color(fields, "horizon", background.horizon, infinity);
+    read_color(fields, "zenith", background.zenith, infinity);
+    return call.make(background);
+}
+
+}  // namespace
+
+const std::vector<SceneFunction>& look_functions() {
+    using Place = SceneFunction::Place;
+    static const std::vector<SceneFunction> functions = {
+        {Place::global, "matte", "", matte},
+        {Place::global, "plastic", "", plastic},
+        {Place::global, "metal", "", metal},
+        {Place::global, "mirror", "", mirror},
+        {Place::global, "glass", "", glass},
+        {Place::global, "checker", "", checker},
+        {Place::global, "wood", "", wood},
+        {Place::global, "point_light", "", point_light},
+        {Place::global, "directional_light", "", directional_light},
+        {Place::global, "area_light", "", area_light},
+        {Place::global, "sky", "", sky},
+    };
+    return functions;
+}
+
+}  // namespace deburr

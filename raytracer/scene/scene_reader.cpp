@@ -1,0 +1,210 @@
+#include "raytracer/scene/scene_reader.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+#include <filesystem>
+#include <memory>
+
+#include "raytracer/scene/scene_functions.hpp"
+#include "raytracer/scene/source_lines.hpp"
+
+namespace deburr {
+namespace {
+
+constexpr std::size_t largest_file = std::size_t(16) << 20;
+constexpr int largest_side = 65'536;
+constexpr int most_samples = 65'536;
+constexpr int most_bounces = 1'000;
+
+// Up and view this nearly parallel leave no direction for the picture's side. Chosen.
+constexpr double least_sine = 1e-6;
+
+void read_image(const LuaValue& value, Scene& scene) {
+    const Fields fields(value, "image", {"width", "height", "spp", "bounces"});
+    const auto read = [&](const char* name, int& number, int least, int most) {
+        if (const auto* given = fields.find(name)) number = integer(*given, fields.place(name), least, most);
+    };
+    read("width", scene.width, 1, largest_side);
+    read("height", scene.height, 1, largest_side);
+    read("spp", scene.spp, 1, most_samples);
+    read("bounces", scene.bounces, 0, most_bounces);
+}
+
+void read_camera(const LuaValue& value, Camera& camera) {
+    const Fields fields(value, "camera", {"eye", "target", "up", "fov"});
+    const auto read = [&](const char* name, Vec3& v) {
+        if (const auto* given = fields.find(name)) v = vector(*given, fields.place(name));
+    };
+    read("eye", camera.eye);
+    read("target", camera.target);
+    if (const auto* given = fields.find("up")) camera.up = direction(*given, fields.place("up"));
+    if (const auto* given = fields.find("fov")) {
+        const double* fov = std::get_if<double>(given);
+        if (!fov || !(*fov > 0 && *fov < 180))
+            expected(fields.place("fov"), "a number of degrees between 0 and 180", *given);
+        camera.fov = *fov;
+    }
+    const Vec3 view = camera.target - camera.eye;
+    const double distance = glm::length(view);
+    if (!(distance > 0 && std::isfinite(distance)))
+        expected(fields.place("target"), "a point other than the eye", fields.get("target"));
+    if (!(glm::length(glm::cross(view / distance, camera.up)) > least_sine))
+        expected(fields.place("up"), "a direction not parallel to the view", fields.get("up"));
+}
+
+void read_background(const LuaValue& value, Background& background) {
+    const SceneObject* object = as_object(value);
+    if (object && std::holds_alternative<Background>(object->is))
+        background = std::get<Background>(object->is);
+    else if (object)
+        expected("background", "a colour or sky{…}", value);
+    else
+        background.color = color(value, "background", infinity);
+}
+
+void read_lights(const LuaValue& value, std::vector<Light>& lights) {
+    const LuaTable* table = as_table(value);
+    if (!table || !table->fields.empty()) expected("lights", "a list of lights", value);
+    for (const LuaValue& item : table->list) {
+        const SceneObject* object = as_object(item);
+        if (!object || !std::holds_alternative<Light>(object->is))
+            expected(fmt::format("lights[{}]", lights.size() + 1), "a light", item);
+        lights.push_back(std::get<Light>(object->is));
+    }
+}
+
+void read_solids(const LuaValue& value, SceneBuilder& builder, Scene& scene) {
+    const LuaTable* table = as_table(value);
+    if (!table || !table->fields.empty() || table->list.empty())
+        expected("solids", "a list of at least one solid", value);
+    double half_spaces = 0;
+    for (const LuaValue& item : table->list) {
+        const std::string place = fmt::format("solids[{}]", scene.solids.size() + 1);
+        const SceneObject* object = as_object(item);
+        if (!object || !(std::holds_alternative<Solid>(object->is) || std::holds_alternative<Density>(object->is) ||
+                         std::holds_alternative<Quadric>(object->is)))
+            expected(place, "a solid or a density", item);
+        scene.solids.push_back(builder.solid(*object));
+        scene.names.push_back(object->name);
+        half_spaces += scene.solids.back().node().leaves;
+    }
+    if (half_spaces > most_half_spaces)
+        throw BadValue("solids", fmt::format("expected at most {} half-spaces, got {}", most_half_spaces, half_spaces));
+}
+
+// A scene that says nothing about light is lit from over the viewer's left shoulder.
+void add_default_light(Scene& scene) {
+    const Camera& camera = scene.camera;
+    const Vec3 view = glm::normalize(camera.target - camera.eye);
+    const Vec3 right = glm::normalize(glm::cross(view, camera.up)), up = glm::cross(right, view);
+    Light light;
+    light.kind = Light::Kind::directional;
+    light.direction = glm::normalize(view + 0.5 * right - 0.8 * up);
+    light.power = 2.5;  // a white matte face turned to it gets 0.8 · 2.5/π = 0.64
+    scene.lights.push_back(light);
+    scene.ambient = Vec3(0.2);
+}
+
+void read_table(const LuaValue& value, SceneBuilder& builder, Scene& scene) {
+    if (!as_table(value)) expected("scene", "the chunk to return a table, return { solids = { … } }", value);
+    const Fields fields(value, "", {"image", "camera", "lights", "background", "ambient", "solids"});
+    if (const auto* given = fields.find("image")) read_image(*given, scene);
+    if (const auto* given = fields.find("camera")) read_camera(*given, scene.camera);
+    if (const auto* given = fields.find("background")) read_background(*given, scene.background);
+    if (const auto* given = fields.find("ambient")) scene.ambient = color(*given, "ambient", infinity);
+    if (const auto* given = fields.find("lights"))
+        read_lights(*given, scene.lights);
+    else if (!fields.find("ambient"))
+        add_default_light(scene);
+    read_solids(fields.get("solids"), builder, scene);
+}
+
+void check_defines(const std::map<std::string, std::string>& defines,
+                   const std::map<std::string, std::string>& parameters) {
+    for (const auto& [name, value] : defines) {
+        if (parameters.count(name)) continue;
+        std::string known;
+        for (const auto& parameter : parameters) known += (known.empty() ? "" : ", ") + parameter.first;
+        throw std::runtime_error(
+            fmt::format("-D {}: ", name) +
+            (known.empty() ? "expected no parameters, the scene has none"
+                           : fmt::format("expected one of the scene's parameters {}, got '{}'", known, name)));
+    }
+}
+
+std::string file_text(const std::string& file) {
+    std::error_code ignored;
+    if (std::filesystem::is_directory(file, ignored))
+        throw SceneError(one_line("expected a scene, got a directory", file));
+    const auto close = [](std::FILE* f) { std::fclose(f); };
+    const std::unique_ptr<std::FILE, decltype(close)> input(std::fopen(file.c_str(), "rb"), close);
+    if (!input) throw SceneError(one_line(std::string("expected a scene, got: ") + std::strerror(errno), file));
+    std::string text;
+    char buffer[65'536];
+    while (const std::size_t size = std::fread(buffer, 1, sizeof buffer, input.get())) {
+        text.append(buffer, size);
+        if (text.size() > largest_file)
+            throw SceneError(
+                one_line(fmt::format("expected at most {} MiB of text, got more", largest_file >> 20), file));
+    }
+    if (std::ferror(input.get()))
+        throw SceneError(one_line(std::string("expected a scene, got: ") + std::strerror(errno), file));
+    return text;
+}
+
+// Lua would stop at a NUL in silence or speak of symbols.
+void check_text(const std::string& text, const std::string& file) {
+    int line = 1;
+    for (const char c : text) {
+        if (c == '\n') ++line;
+        const auto code = static_cast<unsigned char>(c);
+        if (code >= ' ' || (c >= '\t' && c <= '\r')) continue;
+        throw SceneError(one_line(
+            fmt::format("{}:{}: expected text, got binary data (a byte {})", file_mark, line, int(code)), file));
+    }
+}
+
+}  // namespace
+
+Scene read_scene_text(const std::string& given, const std::string& file,
+                      const std::map<std::string, std::string>& defines, const SandboxLimits& limits) {
+    check_text(given, file);
+    std::string text = given;
+    if (text.compare(0, 3, "\xEF\xBB\xBF") == 0) text.erase(0, 3);  // byte order mark
+    if (text.compare(0, 1, "#") == 0) text.insert(0, "--");         // #!, as the lua command allows
+
+    SceneBuilder builder(defines);
+    Sandbox sandbox(limits, &builder);
+    lua_State* lua = sandbox.run(text, file, open_scene_functions);
+    Scene scene;
+    scene.file = file;
+    try {
+        read_table(read_value(lua, 1, "scene"), builder, scene);
+        check_defines(defines, builder.parameters());
+    } catch (const BadValue& error) {
+        const int line = line_of(text, error.place);
+        throw SceneError(one_line(line > 0 ? fmt::format("{}:{}: {}", file_mark, line, error.what())
+                                           : fmt::format("{}: {}", file_mark, error.what()),
+                                  file));
+    } catch (const std::bad_alloc&) {
+        throw SceneError(one_line("expected a scene that fits into memory, got one that does not", file));
+    } catch (const SceneError&) {
+        throw;
+    } catch (const std::runtime_error& error) {
+        throw SceneError(one_line(error.what(), file));
+    }
+    scene.parameters = builder.parameters();
+    scene.materials = builder.materials();
+    return scene;
+}
+
+Scene read_scene(const std::string& file, const std::map<std::string, std::string>& defines,
+                 const SandboxLimits& limits) {
+    return read_scene_text(file_text(file), file, defines, limits);
+}
+
+}  // namespace deburr

@@ -1,0 +1,305 @@
+// Shapes, operators and placements of a scene.
+#include <fmt/format.h>
+
+#include "raytracer/scene/convex_hull.hpp"
+#include "raytracer/scene/scene_functions.hpp"
+
+namespace deburr {
+namespace {
+
+constexpr std::size_t most_hull_points = 100'000;
+
+// Instructions that take as long as finding the hull, for each point: 100,000 points on a sphere
+// take 0.8 s.
+constexpr std::int64_t work_per_hull_point = 2'500;
+
+constexpr std::size_t most_polygon_points = 4'096;  // the check for convexity takes its square
+
+const Density* as_density(const LuaValue& value) {
+    const SceneObject* object = as_object(value);
+    return object ? std::get_if<Density>(&object->is) : nullptr;
+}
+
+bool is_set(const LuaValue& value) {  // something with an inside
+    const SceneObject* object = as_object(value);
+    return object && (std::holds_alternative<Density>(object->is) || std::holds_alternative<Solid>(object->is) ||
+                      std::holds_alternative<Quadric>(object->is));
+}
+
+const SceneObject& need_set(const LuaValue& value, const std::string& place) {
+    if (!is_set(value)) expected(place, "a density or a solid", value);
+    return *as_object(value);
+}
+
+const SceneObject& need_movable(const LuaValue& value, const std::string& place) {
+    const SceneObject* object = as_object(value);
+    if (object && std::holds_alternative<Perturbation>(object->is)) return *object;
+    return need_set(value, place);
+}
+
+const Density& need_density(const LuaValue& value, const std::string& place) {
+    const Density* density = as_density(value);
+    if (!density) expected(place, "a density", value);
+    return *density;
+}
+
+const std::vector<LuaValue>& need_list(const LuaValue& value, const std::string& place, const char* of_what,
+                                       std::size_t most) {
+    const LuaTable* table = as_table(value);
+    if (!table || !table->fields.empty()) expected(place, std::string("a list of ") + of_what, value);
+    if (table->list.size() > most)
+        throw BadValue(place, fmt::format("expected at most {} {}, got {}", most, of_what, table->list.size()));
+    return table->list;
+}
+
+std::string item(const std::string& place, std::size_t index) { return fmt::format("{}[{}]", place, index + 1); }
+
+// Shapes.
+
+SceneResult half_space(SceneCall& call) {
+    call.at_most(2);
+    const Vec3 given = vector(call.argument(0), call.place("normal"));
+    const Vec3 normal = direction(call.argument(0), call.place("normal"));
+    const double offset = number(call.argument(1), call.place("d"));
+    // The plane is given · x = offset; along an axis this is exact, and no length overflows.
+    const double length = glm::dot(given, normal), distance = offset / length;
+    if (!(length > 0 && std::isfinite(length) && std::isfinite(distance)))
+        throw BadValue(call.name, "expected a normal and a distance of ordinary size, got singular ones");
+    return call.make(Density::half_space(normal, distance));
+}
+
+SceneResult cube(SceneCall& call) {
+    call.at_most(0);
+    call.builder.spend(6);
+    return call.make(Density::box(Vec3(0), Vec3(1)));
+}
+
+SceneResult box(SceneCall& call) {
+    call.at_most(2);
+    const Vec3 lo = vector(call.argument(0), call.place("lower corner"));
+    const Vec3 hi = vector(call.argument(1), call.place("upper corner"));
+    for (int k = 0; k < 3; ++k)
+        if (!(lo[k] < hi[k]))
+            throw BadValue(call.name, fmt::format("expected {0}0 < {0}1, got {1} and {2}", "xyz"[k], lo[k], hi[k]));
+    call.builder.spend(6);
+    return call.make(Density::box(lo, hi));
+}
+
+SceneResult product_of(SceneCall& call, const std::vector<HullFace>& faces) {
+    SceneBuilder::check_size(double(faces.size()));
+    call.builder.spend(faces.size());
+    std::vector<Density> parts;
+    for (const HullFace& face : faces) parts.push_back(Density::half_space(face.normal, face.offset));
+    return call.make(Density::product(parts));
+}
+
+SceneResult convex(SceneCall& call) {
+    call.at_most(1);
+    std::vector<Vec3> points;
+    for (const LuaValue& point : need_list(call.argument(0), call.name, "points", most_hull_points))
+        points.push_back(vector(point, item(call.name, points.size())));
+    call.builder.work += work_per_hull_point * std::int64_t(points.size());
+    return product_of(call, convex_hull(std::move(points)));
+}
+
+SceneResult make_prism(SceneCall& call) {
+    call.at_most(3);
+    std::vector<glm::dvec2> polygon;
+    for (const LuaValue& point : need_list(call.argument(0), call.name, "points", most_polygon_points)) {
+        const std::string place = item(call.name, polygon.size());
+        const LuaTable* pair = as_table(point);
+        if (!pair || !pair->fields.empty() || pair->list.size() != 2) expected(place, "two numbers {x, z}", point);
+        polygon.emplace_back(number(pair->list[0], place), number(pair->list[1], place));
+    }
+    call.builder.work += std::int64_t(polygon.size() * polygon.size());
+    const double y0 = number(call.argument(1), call.place("y0"));
+    const double y1 = number(call.argument(2), call.place("y1"));
+    return product_of(call, prism(std::move(polygon), y0, y1));
+}
+
+SceneResult rounded(SceneCall& call) {
+    call.at_most(2);
+    const double radius = number_at_least(call.argument(0), call.place("radius"), 0);
+    return call.make(Solid::rounded(radius, need_density(call.argument(1), call.name), call.line));
+}
+
+SceneResult convolved(SceneCall& call) {
+    call.at_most(2);
+    const double radius = number_above(call.argument(0), call.place("radius"), 0);
+    const Density& density = need_density(call.argument(1), call.name);
+    if (density.has_radius())
+        throw BadValue(call.name,
+                       "expected a density without radii, got one with :radius(); one ball rounds all of it");
+    return call.make(Solid::convolved(radius, density, call.line));
+}
+
+SceneResult sharp(SceneCall& call) {
+    call.at_most(1);
+    return call.make(Solid::sharp(need_density(call.argument(0), call.name), call.line));
+}
+
+// Operators.
+
+using DensityOperator = Density (*)(Density, Density, int);
+using SolidOperator = Solid (*)(Solid, Solid);
+
+// On two densities the first, else, where there is one, the second.
+SceneResult combine(SceneCall& call, DensityOperator of_densities, SolidOperator of_solids) {
+    const LuaValue &a = call.argument(0), &b = call.argument(1);
+    if (as_density(a) && as_density(b)) return call.make(of_densities(*as_density(a), *as_density(b), call.line));
+    const LuaValue& wrong = (of_solids ? is_set(a) : as_density(a) != nullptr) ? b : a;
+    if (!of_solids) expected(call.name, "densities on both sides (solids have | & -)", wrong);
+    if (!is_set(wrong)) expected(call.name, "densities or solids on both sides", wrong);
+    return call.make(of_solids(call.builder.solid(*as_object(a)), call.builder.solid(*as_object(b))));
+}
+
+SceneResult add(SceneCall& call) { return combine(call, &Density::sum, nullptr); }
+
+SceneResult multiply(SceneCall& call) {
+    return combine(call, static_cast<DensityOperator>(&Density::product), nullptr);
+}
+
+SceneResult subtract(SceneCall& call) {
+    return combine(call, &Density::difference, [](Solid a, Solid b) { return a - b; });
+}
+
+SceneResult disjoin(SceneCall& call) {
+    return combine(
+        call, [](Density a, Density b, int) { return a | b; }, [](Solid a, Solid b) { return a | b; });
+}
+
+SceneResult conjoin(SceneCall& call) {
+    return combine(
+        call, [](Density a, Density b, int) { return a & b; }, [](Solid a, Solid b) { return a & b; });
+}
+
+SceneResult complement(SceneCall& call) {
+    const Density* density = as_density(call.argument(0));
+    if (!density) expected(call.name, "a density", call.argument(0));
+    return call.make(~*density);
+}
+
+// Methods.
+
+SceneResult radius(SceneCall& call) {
+    call.at_most(2);
+    const Density& density = need_density(call.argument(0), call.name);
+    return call.make(density.radius(number_at_least(call.argument(1), call.name, 0)));
+}
+
+SceneResult material(SceneCall& call) {
+    call.at_most(2);
+    const SceneObject& self = need_set(call.argument(0), call.name);
+    const SceneObject* given = as_object(call.argument(1));
+    if (!given || !std::holds_alternative<Material>(given->is)) expected(call.name, "a material", call.argument(1));
+    return call.make(call.builder.solid(self).material(call.builder.index_of(given)), self.name);
+}
+
+SceneResult name(SceneCall& call) {
+    call.at_most(2);
+    const SceneObject& self = need_set(call.argument(0), call.name);
+    return call.make(call.builder.solid(self), text(call.argument(1), call.name));
+}
+
+SceneResult place(SceneCall& call, const Affine& map) {
+    const SceneObject& self = need_movable(call.argument(0), call.name);
+    if (const auto* density = std::get_if<Density>(&self.is)) return call.make(density->transformed(map));
+    if (const auto* quadric = std::get_if<Quadric>(&self.is))
+        return call.make(ordinary(transformed(*quadric, map), call.name));
+    if (const auto* p = std::get_if<Perturbation>(&self.is))
+        return call.make(Perturbation{p->factor, ordinary(transformed(p->quadric, map), call.name)});
+    return call.make(std::get<Solid>(self.is).transformed(map), self.name);
+}
+
+SceneResult translate(SceneCall& call) {
+    call.at_most(4);
+    need_movable(call.argument(0), call.name);
+    Affine map;
+    for (int k = 0; k < 3; ++k) map.shift[k] = number(call.argument(std::size_t(k) + 1), call.place(&"x\0y\0z"[2 * k]));
+    return place(call, map);
+}
+
+SceneResult scale(SceneCall& call) {
+    call.at_most(4);
+    need_movable(call.argument(0), call.name);
+    const bool even = call.arguments.size() <= 2;
+    Affine map;
+    for (int k = 0; k < 3; ++k) {
+        const LuaValue& given = call.argument(even ? 1 : std::size_t(k) + 1);
+        const std::string where = even ? call.name : call.place(&"x\0y\0z"[2 * k]);
+        const double factor = number(given, where);
+        // Products of three of these and their inverses stay far inside the range of a double.
+        constexpr double largest = 1e100;
+        if (!(std::abs(factor) <= largest && std::abs(factor) >= 1 / largest))
+            expected(where, "a factor that leaves a volume, for 0 is singular", given);
+        map.linear[k][k] = factor;
+    }
+    return place(call, map);
+}
+
+// Exact at multiples of 90 degrees about an axis, so that planes stay parallel to axes.
+SceneResult rotate(SceneCall& call) {
+    call.at_most(3);
+    need_movable(call.argument(0), call.name);
+    const double degrees = std::fmod(number(call.argument(1), call.place("degrees")), 360.0);
+    const Vec3 k = direction(call.argument(2), call.place("axis"));
+    const int quarters = int(degrees / 90);
+    const bool exact = quarters * 90.0 == degrees;
+    constexpr double cosines[4] = {1, 0, -1, 0};
+    const double c = exact ? cosines[(quarters + 4) % 4] : std::cos(glm::radians(degrees));
+    const double s = exact ? cosines[(quarters + 3) % 4] : std::sin(glm::radians(degrees));
+    // Rodrigues' formula: R = k kᵀ + cos (1 − k kᵀ) + sin [k]×
+    const Mat3 along = glm::outerProduct(k, k);
+    const Mat3 across(Vec3(0, k.z, -k.y), Vec3(-k.z, 0, k.x), Vec3(k.y, -k.x, 0));  // by columns
+    Affine map;
+    map.linear = along + c * (Mat3(1.0) - along) + s * across;
+    return place(call, map);
+}
+
+// In the plane through the origin with this normal.
+SceneResult mirror(SceneCall& call) {
+    call.at_most(2);
+    need_movable(call.argument(0), call.name);
+    const Vec3 n = direction(call.argument(1), call.place("normal"));
+    Affine map;
+    map.linear = Mat3(1.0) - 2.0 * glm::outerProduct(n, n);
+    return place(call, map);
+}
+
+SceneResult param(SceneCall& call) {
+    call.at_most(2);
+    return call.builder.parameter(text(call.argument(0), call.place("name")), call.argument(1));
+}
+
+}  // namespace
+
+const std::vector<SceneFunction>& shape_functions() {
+    using Place = SceneFunction::Place;
+    static const std::vector<SceneFunction> functions = {
+        {Place::global, "halfspace", "", half_space},
+        {Place::global, "cube", "", cube},
+        {Place::global, "box", "", box},
+        {Place::global, "convex", "", convex},
+        {Place::global, "prism", "", make_prism},
+        {Place::global, "rounded", "", rounded},
+        {Place::global, "convolved", "", convolved},
+        {Place::global, "sharp", "", sharp},
+        {Place::global, "param", "", param},
+        {Place::metamethod, "operator +", "__add", add},
+        {Place::metamethod, "operator *", "__mul", multiply},
+        {Place::metamethod, "operator -", "__sub", subtract},
+        {Place::metamethod, "operator |", "__bor", disjoin},
+        {Place::metamethod, "operator &", "__band", conjoin},
+        {Place::metamethod, "operator ~", "__bnot", complement},
+        {Place::method, "radius", "", radius},
+        {Place::method, "material", "", material},
+        {Place::method, "name", "", name},
+        {Place::method, "translate", "", translate},
+        {Place::method, "scale", "", scale},
+        {Place::method, "rotate", "", rotate},
+        {Place::method, "mirror", "", mirror},
+    };
+    return functions;
+}
+
+}  // namespace deburr

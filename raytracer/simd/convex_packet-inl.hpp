@@ -1,0 +1,229 @@
+// Products of half-spaces along several rays at a time: bounds/convex_density.cpp, where each step is explained,
+// operation by operation.
+#if defined(DEBURR_CONVEX_PACKET_INL) == defined(HWY_TARGET_TOGGLE)  // not yet included for this set of instructions
+#ifdef DEBURR_CONVEX_PACKET_INL
+#undef DEBURR_CONVEX_PACKET_INL
+#else
+#define DEBURR_CONVEX_PACKET_INL
+#endif
+
+#include <hwy/highway.h>
+
+#include "bounds/root_finder.hpp"
+#include "raytracer/simd/lanes-inl.hpp"
+#include "raytracer/simd/packet_kernels.hpp"
+
+HWY_BEFORE_NAMESPACE();
+namespace deburr {
+namespace HWY_NAMESPACE {
+
+constexpr double rounding = RootFinder::rounding;
+
+struct Point {
+    V P, slope;
+};
+
+// The rays' view of the factors. N: their number if known when compiled, else 0.
+template <int N>
+class Convex {
+public:
+    HWY_INLINE Convex(const ConvexView& density, const Rays& rays, std::uint64_t& evaluations)
+        : soft_(N > 0 ? N : density.soft),
+          evaluations_(evaluations),
+          level_(number(density.complement ? 0.5 - rounding : 0.5 + rounding)) {
+        in_ = number(-infinity);
+        out_ = number(infinity);
+        rates_ = hn::Zero(d);
+        plane_in_ = plane_out_ = number(-1);
+        for (int i = 0; i < soft(); ++i) {
+            a_[i] = rays.distance(density.planes[i]);
+            b_[i] = rays.rate(density.planes[i]);
+            clip(a_[i], b_[i], i);
+            rates_ = rates_ + b_[i] * b_[i];
+        }
+        for (int i = soft(); i < soft() + density.sharp; ++i)
+            clip(rays.distance(density.planes[i]), rays.rate(density.planes[i]), i);
+    }
+
+    // What is found in [lo, hi]: rays' t and plane where it is, and whether they go into C.
+    struct Found {
+        M any, into;
+        V t, plane;
+    };
+
+    HWY_INLINE M meeting(M rays, V lo, V hi, V negligible) const {
+        return but(both(rays, out_ - in_ > negligible), either(in_ > hi, out_ < lo));
+    }
+
+    // Of `rays`, which meet C.
+    HWY_INLINE Found first(M rays, V lo, V hi, V negligible) const {
+        const M entering = in_ > lo;
+        const V start = select(entering, in_, lo);
+        const M alone = both(both(rays, entering), is_alone(plane_in_, start));
+        const M asked = but(rays, alone);
+        const Point p = at(start, asked);
+        const M inside = both(asked, p.P > level_);
+        Found f;
+        f.any = f.into = either(alone, both(inside, entering));
+        f.t = start;
+        f.plane = select(alone, plane_in_, if_sharp(plane_in_));
+
+        M search = but(asked, inside);  // from outside of C into it
+        V s = start, base = hn::Zero(d), sign = number(1), to = select(out_ < hi, out_, hi);
+        Point at_s = p;
+        const M leaving = but(inside, entering);
+        M back = leaving;
+        if (!none(leaving)) {
+            const M here = out_ <= hi;
+            const M alone_out = both(both(leaving, here), is_alone(plane_out_, to));
+            back = but(leaving, alone_out);
+            const Point q = at(to, back);
+            const M still = both(back, q.P > level_);
+            const M out = either(alone_out, both(still, here));
+            back = but(back, still);
+            f.any = either(f.any, out);
+            f.t = select(out, to, f.t);
+            f.plane = select(alone_out, plane_out_, select(out, if_sharp(plane_out_), f.plane));
+            // Mirrored: backwards from where it is outside again.
+            s = select(back, hn::Zero(d), s);
+            base = select(back, to, base);
+            sign = select(back, number(-1), sign);
+            at_s = {select(back, q.P, at_s.P), select(back, hn::Neg(q.slope), at_s.slope)};
+            to = select(back, number(infinity), to);
+            search = either(search, back);
+        }
+        if (none(search)) return f;
+        const M rooted = newton(search, s, at_s, to, base, sign, negligible);
+        const M root_in = but(rooted, back);
+        f.any = either(f.any, either(root_in, back));
+        f.into = either(f.into, root_in);
+        // Out of C always: where rounding hides the root, at the end.
+        f.t = select(root_in, s, select(back, select(rooted, base - s, base), f.t));
+        f.plane = select(either(root_in, back), number(-1), f.plane);
+        return f;
+    }
+
+    HWY_INLINE M any(M rays, V lo, V hi, V negligible) const {
+        const V from = hn::Max(in_, lo), to = hn::Min(hi, out_);
+        const M inside = both(rays, at(number(0.5) * (from + to), rays).P > level_);
+        M found = both(inside, either(in_ > lo, out_ <= hi));
+        M asked = but(inside, found);
+        if (!none(asked)) {
+            const M outside = both(asked, at(lo, asked).P <= level_);
+            asked = but(asked, outside);
+            found = either(found, either(outside, both(asked, at(hi, asked).P <= level_)));
+        }
+        const M search = but(rays, inside);
+        return none(search) ? found : either(found, both(search, first(search, lo, hi, negligible).any));
+    }
+
+private:
+    HWY_INLINE int soft() const { return N > 0 ? N : soft_; }
+
+    HWY_INLINE void clip(V a, V b, int plane) {
+        const V t = hn::Neg(a) / b, zero = hn::Zero(d);
+        const M later = both(b<zero, t> in_), sooner = both(b > zero, t < out_);
+        in_ = select(later, t, in_);
+        plane_in_ = select(later, number(plane), plane_in_);
+        out_ = select(sooner, t, out_);
+        plane_out_ = select(sooner, number(plane), plane_out_);
+        const M never = both(b == zero, a > zero);
+        in_ = select(never, number(infinity), in_);
+        out_ = select(never, number(-infinity), out_);
+    }
+
+    // Of the soft factors; counted for those who ask.
+    HWY_INLINE Point at(V t, M asked) const {
+        evaluations_ += hn::CountTrue(d, asked);
+        const V one = number(1), two = number(2), quarter = number(0.25), three_quarters = number(0.75);
+        Point p{one, hn::Zero(d)};
+        for (int i = 0; i < soft(); ++i) {
+            const V c = hn::Max(hn::Min(a_[i] + b_[i] * t, one), hn::Neg(one)), u = one - c;
+            const V F = u * u * (two + c) * quarter;
+            p.slope = p.slope * F - p.P * (three_quarters * u * (one + c) * b_[i]);
+            p.P = p.P * F;
+        }
+        return p;
+    }
+
+    HWY_INLINE V if_sharp(V plane) const { return select(plane >= number(soft()), plane, number(-1)); }
+
+    HWY_INLINE M is_alone(V plane, V t) const {
+        M alone = plane < number(soft());
+        for (int i = 0; i < soft(); ++i)
+            alone = both(alone, either(plane == number(i), a_[i] + b_[i] * t <= number(-1)));
+        return alone;
+    }
+
+    // Moves s to the root, for those of `run` that have one before `to`: they are returned.
+    HWY_INLINE M newton(M run, V& s, Point p, V to, V base, V sign, V negligible) const {
+        const V one = number(1), two = number(2), three = number(3), four = number(4), zero = hn::Zero(d);
+        M found = but(run, run);
+        for (int k = 0; k < most_newton_steps; ++k) {
+            const M there = both(run, p.P >= number(0.5 - rounding));
+            found = either(found, both(there, p.slope > zero));
+            run = both(but(run, there), p.slope > zero);
+            if (none(run)) return found;
+            const V x = two * p.P;
+            const V step = p.P * (three * (one - x * x)) / (p.slope * (one + x * (four + x)));
+            s = select(run, s + step, s);
+            run = but(run, s > to);
+            const M close = both(
+                run, either(step <= negligible, number(2.25) * rates_ * p.P * step * step <= negligible * p.slope));
+            found = either(found, close);
+            run = but(run, close);
+            if (none(run)) return found;
+            p = at(base + sign * s, run);
+            p.slope = p.slope * sign;
+        }
+        return either(found, run);
+    }
+
+    int soft_;
+    std::uint64_t& evaluations_;
+    V level_, in_, out_, rates_, plane_in_, plane_out_;
+    V a_[N > 0 ? N : most_packet_factors], b_[N > 0 ? N : most_packet_factors];
+};
+
+template <int N, bool Any>
+Lanes crossings_of(const ConvexView& density, const RayPacket& rays, Lanes lanes, const PacketSpans& spans,
+                   double scale, PacketCrossings* found, std::uint64_t& evaluations) {
+    Lanes crossed = 0, entering = 0;
+    for (std::size_t first = 0; first < RayPacket::size; first += hn::Lanes(d)) {
+        const Lanes part = part_of(lanes, first);
+        if (part == 0) continue;
+        const Convex<N> convex(density, Rays(rays, first), evaluations);
+        const V lo = hn::Load(d, spans.from + first), hi = hn::Load(d, spans.to + first);
+        const V negligible = number(8 * epsilon) * (number(scale) + lo);
+        const M meeting = convex.meeting(mask_of(part), lo, hi, negligible);
+        if (none(meeting)) continue;
+        if constexpr (Any) {
+            crossed |= bits_of(convex.any(meeting, lo, hi, negligible)) << first;
+        } else {
+            const auto f = convex.first(meeting, lo, hi, negligible);
+            hn::Store(f.t, d, found->t + first);
+            hn::Store(f.plane, d, found->plane + first);
+            crossed |= bits_of(f.any) << first;
+            entering |= (density.complement ? bits_of(f.any) & ~bits_of(f.into) : bits_of(f.into)) << first;
+        }
+    }
+    if constexpr (!Any) found->entering = entering;
+    return crossed;
+}
+
+template <bool Any>
+Lanes crossings_of(const ConvexView& density, const RayPacket& rays, Lanes lanes, const PacketSpans& spans,
+                   double scale, PacketCrossings* found, std::uint64_t& evaluations) {
+    switch (density.soft) {
+        case 1: return crossings_of<1, Any>(density, rays, lanes, spans, scale, found, evaluations);
+        case 2: return crossings_of<2, Any>(density, rays, lanes, spans, scale, found, evaluations);
+        case 3: return crossings_of<3, Any>(density, rays, lanes, spans, scale, found, evaluations);
+        default: return crossings_of<0, Any>(density, rays, lanes, spans, scale, found, evaluations);
+    }
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace deburr
+HWY_AFTER_NAMESPACE();
+
+#endif

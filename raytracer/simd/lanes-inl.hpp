@@ -1,0 +1,66 @@
+// Numbers and masks of several rays at a time, in one vector of the processor.
+#if defined(DEBURR_LANES_INL) == defined(HWY_TARGET_TOGGLE)  // not yet included for this set of instructions
+#ifdef DEBURR_LANES_INL
+#undef DEBURR_LANES_INL
+#else
+#define DEBURR_LANES_INL
+#endif
+
+#include <hwy/highway.h>
+
+#include "bounds/convex_density.hpp"
+#include "raytracer/simd/ray_packet.hpp"
+
+HWY_BEFORE_NAMESPACE();
+namespace deburr {
+namespace HWY_NAMESPACE {
+
+namespace hn = hwy::HWY_NAMESPACE;
+using D = hn::CappedTag<double, RayPacket::size>;
+using V = hn::Vec<D>;
+using M = hn::Mask<D>;
+
+const D d;
+
+HWY_INLINE V number(double x) { return hn::Set(d, x); }
+HWY_INLINE V select(M m, V a, V b) { return hn::IfThenElse(m, a, b); }
+HWY_INLINE M both(M a, M b) { return hn::And(a, b); }
+HWY_INLINE M either(M a, M b) { return hn::Or(a, b); }
+HWY_INLINE M but(M a, M b) { return hn::AndNot(b, a); }
+HWY_INLINE bool none(M m) { return hn::AllFalse(d, m); }
+
+HWY_INLINE M mask_of(Lanes bits) {
+    const std::uint8_t bytes[8] = {std::uint8_t(bits), std::uint8_t(bits >> 8)};
+    return hn::LoadMaskBits(d, bytes);
+}
+HWY_INLINE Lanes bits_of(M m) {
+    std::uint8_t bytes[8] = {};
+    hn::StoreMaskBits(d, m, bytes);
+    return Lanes(bytes[0]) | Lanes(bytes[1]) << 8;
+}
+
+// The bits of `lanes` from `first` on that one vector holds.
+HWY_INLINE Lanes part_of(Lanes lanes, std::size_t first) { return (lanes >> first) & ((Lanes(1) << hn::Lanes(d)) - 1); }
+
+struct Rays {
+    V origin[3], direction[3];
+    Rays(const RayPacket& rays, std::size_t first) {
+        for (int k = 0; k < 3; ++k) {
+            origin[k] = hn::Load(d, rays.origin[k] + first);
+            direction[k] = hn::Load(d, rays.direction[k] + first);
+        }
+    }
+    V distance(const AlphaPlane& p) const { return along(p, origin) + number(p.base); }
+    V rate(const AlphaPlane& p) const { return along(p, direction); }
+
+private:
+    static HWY_INLINE V along(const AlphaPlane& p, const V* v) {
+        return number(p.slope.x) * v[0] + number(p.slope.y) * v[1] + number(p.slope.z) * v[2];
+    }
+};
+
+}  // namespace HWY_NAMESPACE
+}  // namespace deburr
+HWY_AFTER_NAMESPACE();
+
+#endif

@@ -1,0 +1,73 @@
+// Where the rays of a packet cross a piece: what Pieces and bounds/convex_density.hpp compute of one ray, of
+// as many at a time as the processor's vectors hold. The instructions are chosen when the program starts
+// (Highway).
+//
+// Each ray gets the same bits as alone, with any instructions: the same operations in the same order, none
+// fused. So a picture depends neither on the machine nor on which rays travel together.
+#pragma once
+#include <vector>
+
+#include "bounds/convex_density.hpp"
+#include "raytracer/simd/ray_packet.hpp"
+
+namespace deburr {
+
+/// Where rays of a packet are in a box, and what lies around them where they enter it.
+struct PacketEntry {
+    alignas(64) double lo[RayPacket::size], hi[RayPacket::size];
+    Vec3 least_point, most_point, least_direction, most_direction;
+};
+
+/// Where rays of a packet are in a cell, with its walls' rounding added: what a piece there is asked for.
+struct PacketSpans {
+    alignas(64) double from[RayPacket::size], to[RayPacket::size];
+};
+
+struct PacketCrossings {
+    alignas(64) double t[RayPacket::size];
+    alignas(64) double plane[RayPacket::size];  // ConvexCrossing::plane
+    Lanes entering = 0;
+};
+
+/// Soft factors beyond these are left to single rays.
+constexpr int most_packet_factors = 8;
+
+/// What there is for each set of instructions.
+struct PacketFunctions {
+    /// For a scene whose coordinates reach `scale`.
+    void (*prepare)(RayPacket& rays, double scale);
+
+    /// Of `lanes`, the rays that meet the box before their end.
+    Lanes (*enter)(const Box& box, const RayPacket& rays, Lanes lanes, PacketEntry& entry);
+
+    /// How far the farthest of `lanes` goes on in the box, from where it enters.
+    double (*longest_way)(const RayPacket& rays, Lanes lanes, const PacketEntry& entry);
+
+    /// Of `lanes`, the rays that are in the cell before their end.
+    Lanes (*spans_in_cell)(const Box& cell, const RayPacket& rays, Lanes lanes, PacketSpans& spans);
+
+    /// Of `lanes`, those that cross the plane within their span, and where.
+    Lanes (*plane_crossings)(const AlphaPlane& plane, const RayPacket& rays, Lanes lanes, const PacketSpans& spans,
+                             PacketCrossings& found);
+
+    /// first_crossing() for each of `lanes`, whose spans must be finite, with negligible = 8 ε (scale + from); those
+    /// that have one.
+    Lanes (*convex_crossings)(const ConvexView& density, const RayPacket& rays, Lanes lanes, const PacketSpans& spans,
+                              double scale, PacketCrossings& found, std::uint64_t& evaluations);
+
+    /// any_crossing() likewise.
+    Lanes (*convex_occlusions)(const ConvexView& density, const RayPacket& rays, Lanes lanes, const PacketSpans& spans,
+                               double scale, std::uint64_t& evaluations);
+};
+
+struct PacketInstructions {
+    const char* name;
+    const PacketFunctions* functions;
+};
+/// Those that this machine has, the widest first.
+std::vector<PacketInstructions> packet_instructions();
+
+/// Those of the widest.
+extern const PacketFunctions& packet_functions;
+
+}  // namespace deburr

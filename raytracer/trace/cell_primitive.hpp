@@ -1,0 +1,86 @@
+// A piece of one solid's surface: what may be crossed of it in one cell, laid out to be crossed fast.
+//
+// Most pieces are a plane or a product of half-spaces (bounds/convex_density.hpp), whose numbers lie
+// side by side with those of their neighbours. What is neither is a LocalSolid.
+#pragma once
+#include <cstdint>
+#include <vector>
+
+#include "bounds/convex_density.hpp"
+#include "raytracer/simd/packet_kernels.hpp"
+#include "raytracer/trace/local_solid.hpp"
+#include "raytracer/trace/ray_tracer.hpp"
+
+namespace deburr {
+
+struct Piece {
+    enum class Kind : std::uint8_t { plane, convex, general };
+
+    Box box;                  // the cell; beyond it the piece is not valid
+    std::uint32_t first = 0;  // in Pieces::planes; general: in Pieces::locals
+    std::int32_t solid = 0, material = 0;
+    std::uint8_t soft = 0, sharp = 0;  // factors
+    Kind kind = Kind::plane;
+    bool complement = false;
+};
+static_assert(sizeof(Piece) == 64);  // a cache line
+
+class Pieces {
+public:
+    Pieces() = default;
+    Pieces(const Tolerances& tolerances, Criterion criterion) : scale_(tolerances.scale), criterion_(criterion) {}
+
+    /// `box`: the cell; `solid`: the number of its solid here.
+    void add(LocalSolid&& local, const Box& box, int solid);
+
+    std::size_t size() const { return pieces_.size(); }
+    const Piece& operator[](std::size_t i) const { return pieces_[i]; }
+    std::size_t half_spaces(std::size_t i) const;
+
+    /// Where the line of a ray meets the plane that piece p is; no number, or infinite, if it does not.
+    double plane_crossing(const Piece& p, const Vec3& origin, const Vec3& direction) const {
+        const AlphaPlane& plane = planes_[p.first];
+        return -(glm::dot(plane.slope, origin) + plane.base) / glm::dot(plane.slope, direction);
+    }
+    /// First crossing of a convex piece in [t0, t1]; whether there is one.
+    ConvexCrossing convex_crossing(const Piece& p, const Vec3& origin, const Vec3& direction, double t0, double t1,
+                                   TraceCounters& counters) const {
+        return first_crossing(view(p), origin, direction, t0, t1, negligible(t0), counters.evaluations);
+    }
+    bool crosses_convex(const Piece& p, const Vec3& origin, const Vec3& direction, double t0, double t1,
+                        TraceCounters& counters) const {
+        return any_crossing(view(p), origin, direction, t0, t1, negligible(t0), counters.evaluations);
+    }
+    /// Whether packets may ask for piece i.
+    bool for_packets(std::size_t i) const {
+        const Piece& p = pieces_[i];
+        return p.kind == Piece::Kind::plane ||
+               (p.kind == Piece::Kind::convex && p.soft <= most_packet_factors && p.box.finite());
+    }
+    /// First crossings of rays of a packet with such a piece, in their spans; those that have one.
+    Lanes crossings(const Piece& p, const RayPacket& rays, Lanes lanes, const PacketSpans& spans,
+                    PacketCrossings& found, TraceCounters& counters) const;
+    /// Those that cross it.
+    Lanes occlusions(const Piece& p, const RayPacket& rays, Lanes lanes, const PacketSpans& spans,
+                     TraceCounters& counters) const;
+    /// First crossing of a general one; `any`: that there is one will do, and its t means nothing.
+    SurfaceCrossing general_crossing(const Piece& p, const Vec3& origin, const Vec3& direction, double t0, double t1,
+                                     bool any, TraceCounters& counters) const;
+    /// Unit normal, out of the solid, of piece i: a plane, or convex.
+    Vec3 normal(std::size_t i, const ConvexCrossing& crossing, const Vec3& origin, const Vec3& direction) const;
+
+    /// A box around what can be crossed of piece i, in its cell or this much beyond, with as much to spare.
+    Box surface_box(std::size_t i, double margin) const;
+
+private:
+    ConvexView view(const Piece& p) const { return {&planes_[p.first], p.soft, p.sharp, p.complement}; }
+    double negligible(double t) const { return 8 * epsilon * (scale_ + t); }
+
+    std::vector<Piece> pieces_;
+    std::vector<AlphaPlane> planes_;
+    std::vector<LocalSolid> locals_;
+    double scale_ = 1;
+    Criterion criterion_ = Criterion::exact;
+};
+
+}  // namespace deburr

@@ -1,0 +1,42 @@
+// The implicit road: exact rays against primary CSG of rounded densities, through BSPs of local CSG
+// [Lobb §3.5, after Jansen 1986], one for each form that is placed (instances.hpp).
+#pragma once
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "bounds/root_finder.hpp"
+#include "bounds/solid.hpp"
+#include "raytracer/trace/ray_tracer.hpp"
+#include "raytracer/trace/trace_settings.hpp"
+
+namespace deburr {
+
+struct BspStatistics {
+    std::size_t cells = 0, empty_cells = 0, flat_cells = 0;
+    std::size_t half_spaces = 0;        // that the cells were made of
+    std::size_t spaces = 0;             // BSPs, each of a space or of a part of one
+    std::size_t placements = 0;         // of these in others
+    double mean_local_half_spaces = 0;  // in the cells that hold a surface
+    int depth = 0;
+};
+
+class ImplicitTracer final : public RayTracer {
+public:
+    /// The criterion matters where roots are searched for.
+    explicit ImplicitTracer(const std::vector<Solid>& solids, Criterion criterion = Criterion::exact,
+                            Search search = Search::where_needed, Accel accel = Accel::bsp);
+    ~ImplicitTracer() override;
+    Hit first_hit(const Ray& ray, double t_max, TraceCounters& counters) const override;
+    bool occluded(const Ray& ray, double t_max, TraceCounters& counters) const override;
+    void first_hits(std::span<const Ray> rays, Hit* hits, TraceCounters& counters) const override;
+    void occlusions(std::span<const Ray> rays, std::span<const double> t_max, bool* occluded,
+                    TraceCounters& counters) const override;
+    BspStatistics statistics() const;
+
+private:
+    struct Spaces;
+    std::unique_ptr<Spaces> spaces_;
+};
+
+}  // namespace deburr

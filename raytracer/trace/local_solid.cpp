@@ -1,0 +1,203 @@
+#include "raytracer/trace/local_solid.hpp"
+
+#include <algorithm>
+
+#include "bounds/decision_diagram.hpp"
+
+namespace deburr {
+namespace {
+
+// A density of one half-space, ρ = v₀ + (v₁ − v₀)·F, crosses ½ on one plane at most.
+struct FlatDensity {
+    enum { outside, inside, plane } kind;
+    Vec3 normal{0.0};
+    double offset = 0;
+};
+
+FlatDensity flat_density(const LocalDensity& density) {
+    const HalfSpace& h = density.half_spaces()[0];
+    RayDensity ray;  // straight through the plane, from well inside to well outside
+    ray.set(density, h.normal * h.offset, h.normal);
+    const double reach = h.radius > 0 ? 2 * h.radius : 1.0;
+    ray.fix_sharp(-reach);
+    const double v1 = ray.at(-reach).value;
+    ray.fix_sharp(reach);
+    const double v0 = ray.at(reach).value;
+    if ((v0 > 0.5) == (v1 > 0.5)) return {v0 > 0.5 ? FlatDensity::inside : FlatDensity::outside};
+    double offset = h.offset;
+    if (h.radius > 0) offset += h.radius * displacement((0.5 - v0) / (v1 - v0));
+    if (v1 > 0.5) return {FlatDensity::plane, h.normal, offset};
+    return {FlatDensity::plane, -h.normal, -offset};
+}
+
+}  // namespace
+
+LocalSolid::LocalSolid(int solid, const SolidTree& tree, const Box& box, const Tolerances& tolerances, Search search)
+    : solid_(solid), scale_(tolerances.scale) {
+    std::vector<int> place(tree.nodes.size(), -1);
+    for (std::size_t i = 0; i < tree.nodes.size(); ++i) {
+        SolidTreeNode n = tree.nodes[i];
+        if (n.op == SolidOp::leaf) {
+            std::optional<bool> constant;
+            add_leaf(tree.leaves[std::size_t(n.a)], box, tolerances, search, constant);
+            if (constant)
+                n = {*constant ? SolidOp::everything : SolidOp::nothing};
+            else
+                n.a = int(leaves_.size()) - 1;
+        }
+        nodes_.push_back(n);  // children keep their numbers
+    }
+    has_surface_ = !leaves_.empty();
+    if (!has_surface_) return;
+    if (leaves_.size() == 1 && nodes_.size() > 1) {
+        // One leaf under operators with constants is that leaf, or its complement, or nothing.
+        std::vector<char> state;
+        const bool without = evaluate(state, {false}), with = evaluate(state, {true});
+        if (without == with)
+            has_surface_ = false;
+        else if (with)
+            nodes_ = {{SolidOp::leaf, 0}};
+        else if (leaves_[0].soft < 0) {  // the plane's other side
+            leaves_[0].normal = -leaves_[0].normal;
+            leaves_[0].offset = -leaves_[0].offset;
+            nodes_ = {{SolidOp::leaf, 0}};
+        }
+    }
+}
+
+void LocalSolid::add_leaf(const SolidLeaf& leaf, const Box& box, const Tolerances& tolerances, Search search,
+                          std::optional<bool>& constant) {
+    if (leaf.field) {  // pruned to where it straddles
+        leaves_.push_back({Vec3(0.0), 0, int(softs_.size()), leaf.material});
+        const Box seen = intersection(box, inflated(leaf.field->bounding_box(), tolerances.margin()));
+        const double unit = !seen.empty() && seen.finite() ? leaf.field->greatest_unit(seen) : 0;
+        softs_.push_back({LocalDensity(leaf.density), {}, {}, {}, {}, false, false, leaf.field, unit});
+        return;
+    }
+    const auto prepared = [&] {
+        try {
+            return LocalDensity(leaf.density);
+        } catch (const TooEntangled&) {
+            throw TooEntangled(leaf.line);
+        }
+    };
+    LocalDensity density = prepared();
+    if (const Side side = classify(density.range(box)); side != Side::straddling) {
+        constant = side == Side::inside;
+        return;
+    }
+    Leaf to;
+    to.material = leaf.material;
+    if (density.half_spaces().size() == 1) {
+        const FlatDensity flat = flat_density(density);
+        if (flat.kind != FlatDensity::plane) {
+            constant = flat.kind == FlatDensity::inside;
+            return;
+        }
+        to.normal = flat.normal;
+        to.offset = flat.offset;
+    } else if (auto convex = search == Search::always ? std::nullopt : convex_density(density, scale_)) {
+        if (convex->planes.size() == 1) {  // other planes coincide with it, or do not matter
+            const AlphaPlane& p = convex->planes[0];
+            const double length = glm::length(p.slope) * (convex->complement ? -1 : 1);
+            to.normal = p.slope / length;
+            to.offset = -p.base / length;
+        } else {
+            to.soft = int(softs_.size());
+            softs_.push_back({std::move(density), std::move(convex), {}, {}, {}, false, false});
+        }
+    } else if (auto sum = search == Search::always ? std::nullopt : ProductSum::of(density, tolerances.clear())) {
+        to.soft = int(softs_.size());
+        softs_.push_back({std::move(density), {}, std::move(sum), {}, {}, false, false});
+    } else {
+        to.soft = int(softs_.size());
+        const double clear = tolerances.clear();
+        const auto is_sharp = [](const HalfSpace& h) { return h.radius == 0; };
+        const bool all_sharp = std::all_of(density.half_spaces().begin(), density.half_spaces().end(), is_sharp);
+        softs_.push_back({std::move(density),
+                          {},
+                          {},
+                          outer_bound(leaf.density, 0.5, clear),
+                          inner_bound(leaf.density, 0.5, clear),
+                          bounds_hold(leaf.density, box),
+                          all_sharp});
+    }
+    leaves_.push_back(to);
+}
+
+std::size_t LocalSolid::half_spaces() const {
+    std::size_t sum = 0;
+    for (const Leaf& leaf : leaves_) {
+        const Soft* soft = leaf.soft < 0 ? nullptr : &softs_[std::size_t(leaf.soft)];
+        sum += !soft ? 1 : soft->field ? std::size_t(soft->field->size()) : soft->density.half_spaces().size();
+    }
+    return sum;
+}
+
+std::optional<LocalSolid::Convex> LocalSolid::convex() const {
+    constexpr std::size_t most_leaves = 6;
+    if (leaves_.empty() || leaves_.size() > most_leaves) return std::nullopt;
+    for (const Leaf& leaf : leaves_)
+        if (leaf.material != leaves_[0].material) return std::nullopt;
+    // As a Boolean function of the leaves: an intersection of these and their complements if it is
+    // true in one case only, the complement of such a one if it is false in one.
+    std::vector<char> state, inside(leaves_.size());
+    unsigned ones = 0, zeros = 0, the_one = 0, the_zero = 0;
+    for (unsigned bits = 0; bits < 1u << leaves_.size(); ++bits) {
+        for (std::size_t i = 0; i < leaves_.size(); ++i) inside[i] = bits >> i & 1;
+        const bool in = evaluate(state, inside);
+        (in ? ones : zeros)++;
+        (in ? the_one : the_zero) = bits;
+    }
+    if (ones == 1)
+        if (auto found = intersection_of_leaves(the_one)) return Convex{*std::move(found), leaves_[0].material};
+    if (zeros == 1)
+        if (auto found = intersection_of_leaves(the_zero)) {
+            found->complement = true;
+            return Convex{*std::move(found), leaves_[0].material};
+        }
+    return std::nullopt;
+}
+
+std::optional<ConvexDensity> LocalSolid::intersection_of_leaves(unsigned positive) const {
+    ConvexDensity d;
+    std::vector<AlphaPlane> sharp;
+    for (std::size_t i = 0; i < leaves_.size(); ++i) {
+        const Leaf& leaf = leaves_[i];
+        const bool is_positive = positive >> i & 1;
+        if (leaf.soft < 0) {
+            const double sign = is_positive ? 1 : -1;
+            sharp.push_back({sign * leaf.normal, -sign * leaf.offset});
+            continue;
+        }
+        const auto& part = softs_[std::size_t(leaf.soft)].convex;
+        if (!part || part->complement == is_positive) return std::nullopt;
+        const auto soft_end = part->planes.end() - part->sharp;
+        // {P > ½} of two products is not that of their product.
+        if (!d.planes.empty() && soft_end != part->planes.begin()) return std::nullopt;
+        d.planes.insert(d.planes.end(), part->planes.begin(), soft_end);
+        sharp.insert(sharp.end(), soft_end, part->planes.end());
+    }
+    d.planes.insert(d.planes.end(), sharp.begin(), sharp.end());
+    d.sharp = int(sharp.size());
+    if (d.planes.size() > std::size_t(most_factors)) return std::nullopt;
+    return d;
+}
+
+bool LocalSolid::evaluate(std::vector<char>& state, const std::vector<char>& inside) const {
+    state.clear();
+    for (const SolidTreeNode& n : nodes_) {
+        const auto at = [&](int child) -> bool { return state[std::size_t(child)]; };
+        switch (n.op) {
+            case SolidOp::nothing: state.push_back(false); break;
+            case SolidOp::everything: state.push_back(true); break;
+            case SolidOp::leaf: state.push_back(inside[std::size_t(n.a)]); break;
+            case SolidOp::unite: state.push_back(at(n.a) || at(n.b)); break;
+            case SolidOp::intersect: state.push_back(at(n.a) && at(n.b)); break;
+            case SolidOp::subtract: state.push_back(at(n.a) && !at(n.b)); break;
+        }
+    }
+    return state.back();
+}
+
+}  // namespace deburr

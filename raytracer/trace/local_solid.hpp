@@ -1,0 +1,133 @@
+// What is left of a solid in a cell, and where a ray crosses its surface there.
+//
+// A leaf whose local density is one half-space is a plane: it is intersected and done; a product of
+// half-spaces needs no search either (convex_density.hpp), and a sum of few products little
+// (product_sum.hpp). For the others the ray is first cut by inner and outer bound [Lobb §3.2,
+// figure 7]; in a stretch where a single half-space varies the crossing is a plane's too, and only what
+// remains needs the root finder. A field goes straight to it.
+#pragma once
+#include <optional>
+#include <vector>
+
+#include "bounds/convex_density.hpp"
+#include "bounds/csg_bounds.hpp"
+#include "bounds/local_density.hpp"
+#include "bounds/product_sum.hpp"
+#include "bounds/root_finder.hpp"
+#include "bounds/solid_range.hpp"
+#include "raytracer/trace/trace_settings.hpp"
+
+namespace deburr {
+
+/// Distances that floating point sets, for a scene whose coordinates reach `scale`.
+struct Tolerances {
+    double scale = 1;
+
+    /// Bound planes keep clear by this, so that a density's sign on them can be relied upon.
+    double clear() const { return scale * 0x1p-40; }
+    /// Cells know their solids this far beyond their walls.
+    double margin() const { return scale * 0x1p-38; }
+    /// A smaller filter lies between neighbouring points: α would jump, and overflow.
+    double least_radius() const { return scale * 0x1p-44; }
+};
+
+struct SurfaceCrossing {
+    double t = infinity;
+    Vec3 normal{0.0};  // unit, out of the solid
+    int material = 0;
+    double error = 0;  // of its place, besides what coordinates are rounded by
+};
+
+struct CrossingCounters {
+    RootCounters roots;
+    std::uint64_t flat = 0;
+};
+
+/// Memory that rays use again and again, and their settings.
+struct CrossingScratch {
+    struct Event {
+        double t;
+        int leaf;
+        bool entering;
+        Vec3 normal;
+        double error;
+    };
+    Criterion criterion = Criterion::exact;
+    CrossingCounters counters;
+    RayDensity density;
+    ProductSumRay sum;
+    FieldRay field;
+    SearchSpans spans;
+    std::vector<double> sharp;
+    std::vector<Event> events;
+    std::vector<char> inside, state;
+    double error = 0;  // of the crossing that is being visited
+};
+
+class LocalSolid {
+public:
+    /// `tree` is a solid pruned to the box. The box's inside must be the only place it is asked for.
+    LocalSolid(int solid, const SolidTree& tree, const Box& box, const Tolerances& tolerances,
+               Search search = Search::where_needed);
+
+    int solid() const { return solid_; }
+    /// False if no ray can cross a surface here.
+    bool has_surface() const { return !nodes_.empty() && has_surface_; }
+    bool is_flat() const { return leaves_.size() == 1 && leaves_[0].soft < 0; }
+    std::size_t half_spaces() const;
+
+    struct Convex {
+        ConvexDensity density;
+        int material;
+    };
+    /// The whole of it as one product, if it is one and of one material. Planes are sharp factors of
+    /// it: what they were rounded by no longer matters. Empty after Search::always, but for planes.
+    std::optional<Convex> convex() const;
+
+    /// First crossing of the solid's surface in [t0, t1]; `any`: that there is one will do, t and normal
+    /// mean nothing.
+    SurfaceCrossing first_crossing(const Vec3& origin, const Vec3& direction, double t0, double t1, bool any,
+                                   CrossingScratch& scratch) const;
+
+private:
+    struct Leaf {
+        Vec3 normal{0.0};  // flat: inside where n·x ≤ offset
+        double offset = 0;
+        int soft = -1;  // index of its density or field; −1: flat
+        int material = 0;
+    };
+    struct Soft {
+        LocalDensity density;
+        std::optional<ConvexDensity> convex;  // then, and with a sum, the bounds below are empty
+        std::optional<ProductSum> sum;
+        BoundCsg outer, inner;
+        bool bounded;  // the bounds hold
+        bool all_sharp;
+        FieldPtr field = {};  // if not null, all else is void, but
+        double unit = 0;      // of any ray here, at most; 0: not known
+    };
+
+    void add_leaf(const SolidLeaf& leaf, const Box& box, const Tolerances& tolerances, Search search,
+                  std::optional<bool>& constant);
+    /// The intersection of those leaves whose bit is set and of the others' complements.
+    std::optional<ConvexDensity> intersection_of_leaves(unsigned positive) const;
+    bool evaluate(std::vector<char>& state, const std::vector<char>& inside) const;
+    template <class Visit>
+    void field_crossings(const Field& field, double greatest_unit, const Vec3& origin, const Vec3& direction, double t0,
+                         double t1, CrossingScratch& scratch, bool* start_inside, Visit visit) const;
+    template <class Visit>
+    void sum_crossings(const ProductSum& sum, const Vec3& origin, const Vec3& direction, double t0, double t1,
+                       bool coarse, CrossingScratch& scratch, bool* start_inside, Visit visit) const;
+    template <class Visit>
+    void soft_crossings(const Soft& soft, const Vec3& origin, const Vec3& direction, double t0, double t1,
+                        CrossingScratch& scratch, bool* start_inside, Visit visit) const;
+
+    int solid_;
+    bool has_surface_ = true;
+    std::vector<Leaf> leaves_;
+    std::vector<Soft> softs_;
+    std::vector<SolidTreeNode> nodes_;
+    double scale_;
+};
+
+}  // namespace deburr

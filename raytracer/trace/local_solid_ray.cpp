@@ -1,0 +1,300 @@
+#include <algorithm>
+
+#include "raytracer/trace/local_solid.hpp"
+
+namespace deburr {
+namespace {
+
+// Crossings of one stretch of a ray over which sharp half-spaces stay as they are.
+class Stretch {
+public:
+    Stretch(const RayDensity& density, CrossingScratch& scratch, double negligible)
+        : density_(density), scratch_(scratch), finder_({scratch.criterion, negligible}, scratch.counters.roots) {}
+
+    // visit(t, entering) → go on?
+    template <class Visit>
+    bool crossings(double t0, double t1, Visit&& visit) {
+        int varying = 0;
+        std::size_t which = 0;
+        for (std::size_t i = 0; i < density_.size() && varying < 2; ++i) {
+            const double a = density_.alpha(i, t0), b = density_.alpha(i, t1);
+            if ((a >= 1 && b >= 1) || (a <= -1 && b <= -1)) continue;
+            ++varying;
+            which = i;
+        }
+        if (varying == 0) return true;
+        if (varying == 1) return one_varying(which, t0, t1, visit);
+        return finder_.crossings(density_, t0, t1, [&](Crossing c) { return visit(c.t, c.entering); });
+    }
+
+private:
+    // ρ is affine in the density F of the one half-space, whose ρ = ½ is a plane.
+    template <class Visit>
+    bool one_varying(std::size_t i, double t0, double t1, Visit&& visit) {
+        const double r0 = density_.at(t0).value, r1 = density_.at(t1).value;
+        scratch_.counters.roots.evaluations += 2;
+        if ((r0 > 0.5) == (r1 > 0.5)) return true;
+        const double a0 = density_.alpha(i, t0), a1 = density_.alpha(i, t1);
+        const double f0 = profile(a0), f1 = profile(a1);
+        const double alpha = displacement(f0 + (f1 - f0) * ((0.5 - r0) / (r1 - r0)));
+        const double t = a1 == a0 ? t0 : t0 + (t1 - t0) * ((alpha - a0) / (a1 - a0));
+        ++scratch_.counters.flat;
+        return visit(std::clamp(t, t0, t1), r1 > 0.5);
+    }
+
+    const RayDensity& density_;
+    CrossingScratch& scratch_;
+    RootFinder finder_;
+};
+
+Vec3 unit(Vec3 v) {
+    const double length = glm::length(v);
+    return length > 0 ? v / length : v;
+}
+
+// Cuts [t0, t1] down to where the ray is in the box; false if nothing is left.
+bool clip(const Box& box, const Vec3& origin, const Vec3& direction, double& t0, double& t1) {
+    for (int k = 0; k < 3; ++k) {
+        const double o = origin[k], d = direction[k];
+        if (d == 0) {
+            if (o < box.lo[k] || o > box.hi[k]) return false;
+            continue;
+        }
+        t0 = std::max(t0, ((d > 0 ? box.lo : box.hi)[k] - o) / d);
+        t1 = std::min(t1, ((d > 0 ? box.hi : box.lo)[k] - o) / d);
+    }
+    return t0 <= t1;
+}
+
+}  // namespace
+
+// visit(t, entering, normal) → go on?
+template <class Visit>
+void LocalSolid::field_crossings(const Field& field, double greatest_unit, const Vec3& origin, const Vec3& direction,
+                                 double t0, double t1, CrossingScratch& scratch, bool* start_inside,
+                                 Visit visit) const {
+    // What is passed over as a mere touch; f is in the ray's unit, of which rounding is all the noise.
+    constexpr double faint = 2 * RootFinder::rounding;
+    constexpr double farthest = 1e30;  // squares and cubes are far from overflowing there
+    if (start_inside) *start_inside = false;
+    const double start = t0;
+    // The box may touch the surface, which must be crossed before the box is left.
+    const Box box = inflated(field.bounding_box(), Tolerances{scale_}.margin());
+    if (!clip(box, origin, direction, t0, t1)) return;
+    if (t1 == infinity) t1 = std::clamp(field.settled(origin, direction), t0, std::max(t0, farthest));
+    FieldRay& ray = scratch.field;
+    const auto emit = [&](double t, bool entering) {
+        const Vec3 gradient = field.at(origin + direction * t).gradient, normal = unit(gradient);
+        // Where large terms cancel, f is off by more than its slope makes of a coordinate's rounding; and a ray that
+        // leaves from here may run to where they are larger.
+        const double slope = glm::length(gradient), most = 0x1p-30 * scale_;
+        scratch.error = slope > 0 ? std::min(4 * epsilon * std::max(ray.unit, greatest_unit) / slope, most) : most;
+        // At a cone's apex there is none: the ray's own will do.
+        return visit(t, entering, normal == Vec3(0.0) ? direction : normal);
+    };
+    const auto inside_at = [&](double t) {
+        ++scratch.counters.roots.evaluations;
+        return ray.at(t).value > RootFinder::rounding;
+    };
+    // Piece by piece, each no longer than it is away: far from here f may be so large that what is
+    // here would be lost in its rounding.
+    for (double from = t0, to;; from = to) {
+        to = std::min(t1, 2 * from + 4 * scale_);
+        // Where a piece begins, f may have another sign than where the last ended, by rounding.
+        const bool inside = from > t0 && inside_at(from);
+        ray.set(field, origin, direction, from, to);
+        if (from == start) {
+            if (start_inside) *start_inside = inside_at(from);
+        } else if (inside_at(from) != inside) {
+            if (!emit(from, !inside)) return;
+        }
+        RootFinder finder({scratch.criterion, 8 * epsilon * (scale_ + from), faint}, scratch.counters.roots);
+        if (!finder.crossings(ray, from, to, [&](Crossing c) { return emit(c.t, c.entering); })) return;
+        if (to >= t1) return;
+    }
+}
+
+// visit(t, entering, normal; 0 where t is `coarse`) → go on?
+template <class Visit>
+void LocalSolid::sum_crossings(const ProductSum& sum, const Vec3& origin, const Vec3& direction, double t0, double t1,
+                               bool coarse, CrossingScratch& scratch, bool* start_inside, Visit visit) const {
+    ProductSumRay& ray = scratch.sum;
+    ray.set(sum, origin, direction);
+    if (start_inside) *start_inside = ray.inside(t0);
+    ray.crossings(t0, t1, 8 * epsilon * (scale_ + t0), coarse, scratch.counters.roots,
+                  [&](Crossing c) { return visit(c.t, c.entering, coarse ? Vec3(0.0) : unit(ray.gradient(c.t))); });
+}
+
+// visit(t, entering, normal or 0: not known yet) → go on?
+template <class Visit>
+void LocalSolid::soft_crossings(const Soft& soft, const Vec3& origin, const Vec3& direction, double t0, double t1,
+                                CrossingScratch& scratch, bool* start_inside, Visit visit) const {
+    if (soft.field)
+        return field_crossings(*soft.field, soft.unit, origin, direction, t0, t1, scratch, start_inside, visit);
+    if (soft.convex) {
+        const ConvexView view = ConvexView::of(*soft.convex);
+        const ConvexCrossings all = all_crossings(view, origin, direction, t0, t1, 8 * epsilon * (scale_ + t0),
+                                                  scratch.counters.roots.evaluations);
+        if (start_inside) *start_inside = all.start_inside;
+        for (int i = 0; i < all.count; ++i) {
+            const ConvexCrossing& c = all.at[i];
+            if (!visit(c.t, c.entering, surface_normal(view, c, origin + direction * c.t))) return;
+        }
+        return;
+    }
+    if (soft.sum) return sum_crossings(*soft.sum, origin, direction, t0, t1, false, scratch, start_inside, visit);
+    const Span whole[1] = {{t0, t1}};
+    const Span *first = whole, *last = whole + 1;
+    if (soft.bounded) {
+        const auto& found = scratch.spans.between(soft.outer, soft.inner, origin, direction, t0, t1);
+        first = found.data();
+        last = first + found.size();
+        if (first == last && !start_inside) return;
+    }
+    RayDensity& density = scratch.density;
+    density.set(soft.density, origin, direction);
+    const auto inside_at = [&](double t) {
+        ++scratch.counters.roots.evaluations;
+        return density.at(t).value > 0.5;
+    };
+    const bool has_sharp = soft.density.has_sharp();
+    if (start_inside) {
+        if (has_sharp) density.fix_sharp(t0);
+        *start_inside = inside_at(t0);
+    }
+    for (const Span* span = first; span != last; ++span) {
+        double lo = span->lo, hi = span->hi;
+        if (hi == infinity) {  // nothing varies beyond the last plane that saturates
+            hi = lo;
+            for (std::size_t i = 0; i < density.size(); ++i) {
+                const double rate = density.distance_rate(i), reach = soft.density.half_spaces()[i].radius;
+                if (rate != 0) hi = std::max(hi, (std::abs(density.distance0(i)) + reach + scale_) / std::abs(rate));
+            }
+            if (!(hi < 1e300)) hi = 1e300;
+        }
+        const double negligible = 8 * epsilon * (scale_ + lo);
+        Stretch stretch(density, scratch, negligible);
+        const auto pass = [&](double t, bool entering) { return visit(t, entering, Vec3(0.0)); };
+        if (!has_sharp) {
+            if (!stretch.crossings(lo, hi, pass)) return;
+            continue;
+        }
+        auto& cuts = scratch.sharp;
+        cuts.assign(1, lo);
+        for (std::size_t i = 0; i < density.size(); ++i) {
+            if (soft.density.half_spaces()[i].radius > 0 || density.distance_rate(i) == 0) continue;
+            const double t = density.plane_crossing(i);
+            if (t > lo && t < hi) cuts.push_back(t);
+        }
+        cuts.push_back(hi);
+        std::sort(cuts.begin(), cuts.end());
+        bool inside = false;
+        for (std::size_t k = 0; k + 1 < cuts.size(); ++k) {
+            const double a = cuts[k], b = cuts[k + 1];
+            if (k > 0 && k + 2 < cuts.size() && b - a <= negligible) continue;  // a gap of rounding
+            density.fix_sharp(a + 0.5 * (b - a));
+            const bool now = inside_at(a);
+            if (k > 0 && now != inside) {
+                Vec3 normal(0.0);  // of a sharp plane here
+                for (std::size_t i = 0; i < density.size(); ++i) {
+                    const HalfSpace& h = soft.density.half_spaces()[i];
+                    if (h.radius > 0 || density.distance_rate(i) == 0) continue;
+                    const double t = density.plane_crossing(i);
+                    if (std::abs(t - a) <= negligible) normal = h.normal;
+                }
+                if (!visit(a, now, normal)) return;
+            }
+            inside = now;
+            if (soft.all_sharp) continue;
+            if (!stretch.crossings(a, b, pass)) return;
+            inside = inside_at(b);
+        }
+    }
+}
+
+SurfaceCrossing LocalSolid::first_crossing(const Vec3& origin, const Vec3& direction, double t0, double t1, bool any,
+                                           CrossingScratch& scratch) const {
+    SurfaceCrossing result;
+    // A normal that is known up to its sign: it leaves the solid, so it is against a ray that enters.
+    const auto found = [&](double t, bool entering, Vec3 normal, int material, double error) {
+        if ((glm::dot(normal, direction) < 0) != entering) normal = -normal;
+        result = {t, normal, material, error};
+    };
+    scratch.error = 0;
+    if (nodes_.size() == 1) {
+        const Leaf& leaf = leaves_[0];
+        if (leaf.soft < 0) {
+            const double rate = glm::dot(leaf.normal, direction);
+            const double t = (leaf.offset - glm::dot(leaf.normal, origin)) / rate;
+            if (!(t >= t0 && t <= t1)) return result;
+            ++scratch.counters.flat;
+            return {t, leaf.normal, leaf.material};
+        }
+        const Soft& soft = softs_[std::size_t(leaf.soft)];
+        if (soft.sum) {
+            sum_crossings(*soft.sum, origin, direction, t0, t1, any, scratch, nullptr,
+                          [&](double t, bool entering, Vec3 normal) {
+                              found(t, entering, normal, leaf.material, 0);
+                              return false;
+                          });
+            return result;
+        }
+        soft_crossings(soft, origin, direction, t0, t1, scratch, nullptr, [&](double t, bool entering, Vec3 normal) {
+            if (normal == Vec3(0.0)) normal = unit(scratch.density.gradient(t));
+            found(t, entering, normal, leaf.material, scratch.error);
+            return false;
+        });
+        return result;
+    }
+
+    auto& events = scratch.events;
+    events.clear();
+    scratch.inside.assign(leaves_.size(), false);
+    for (std::size_t i = 0; i < leaves_.size(); ++i) {
+        const Leaf& leaf = leaves_[i];
+        if (leaf.soft < 0) {
+            const double rate = glm::dot(leaf.normal, direction);
+            const double room = leaf.offset - glm::dot(leaf.normal, origin);
+            const double t = room / rate;
+            if (rate == 0)
+                scratch.inside[i] = room >= 0;
+            else
+                scratch.inside[i] = rate > 0 ? t0 < t : t0 >= t;
+            if (rate != 0 && t > t0 && t <= t1) events.push_back({t, int(i), rate < 0, leaf.normal, 0});
+            continue;
+        }
+        bool start = false;
+        scratch.error = 0;
+        soft_crossings(softs_[std::size_t(leaf.soft)], origin, direction, t0, t1, scratch, &start,
+                       [&](double t, bool entering, Vec3 normal) {
+                           if (normal == Vec3(0.0)) normal = unit(scratch.density.gradient(t));
+                           events.push_back({t, int(i), entering, normal, scratch.error});
+                           return true;
+                       });
+        scratch.inside[i] = start;
+    }
+    std::sort(events.begin(), events.end(),
+              [](const auto& a, const auto& b) { return a.t != b.t ? a.t < b.t : a.leaf < b.leaf; });
+    const bool before = evaluate(scratch.state, scratch.inside);
+    // Faces that coincide are crossed at the same t but for rounding: only what has changed after
+    // all of them counts.
+    for (std::size_t i = 0; i < events.size();) {
+        const std::size_t first = i;
+        const double same = events[first].t + 16 * epsilon * (scale_ + events[first].t);
+        std::size_t decisive = first;
+        bool now = before;
+        for (; i < events.size() && events[i].t <= same; ++i) {
+            scratch.inside[std::size_t(events[i].leaf)] = events[i].entering;
+            const bool after = evaluate(scratch.state, scratch.inside);
+            if (after != now) decisive = i;
+            now = after;
+        }
+        if (now == before) continue;
+        const auto& event = events[decisive];
+        found(event.t, now, event.normal, leaves_[std::size_t(event.leaf)].material, event.error);
+        break;
+    }
+    return result;
+}
+
+}  // namespace deburr

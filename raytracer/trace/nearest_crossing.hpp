@@ -1,0 +1,73 @@
+// The first of the crossings that a search has come upon.
+//
+// Which it is does not depend on the order in which they are come upon: it is the least by (t, solid, number of
+// the surface). Its normal is computed when all is done.
+#pragma once
+#include "raytracer/trace/cell_primitive.hpp"
+#include "raytracer/trace/ray_tracer.hpp"
+
+namespace deburr {
+
+struct FoundSurface {
+    SurfaceCrossing crossing;  // t = infinity: none
+    int solid = -1;            // as the space numbers them
+    double error = 0;          // of the position: what floating point rounds it by
+};
+
+class NearestCrossing {
+public:
+    /// None yet, and none that counts beyond `end`.
+    explicit NearestCrossing(double end = infinity) : end_(end) {}
+
+    bool found() const { return found_; }
+    double end() const { return end_; }
+
+    /// Of piece `number` of `pieces`: a plane or a product of half-spaces.
+    void offer(const Pieces& pieces, std::uint32_t number, const ConvexCrossing& c) {
+        const Piece& p = pieces[number];
+        if (!take(c.t, p.solid, number)) return;
+        pieces_ = &pieces;
+        convex_ = c;
+        material_ = p.material;
+        error_ = 0;
+    }
+    /// Whose normal is known: of a piece, or of something else that is placed in the space.
+    void offer(const SurfaceCrossing& c, double error, int solid, std::uint32_t number) {
+        if (!take(c.t, solid, number)) return;
+        pieces_ = nullptr;
+        normal_ = c.normal;
+        material_ = c.material;
+        error_ = error;
+    }
+
+    /// What was found; `rounding`: what the place is rounded by on a ray of this space.
+    FoundSurface surface(const Ray& ray, double rounding) const {
+        if (!found_) return {};
+        if (!pieces_) return {{end_, normal_, material_}, solid_, error_};
+        return {{end_, pieces_->normal(number_, convex_, ray.origin, ray.direction), material_}, solid_, rounding};
+    }
+
+private:
+    bool take(double t, int solid, std::uint32_t number) {
+        if (!(t < end_) && !(t == end_ && (!found_ || solid < solid_ || (solid == solid_ && number < number_))))
+            return false;
+        found_ = true;
+        end_ = t;
+        solid_ = solid;
+        number_ = number;
+        return true;
+    }
+
+    double end_;
+    bool found_ = false;
+    int solid_ = -1;
+    std::uint32_t number_ = 0;
+    // Of which it is, if it is still without its normal.
+    const Pieces* pieces_ = nullptr;
+    ConvexCrossing convex_;
+    Vec3 normal_{0.0};
+    int material_ = 0;
+    double error_ = 0;
+};
+
+}  // namespace deburr

@@ -1,0 +1,39 @@
+#include "raytracer/util/module.hpp"
+
+#include <dlfcn.h>
+#include <fmt/format.h>
+
+#include <filesystem>
+
+#include "raytracer/util/errors.hpp"
+
+namespace deburr {
+namespace {
+
+// Seen from the program's folder: beside it, above it (programs of tests and benchmarks), and where
+// it is installed.
+constexpr const char* folders[] = {"", "..", DEBURR_MODULE_FOLDER};
+
+}  // namespace
+
+void* module_function(const std::string& file, const char* name, const std::string& what) {
+    namespace fs = std::filesystem;
+    std::error_code none;
+    const fs::path program = fs::read_symlink("/proc/self/exe", none).parent_path();
+    fs::path found;
+    for (const char* folder : folders) {
+        const fs::path path = program / folder / file;
+        if (found.empty() && fs::exists(path, none)) found = path;
+    }
+    const auto fail = [&](const std::string& why) { throw UnsupportedError(what + " need " + file + ": " + why); };
+    if (found.empty())
+        fail(fmt::format("expected in '{}' or '{}', not found", program.string(),
+                         (program / DEBURR_MODULE_FOLDER).lexically_normal().string()));
+    void* module = dlopen(found.c_str(), RTLD_NOW | RTLD_LOCAL);
+    if (!module) fail(dlerror());
+    void* function = dlsym(module, name);
+    if (!function) fail(dlerror());
+    return function;
+}
+
+}  // namespace deburr

@@ -1,0 +1,116 @@
+#include "polygonizer/mesh/export.hpp"
+
+#include <cstring>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "catch.hpp"
+#include "polygonizer/marching_cubes/marching_cubes.hpp"
+#include "polygonizer/mesh/metrics.hpp"
+#include "polygonizer/triage/triage.hpp"
+
+using namespace deburr;
+
+namespace {
+
+SolidTree scene() {
+    return flatten(Solid::rounded(0.1, Density::box(Vec3(0.0), Vec3(1.0, 1.0 / 3, 0.7))) -
+                   Solid::sharp(Density::box({0.5, -1, 0.3}, {2, 2, 2})));
+}
+
+Mesh mesh() {
+    const SolidTree tree = scene();
+    return triage(tree, polygonization_box(tree));
+}
+
+template <class T>
+T read(const std::string& bytes, std::size_t at) {
+    T x;
+    std::memcpy(&x, bytes.data() + at, sizeof x);
+    return x;
+}
+
+}  // namespace
+
+TEST_CASE("OBJ reads back as the same doubles and the same triangles") {
+    const Mesh m = mesh();
+    std::istringstream in(encode(m, MeshFormat::obj));
+    std::size_t vertices = 0, faces = 0;
+    std::string line, word;
+    while (std::getline(in, line)) {
+        std::istringstream words(line);
+        words >> word;
+        if (word == "v") {
+            for (int k = 0; k < 3; ++k) {
+                words >> word;
+                CHECK(std::stod(word) == m.positions[vertices][k]);
+            }
+            ++vertices;
+        } else if (word == "f") {
+            for (std::size_t k = 0; k < 3; ++k) {
+                words >> word;
+                CHECK(std::stoi(word) == m.triangles[faces].vertex[k] + 1);
+            }
+            ++faces;
+        }
+    }
+    CHECK(vertices == m.positions.size());
+    CHECK(faces == m.triangles.size());
+}
+
+TEST_CASE("Binary files have the size that they say") {
+    const Mesh m = mesh();
+    const std::string stl = encode(m, MeshFormat::stl), ply = encode(m, MeshFormat::ply),
+                      glb = encode(m, MeshFormat::glb);
+    CHECK(stl.size() == 84 + 50 * m.triangles.size());
+    CHECK(read<std::uint32_t>(stl, 80) == m.triangles.size());
+    const std::size_t header = ply.find("end_header\n") + 11;
+    CHECK(ply.size() == header + 48 * m.positions.size() + 13 * m.triangles.size());
+    CHECK(read<double>(ply, header + 8) == m.positions[0].y);
+    CHECK(read<std::uint32_t>(glb, 8) == glb.size());
+}
+
+TEST_CASE("A GLB's accessors lie within its buffer") {
+    const std::string glb = encode(mesh(), MeshFormat::glb);
+    const std::uint32_t length = read<std::uint32_t>(glb, 12);
+    const auto j = nlohmann::json::parse(glb.substr(20, length));
+    const std::size_t bytes = j["buffers"][0]["byteLength"];
+    CHECK(glb.size() == 20 + length + 8 + bytes);
+    for (const auto& a : j["accessors"]) {
+        const auto& view = j["bufferViews"][std::size_t(a["bufferView"])];
+        const std::size_t size = std::size_t(a["count"]) * (a["type"] == "VEC3" ? 12 : 4);
+        CHECK(std::size_t(view["byteLength"]) == size);
+        CHECK(std::size_t(view["byteOffset"]) + size <= bytes);
+    }
+}
+
+TEST_CASE("An empty mesh is a file in every format") {
+    for (const MeshFormat f : {MeshFormat::obj, MeshFormat::ply, MeshFormat::stl, MeshFormat::glb, MeshFormat::ase})
+        CHECK_FALSE(encode(Mesh{}, f).empty());
+}
+
+TEST_CASE("The format follows from the name") {
+    CHECK(mesh_format("a.OBJ") == MeshFormat::obj);
+    CHECK(mesh_format("dir.stl/a.glb") == MeshFormat::glb);
+    CHECK_FALSE(mesh_format("dir.stl/a"));
+    CHECK_FALSE(mesh_format("a.png"));
+}
+
+TEST_CASE("Marching cubes is closed, and as near as the paper's grid allows") {
+    const SolidTree tree = scene();
+    const Box box = polygonization_box(tree);
+    const MeshMetrics m = measure(marching_cubes(tree, box, 0.04), tree);
+    CHECK(m.topology.manifold());
+    CHECK(m.topology.euler == 2);
+    CHECK(m.vertex_distance < 1e-6);
+    CHECK(m.volume > 0);
+}
+
+TEST_CASE("Marching cubes closes ambiguous faces: a checkerboard of boxes") {
+    Density all = Density::box({0, 0, 0}, {1, 1, 1});
+    for (const Vec3 at : {Vec3(1, 1, 0), Vec3(1, 0, 1), Vec3(0, 1, 1)}) all = all + Density::box(at, at + Vec3(1.0));
+    const SolidTree tree = flatten(Solid::rounded(0.2, all));
+    for (const double grid : {0.3, 0.1, 0.07})
+        CHECK(topology(marching_cubes(tree, polygonization_box(tree), grid)).closed());
+}

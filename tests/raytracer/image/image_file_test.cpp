@@ -1,0 +1,314 @@
+#include "raytracer/image/image_file.hpp"
+
+#include <OpenImageIO/imageio.h>
+
+#include <cmath>
+#include <cstring>
+
+#include "catch.hpp"
+#include "raytracer/program.hpp"
+#include "raytracer/util/errors.hpp"
+
+using namespace deburr;
+using namespace deburr::test;
+
+namespace {
+
+// A film whose every pixel differs; one of them hit nothing.
+Film film(Window window = {0, 0, 20, 70}, const std::vector<ImageLayer>& layers = all_layers()) {
+    Film film(20, 70, window, layers);
+    for (int y = window.y; y < window.y + window.height; ++y)
+        for (int x = window.x; x < window.x + window.width; ++x) {
+            if (x == 0 && y == 0) continue;
+            const double k = x + 20 * y;
+            film.at(x, y) = {.color = {k / 1400, 0.5, 2.0 * k}, .alpha = 0.25};
+            PixelLayers p;
+            p.position = {k, -k, 0.1 * k};
+            p.normal = {0.6, 0.0, -0.8};
+            p.z = 3 + k;
+            p.albedo = {0.1, 0.2, 0.3};
+            p.id = std::uint32_t(4'000'000'000 + k);  // no float holds it
+            p.cost = k + 0.5;
+            film.set_layers({x, y, 1, 1}, &p);
+        }
+    return film;
+}
+
+ImageNotes notes() {
+    ImageNotes notes;
+    notes.spp = 4;
+    notes.date = "2026:01:02 03:04:05";
+    notes.render_seconds = 1.5;
+    notes.attributes = {{"scene", "a scene.lua"}, {"parameter.r", "0.1"}};
+    return notes;
+}
+
+struct Read {
+    OIIO::ImageSpec spec;
+    std::vector<float> values;  // of all channels
+    std::vector<std::uint32_t> ids;
+
+    float at(int x, int y, const std::string& channel) const {
+        const int c = spec.channelindex(channel);
+        REQUIRE(c >= 0);
+        return values[std::size_t(((y - spec.y) * spec.width + x - spec.x) * spec.nchannels + c)];
+    }
+};
+
+Read read(const std::string& path) {
+    Read result;
+    const auto input = OIIO::ImageInput::open(path);
+    REQUIRE(input);
+    result.spec = input->spec();
+    const auto pixels = std::size_t(result.spec.width) * std::size_t(result.spec.height);
+    result.values.resize(pixels * std::size_t(result.spec.nchannels));
+    REQUIRE(input->read_image(0, 0, 0, result.spec.nchannels, OIIO::TypeDesc::FLOAT, result.values.data()));
+    const int id = result.spec.channelindex("id");
+    if (id >= 0) {
+        result.ids.resize(pixels);
+        REQUIRE(input->read_image(0, 0, id, id + 1, OIIO::TypeDesc::UINT32, result.ids.data()));
+    }
+    return result;
+}
+
+// Chunk types of a PNG, in order.
+std::vector<std::string> png_chunks(const std::string& bytes) {
+    std::vector<std::string> types;
+    for (std::size_t at = 8; at + 8 <= bytes.size();) {
+        std::size_t length = 0;
+        for (std::size_t k = 0; k < 4; ++k) length = length << 8 | static_cast<unsigned char>(bytes[at + k]);
+        types.push_back(bytes.substr(at + 4, 4));
+        at += length + 12;
+    }
+    return types;
+}
+
+}  // namespace
+
+TEST_CASE("an EXR gives back every layer") {
+    const Folder folder;
+    const Film original = film();
+    write_image(folder / "a.exr", original, {}, notes());
+    const Read r = read(folder / "a.exr");
+    CHECK(r.spec.nchannels == 16);
+    CHECK(r.spec.channelformat(r.spec.channelindex("R")) == OIIO::TypeDesc::HALF);
+    CHECK(r.spec.channelformat(r.spec.channelindex("A")) == OIIO::TypeDesc::HALF);
+    CHECK(r.spec.channelformat(r.spec.channelindex("id")) == OIIO::TypeDesc::UINT32);
+    for (const char* name :
+         {"P.X", "P.Y", "P.Z", "N.X", "N.Y", "N.Z", "Z", "Albedo.R", "Albedo.G", "Albedo.B", "cost"}) {
+        CAPTURE(name);
+        REQUIRE(r.spec.channelindex(name) >= 0);
+        CHECK(r.spec.channelformat(r.spec.channelindex(name)) == OIIO::TypeDesc::FLOAT);
+    }
+    for (int y = 0; y < 70; ++y)
+        for (int x = 0; x < 20; ++x) {
+            const Pixel& p = original.at(x, y);
+            const auto kept = [&](ImageLayer layer, int k = 0) {
+                return float(original.layer(layer).at(original.index(x, y), k));
+            };
+            for (int k = 0; k < 3; ++k) {
+                REQUIRE(r.at(x, y, std::string("P.") + "XYZ"[k]) == kept(ImageLayer::position, k));
+                REQUIRE(r.at(x, y, std::string("N.") + "XYZ"[k]) == kept(ImageLayer::normal, k));
+                REQUIRE(r.at(x, y, std::string("Albedo.") + "RGB"[k]) == kept(ImageLayer::albedo, k));
+            }
+            REQUIRE(r.at(x, y, "Z") == kept(ImageLayer::z));
+            REQUIRE(r.at(x, y, "cost") == kept(ImageLayer::cost));
+            REQUIRE(r.at(x, y, "A") == float(p.alpha));
+            REQUIRE(std::abs(r.at(x, y, "R") - p.color.x) <= p.color.x * 0x1p-11);  // half of a half's last bit
+            REQUIRE(r.ids[std::size_t(y * 20 + x)] ==
+                    std::uint32_t(original.layer(ImageLayer::id).at(original.index(x, y))));
+        }
+    CHECK(r.at(0, 0, "Z") == std::numeric_limits<float>::infinity());
+    CHECK(r.at(0, 0, "N.X") == 0);
+    CHECK(r.ids[0] == 0);
+}
+
+TEST_CASE("an EXR holds the layers that the film keeps, and other files do not depend on them") {
+    const Folder folder;
+    const Window all{0, 0, 20, 70};
+    write_image(folder / "a.exr", film(all, {}), {}, notes());
+    CHECK(read(folder / "a.exr").spec.channelnames == std::vector<std::string>{"R", "G", "B", "A"});
+    write_image(folder / "a.exr", film(all, {ImageLayer::id}), {}, notes());
+    CHECK(read(folder / "a.exr").spec.channelnames == std::vector<std::string>{"R", "G", "B", "A", "id"});
+    for (const char* name : {"a.png", "a.hdr", "a.jpg"}) {
+        CAPTURE(name);
+        write_image(folder / name, film(all, {}), {}, notes());
+        const std::string without = read_file(folder / name);
+        write_image(folder / name, film(), {}, notes());
+        CHECK(read_file(folder / name) == without);
+    }
+}
+
+TEST_CASE("with --float colours keep 32 bits; half is clamped to finite values") {
+    const Folder folder;
+    Film bright = film();
+    bright.at(3, 3).color = {1e6, -1e6, infinity};
+    write_image(folder / "half.exr", bright, {}, notes());
+    write_image(folder / "float.exr", bright, {true}, notes());
+    const Read half = read(folder / "half.exr"), full = read(folder / "float.exr");
+    CHECK(half.at(3, 3, "R") == 65504);
+    CHECK(half.at(3, 3, "G") == -65504);
+    CHECK(half.at(3, 3, "B") == 65504);
+    CHECK(full.at(3, 3, "R") == 1e6f);
+    CHECK(full.at(7, 9, "R") == float(bright.at(7, 9).color.x));
+    CHECK(full.spec.format == OIIO::TypeDesc::FLOAT);
+}
+
+TEST_CASE("an EXR's header says what the picture is") {
+    const Folder folder;
+    write_image(folder / "a.exr", film(), {}, notes());
+    const OIIO::ImageSpec spec = read(folder / "a.exr").spec;
+    CHECK(spec.get_string_attribute("compression") == "zip");
+    CHECK(spec.get_string_attribute("Software") == "Deburr " DEBURR_VERSION);
+    CHECK(spec.get_string_attribute("DateTime") == "2026:01:02 03:04:05");
+    CHECK(spec.get_string_attribute("deburr.scene") == "a scene.lua");
+    CHECK(spec.get_string_attribute("deburr.parameter.r") == "0.1");
+    CHECK(spec.get_int_attribute("samplesPerPixel") == 4);
+    CHECK(spec.get_float_attribute("renderTimeSeconds") == 1.5f);
+    CHECK(spec.find_attribute("worldToCamera", OIIO::TypeMatrix44));
+    CHECK(spec.find_attribute("worldToNDC", OIIO::TypeMatrix44));
+    CHECK_FALSE(spec.find_attribute("deburr.incomplete"));
+    // The names as OpenEXR's standard has them, not as the library translates them.
+    const std::string bytes = read_file(folder / "a.exr");
+    for (const char* name : {"worldToCamera", "worldToNDC", "capDate", "utcOffset"})
+        CHECK(bytes.find(name + std::string(1, '\0')) != std::string::npos);
+}
+
+TEST_CASE("an incomplete picture is marked") {
+    const Folder folder;
+    Film part = film();
+    part.complete = false;
+    write_image(folder / "a.exr", part, {}, notes());
+    write_image(folder / "a.png", part, {}, notes());
+    CHECK(read(folder / "a.exr").spec.get_int_attribute("deburr.incomplete") == 1);
+    CHECK(read(folder / "a.png").spec.get_string_attribute("deburr.incomplete") == "1");
+}
+
+TEST_CASE("a crop is a data window inside the display window, with the whole picture's pixels") {
+    const Folder folder;
+    write_image(folder / "all.exr", film(), {}, notes());
+    const Read all = read(folder / "all.exr");
+    for (const Window w : {Window{5, 2, 7, 65}, Window{19, 69, 1, 1}, Window{0, 1, 20, 16}}) {
+        write_image(folder / "part.exr", film(w), {}, notes());
+        const Read part = read(folder / "part.exr");
+        CHECK(Window{part.spec.x, part.spec.y, part.spec.width, part.spec.height} == w);
+        CHECK(part.spec.full_x == 0);
+        CHECK(part.spec.full_y == 0);
+        CHECK(part.spec.full_width == 20);
+        CHECK(part.spec.full_height == 70);
+        REQUIRE(part.spec.channelnames == all.spec.channelnames);
+        for (int y = w.y; y < w.y + w.height; ++y)
+            for (int x = w.x; x < w.x + w.width; ++x)
+                for (const std::string& c : part.spec.channelnames) REQUIRE(part.at(x, y, c) == all.at(x, y, c));
+    }
+}
+
+TEST_CASE("the sRGB curve") {
+    // IEC 61966-2-1 by its two branches; 0.18 is the photographer's grey.
+    const std::pair<double, int> table[] = {{-1, 0},     {0, 0},     {0.001, 3},      {0.0031308, 10},
+                                            {0.18, 118}, {0.5, 188}, {0.99999, 255},  {1, 255},
+                                            {7, 255},    {NAN, 0},   {infinity, 255}, {-infinity, 0}};
+    for (const auto& [linear, byte] : table) {
+        CAPTURE(linear);
+        CHECK(int(srgb_byte(linear)) == byte);
+    }
+}
+
+TEST_CASE("the sRGB curve in bytes is its formula, at its steps too") {
+    const auto formula = [](double x) { return x <= 0.0031308 ? 12.92 * x : 1.055 * std::pow(x, 1 / 2.4) - 0.055; };
+    constexpr double rounding = 1e-12;  // the formula's and its inverse's, of 255 steps
+    int near_a_step = 0;
+    const auto check = [&](double x) {
+        const double exact = 255 * formula(x);
+        if (std::abs(exact - std::floor(exact) - 0.5) < rounding * 255) return ++near_a_step, void();
+        CAPTURE(x);
+        REQUIRE(int(srgb_byte(x)) == int(std::lround(exact)));
+    };
+    for (int i = 0; i <= 300'000; ++i) check(i / 300'000.0);
+    for (int i = 0; i < 4096; ++i) {
+        check(std::nextafter(i / 4096.0, 0));
+        check(i / 4096.0);
+    }
+    for (int byte = 1; byte < 256; ++byte) {
+        const double v = (byte - 0.5) / 255, step = v <= 0.04045 ? v / 12.92 : std::pow((v + 0.055) / 1.055, 2.4);
+        check(step * (1 - 1e-9));
+        check(step * (1 + 1e-9));
+    }
+    CHECK(near_a_step < 10);
+}
+
+TEST_CASE("a PNG is opaque 8 bit sRGB and says so") {
+    const Folder folder;
+    const Film original = film();
+    write_image(folder / "a.png", original, {}, notes());
+    const auto input = OIIO::ImageInput::open(folder / "a.png");
+    REQUIRE(input);
+    const OIIO::ImageSpec spec = input->spec();
+    CHECK(spec.nchannels == 3);
+    CHECK(spec.format == OIIO::TypeDesc::UINT8);
+    std::vector<unsigned char> bytes(20 * 70 * 3);
+    REQUIRE(input->read_image(0, 0, 0, 3, OIIO::TypeDesc::UINT8, bytes.data()));
+    for (int y = 0; y < 70; ++y)
+        for (int x = 0; x < 20; ++x)
+            for (int k = 0; k < 3; ++k)
+                REQUIRE(bytes[std::size_t((y * 20 + x) * 3 + k)] == srgb_byte(original.at(x, y).color[k]));
+    const auto chunks = png_chunks(read_file(folder / "a.png"));
+    CHECK(std::count(chunks.begin(), chunks.end(), "sRGB") == 1);
+    CHECK(std::count(chunks.begin(), chunks.end(), "IEND") == 1);
+}
+
+TEST_CASE("a cropped PNG has the crop's size") {
+    const Folder folder;
+    write_image(folder / "a.png", film({5, 2, 7, 9}), {}, notes());
+    const OIIO::ImageSpec spec = read(folder / "a.png").spec;
+    CHECK(spec.width == 7);
+    CHECK(spec.height == 9);
+    CHECK(spec.x == 0);
+}
+
+TEST_CASE("every format that is known can be written and read back") {
+    const Folder folder;
+    Film grey = film();  // for .hdr has one exponent for a pixel's three colours
+    for (Pixel& pixel : grey.pixels) pixel.color = Vec3(0.5);
+    std::string all = known_extensions() + ", ";
+    int formats = 0;
+    for (std::size_t at = 0, end; (end = all.find(", ", at)) != std::string::npos; at = end + 2, ++formats) {
+        const std::string name = std::string("a").append(all, at, end - at);
+        CAPTURE(name);
+        REQUIRE(image_kind(name));
+        double share = 0;
+        write_image(folder / name, grey, {}, notes(), [&](double s) {
+            CHECK(s >= share);
+            share = s;
+        });
+        CHECK(share == 1);
+        const Read r = read(folder / name);
+        CHECK(r.spec.width == 20);
+        CHECK(r.spec.height == 70);
+        // The lossy ones may be off by a few steps of 255.
+        const float expected = *image_kind(name) == ImageKind::display ? 188 / 255.0f : 0.5f;
+        CHECK(std::abs(r.at(10, 40, "G") - expected) < 6 / 255.0f);
+    }
+    CHECK(formats == 9);
+    CHECK(folder.names().size() == 9);
+}
+
+TEST_CASE("the same film and notes give the same bytes") {
+    const Folder folder;
+    for (const char* name : {".exr", ".png", ".jpg"}) {
+        CAPTURE(name);
+        const std::string a = folder / std::string("a").append(name);
+        const std::string b = folder / std::string("b").append(name);
+        write_image(a, film(), {}, notes());
+        write_image(b, film(), {}, notes());
+        CHECK(read_file(a) == read_file(b));
+    }
+}
+
+TEST_CASE("a picture that cannot be written is an error and leaves nothing") {
+    const Folder folder;
+    write_file(folder / "file", "");
+    CHECK_THROWS_AS(write_image(folder / "none/a.exr", film(), {}, notes()), WorkError);
+    CHECK_THROWS_AS(write_image(folder / "file/a.exr", film(), {}, notes()), WorkError);
+    CHECK(folder.names() == std::vector<std::string>{"file"});
+}

@@ -1,0 +1,91 @@
+#include "raytracer/mesh/mesh_tracer.hpp"
+
+#include <random>
+
+#include "catch.hpp"
+#include "raytracer/mesh/split_distant_triangles.hpp"
+
+using namespace deburr;
+
+namespace {
+
+// A square in the plane through the origin with this normal, in two triangles.
+Mesh floor_of(Vec3 normal, double size) {
+    const Vec3 a = glm::normalize(glm::cross(normal, Vec3(0.3, 0.1, 1))), b = glm::cross(normal, a);
+    Mesh mesh;
+    for (const auto& [u, v] : {std::pair{-1, -1}, {1, -1}, {1, 1}, {-1, 1}})
+        mesh.positions.push_back(size * (double(u) * a + double(v) * b));
+    mesh.normals = {normal};
+    for (const auto& [j, k] : {std::pair{1, 2}, {2, 3}}) {
+        Triangle t;
+        t.vertex = {0, j, k};
+        t.normal = {0, 0, 0};
+        mesh.triangles.push_back(t);
+    }
+    return mesh;
+}
+
+}  // namespace
+
+// A floor is cut off at ten thousand times the size of what stands on it.
+TEST_CASE("Hits lie in their triangle's plane, and leave it, however large the triangle is") {
+    std::mt19937 random(3);
+    std::uniform_real_distribution<double> unit(-1, 1);
+    double farthest = 0;
+    int missed = 0, shadowed = 0, rays = 0;
+    TraceCounters counters;
+    for (int k = 0; k < 20; ++k) {
+        const Vec3 normal = glm::normalize(Vec3(unit(random), unit(random), unit(random)));
+        const MeshTracer tracer(floor_of(normal, 3e4), {Vec3(-3.0), Vec3(3.0)});
+        for (int i = 0; i < 500; ++i, ++rays) {
+            const Vec3 target = 3.0 * Vec3(unit(random), unit(random), unit(random));
+            const Vec3 on_floor = target - normal * glm::dot(normal, target);
+            const Vec3 eye = on_floor + 2.0 * normal + Vec3(unit(random), unit(random), unit(random));
+            const Hit hit = tracer.first_hit({eye, glm::normalize(on_floor - eye)}, infinity, counters);
+            missed += !hit;
+            if (!hit) continue;
+            farthest = std::max(farthest, glm::distance(hit.position, on_floor));
+            const Vec3 up =
+                glm::normalize(normal + 0.9 * glm::normalize(Vec3(unit(random), unit(random), unit(random))));
+            shadowed += tracer.occluded(leave(hit, up), infinity, counters);
+        }
+    }
+    CHECK(rays == 10000);
+    CHECK(missed == 0);
+    CHECK(shadowed == 0);
+    CHECK(farthest < 1e-9);
+}
+
+TEST_CASE("Splitting far triangles keeps surface, normals and closedness") {
+    for (const Vec3 at : {Vec3(0.0), Vec3(1e4, 0, 0), Vec3(-7e3, 9e3, 20)}) {
+        // A tetrahedron of some 10⁴, seen from around `at`.
+        Mesh mesh;
+        mesh.positions = {Vec3(-1e4, -1e4, -1e4), Vec3(2e4, 0, 0), Vec3(0, 2e4, 0), Vec3(0, 0, 2e4)};
+        for (const std::array<int, 3>& v : {std::array{0, 2, 1}, {0, 1, 3}, {0, 3, 2}, {1, 2, 3}}) {
+            Triangle t;
+            t.vertex = v;
+            mesh.normals.push_back(glm::normalize(Mesh{mesh.positions, {}, {}}.area_vector(t)));
+            t.normal.fill(int(mesh.normals.size()) - 1);
+            mesh.triangles.push_back(t);
+        }
+        const Box near{at - Vec3(2.0), at + Vec3(3.0)};
+        const Mesh split = split_far(mesh, near);
+        CHECK(topology(split).manifold());
+        CHECK(split.triangles.size() > 60);
+        CHECK(split.triangles.size() < 6000);
+        CHECK(volume(split) == Approx(volume(mesh)).epsilon(1e-12));
+        std::size_t turned = 0, too_long = 0;
+        for (const Triangle& t : split.triangles) {
+            turned +=
+                glm::distance(glm::normalize(split.area_vector(t)), split.normals[std::size_t(t.normal[0])]) > 1e-9;
+            for (std::size_t k = 0; k < 3; ++k) {
+                const Vec3 a = split.positions[std::size_t(t.vertex[k])],
+                           b = split.positions[std::size_t(t.vertex[(k + 1) % 3])];
+                too_long += glm::distance(a, b) > glm::distance(0.5 * (near.lo + near.hi), 0.5 * (a + b)) + 10;
+            }
+        }
+        CHECK(turned == 0);
+        CHECK(too_long == 0);
+        CHECK(split_far(mesh, Box{}).triangles.size() == 4);
+    }
+}

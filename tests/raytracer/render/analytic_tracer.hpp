@@ -1,0 +1,99 @@
+// Spheres, planes and boxes traced by formula, so that shading is tested without the BSP.
+#pragma once
+#include <functional>
+#include <numbers>
+#include <vector>
+
+#include "raytracer/render/integrator.hpp"
+
+namespace deburr {
+
+constexpr double pi = std::numbers::pi;
+
+struct Shape {
+    enum class Kind { sphere, plane, slab } kind = Kind::sphere;
+    Vec3 at{0.0};          // centre; plane: a point of it
+    Vec3 normal{0, 1, 0};  // plane, slab (between at and at − size·normal)
+    double size = 1.0;     // radius; thickness
+    int material = 0;
+};
+
+class AnalyticTracer final : public RayTracer {
+public:
+    explicit AnalyticTracer(std::vector<Shape> shapes) : shapes_(std::move(shapes)) {}
+
+    Hit first_hit(const Ray& ray, double t_max, TraceCounters& counters) const override {
+        ++counters.rays;
+        return nearest(ray, t_max, counters);
+    }
+    bool occluded(const Ray& ray, double t_max, TraceCounters& counters) const override {
+        ++counters.shadow_rays;
+        return bool(nearest(ray, t_max, counters));
+    }
+
+private:
+    Hit nearest(const Ray& ray, double t_max, TraceCounters& counters) const {
+        ++counters.evaluations;
+        Hit hit;
+        hit.t = t_max;
+        bool any = false;
+        auto take = [&](double t, std::size_t i, Vec3 normal) {
+            if (!(t > 0 && t < hit.t)) return;
+            any = true;
+            hit.t = t;
+            hit.position = ray.origin + t * ray.direction;
+            hit.normal = normal;
+            hit.solid = int(i);
+            hit.material = shapes_[i].material;
+            hit.offset = 1e-9;
+        };
+        for (std::size_t i = 0; i < shapes_.size(); ++i) {
+            const Shape& s = shapes_[i];
+            if (s.kind == Shape::Kind::sphere) {
+                const Vec3 o = ray.origin - s.at;
+                const double b = glm::dot(o, ray.direction), c = glm::dot(o, o) - s.size * s.size;
+                if (b * b < c) continue;
+                const double root = std::sqrt(b * b - c);
+                for (double t : {-b - root, -b + root}) take(t, i, (o + t * ray.direction) / s.size);
+                continue;
+            }
+            const double slope = glm::dot(ray.direction, s.normal);
+            if (slope == 0) continue;
+            const double t = glm::dot(s.at - ray.origin, s.normal) / slope;
+            take(t, i, s.normal);
+            if (s.kind == Shape::Kind::slab) take(t - s.size / slope, i, -s.normal);
+        }
+        if (!any) hit.t = infinity;
+        return hit;
+    }
+    std::vector<Shape> shapes_;
+};
+
+inline bool close(Vec3 a, Vec3 b, double tolerance) { return glm::length(a - b) <= tolerance; }
+
+inline Texture plain(Vec3 color) {
+    Texture t;
+    t.a = color;
+    return t;
+}
+inline Texture plain(double grey) { return plain(Vec3(grey)); }
+
+inline Material material_of(Material::Kind kind, Vec3 color, double roughness = 0.2, double ior = 1.5) {
+    return {kind, plain(color), roughness, ior};
+}
+
+/// One pixel that looks along -y at the origin from above, with a field of view so narrow that
+/// every sample sees the same point.
+inline Scene probe(Material material) {
+    Scene scene;
+    scene.camera = {{0, 4, 0}, {0, 0, 0}, {0, 0, -1}, 1e-7};
+    scene.materials = {std::move(material)};
+    return scene;
+}
+
+inline Pixel pixel_of(const Scene& scene, const RayTracer& tracer, int spp, std::uint64_t seed = 0) {
+    TraceCounters counters;
+    return Integrator(scene, tracer, {1, 1, spp, seed}).pixel(0, 0, nullptr, counters);
+}
+
+}  // namespace deburr

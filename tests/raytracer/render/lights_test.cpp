@@ -1,0 +1,197 @@
+#include "raytracer/render/lights.hpp"
+
+#include "catch.hpp"
+#include "raytracer/render/analytic_tracer.hpp"
+#include "raytracer/render/textures.hpp"
+
+using namespace deburr;
+
+namespace {
+
+// Matte ground y = 0 of reflectance 1 seen from above, so that radiance = irradiance/π.
+Scene ground_under(Light light) {
+    Scene scene = probe(material_of(Material::Kind::matte, Vec3(1.0)));
+    scene.lights = {light};
+    return scene;
+}
+
+Shape ground() { return {Shape::Kind::plane, Vec3(0.0), {0, 1, 0}, 0, 0}; }
+
+double irradiance(const Light& light, const std::vector<Shape>& shapes, int spp = 1) {
+    return pixel_of(ground_under(light), AnalyticTracer(shapes), spp).color.x * pi;
+}
+
+// Form factor of a rectangle with a corner straight above a parallel patch: sides a, b, height 1
+// [any handbook of radiative transfer, e.g. Howell's catalogue, configuration B-3].
+double corner_form_factor(double a, double b) {
+    const double A = std::sqrt(1 + a * a), B = std::sqrt(1 + b * b);
+    return (a / A * std::atan(b / A) + b / B * std::atan(a / B)) / (2 * pi);
+}
+
+}  // namespace
+
+TEST_CASE("A point light follows the inverse-square and the cosine law in watts") {
+    Light light;
+    light.power = 100;
+    light.color = Vec3(0.5);
+    for (double height : {0.5, 1.0, 3.0})
+        for (double aside : {0.0, 1.0, 7.0}) {
+            light.position = {aside, height, 0};
+            const double d2 = height * height + aside * aside;
+            const double expected = 100 * 0.5 / (4 * pi) / d2 * height / std::sqrt(d2);
+            CHECK(irradiance(light, {ground()}) == Approx(expected).epsilon(1e-9));
+        }
+    light.position = {0, -1, 0};  // below the ground
+    CHECK(irradiance(light, {ground()}) == 0);
+    light.position = {0, 0, 0};  // in the very point
+    CHECK(irradiance(light, {ground()}) == 0);
+}
+
+TEST_CASE("A directional light's power is the irradiance on a surface that faces it") {
+    Light light;
+    light.kind = Light::Kind::directional;
+    light.power = 3;
+    light.direction = {0, -1, 0};
+    CHECK(irradiance(light, {ground()}) == Approx(3).epsilon(1e-12));
+    light.direction = glm::normalize(Vec3(1, -1, 0));
+    CHECK(irradiance(light, {ground()}) == Approx(3 / std::sqrt(2.0)).epsilon(1e-12));
+    // A sphere far along the light's way is in front of it still.
+    const Shape far{Shape::Kind::sphere, {-1e3, 1e3, 0}, {}, 1, 0};
+    CHECK(irradiance(light, {ground(), far}) == 0);
+}
+
+TEST_CASE("An area light's irradiance is its form factor times its flux density") {
+    Light light;
+    light.kind = Light::Kind::area;
+    light.power = 50;
+    light.u = {2, 0, 0};
+    light.v = {0, 0, 1};
+    light.position = {1, 1, 0.5};  // a corner is above the point
+    std::swap(light.u, light.v);
+    CHECK(irradiance(light, {ground()}, 64) == 0);  // u × v points up
+    std::swap(light.u, light.v);
+    for (int samples : {1, 16}) {
+        light.samples = samples;
+        const double expected = 50.0 / 2 * corner_form_factor(2, 1);
+        CHECK(irradiance(light, {ground()}, 1024) == Approx(expected).epsilon(0.002));
+    }
+}
+
+TEST_CASE("In a penumbra the visible part of the light counts") {
+    // A square above the point, and a wall beside it that hides the half with x < 0.
+    Light light;
+    light.kind = Light::Kind::area;
+    light.power = 10;
+    light.u = {2, 0, 0};
+    light.v = {0, 0, 2};
+    light.position = {0, 2, 0};
+    light.samples = 4;
+    const double open = irradiance(light, {ground()}, 1024);
+    CHECK(open == Approx(10.0 / 4 * 4 * corner_form_factor(0.5, 0.5)).epsilon(0.002));
+    const Shape wall{Shape::Kind::slab, {-1e-6, 0, 0}, {1, 0, 0}, 0.5, 0};
+    CHECK(irradiance(light, {ground(), wall}, 1024) == Approx(open / 2).epsilon(0.004));
+    // Tilted by atan(¼) it leaves the part x > ½ of the light: 1½ − ½ … of a quarter's form
+    // factors.
+    const Shape tilted{Shape::Kind::plane, {-1e-6, 0, 0}, glm::normalize(Vec3(4, -1, 0)), 0, 0};
+    const double part = 2 * (corner_form_factor(0.5, 0.5) - corner_form_factor(0.25, 0.5));
+    Scene scene = ground_under(light);
+    scene.camera.eye = {4, 4, 0};
+    scene.camera.up = {0, 1, 0};
+    const AnalyticTracer tracer({ground(), tilted});
+    CHECK(pixel_of(scene, tracer, 1024).color.x * pi == Approx(10.0 / 4 * part).epsilon(0.004));
+}
+
+TEST_CASE("A polished floor and a rough one reflect an area light alike by light and by layer") {
+    // The estimate with both kinds of samples against a sum over the light alone.
+    Light light;
+    light.kind = Light::Kind::area;
+    light.power = 20;
+    light.u = {1.5, 0, 0};
+    light.v = {0, 0, 1.5};
+    light.position = {0.3, 2, 0.2};
+    int cases = 0;
+    for (auto kind : {Material::Kind::metal, Material::Kind::plastic})
+        for (double roughness : {0.25, 0.5, 0.9}) {
+            CAPTURE(int(kind), roughness);
+            Scene scene = probe(material_of(kind, Vec3(0.8), roughness));
+            light.samples = 1;
+            scene.lights = {light};
+            scene.camera.eye = {-0.3, 2, 0};
+            const AnalyticTracer tracer({ground()});
+            const double both = pixel_of(scene, tracer, 4096).color.x;
+            scene.bounces = 0;
+            light.samples = 16;
+            scene.lights = {light};
+            const double light_only = pixel_of(scene, tracer, 4096).color.x;
+            CHECK(light_only > 0.05);
+            CHECK(both == Approx(light_only).epsilon(0.01));
+            ++cases;
+        }
+    CHECK(cases == 6);
+}
+
+TEST_CASE("The sky's mean is that of its radiance weighted by the cosine") {
+    Background gradient;
+    gradient.sky = true;
+    gradient.horizon = Vec3(1.0);
+    gradient.zenith = Vec3(0.0);
+    const SkyLight sky(gradient);
+    // 1 − ∫√y y dy·2 = 1/5 straight up; only horizon straight down.
+    CHECK(sky.mean({0, 1, 0}).x == Approx(0.2).margin(1e-3));
+    CHECK(sky.mean({0, -1, 0}).x == Approx(1.0).margin(1e-3));
+    int cases = 0;
+    for (double y : {-0.93, -0.4, 0.01, 0.33, 0.72}) {
+        const Vec3 normal(std::sqrt(1 - y * y), y, 0);
+        double sum = 0;
+        const int n = 1 << 14;
+        for (int s = 0; s < n; ++s) sum += sky.towards(cosine_direction(normal, Sampler(4, 0, 0, s).square(0))).x / n;
+        CHECK(sky.mean(normal).x == Approx(sum).margin(2e-3));
+        ++cases;
+    }
+    CHECK(cases == 5);
+    CHECK(SkyLight(Background{}).black());
+    CHECK_FALSE(sky.black());
+}
+
+TEST_CASE("A checker has one colour on a face that lies between its cubes") {
+    Texture checker;
+    checker.kind = Texture::Kind::checker;
+    checker.scale = 0.5;
+    int black = 0, white = 0;
+    for (int i = 0; i < 1000; ++i) {
+        const Vec2 u = Sampler(6, 0, 0, i).square(0);
+        const Vec3 x(0.5 * u.x, 1e-7 * (i % 7 - 3.0), 0.5 * u.y);  // rounded up and down
+        const bool a = color_at(checker, x, {0, 1, 0}) == checker.a;
+        (a ? white : black) += 1;
+        // Beside it the other colour, over it the other, and two further the same.
+        CHECK((color_at(checker, x + Vec3(0.5, 0, 0), {0, 1, 0}) == checker.a) != a);
+        CHECK((color_at(checker, x + Vec3(0, 0.5, 0), {0, 1, 0}) == checker.a) != a);
+        CHECK((color_at(checker, x - Vec3(0.5, 0, 0.5), {0, 1, 0}) == checker.a) == a);
+    }
+    CHECK(std::min(black, white) == 0);
+}
+
+TEST_CASE("Noise is bounded, continuous and not constant; wood lies between its colours") {
+    Texture wood;
+    wood.kind = Texture::Kind::wood;
+    wood.a = {0.6, 0.4, 0.2};
+    wood.b = {0.3, 0.15, 0.05};
+    wood.axis = {1, 2, 0.5};
+    wood.scale = 0.1;
+    double lowest = 0, highest = 0;
+    for (int i = 0; i < 100'000; ++i) {
+        const Vec2 u = Sampler(7, 0, 0, i).square(0), v = Sampler(7, 0, 0, i).square(1);
+        const Vec3 x = 40.0 * Vec3(u.x, u.y, v.x) - 20.0;
+        const double here = noise(x);
+        lowest = std::min(lowest, here);
+        highest = std::max(highest, here);
+        CHECK(std::abs(noise(x + Vec3(1e-7)) - here) < 1e-6);
+        const Vec3 c = color_at(wood, x, {0, 1, 0});
+        for (int k = 0; k < 3; ++k) CHECK((c[k] <= wood.a[k] + 1e-12 && c[k] >= 0.5 * wood.b[k]));
+    }
+    CHECK(lowest < -0.6);
+    CHECK(highest > 0.6);
+    CHECK(lowest >= -1);
+    CHECK(highest <= 1);
+    CHECK(noise({3, -4, 5}) == 0);
+}

@@ -1,0 +1,106 @@
+#include "raytracer/simd/packet_kernels.hpp"
+
+#include <bit>
+
+#include "catch.hpp"
+#include "random_case.hpp"
+#include "raytracer/accel/bvh.hpp"
+
+using namespace deburr;
+
+namespace {
+
+constexpr double scale = 3;
+
+double negligible(double t) { return 8 * epsilon * (scale + t); }
+
+bool same_bits(double a, double b) { return std::bit_cast<std::uint64_t>(a) == std::bit_cast<std::uint64_t>(b); }
+
+// Planes that cross near the origin; some through it, some parallel to rays along axes.
+struct Factors {
+    std::vector<AlphaPlane> planes;
+    ConvexView view;
+
+    explicit Factors(Gen& g) {
+        const int soft = g.chance(0.8) ? 1 + g.below(3) : g.below(most_packet_factors + 1),
+                  sharp = g.chance(0.7) ? 0 : g.below(3);
+        for (int i = 0; i < soft + sharp; ++i) {
+            const double radius = i < soft ? g.between(0.02, 0.6) : 1.0;
+            const Vec3 n = g.normal();
+            planes.push_back({n / radius, (g.chance(0.2) ? 0.0 : g.between(-0.6, 0.3)) / radius});
+        }
+        view = {planes.data(), soft, sharp, g.chance(0.5)};
+    }
+};
+
+struct Packet {
+    RayPacket rays;
+    PacketSpans spans;
+    Lanes lanes;
+
+    explicit Packet(Gen& g) {
+        lanes = Lanes(g.below(1 << RayPacket::size));
+        for (int k = 0; k < RayPacket::size; ++k) {
+            const Vec3 d = g.normal(), o = g.chance(0.2) ? Vec3(0.0) : g.point(0.5) - d * g.between(0, 2),
+                       inverse = reciprocal(d);
+            for (int axis = 0; axis < 3; ++axis) {
+                rays.origin[axis][k] = o[axis];
+                rays.direction[axis][k] = d[axis];
+                rays.inverse[axis][k] = inverse[axis];
+            }
+            rays.reach[k] = scale + std::max({std::abs(o.x), std::abs(o.y), std::abs(o.z)});
+            rays.end[k] = g.chance(0.3) ? infinity : g.between(0, 5);
+            spans.from[k] = g.chance(0.5) ? 0 : g.between(0, 1);
+            spans.to[k] = spans.from[k] + (g.chance(0.1) ? 0 : g.between(0, 4));
+        }
+    }
+    Vec3 origin(int k) const { return {rays.origin[0][k], rays.origin[1][k], rays.origin[2][k]}; }
+    Vec3 direction(int k) const { return {rays.direction[0][k], rays.direction[1][k], rays.direction[2][k]}; }
+};
+
+}  // namespace
+
+TEST_CASE("rays of a packet cross products of half-spaces where they do alone, to the bit") {
+    for (const auto& [name, functions] : packet_instructions()) {
+        CAPTURE(name);
+        int crossed = 0, missed = 0, occluded = 0;
+        for (auto seed : seeds(3'000)) {
+            CAPTURE(seed);
+            Gen g(seed);
+            const Factors factors(g);
+            const Packet p(g);
+            PacketCrossings found;
+            std::uint64_t evaluations = 0, alone = 0;
+            const Lanes lanes =
+                functions->convex_crossings(factors.view, p.rays, p.lanes, p.spans, scale, found, evaluations);
+            CHECK((lanes & ~p.lanes) == 0);
+            for (int k = 0; k < RayPacket::size; ++k) {
+                if (!(p.lanes >> k & 1)) continue;
+                const ConvexCrossing c = first_crossing(factors.view, p.origin(k), p.direction(k), p.spans.from[k],
+                                                        p.spans.to[k], negligible(p.spans.from[k]), alone);
+                REQUIRE((lanes >> k & 1) == (c.t < infinity));
+                if (!(c.t < infinity)) {
+                    ++missed;
+                    continue;
+                }
+                ++crossed;
+                REQUIRE(same_bits(found.t[k], c.t));
+                REQUIRE(int(found.plane[k]) == c.plane);
+                REQUIRE(bool(found.entering >> k & 1) == c.entering);
+            }
+            REQUIRE(evaluations == alone);
+            evaluations = alone = 0;
+            const Lanes any = functions->convex_occlusions(factors.view, p.rays, p.lanes, p.spans, scale, evaluations);
+            for (int k = 0; k < RayPacket::size; ++k) {
+                if (!(p.lanes >> k & 1)) continue;
+                REQUIRE(bool(any >> k & 1) == any_crossing(factors.view, p.origin(k), p.direction(k), p.spans.from[k],
+                                                           p.spans.to[k], negligible(p.spans.from[k]), alone));
+                occluded += any >> k & 1;
+            }
+            REQUIRE(evaluations == alone);
+        }
+        CHECK(crossed > 5'000);
+        CHECK(missed > 5'000);
+        CHECK(occluded > 5'000);
+    }
+}

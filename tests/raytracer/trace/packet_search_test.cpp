@@ -1,0 +1,96 @@
+#include "raytracer/trace/implicit_tracer.hpp"
+
+#include "catch.hpp"
+#include "raytracer/render/integrator.hpp"
+#include "raytracer/scene/scene_reader.hpp"
+#include "raytracer/trace/hits.hpp"
+
+using namespace deburr;
+
+namespace {
+
+Scene scene_of(const std::string& name) { return read_scene(DEBURR_SOURCE_DIR "/scenes/" + name + ".lua", {}); }
+
+// Of rays that are asked for together: how many hit, and how many do not find what they find alone.
+struct Comparison {
+    int rays = 0, hits = 0, occluded = 0, different = 0;
+
+    void compare(const ImplicitTracer& tracer, const std::vector<Ray>& rays_of, const std::vector<double>& t_max) {
+        TraceCounters counters;
+        std::vector<Hit> together(rays_of.size());
+        const std::unique_ptr<bool[]> any(new bool[rays_of.size()]);
+        tracer.first_hits(rays_of, together.data(), counters);
+        tracer.occlusions(rays_of, t_max, any.get(), counters);
+        for (std::size_t k = 0; k < rays_of.size(); ++k) {
+            const bool occludes = tracer.occluded(rays_of[k], t_max[k], counters);
+            different +=
+                !same_bits(together[k], tracer.first_hit(rays_of[k], infinity, counters)) || any[k] != occludes;
+            ++rays;
+            hits += bool(together[k]);
+            occluded += occludes;
+        }
+    }
+};
+
+}  // namespace
+
+TEST_CASE("rays that are traced together hit what they hit alone, to the bit: pictures and their shadows") {
+    for (const char* name : {"first", "csg_examples", "variable_rounding", "hole_punch", "staplers", "cone", "figurine",
+                             "melting_robot"}) {
+        CAPTURE(name);
+        const Scene scene = scene_of(name);
+        const ImplicitTracer tracer(scene.solids);
+        const int width = 97, height = 61;
+        const PinholeCamera camera(scene.camera, width, height);
+        Comparison c;
+        Gen g(1);
+        const Vec3 light = g.direction();
+        for (int y = 0; y < height; y += 4)
+            for (int x = 0; x < width; x += 4) {
+                std::vector<Ray> rays, shadows;
+                TraceCounters counters;
+                for (int k = 0; k < 16; ++k) rays.push_back(camera.ray(x + k % 4 + 0.5, y + k / 4 + 0.5));
+                for (const Ray& ray : rays)
+                    if (const Hit hit = tracer.first_hit(ray, infinity, counters)) shadows.push_back(leave(hit, light));
+                c.compare(tracer, rays, std::vector<double>(rays.size(), infinity));
+                std::vector<double> t_max;
+                for (std::size_t k = 0; k < shadows.size(); ++k)
+                    t_max.push_back(g.chance(0.5) ? infinity : g.between(0, 10));
+                c.compare(tracer, shadows, t_max);
+            }
+        CHECK(c.different == 0);
+        CHECK(c.hits > c.rays / 10);
+    }
+}
+
+TEST_CASE("rays that are traced together hit what they hit alone, to the bit: whatever the solids, wherever the rays") {
+    Comparison c;
+    std::size_t placements = 0;
+    for (auto seed : seeds(300)) {
+        CAPTURE(seed);
+        Gen g(seed);
+        std::vector<Solid> solids;
+        for (int i = 1 + g.below(3); i > 0; --i) solids.push_back(g.solid(2));
+        if (g.chance(0.4))  // equal ones, which share a space
+            for (int i = 1 + g.below(8); i > 0; --i) solids.push_back(solids[0].transformed(g.map()));
+        const ImplicitTracer tracer(solids);
+        placements += tracer.statistics().placements;
+        for (int packet = 0; packet < 8; ++packet) {
+            std::vector<Ray> rays;
+            std::vector<double> t_max;
+            const Vec3 eye = g.point(4), aim = g.point(1);
+            const double apart = g.chance(0.3) ? 2 : std::pow(10.0, g.between(-6, 0));
+            for (int k = 2 + g.below(30); k > 0; --k) {
+                Vec3 d = g.chance(0.1) ? g.normal() : aim - eye + g.point(apart);
+                if (g.chance(0.02)) d[g.below(3)] = std::nan("");  // which finds nothing, and hides nothing from others
+                rays.push_back({g.chance(0.5) ? eye : eye + g.point(apart), glm::normalize(d)});
+                t_max.push_back(g.chance(0.3) ? infinity : g.between(0, 6));
+            }
+            c.compare(tracer, rays, t_max);
+        }
+    }
+    CHECK(placements > 300);
+    CHECK(c.different == 0);
+    CHECK(c.hits > c.rays / 10);
+    CHECK(c.occluded > c.rays / 10);
+}

@@ -1,0 +1,98 @@
+#include "raytracer/util/progress.hpp"
+
+#include "catch.hpp"
+
+using namespace deburr;
+
+namespace {
+
+// What a Progress prints under a clock that the test turns.
+struct Screen {
+    double now = 100;
+    std::vector<std::string> printed;
+
+    Progress::Output output(Progress::Style style) {
+        Progress::Output output;
+        output.style = style;
+        output.columns = 60;
+        output.print = [this](std::string_view text) { printed.emplace_back(text); };
+        output.now = [this] { return now; };
+        return output;
+    }
+};
+
+int percent_of(const std::string& text) {
+    const std::size_t at = text.find(" %");
+    return at == std::string::npos || at < 3 ? -1 : std::stoi(text.substr(at - 3, 3));
+}
+
+}  // namespace
+
+TEST_CASE("the bar is monotone, fits the terminal and reaches 100 % only at the end") {
+    Screen screen;
+    Progress progress(1000, screen.output(Progress::Style::bar));
+    for (int i = 0; i < 1000; ++i) {
+        screen.now += 0.05;
+        progress.advance(1);
+    }
+    int before = 0;
+    for (const std::string& text : screen.printed) {
+        CHECK(text.front() == '\r');
+        CHECK(text.size() - 1 < 60);
+        CHECK(percent_of(text) >= before);
+        before = percent_of(text);
+    }
+    CHECK(screen.printed.size() > 400);  // ten times a second
+    CHECK(screen.printed.size() < 510);
+    CHECK(before == 99);
+    progress.finish();
+    REQUIRE(screen.printed.size() > 2);
+    CHECK(percent_of(screen.printed[screen.printed.size() - 2]) == 100);
+    CHECK(screen.printed.back() == "\n");
+}
+
+TEST_CASE("time left supposes that the rest goes as fast") {
+    Screen screen;
+    Progress progress(4, screen.output(Progress::Style::bar));
+    screen.now += 25;
+    progress.advance(1);
+    REQUIRE(screen.printed.size() == 1);
+    CHECK(screen.printed[0].find(" 25 %  1:15 left") != std::string::npos);
+}
+
+TEST_CASE("without a terminal a line every 10 % or 10 s, and none at once") {
+    Screen screen;
+    Progress progress(1000, screen.output(Progress::Style::lines));
+    progress.advance(150);
+    CHECK(screen.printed.empty());
+    screen.now += 2;
+    progress.advance(60);  // 21 %
+    CHECK(screen.printed.size() == 1);
+    screen.now += 2;
+    progress.advance(60);  // 27 %
+    CHECK(screen.printed.size() == 1);
+    screen.now += 10;
+    progress.advance(10);
+    CHECK(screen.printed.size() == 2);
+    progress.finish();
+    REQUIRE(screen.printed.size() == 3);
+    CHECK(screen.printed.back() == "100 %  in 14.0 s\n");
+    for (const std::string& line : screen.printed) CHECK(line.back() == '\n');
+}
+
+TEST_CASE("a quiet progress prints nothing") {
+    Screen screen;
+    Progress progress(10, screen.output(Progress::Style::none));
+    screen.now += 20;
+    progress.advance(5);
+    progress.stop();
+    progress.finish();
+    CHECK(screen.printed.empty());
+}
+
+TEST_CASE("clock_time rounds up to seconds") {
+    CHECK(clock_time(0) == "0:00");
+    CHECK(clock_time(0.2) == "0:01");
+    CHECK(clock_time(75) == "1:15");
+    CHECK(clock_time(3675) == "1:01:15");
+}
