@@ -1,172 +1,389 @@
 #include "polygonizer/mesh/polygon_triangles.hpp"
 
 #include <algorithm>
-#include <tuple>
+
+#include "polygonizer/mesh/edge_chain.hpp"
+#include "polygonizer/mesh/loop_ears.hpp"
+#include "polygonizer/mesh/planar_triangulation.hpp"
+#include "polygonizer/mesh/small_polygon.hpp"
 
 namespace deburr {
 namespace {
 
-struct Point {
-    double x, y;
-    int vertex;
+using Corners = std::array<int, 3>;
+using Way = PlanarTriangulation::Way;
+using Side = PlanarTriangulation::Side;
+
+// The plane of two coordinates that is nearest to being at right angles to the normal.
+class View {
+public:
+    explicit View(Vec3 normal) {
+        const Vec3 m = glm::abs(normal);
+        const int drop = m.x >= m.y && m.x >= m.z ? 0 : m.y >= m.z ? 1 : 2;
+        x_ = (drop + 1) % 3;
+        y_ = (drop + 2) % 3;
+        if (normal[drop] < 0) std::swap(x_, y_);
+    }
+    Vec2 operator()(Vec3 x) const { return {x[x_] + 0.0, x[y_] + 0.0}; }  // + 0: of two zeros one
+
+private:
+    int x_, y_;
 };
 
-double cross(const Point& a, const Point& b, const Point& c) {
-    return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
-}
-
-double area(const std::vector<Point>& loop) {
-    double sum = 0;
-    for (std::size_t k = 1; k + 1 < loop.size(); ++k) sum += cross(loop[0], loop[k], loop[k + 1]);
-    return sum;
-}
-
-bool segments_meet(const Point& a, const Point& b, const Point& c, const Point& d) {
-    const double s = cross(a, b, c), t = cross(a, b, d), u = cross(c, d, a), v = cross(c, d, b);
-    return ((s > 0) != (t > 0)) && ((u > 0) != (v > 0));
-}
-
-// Joins a hole by the shortest pair of edges that meets no other edge.
-void join(std::vector<Point>& outer, const std::vector<Point>& hole, const std::vector<std::vector<Point>>& others) {
-    struct Bridge {
-        double length;
-        std::size_t i, j;
-    };
-    std::vector<Bridge> bridges;
-    for (std::size_t i = 0; i < outer.size(); ++i)
-        for (std::size_t j = 0; j < hole.size(); ++j)
-            bridges.push_back({std::hypot(outer[i].x - hole[j].x, outer[i].y - hole[j].y), i, j});
-    std::sort(bridges.begin(), bridges.end(), [](const Bridge& a, const Bridge& b) {
-        return std::tie(a.length, a.i, a.j) < std::tie(b.length, b.i, b.j);
-    });
-    const auto blocked = [&](const Point& a, const Point& b, const std::vector<Point>& loop) {
-        for (std::size_t k = 0; k < loop.size(); ++k) {
-            const Point &c = loop[k], &d = loop[(k + 1) % loop.size()];
-            if (c.vertex == a.vertex || c.vertex == b.vertex || d.vertex == a.vertex || d.vertex == b.vertex) continue;
-            if (segments_meet(a, b, c, d)) return true;
+class PolygonWork {
+public:
+    void run(const std::vector<std::vector<int>>& loops, const std::vector<Vec3>& positions, Vec3 normal,
+             PolygonTriangles& out) {
+        out_ = &out;
+        gather(loops, positions, View(normal));
+        if (corners_ == 0) return;
+        plane_.start(points_);
+        for (const Edge& side : sides_) ways_.push_back({side.a, side.b, side.first, side.last});
+        bool connected = connect_all();
+        if (connected) {
+            wind();
+            plane_.improve(within_);
+            collect();
+            connected = drop_touches(positions, View(normal));
         }
-        return false;
-    };
-    // The bridge must leave the corner into the polygon.
-    const auto enters = [](const std::vector<Point>& loop, std::size_t k, const Point& to) {
-        const std::size_t n = loop.size();
-        const Point &before = loop[(k + n - 1) % n], &at = loop[k], &after = loop[(k + 1) % n];
-        if (cross(before, at, after) >= 0) return cross(at, after, to) >= 0 && cross(before, at, to) >= 0;
-        return cross(at, after, to) >= 0 || cross(before, at, to) >= 0;
-    };
-    Bridge best = bridges[0];
-    for (const Bridge& b : bridges) {
-        const Point &from = outer[b.i], &to = hole[b.j];
-        if (!enters(outer, b.i, to) || !enters(hole, b.j, from)) continue;
-        if (blocked(from, to, outer) || blocked(from, to, hole)) continue;
-        if (std::any_of(others.begin(), others.end(), [&](const auto& o) { return blocked(from, to, o); })) continue;
-        best = b;
-        break;
+        const bool plain = connected && points_.size() == corners_ && touches_.empty() && simple_winding_;
+        if (plain || (connected && covers(loops))) return;
+        out.crosses_itself = true;
+        const View view(normal);
+        std::vector<std::vector<Vec2>> places(loops.size());
+        for (std::size_t k = 0; k < loops.size(); ++k)
+            for (const int v : loops[k]) places[k].push_back(view(positions[std::size_t(v)]));
+        out.triangles = loop_ears(loops, places);
     }
-    std::vector<Point> joined(outer.begin(), outer.begin() + long(best.i) + 1);
-    for (std::size_t k = 0; k <= hole.size(); ++k) joined.push_back(hole[(best.j + k) % hole.size()]);
-    joined.insert(joined.end(), outer.begin() + long(best.i), outer.end());
-    outer = std::move(joined);
-}
 
-// Sine of the least angle, 0 for triangles that are flat or wrong way round.
-double shape(const Point& a, const Point& b, const Point& c) {
-    const double twice = cross(a, b, c);
-    const double ab = std::hypot(b.x - a.x, b.y - a.y), bc = std::hypot(c.x - b.x, c.y - b.y),
-                 ca = std::hypot(a.x - c.x, a.y - c.y);
-    const double longest = std::max({ab, bc, ca}), shortest = std::min({ab, bc, ca});
-    const double middle = ab + bc + ca - longest - shortest;
-    return longest > 0 && middle > 0 ? twice / (longest * middle) : 0;
-}
+private:
+    // A part of a side: from point a, which is vertex `first` there, to point b. An end in the midst of a side has
+    // the number of a touch in place of a vertex.
+    struct Edge {
+        int a, b, first, last;
+        int next = -1;  // of those that share an edge of the triangulation
+    };
+    // A side that runs through a point.
+    struct Touch {
+        int point;
+        int vertex = unknown;  // that it touches there; `own`: none, for all that lies to its left there is its own
+    };
+    static constexpr int unknown = -1, own = -2, first_touch = -3;
+    static int touch_code(std::size_t touch) { return first_touch - int(touch); }
+    static bool is_touch(int code) { return code <= first_touch; }
+    Touch& touch(int code) { return touches_[std::size_t(first_touch - code)]; }
+
+    // Of two vertices in one point: the triangle left of which, along its side from corner k, they change.
+    struct Joint {
+        int triangle;
+        std::size_t k;
+        int right, left;
+    };
+
+    void gather(const std::vector<std::vector<int>>& loops, const std::vector<Vec3>& positions, const View& view) {
+        points_.clear();
+        sides_.clear();
+        ways_.clear();
+        edges_.clear();
+        still_.clear();
+        joints_.clear();
+        found_.clear();
+        touches_.clear();
+        corners_ = 0;
+        for (const auto& loop : loops)
+            for (const int v : loop) {
+                const Vec2 x = view(positions[std::size_t(v)]);
+                found_.push_back({{x.x, x.y}, int(corners_++)});
+            }
+        std::sort(found_.begin(), found_.end());
+        point_of_.resize(corners_);
+        for (std::size_t k = 0; k < found_.size(); ++k) {
+            const auto& [x, corner] = found_[k];
+            if (k == 0 || x != found_[k - 1].first) points_.push_back({x.first, x.second});
+            point_of_[std::size_t(corner)] = int(points_.size()) - 1;
+        }
+        vertex_at_.assign(points_.size() + 3, -1);
+        several_.assign(points_.size() + 3, false);
+        touched_.assign(points_.size() + 3, false);
+        std::size_t first = 0;
+        for (const auto& loop : loops) {
+            for (std::size_t k = 0; k < loop.size(); ++k) {
+                const std::size_t n = k + 1 == loop.size() ? 0 : k + 1;
+                const int a = point_of_[first + k], b = point_of_[first + n];
+                if (int& v = vertex_at_[std::size_t(a)]; v < 0)
+                    v = loop[k];
+                else if (v != loop[k])
+                    several_[std::size_t(a)] = true;
+                if (a != b)
+                    sides_.push_back({a, b, loop[k], loop[n]});
+                else if (loop[k] != loop[n])
+                    still_.push_back({a, a, loop[k], loop[n]});
+            }
+            first += loop.size();
+        }
+    }
+
+    // Makes edges of all sides; false if they cross so much that there seems to be no end.
+    bool connect_all() {
+        std::size_t crossings_left = 8 * corners_ + 64;
+        std::reverse(ways_.begin(), ways_.end());
+        while (!ways_.empty()) {
+            const Edge way = ways_.back();
+            ways_.pop_back();
+            const Way found = plane_.connect(way.a, way.b);
+            if (found.end == Way::End::there) {
+                attach(way, found.vertex);
+            } else if (found.end == Way::End::vertex) {
+                lead_through(way, found.vertex);
+            } else {
+                if (crossings_left-- == 0) return false;
+                out_->crosses_itself = true;
+                cross(way, found.crossed);
+            }
+        }
+        return true;
+    }
+
+    void attach(const Edge& edge, int b) {
+        const Side s = plane_.side(edge.a, b);
+        edges_.push_back(edge);
+        edges_.back().next = plane_.mark(s);
+        plane_.set_mark(s, int(edges_.size()) - 1);
+    }
+
+    // The side is made of two, and gets a triangle on top.
+    void lead_through(const Edge& way, int point) {
+        const int v = touch_code(touches_.size());
+        touches_.push_back({point});
+        touched_[std::size_t(point)] = true;
+        out_->triangles.push_back({way.first, way.last, v});
+        ways_.push_back({point, way.b, v, way.last});
+        ways_.push_back({way.a, point, way.first, v});
+    }
+
+    void cross(const Edge& way, Side crossed) {
+        const auto& t = plane_.triangles()[std::size_t(crossed.triangle)];
+        const int c = t.vertex[std::size_t(crossed.k)], d = t.vertex[PlanarTriangulation::next(std::size_t(crossed.k))];
+        const auto off = [&](int point, int from, int to) {
+            return distance_to_segment(plane_.point(point), plane_.point(from), plane_.point(to));
+        };
+        const double of_c = off(c, way.a, way.b), of_d = off(d, way.a, way.b);
+        const double of_a = off(way.a, c, d), of_b = off(way.b, c, d);
+        if (std::min(of_c, of_d) <= std::min(of_a, of_b)) return lead_through(way, of_c <= of_d ? c : d);
+        ways_.push_back(way);
+        int k = plane_.mark(crossed);
+        plane_.set_mark(crossed, -1);
+        for (; k >= 0; k = edges_[std::size_t(k)].next)
+            lead_through(edges_[std::size_t(k)], of_a <= of_b ? way.a : way.b);
+    }
+
+    // How often the sides wind around each triangle: 0 far outside, and by one more left of each side.
+    void wind() {
+        const auto& triangles = plane_.triangles();
+        constexpr int not_yet = std::numeric_limits<int>::min();
+        winding_.assign(triangles.size(), not_yet);
+        within_.assign(triangles.size(), false);
+        const int start = plane_.around(int(points_.size()));
+        winding_[std::size_t(start)] = 0;
+        todo_ = {start};
+        simple_winding_ = true;
+        while (!todo_.empty()) {
+            const int t = todo_.back();
+            todo_.pop_back();
+            const int w = winding_[std::size_t(t)];
+            within_[std::size_t(t)] = w != 0;
+            simple_winding_ &= w == 0 || w == 1;
+            for (std::size_t k = 0; k < 3; ++k) {
+                const int n = triangles[std::size_t(t)].neighbour[k];
+                if (n < 0 || winding_[std::size_t(n)] != not_yet) continue;
+                winding_[std::size_t(n)] = w - along({t, int(k)});
+                todo_.push_back(n);
+            }
+        }
+        out_->crosses_itself |= !simple_winding_;
+    }
+
+    // How many sides run along this one, less those that run back.
+    int along(Side s) const {
+        const int from = plane_.triangles()[std::size_t(s.triangle)].vertex[std::size_t(s.k)];
+        int sum = 0;
+        for (int k = plane_.mark(s); k >= 0; k = edges_[std::size_t(k)].next)
+            sum += edges_[std::size_t(k)].a == from ? 1 : -1;
+        return sum;
+    }
+
+    void emit(const Corners& t, int times) {
+        for (; times > 0; --times) out_->triangles.push_back(t);
+        for (; times < 0; ++times) out_->triangles.push_back({t[1], t[0], t[2]});
+    }
+
+    void collect() {
+        const auto& triangles = plane_.triangles();
+        vertices_.assign(triangles.size(), {});
+        for (std::size_t t = 0; t < triangles.size(); ++t)
+            for (std::size_t k = 0; k < 3; ++k) vertices_[t][k] = vertex_at_[std::size_t(triangles[t].vertex[k])];
+        for (std::size_t p = 0; p < points_.size(); ++p)
+            if (several_[p] || touched_[p]) part(int(p));
+        for (Corners& t : out_->triangles)
+            for (int& v : t)
+                if (is_touch(v)) v = touched_vertex(v);
+        for (std::size_t t = 0; t < triangles.size(); ++t) emit(vertices_[t], winding_[t]);
+        for (const Joint& j : joints_)
+            emit({j.right, vertices_[std::size_t(j.triangle)][j.k], j.left}, winding_[std::size_t(j.triangle)]);
+    }
+
+    int touched_vertex(int code) {
+        const Touch& t = touch(code);
+        return t.vertex == own ? code : t.vertex == unknown ? vertex_at_[std::size_t(t.point)] : t.vertex;
+    }
+
+    // A touch of its own is no vertex: the triangles around it, of which one has the side, become others without it.
+    bool drop_touches(const std::vector<Vec3>& positions, const View& view) {
+        const auto place = [&](int v) {
+            return is_touch(v) ? points_[std::size_t(touch(v).point)] : view(positions[std::size_t(v)]);
+        };
+        for (std::size_t k = 0; k < touches_.size(); ++k) {
+            if (touches_[k].vertex != own) continue;
+            std::vector<int> ring;
+            if (!take_ring(out_->triangles, touch_code(k), ring)) return false;
+            std::vector<Vec2> places;
+            for (const int v : ring) places.push_back(place(v));
+            for (const Corners& t : small_polygon(places))
+                out_->triangles.push_back({ring[std::size_t(t[0])], ring[std::size_t(t[1])], ring[std::size_t(t[2])]});
+        }
+        return true;
+    }
+
+    // The vertex at `point`, or the touch there, of a side along s: of one that leaves, or of one that comes in.
+    int vertex_by(Side s, int point, bool leaves) const {
+        int v = vertex_at_[std::size_t(point)];
+        for (int k = plane_.mark(s); k >= 0; k = edges_[std::size_t(k)].next) {
+            const Edge& e = edges_[std::size_t(k)];
+            if ((e.a == point) != leaves) continue;
+            v = leaves ? e.first : e.last;
+            if (!is_touch(v)) break;
+        }
+        return v;
+    }
+
+    // Where a turn begins or ends with a touch: either it is all of one side's, or there is what the side touches.
+    void settle(int& x, int& y, int point) {
+        if (is_touch(x) && x == y) {
+            touch(x).vertex = own;
+            return;
+        }
+        int known = is_touch(x) ? y : x;
+        if (is_touch(known)) known = vertex_at_[std::size_t(point)];
+        for (int* v : {&x, &y}) {
+            if (!is_touch(*v)) continue;
+            if (touch(*v).vertex == unknown) touch(*v).vertex = known;
+            *v = touch(*v).vertex;
+        }
+    }
+
+    // Tells which of several vertices in one point each triangle around it has. Between two sides that is the one
+    // from which the right side leaves. If the left side comes in to another one, a triangle without area joins
+    // both; what the edges between them leave open is filled by triangles within the point.
+    void part(int point) {
+        struct Spoke {
+            int triangle;
+            std::size_t k;  // of the point
+        };
+        const auto& triangles = plane_.triangles();
+        std::vector<Spoke> fan;
+        int t = plane_.around(point);
+        do {
+            const auto& v = triangles[std::size_t(t)].vertex;
+            const std::size_t k = v[0] == point ? 0 : v[1] == point ? 1 : 2;
+            fan.push_back({t, k});
+            t = triangles[std::size_t(t)].neighbour[PlanarTriangulation::before(k)];
+        } while (t != fan[0].triangle);
+        const auto starts = [&](const Spoke& s) { return triangles[std::size_t(s.triangle)].mark[s.k] >= 0; };
+        const auto first = std::find_if(fan.begin(), fan.end(), starts);
+        if (first == fan.end()) return;
+        std::rotate(fan.begin(), first, fan.end());
+        EdgeChain open;
+        for (const Edge& e : still_)
+            if (e.a == point) open.add(e.first, e.last);
+        for (std::size_t begin = 0, end; begin < fan.size(); begin = end) {
+            end = begin + 1;
+            while (end < fan.size() && !starts(fan[end])) ++end;
+            const Spoke &right = fan[begin], &left = fan[end - 1];
+            const int w = winding_[std::size_t(right.triangle)];
+            if (w == 0) continue;
+            int x = vertex_by({right.triangle, int(right.k)}, point, w > 0);
+            int y = vertex_by({left.triangle, int(PlanarTriangulation::before(left.k))}, point, w < 0);
+            settle(x, y, point);
+            for (std::size_t i = begin; i < end; ++i) vertices_[std::size_t(fan[i].triangle)][fan[i].k] = x;
+            if (x == y) continue;
+            joints_.push_back({left.triangle, PlanarTriangulation::before(left.k), x, y});
+            open.add(y, x, -w);
+        }
+        fill(open, point);
+    }
+
+    void fill(EdgeChain& open, int point) {
+        const auto edges = open.rest();
+        const int apex = vertex_at_[std::size_t(point)];
+        for (const auto& [ends, times] : edges)
+            if (ends.first != apex && ends.second != apex) emit({apex, ends.first, ends.second}, times);
+    }
+
+    // Whether the triangles' edges cancel but for the sides.
+    bool covers(const std::vector<std::vector<int>>& loops) const {
+        EdgeChain chain;
+        for (const Corners& t : out_->triangles)
+            for (std::size_t k = 0; k < 3; ++k) chain.add(t[k], t[PlanarTriangulation::next(k)]);
+        for (const auto& loop : loops)
+            for (std::size_t k = 0; k < loop.size(); ++k) chain.add(loop[k], loop[(k + 1) % loop.size()], -1);
+        return chain.rest().empty();
+    }
+
+    PlanarTriangulation plane_;
+    PolygonTriangles* out_ = nullptr;
+    std::size_t corners_ = 0;
+    std::vector<std::pair<std::pair<double, double>, int>> found_;  // places and corners
+    std::vector<Vec2> points_;
+    std::vector<int> point_of_;                       // a corner
+    std::vector<int> vertex_at_;                      // a point: the first of those
+    std::vector<char> several_;                       // whether there are more
+    std::vector<Edge> sides_, ways_, edges_, still_;  // still: between vertices in one place
+    std::vector<Touch> touches_;
+    std::vector<char> touched_;  // a point
+    bool simple_winding_ = true;
+    std::vector<int> winding_, todo_;
+    std::vector<char> within_;
+    std::vector<Joint> joints_;
+    std::vector<Corners> vertices_;
+};
 
 }  // namespace
 
+PolygonTriangles triangulate(const std::vector<std::vector<int>>& loops, const std::vector<Vec3>& positions,
+                             Vec3 normal) {
+    PolygonTriangles result;
+    if (loops.size() == 1 && loops[0].size() == 3) {
+        result.triangles = {{loops[0][0], loops[0][1], loops[0][2]}};
+        return result;
+    }
+    if (loops.size() == 1 && loops[0].size() == 4) {
+        const View view(normal);
+        std::array<Vec2, 4> x;
+        for (std::size_t k = 0; k < 4; ++k) x[k] = view(positions[std::size_t(loops[0][k])]);
+        if (const int from = quadrilateral_diagonal(x); from >= 0) {
+            const auto v = [&](int k) { return loops[0][std::size_t((from + k) % 4)]; };
+            result.triangles = {{v(0), v(1), v(2)}, {v(2), v(3), v(0)}};
+            return result;
+        }
+    }
+    thread_local PolygonWork work;
+    work.run(loops, positions, normal, result);
+    return result;
+}
+
 std::vector<std::array<int, 3>> triangles_of(const std::vector<std::vector<int>>& loops,
                                              const std::vector<Vec3>& positions, Vec3 normal) {
-    if (loops.size() == 1 && loops[0].size() == 3) return {{loops[0][0], loops[0][1], loops[0][2]}};
-    // Seen along the axis nearest to the normal, so that flush coordinates stay as they are.
-    const Vec3 m = glm::abs(normal);
-    const int drop = m.x >= m.y && m.x >= m.z ? 0 : m.y >= m.z ? 1 : 2;
-    int ix = (drop + 1) % 3, iy = (drop + 2) % 3;
-    if (normal[drop] < 0) std::swap(ix, iy);
-    const auto flatten = [&](const std::vector<int>& loop, std::vector<Point>& flat) {
-        flat.clear();
-        for (const int v : loop) {
-            const Vec3& x = positions[std::size_t(v)];
-            flat.push_back({x[ix], x[iy], v});
-        }
-    };
-    thread_local std::vector<Point> ring;
-    if (loops.size() == 1) {
-        flatten(loops[0], ring);
-    } else {
-        std::vector<std::vector<Point>> flat(loops.size());
-        for (std::size_t k = 0; k < loops.size(); ++k) flatten(loops[k], flat[k]);
-        std::size_t outer = 0;
-        for (std::size_t k = 1; k < flat.size(); ++k)
-            if (area(flat[k]) > area(flat[outer])) outer = k;
-        std::swap(flat[0], flat[outer]);
-        ring = std::move(flat[0]);
-        flat.erase(flat.begin());
-        std::sort(flat.begin(), flat.end(), [](const auto& a, const auto& b) { return a[0].x < b[0].x; });
-        while (!flat.empty()) {
-            const auto hole = std::move(flat.front());
-            flat.erase(flat.begin());
-            join(ring, hole, flat);
-        }
-    }
-
-    std::vector<std::array<int, 3>> out;
-    out.reserve(ring.size() - 2);
-    constexpr std::size_t large = 400;  // corners beyond which the first good ear is taken
-    // An ear holds no other corner, and none is on its sides, to rounding. Where the polygon touches itself,
-    // corners lie on the sides of every ear: then none within has to do.
-    double widest = 0;
-    for (const Point& p : ring) widest = std::max({widest, std::abs(p.x - ring[0].x), std::abs(p.y - ring[0].y)});
-    const double on_side = 1e-14 * widest * widest;
-    const auto best_ear = [&](bool sides_too) {
-        const std::size_t n = ring.size();
-        std::size_t best = n;
-        double best_shape = 0;
-        for (std::size_t k = 0; k < n; ++k) {
-            const Point &a = ring[(k + n - 1) % n], &b = ring[k], &c = ring[(k + 1) % n];
-            if (a.vertex == c.vertex) continue;
-            const double s = shape(a, b, c);
-            if (s <= best_shape || s < 1e-9) continue;
-            bool empty = true;
-            for (std::size_t j = 0; j < n && empty; ++j) {
-                const Point& p = ring[j];
-                if (p.vertex == a.vertex || p.vertex == b.vertex || p.vertex == c.vertex) continue;
-                const double inner = std::min({cross(a, b, p), cross(b, c, p), cross(c, a, p)});
-                empty = sides_too ? inner < -on_side : inner <= 0;
-            }
-            if (!empty) continue;
-            best = k;
-            best_shape = s;
-            if (n > large && s > 0.1) break;
-        }
-        return best;
-    };
-    while (ring.size() > 3) {
-        const std::size_t n = ring.size();
-        std::size_t best = best_ear(true);
-        if (best == n) best = best_ear(false);
-        if (best == n) {
-            double best_shape = -infinity;
-            best = 0;
-            for (std::size_t k = 0; k < n; ++k) {
-                const Point &a = ring[(k + n - 1) % n], &b = ring[k], &c = ring[(k + 1) % n];
-                const double s = shape(a, b, c);
-                if (a.vertex == c.vertex || s <= best_shape) continue;
-                best_shape = s;
-                best = k;
-            }
-        }
-        out.push_back({ring[(best + n - 1) % n].vertex, ring[best].vertex, ring[(best + 1) % n].vertex});
-        ring.erase(ring.begin() + long(best));
-    }
-    out.push_back({ring[0].vertex, ring[1].vertex, ring[2].vertex});
-    return out;
+    return triangulate(loops, positions, normal).triangles;
 }
 
 }  // namespace deburr
