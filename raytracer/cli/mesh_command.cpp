@@ -25,6 +25,7 @@ using Json = nlohmann::ordered_json;
 
 struct MeshCommandOptions : Options {
     std::string method, tolerance, grid, edge, level, hard_angle, faces;
+    bool no_check = false, force = false;
 };
 
 MeshSettings settings(const MeshCommandOptions& o) {
@@ -48,6 +49,7 @@ MeshSettings settings(const MeshCommandOptions& o) {
     };
     if (!o.tolerance.empty() && s.method == MeshMethod::marching_cubes)
         throw UsageError("--tolerance: expected --method triage or octree, got 'marching-cubes'");
+    s.check = !o.no_check;
     only("--grid", o.grid, MeshMethod::marching_cubes);
     only("--edge", o.edge, MeshMethod::octree);
     only("--level", o.level, MeshMethod::octree);
@@ -95,6 +97,63 @@ void print_table(const Json& j, const std::string& prefix = "") {
     }
 }
 
+Json json_of(const MeshFault& f) {
+    Json j{{"count", f.count}};
+    if (f.count > 0) j["place"] = {f.place.x, f.place.y, f.place.z};
+    if (f.line > 0) j["line"] = f.line;
+    return j;
+}
+
+Json json_of(const std::vector<MeshCheck>& checks, std::size_t made_again) {
+    Json solids = Json::array();
+    MeshCheck sum;
+    for (const MeshCheck& c : checks) {
+        sum.facets += c.facets;
+        sum.pairs += c.pairs;
+        sum.points += c.points;
+        sum.open.count += c.faults();
+        solids.push_back({{"open", json_of(c.open)},
+                          {"inward", json_of(c.inward)},
+                          {"crossing", json_of(c.crossing)},
+                          {"missing", json_of(c.missing)},
+                          {"added", json_of(c.added)}});
+    }
+    return {{"faults", sum.open.count}, {"made_again", made_again}, {"facets", sum.facets},
+            {"pairs", sum.pairs},       {"points", sum.points},     {"solids", solids}};
+}
+
+// A line for each kind of fault in each solid.
+std::vector<std::string> failures(const Scene& scene, const std::vector<MeshCheck>& checks) {
+    std::vector<std::string> lines;
+    for (std::size_t i = 0; i < checks.size(); ++i) {
+        const auto say = [&](const MeshFault& f, const char* one, const char* many) {
+            if (f.count == 0) return;
+            const std::string line = f.line > 0 ? fmt::format("{}:{}", scene.file, f.line) : scene.file;
+            lines.push_back(fmt::format("{}: solid {}: {} {}, {} ({:.6g}, {:.6g}, {:.6g})", line, i + 1, f.count,
+                                        f.count == 1 ? one : many, f.count == 1 ? "at" : "the first at", f.place.x,
+                                        f.place.y, f.place.z));
+        };
+        const MeshCheck& c = checks[i];
+        say(c.open, "edge of the mesh is open", "edges of the mesh are open");
+        say(c.inward, "facet faces inward", "facets face inward");
+        say(c.crossing, "pair of facets crosses", "pairs of facets cross");
+        say(c.missing, "point of the solid is not in the mesh", "points of the solid are not in the mesh");
+        say(c.added, "point of the mesh is not in the solid", "points of the mesh are not in the solid");
+    }
+    return lines;
+}
+
+// Says what the checks found; false if nothing is to be written.
+bool passes(const MeshCommandOptions& o, const Scene& scene, const SceneMesh& mesh) {
+    const std::vector<std::string> lines = failures(scene, mesh.checks);
+    if (lines.empty() || (o.force && o.quiet)) return true;
+    for (const std::string& line : lines) fmt::print(stderr, "deburr: {}\n", line);
+    fmt::print(
+        stderr, "deburr: the mesh is wrong{}\n",
+        o.force ? "" : ", and is not written; a smaller --tolerance or another --method may help, --force writes it");
+    return o.force;
+}
+
 int run_mesh(const MeshCommandOptions& o) {
     if (o.scene.empty()) throw UsageError("mesh: expected a scene file");
     if (o.outputs.empty() && !o.stats && o.stats_json.empty())
@@ -139,10 +198,12 @@ int run_mesh(const MeshCommandOptions& o) {
         fmt::print(stderr, "deburr: {} triangles, {} vertices in {:.3f} s\n", mesh.mesh.triangles.size(),
                    mesh.mesh.positions.size(), clock.wall("polygonize"));
 
+    const bool written = passes(o, scene, mesh);
     clock.begin("write");
     MeshNotes notes{scene.names, {}};
     for (const Material& m : scene.materials) notes.colors.push_back(m.color.a);
-    for (const std::string& path : o.outputs) write_whole_file(path, encode(mesh.mesh, *mesh_format(path), notes));
+    for (const std::string& path : o.outputs)
+        if (written) write_whole_file(path, encode(mesh.mesh, *mesh_format(path), notes));
     clock.end();
 
     if (o.stats || !o.stats_json.empty()) {
@@ -166,12 +227,13 @@ int run_mesh(const MeshCommandOptions& o) {
                            {"hard_points", t.hard_points},
                            {"partitions", t.partitions},
                            {"rounds", t.rounds}};
+        if (!mesh.checks.empty()) j["check"] = json_of(mesh.checks, mesh.made_again);
         for (const PhaseTime& t : clock.times()) j["seconds"][t.name] = t.wall;
         if (o.stats) print_table(j);
         if (!o.stats_json.empty())
             write_whole_file(o.stats_json, j.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
     }
-    return 0;
+    return written ? 0 : 1;
 }
 
 }  // namespace
@@ -200,6 +262,8 @@ Command add_mesh_command(CLI::App& program) {
         ->type_name("A");
     command->add_option("--faces", options->faces, "as near to this number of triangles as the method comes")
         ->type_name("N");
+    command->add_flag("--no-check", options->no_check, "do not check the mesh against the solids");
+    command->add_flag("--force", options->force, "write the mesh even if the check fails");
     add_run_options(*command, *options);
     add_statistics_options(*command, *options);
     return {command, [options] { return run_mesh(*options); }};

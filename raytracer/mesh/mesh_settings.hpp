@@ -31,6 +31,7 @@ struct MeshSettings {
     int level = 0;                                   // octree: 2^level cells along the solid's longest side, if not 0
     double hard_angle = OctreeOptions{}.hard_angle;  // octree
     double coarseness = 1;                           // multiplies each solid's grid, edge or tolerance
+    bool check = false;                              // what was made (mesh_check.hpp); what fails is made once more
     double reach = 8;                                // infinite solids end this many sizes of the finite ones away
 };
 

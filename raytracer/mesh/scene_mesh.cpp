@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "bounds/bounding_box.hpp"
 #include "polygonizer/marching_cubes/marching_cubes.hpp"
@@ -17,6 +18,9 @@ namespace {
 
 // A grid of more cubes than this is refused: it would take tens of gigabytes.
 constexpr double most_cubes = 2e9;
+
+// A mesh's own tolerance is measured at middles and to first order; beyond this many of it is wrong.
+constexpr double check_slack = 2;
 
 bool finite(const Box& box) { return box.empty() || box.finite(); }
 
@@ -46,6 +50,13 @@ void need_densities(const SolidTree& solid, std::size_t id) {
             id));
 }
 
+double octree_tolerance(const SolidTree& tree, const Box& box, const MeshSettings& settings) {
+    const double radius = tree.least_radius();
+    const double relative =
+        radius > 0 ? settings.tolerance_in_radii * radius : settings.tolerance_in_sizes * largest(box.hi - box.lo);
+    return std::min(settings.tolerance, tree.has_field() || radius > 0 ? relative : infinity);
+}
+
 Mesh by_octree(const SolidTree& tree, const Box& box, bool cut_off, const MeshSettings& settings, std::size_t id,
                StopFlag stop, OctreeStatistics& statistics) {
     const Vec3 size = box.hi - box.lo;
@@ -57,9 +68,7 @@ Mesh by_octree(const SolidTree& tree, const Box& box, bool cut_off, const MeshSe
     options.edge *= settings.coarseness;
     options.hard_angle = settings.hard_angle;
     options.stop = stop;
-    const double radius = tree.least_radius();
-    const double relative = radius > 0 ? settings.tolerance_in_radii * radius : settings.tolerance_in_sizes * longest;
-    options.tolerance = std::min(settings.tolerance, tree.has_field() || radius > 0 ? relative : infinity);
+    options.tolerance = octree_tolerance(tree, box, settings);
     try {
         return octree(tree, box, options, &statistics);
     } catch (const OpenMeshError& error) {
@@ -83,6 +92,9 @@ struct SolidMesh {
     std::optional<MeshMethod> method;
     TriageStatistics triage;
     OctreeStatistics octree;
+    MeshCheckOptions check_options;
+    std::optional<MeshCheck> check;
+    bool made_again = false;
 };
 
 // `id` is for messages. Where the solid has been cut off, its box is not its own.
@@ -91,22 +103,53 @@ SolidMesh polygonize(const SolidTree& tree, bool cut_off, const MeshSettings& se
     const Box box = polygonization_box(tree);
     if (box.empty()) return result;
     result.method = settings.method.value_or(tree.has_field() ? MeshMethod::octree : MeshMethod::triage);
+    result.check_options.stop = stop;
     if (result.method == MeshMethod::octree) {
         result.mesh = by_octree(tree, box, cut_off, settings, id, stop, result.octree);
+        result.check_options.tolerance = check_slack * octree_tolerance(tree, box, settings);
+        if (!std::isfinite(result.check_options.tolerance)) result.check_options.least_tolerance = result.octree.edge;
     } else if (result.method == MeshMethod::triage) {
         need_densities(tree, id);
         const double radius = tree.least_radius();
         const double relative = radius > 0 ? settings.tolerance_in_radii * radius : infinity;
-        result.mesh =
-            triage(tree, box, {settings.coarseness * std::min(settings.tolerance, relative), stop}, &result.triage);
+        const double tolerance = settings.coarseness * std::min(settings.tolerance, relative);
+        result.mesh = triage(tree, box, {tolerance, stop}, &result.triage);
+        result.check_options.tolerance = check_slack * tolerance;
     } else {
         const double grid = settings.coarseness * (settings.grid > 0 ? settings.grid : marching_cubes_grid(tree, box));
         if (marching_cubes_count(box, grid) > most_cubes)
             throw UnsupportedError(fmt::format("--grid: a grid of {:g} would have more than {:g} cubes for solid {}",
                                                grid, most_cubes, id));
         result.mesh = marching_cubes(tree, box, grid, stop);
+        result.check_options.least_tolerance = grid;
     }
     return result;
+}
+
+// The mesh and its check. What fails is made once more, finer, and the better one of both is taken.
+SolidMesh polygonize_checked(const SolidTree& tree, bool cut_off, const MeshSettings& settings, std::size_t id,
+                             StopFlag stop) {
+    SolidMesh first = polygonize(tree, cut_off, settings, id, stop);
+    if (!settings.check) return first;
+    const Box box = polygonization_box(tree);
+    first.check = check_mesh(first.mesh, tree, box, first.check_options);
+    if (first.check->faults() == 0) return first;
+    MeshSettings finer = settings;
+    finer.coarseness *= 0.5;
+    // Half of no tolerance: what a mesh without one is expected to keep.
+    constexpr double expected = 0.25;
+    finer.tolerance_in_radii = std::min(finer.tolerance_in_radii, 2 * expected);
+    finer.tolerance_in_sizes = std::min(finer.tolerance_in_sizes, 1.0);
+    try {
+        SolidMesh second = polygonize(tree, cut_off, finer, id, stop);
+        second.check_options = first.check_options;
+        second.check = check_mesh(second.mesh, tree, box, second.check_options);
+        if (second.check->faults() < first.check->faults()) std::swap(first, second);
+    } catch (const UnsupportedError&) {  // so fine it cannot be
+    } catch (const WorkError&) {
+    }
+    first.made_again = true;
+    return first;
 }
 
 void add_statistics(SceneMesh& to, const SolidMesh& from) {
@@ -165,7 +208,7 @@ SceneMesh mesh_scene(const Scene& scene, const MeshSettings& settings, const Mes
     std::vector<SolidMesh> parts(count);
     in_parallel(count, [&](std::size_t i) {
         throw_if_stopped(watch.stop);
-        parts[i] = polygonize(result.trees[i], !finite(boxes[i]), settings, i + 1, watch.stop);
+        parts[i] = polygonize_checked(result.trees[i], !finite(boxes[i]), settings, i + 1, watch.stop);
         if (watch.done) watch.done(work_of(result.trees[i]) / work);
     });
     for (std::size_t i = 0; i < count; ++i) {
@@ -173,6 +216,9 @@ SceneMesh mesh_scene(const Scene& scene, const MeshSettings& settings, const Mes
         if (parts[i].mesh.triangles.empty())
             result.warnings.push_back(fmt::format("solid {} is not in the mesh: it is empty{}", i + 1,
                                                   parts[i].method ? ", or thinner than the mesh is fine" : ""));
+        result.check_options.push_back(parts[i].check_options);
+        result.made_again += parts[i].made_again;
+        if (parts[i].check) result.checks.push_back(*parts[i].check);
         result.mesh.append(parts[i].mesh, int(i));
         result.parts.push_back(std::move(parts[i].mesh));
     }
@@ -191,6 +237,7 @@ SceneMesh mesh_scene(const Scene& scene, MeshSettings settings, std::size_t face
     constexpr double largest_step = 16, least_slope = 0.5, greatest_slope = 4;
     if (settings.method.value_or(MeshMethod::triage) == MeshMethod::triage && !std::isfinite(settings.tolerance))
         settings.tolerance_in_radii = rendering_tolerance;
+    const bool check = std::exchange(settings.check, false);
     SceneMesh best;
     double slope = settings.method == MeshMethod::triage || !settings.method ? 1 : 2, error = infinity;
     double last_coarseness = 0, last_count = 0;
@@ -211,6 +258,9 @@ SceneMesh mesh_scene(const Scene& scene, MeshSettings settings, std::size_t face
     if (error > worth_a_warning)
         best.warnings.push_back(
             fmt::format("--faces: the nearest to {} that was found is {}", faces, best.mesh.triangles.size()));
+    for (std::size_t i = 0; check && i < best.parts.size(); ++i)
+        best.checks.push_back(
+            check_mesh(best.parts[i], best.trees[i], polygonization_box(best.trees[i]), best.check_options[i]));
     return best;
 }
 

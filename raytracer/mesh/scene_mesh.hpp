@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "polygonizer/mesh/mesh_check.hpp"
 #include "polygonizer/mesh/metrics.hpp"
 #include "polygonizer/triage/triage.hpp"
 #include "raytracer/mesh/mesh_settings.hpp"
@@ -19,6 +20,9 @@ struct SceneMesh {
     std::vector<MeshMethod> methods;  // that were used, each once
     TriageStatistics triage;          // sums
     OctreeStatistics octree;          // sums; the least edge, the highest level
+    std::vector<MeshCheck> checks;    // solid by solid, if they were asked for
+    std::vector<MeshCheckOptions> check_options;
+    std::size_t made_again = 0;  // solids that were made finer, for they had failed
     std::vector<std::string> warnings;
 
     std::string method_names() const;  // "octree, triage"

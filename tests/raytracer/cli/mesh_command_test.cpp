@@ -240,3 +240,32 @@ TEST_CASE("an interrupt ends every method in the middle of a solid") {
     CHECK(outcome.code == 130);
     CHECK_FALSE(fs::exists(folder / "a.ply"));
 }
+
+TEST_CASE("mesh writes nothing wrong: a lost part is said with its place, and --force or --no-check writes it") {
+    const Folder folder;
+    // Whatever the method can do, cells of this size see nothing of the cube.
+    write_file(folder / "s.lua",
+               "return { solids = {\n  rounded(0.05, box({0,0,0},{4,1,4}) | box({6,0.4,1.4},{6.3,0.7,1.7})) } }");
+    const auto mesh = [&](std::vector<std::string> more) {
+        std::vector<std::string> words{"mesh", folder / "s.lua", "--method", "marching-cubes", "--grid", "1.5",
+                                       "-o",   folder / "a.stl"};
+        words.insert(words.end(), more.begin(), more.end());
+        return run(words);
+    };
+    const Outcome outcome = mesh({"--stats-json", folder / "a.json"});
+    CHECK(outcome.code == 1);
+    CHECK(outcome.err.find("s.lua:2: solid 1: ") != std::string::npos);
+    CHECK(outcome.err.find("not in the mesh, the first at (6.") != std::string::npos);
+    CHECK(!fs::exists(folder / "a.stl"));
+    const Json check = Json::parse(read_file(folder / "a.json"))["check"];
+    CHECK(check["faults"] > 0);
+    CHECK(check["made_again"] == 1);
+    CHECK(check["solids"][0]["missing"]["place"][0] > 6);
+    CHECK(mesh({"--force"}).code == 0);
+    CHECK(fs::exists(folder / "a.stl"));
+    fs::remove(folder / "a.stl");
+    const Outcome unchecked = mesh({"--no-check"});
+    CHECK(unchecked.code == 0);
+    CHECK(unchecked.err == "");
+    CHECK(fs::exists(folder / "a.stl"));
+}

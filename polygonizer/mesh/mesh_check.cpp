@@ -1,0 +1,230 @@
+#include "polygonizer/mesh/mesh_check.hpp"
+
+#include <algorithm>
+#include <map>
+#include <queue>
+
+#include "polygonizer/mesh/facet_judge.hpp"
+#include "polygonizer/mesh/facet_orientation.hpp"
+#include "polygonizer/mesh/triangle_tree.hpp"
+
+namespace deburr {
+namespace {
+
+// Facets between two looks at the flag that ends the work.
+constexpr std::size_t stop_every = 4096;
+
+class Check {
+public:
+    Check(const Mesh& mesh, const SolidTree& solid, const Box& box, const MeshCheckOptions& options)
+        : mesh_(mesh), solid_(solid), box_(box), options_(options), tree_(mesh), field_(around(mesh, solid, box)) {
+        for (const SolidLeaf& leaf : solid.leaves)
+            for (const HalfSpace& h : leaf.density.half_spaces) radius_ = std::max(radius_, h.radius);
+        size_ = largest(box.hi - box.lo);
+        // A surface without a radius is met by its mesh to rounding.
+        constexpr double of_size = 1e-6, of_radius = 0.5;
+        const double wanted = std::isfinite(options.tolerance) ? options.tolerance : of_radius * radius_;
+        tolerance_ = std::max({wanted, options.least_tolerance, of_size * size_});
+    }
+
+    MeshCheck run() {
+        edges();
+        crossings();
+        facets();
+        parts();
+        for (MeshFault* fault : {&result_.open, &result_.inward, &result_.crossing, &result_.missing, &result_.added})
+            if (fault->count > 0) fault->line = line_at(fault->place);
+        return result_;
+    }
+
+private:
+    static OffsetField around(const Mesh& mesh, const SolidTree& solid, const Box& box) {
+        double margin = 0;
+        for (const SolidLeaf& leaf : solid.leaves) {
+            for (const HalfSpace& h : leaf.density.half_spaces) margin = std::max(margin, h.radius);
+            if (leaf.field) margin = std::max(margin, mean_edge(mesh));
+        }
+        return OffsetField(solid, mesh.positions.empty() ? box : hull(box, field_box(mesh)), margin);
+    }
+
+    Vec3 at(int v) const { return mesh_.positions[std::size_t(v)]; }
+    Vec3 middle(const Triangle& t) const { return (at(t.vertex[0]) + at(t.vertex[1]) + at(t.vertex[2])) / 3.0; }
+
+    int line_at(Vec3 x) const {
+        const SurfaceOffset& near = field_.near(x);
+        const int leaf = near.at(x).leaf;
+        return leaf >= 0 ? near.line(leaf) : solid_.leaves.empty() ? 0 : solid_.leaves[0].line;
+    }
+
+    void edges() {
+        std::vector<std::pair<std::pair<int, int>, int>> edges;
+        for (const Triangle& t : mesh_.triangles)
+            for (std::size_t k = 0; k < 3; ++k) {
+                const int a = t.vertex[k], b = t.vertex[(k + 1) % 3];
+                edges.push_back({std::minmax(a, b), a < b ? 1 : -1});
+            }
+        std::sort(edges.begin(), edges.end());
+        for (std::size_t k = 0, end; k < edges.size(); k = end) {
+            int sum = 0;
+            for (end = k; end < edges.size() && edges[end].first == edges[k].first; ++end) sum += edges[end].second;
+            if (end - k != 2 || sum != 0)
+                result_.open.add(0.5 * (at(edges[k].first.first) + at(edges[k].first.second)));
+        }
+    }
+
+    void crossings() {
+        for (std::size_t s = 0; s < mesh_.triangles.size(); ++s) {
+            if (s % stop_every == 0) throw_if_stopped(options_.stop);
+            tree_.visit(tree_.box(int(s)), [&](int t) {
+                if (t <= int(s)) return true;
+                ++result_.pairs;
+                if (triangles_cross(mesh_, mesh_.triangles[s], mesh_.triangles[std::size_t(t)]))
+                    result_.crossing.add(0.5 * (middle(mesh_.triangles[s]) + middle(mesh_.triangles[std::size_t(t)])));
+                return true;
+            });
+        }
+    }
+
+    void facets() {
+        // Facets whose height is below this share of their longest side have no area worth the name.
+        constexpr double flat = 1e-9;
+        double area_sum = 0;
+        for (const Triangle& t : mesh_.triangles) area_sum += glm::length(mesh_.area_vector(t));
+        const double area_each = area_sum / double(least_points + mesh_.triangles.size() / 4);
+        for (const Triangle& t : mesh_.triangles) {
+            if (result_.facets++ % stop_every == 0) throw_if_stopped(options_.stop);
+            const Vec3 area = mesh_.area_vector(t), x = middle(t);
+            double longest = 0;
+            Vec3 normals(0.0);
+            for (std::size_t k = 0; k < 3; ++k) {
+                longest = std::max(longest, glm::distance(at(t.vertex[k]), at(t.vertex[(k + 1) % 3])));
+                normals += mesh_.normals[std::size_t(t.normal[k])];
+            }
+            const double twice = glm::length(area);
+            if (twice <= flat * longest * longest) continue;
+            const Vec3 normal = area / twice;
+            const Offset here = field_.at(x);
+            const bool near = beside_surface(here, normal, x);
+            if (!near && !faces_outward(field_, x, here, normal, normals, longest)) result_.inward.add(x);
+            // More points of those that are large: a part that is skinned over need not be in the middle.
+            const std::size_t more = std::size_t(twice / area_each);
+            for (std::size_t k = 1; k <= more; ++k) {
+                const Vec3 y = point_of(t, k);
+                beside_surface(field_.at(y), normal, y);
+            }
+        }
+    }
+
+    // Points of a facet, spread evenly (Roberts's sequence: multiples of powers of the plastic number, folded over).
+    Vec3 point_of(const Triangle& t, std::size_t k) const {
+        constexpr double plastic = 1.32471795724474602596;
+        double u = double(k) / plastic, v = double(k) / (plastic * plastic);
+        u -= std::floor(u);
+        v -= std::floor(v);
+        if (u + v > 1) {
+            u = 1 - u;
+            v = 1 - v;
+        }
+        return (1 - u - v) * at(t.vertex[0]) + u * at(t.vertex[1]) + v * at(t.vertex[2]);
+    }
+
+    // Whether the surface is near and faces as the facet does; else the mesh is looked at on both sides of x.
+    bool beside_surface(const Offset& here, Vec3 normal, Vec3 x) {
+        if (std::abs(here.distance) <= tolerance_) return glm::dot(normal, here.normal) > 0;
+        judge(x - tolerance_ * normal, true);
+        judge(x + tolerance_ * normal, false);
+        return false;
+    }
+
+    // Whether x and all that is within the tolerance lie on one side of the surface, as far as a few points tell.
+    bool far_from_surface(Vec3 x, bool inside) const {
+        for (int k = 0; k < 3; ++k)
+            for (const double step : {-tolerance_, tolerance_}) {
+                Vec3 y = x;
+                y[k] += step;
+                if (field_.inside(y) != inside) return false;
+            }
+        return true;
+    }
+
+    // Beside a facet the mesh is as expected unless there is another sheet of it; only then it takes to be asked.
+    void judge(Vec3 x, bool expected) {
+        ++result_.points;
+        const bool inside = field_.inside(x);
+        if (inside == expected) return;
+        const std::optional<int> winding = tree_.winding(x);
+        if (!winding || (*winding > 0) == inside || !far_from_surface(x, inside)) return;
+        (inside ? result_.missing : result_.added).add(x);
+    }
+
+    // A part of the box, the solid that matters there, and the facets that may pass it.
+    struct Cell {
+        Box box;
+        std::shared_ptr<const SurfaceOffset> solid;
+        int depth;
+    };
+
+    // Cells without facets lie on one side of the mesh, and have to of the solid. What may be on both sides is cut,
+    // and so are cells with facets: first of all those that the surface does not pass.
+    void parts() {
+        const std::size_t most_cells = least_cells + mesh_.triangles.size() / 8;
+        std::queue<Cell> cells, doubtful;
+        doubtful.push({box_, std::make_shared<const SurfaceOffset>(solid_), 0});
+        for (std::size_t taken = 0; taken < most_cells && !(cells.empty() && doubtful.empty()); ++taken) {
+            if (taken % 256 == 0) throw_if_stopped(options_.stop);
+            std::queue<Cell>& from = doubtful.empty() ? cells : doubtful;
+            const Cell cell = std::move(from.front());
+            from.pop();
+            const Vec3 middle = 0.5 * (cell.box.lo + cell.box.hi);
+            for (const bool upper : {false, true}) {
+                Cell half{cell.box, cell.solid, cell.depth + 1};
+                const Vec3 size = cell.box.hi - cell.box.lo;
+                const int axis = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
+                (upper ? half.box.lo : half.box.hi)[axis] = middle[axis];
+                look_at(std::move(half), cells, doubtful);
+            }
+        }
+    }
+
+    void look_at(Cell cell, std::queue<Cell>& cells, std::queue<Cell>& doubtful) {
+        const bool passed = !tree_.visit(cell.box, [](int) { return false; });
+        const bool decided = cell.solid->decided(cell.box) != 0;
+        if (!passed) judge_part(0.5 * (cell.box.lo + cell.box.hi));
+        if ((decided && !passed) || cell.depth >= most_depth) return;
+        if (!decided && cell.depth % 3 == 0)
+            cell.solid = std::make_shared<const SurfaceOffset>(cell.solid->within(cell.box));
+        (decided == passed ? doubtful : cells).push(std::move(cell));
+    }
+
+    // A mesh without a tolerance may pass far from the surface, but not without a facet there.
+    void judge_part(Vec3 x) {
+        ++result_.points;
+        const bool inside = field_.inside(x);
+        const std::optional<int> winding = tree_.winding(x);
+        if (!winding || (*winding > 0) == inside) return;
+        const bool missed = inside && !std::isfinite(options_.tolerance) &&
+                            tree_.visit(inflated(Box{x, x}, std::max(radius_, tolerance_)), [](int) { return false; });
+        if (missed || far_from_surface(x, inside)) (inside ? result_.missing : result_.added).add(x);
+    }
+
+    static constexpr int most_depth = 24;  // halvings of the box
+    static constexpr std::size_t least_cells = 2000, least_points = 500;
+
+    const Mesh& mesh_;
+    const SolidTree& solid_;
+    const Box box_;
+    const MeshCheckOptions options_;
+    const TriangleTree tree_;
+    const OffsetField field_;
+    double radius_ = 0, size_ = 0, tolerance_ = 0;
+    MeshCheck result_;
+};
+
+}  // namespace
+
+MeshCheck check_mesh(const Mesh& mesh, const SolidTree& solid, const Box& box, const MeshCheckOptions& options) {
+    if (box.empty() && mesh.triangles.empty()) return {};
+    return Check(mesh, solid, box, options).run();
+}
+
+}  // namespace deburr

@@ -1,0 +1,180 @@
+#include "polygonizer/mesh/triangle_tree.hpp"
+
+#include <algorithm>
+
+#include "polygonizer/mesh/exact_orientation.hpp"
+
+namespace deburr {
+namespace {
+
+constexpr int leaf_size = 4;
+
+// Whether the way from x to x + d·[0, 1] meets the box; d has no component that is 0.
+bool meets(const Box& box, Vec3 x, Vec3 d) {
+    double lo = 0, hi = 1;
+    for (int k = 0; k < 3; ++k) {
+        const double a = (box.lo[k] - x[k]) / d[k], b = (box.hi[k] - x[k]) / d[k];
+        lo = std::max(lo, std::min(a, b));
+        hi = std::min(hi, std::max(a, b));
+    }
+    constexpr double slack = 16 * epsilon;  // of differences and quotients
+    return lo <= hi + slack * (1 + std::abs(hi));
+}
+
+}  // namespace
+
+TriangleTree::TriangleTree(const Mesh& mesh) : mesh_(mesh) {
+    for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+        Box box;
+        for (const int v : mesh.triangles[t].vertex) {
+            const Vec3 x = mesh.positions[std::size_t(v)];
+            box = hull(box, Box{x, x});
+        }
+        boxes_.push_back(box);
+        order_.push_back(int(t));
+    }
+    if (!order_.empty()) build(0, int(order_.size()));
+}
+
+void TriangleTree::build(int first, int count) {
+    const int at = int(nodes_.size());
+    nodes_.push_back({{}, -1, first, count});
+    Box box, middles;
+    for (int k = first; k < first + count; ++k) {
+        const Box& b = boxes_[std::size_t(order_[std::size_t(k)])];
+        box = hull(box, b);
+        middles = hull(middles, Box{b.lo + b.hi, b.lo + b.hi});
+    }
+    nodes_[std::size_t(at)].box = box;
+    if (count <= leaf_size) return;
+    const Vec3 size = middles.hi - middles.lo;
+    const int axis = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
+    const auto middle = [&](int t) { return boxes_[std::size_t(t)].lo[axis] + boxes_[std::size_t(t)].hi[axis]; };
+    const int half = count / 2;
+    std::nth_element(order_.begin() + first, order_.begin() + first + half, order_.begin() + first + count,
+                     [&](int s, int t) {
+                         return std::pair{middle(s), s} < std::pair{middle(t), t};
+                     });
+    build(first, half);
+    nodes_[std::size_t(at)].second = int(nodes_.size());
+    build(first + half, count - half);
+}
+
+std::optional<int> TriangleTree::winding(Vec3 x) const {
+    const Box all = box();
+    if (all.empty() || !all.contains(x)) return 0;
+    // Through the thin of the mesh, and in another direction where that hits an edge.
+    const Vec3 size = all.hi - all.lo;
+    const int axis = size.x <= size.y && size.x <= size.z ? 0 : size.y <= size.z ? 1 : 2;
+    constexpr std::array<Vec2, 5> leans{Vec2{0.0718, 0.0431}, Vec2{-0.0613, 0.0877}, Vec2{0.0391, -0.0967},
+                                        Vec2{-0.0829, -0.0287}, Vec2{0.0171, 0.0613}};
+    for (std::size_t k = 0; k < leans.size(); ++k) {
+        Vec3 d;
+        d[axis] = k % 2 ? -1 : 1;
+        d[(axis + 1) % 3] = leans[k].x;
+        d[(axis + 2) % 3] = leans[k].y;
+        const double reach = d[axis] > 0 ? all.hi[axis] - x[axis] : x[axis] - all.lo[axis];
+        if (const auto found = winding(x, x + d * (1.01 * reach + 1e-3 * size[axis] + epsilon * largest(x))))
+            return found;
+    }
+    return std::nullopt;
+}
+
+// None where the way from x to `far`, which is outside, meets a vertex or an edge.
+std::optional<int> TriangleTree::winding(Vec3 x, Vec3 far) const {
+    const Vec3 d = far - x;
+    int sum = 0;
+    for (std::size_t at = 0; at < nodes_.size();) {
+        const Node& n = nodes_[at];
+        if (!meets(n.box, x, d)) {
+            // To what follows the node: children lie within its range of nodes.
+            std::size_t skip = at;
+            while (nodes_[skip].second >= 0) skip = std::size_t(nodes_[skip].second);
+            at = skip + 1;
+            continue;
+        }
+        ++at;
+        if (n.second >= 0) continue;
+        for (int k = n.first; k < n.first + n.count; ++k) {
+            const int t = order_[std::size_t(k)];
+            if (!meets(boxes_[std::size_t(t)], x, d)) continue;
+            const auto& v = mesh_.triangles[std::size_t(t)].vertex;
+            const Vec3 a = mesh_.positions[std::size_t(v[0])], b = mesh_.positions[std::size_t(v[1])],
+                       c = mesh_.positions[std::size_t(v[2])];
+            const double here = orientation(a, b, c, x), there = orientation(a, b, c, far);
+            if (here == 0 && there == 0) continue;
+            if ((here > 0 && there > 0) || (here < 0 && there < 0)) continue;
+            const double ab = orientation(x, far, a, b), bc = orientation(x, far, b, c), ca = orientation(x, far, c, a);
+            const double least = std::min({ab, bc, ca}), most = std::max({ab, bc, ca});
+            if (least < 0 && most > 0) continue;
+            if (least == 0 || most == 0 || here == 0 || there == 0) return std::nullopt;
+            sum += here < 0 ? 1 : -1;
+        }
+    }
+    return sum;
+}
+
+namespace {
+
+using Corners = std::array<Vec3, 3>;
+
+int sign(double x) { return (x > 0) - (x < 0); }
+
+// Whether the segment passes through the triangle from one side to the other, within.
+bool pierces(Vec3 p, Vec3 q, const Corners& t) {
+    const int from = sign(orientation(t[0], t[1], t[2], p));
+    if (from == 0 || from != -sign(orientation(t[0], t[1], t[2], q))) return false;
+    const int side = sign(orientation(p, q, t[0], t[1]));
+    return side != 0 && side == sign(orientation(p, q, t[1], t[2])) && side == sign(orientation(p, q, t[2], t[0]));
+}
+
+// Of triangles in one plane: no side of either has the other one beyond it.
+bool overlap(const Corners& s, const Corners& t) {
+    const Vec3 normal = glm::abs(glm::cross(s[1] - s[0], s[2] - s[0]));
+    const int drop = normal.x >= normal.y && normal.x >= normal.z ? 0 : normal.y >= normal.z ? 1 : 2;
+    const auto flat = [&](Vec3 x) { return Vec2(x[(drop + 1) % 3], x[(drop + 2) % 3]); };
+    const auto parts = [&](const Corners& a, const Corners& b) {
+        const int turn = sign(orientation(flat(a[0]), flat(a[1]), flat(a[2])));
+        if (turn == 0) return true;
+        for (std::size_t k = 0; k < 3; ++k) {
+            bool beyond = true;
+            for (const Vec3& x : b) beyond &= turn * sign(orientation(flat(a[k]), flat(a[(k + 1) % 3]), flat(x))) <= 0;
+            if (beyond) return true;
+        }
+        return false;
+    };
+    return !parts(s, t) && !parts(t, s);
+}
+
+}  // namespace
+
+bool triangles_cross(const Mesh& mesh, const Triangle& s, const Triangle& t) {
+    Corners a, b;
+    int shared = 0;
+    for (std::size_t k = 0; k < 3; ++k) {
+        a[k] = mesh.positions[std::size_t(s.vertex[k])];
+        b[k] = mesh.positions[std::size_t(t.vertex[k])];
+        for (const int v : t.vertex) shared += v == s.vertex[k];
+    }
+    // Of two that share an edge, or of which one does not reach through the other's plane, only a plane can be shared.
+    const auto reaches_through = [](const Corners& plane, const Corners& of, bool& flat) {
+        int least = 1, most = -1;
+        for (const Vec3& x : of) {
+            const int side = sign(orientation(plane[0], plane[1], plane[2], x));
+            least = std::min(least, side);
+            most = std::max(most, side);
+        }
+        flat = least == 0 && most == 0;
+        return least < 0 && most > 0;
+    };
+    bool flat = false;
+    if (!reaches_through(a, b, flat)) return flat && overlap(a, b);
+    if (shared >= 2 || !reaches_through(b, a, flat)) return false;
+    for (std::size_t k = 0; k < 3; ++k) {
+        const std::size_t n = (k + 1) % 3;
+        if (pierces(a[k], a[n], b) || pierces(b[k], b[n], a)) return true;
+    }
+    return false;
+}
+
+}  // namespace deburr

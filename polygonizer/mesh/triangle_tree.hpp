@@ -1,0 +1,55 @@
+// A tree of boxes over the triangles of a mesh: which may meet, and how often the mesh winds around a point.
+#pragma once
+#include <array>
+#include <optional>
+#include <vector>
+
+#include "polygonizer/mesh/mesh.hpp"
+
+namespace deburr {
+
+class TriangleTree {
+public:
+    /// Keeps a reference to the mesh.
+    explicit TriangleTree(const Mesh& mesh);
+
+    /// Calls visit(t) for each triangle whose box meets the given one, until that returns false.
+    template <class Visit>
+    bool visit(const Box& box, Visit visit, int node = 0) const {
+        if (nodes_.empty() || intersection(nodes_[std::size_t(node)].box, box).empty()) return true;
+        const Node& n = nodes_[std::size_t(node)];
+        if (n.second >= 0) return this->visit(box, visit, node + 1) && this->visit(box, visit, n.second);
+        for (int k = n.first; k < n.first + n.count; ++k) {
+            const int t = order_[std::size_t(k)];
+            if (!intersection(boxes_[std::size_t(t)], box).empty() && !visit(t)) return false;
+        }
+        return true;
+    }
+
+    /// How often the mesh, if it is closed, winds around x: 1 inside, 0 outside. None on the surface.
+    std::optional<int> winding(Vec3 x) const;
+
+    const Box& box(int t) const { return boxes_[std::size_t(t)]; }
+    /// Around all; empty if there is none.
+    Box box() const { return nodes_.empty() ? Box{} : nodes_[0].box; }
+
+private:
+    struct Node {
+        Box box;
+        int second = -1;           // child; the first one follows; −1: a leaf
+        int first = 0, count = 0;  // of order_
+    };
+    void build(int first, int count);
+    std::optional<int> winding(Vec3 x, Vec3 far) const;
+
+    const Mesh& mesh_;
+    std::vector<Box> boxes_;
+    std::vector<int> order_;
+    std::vector<Node> nodes_;
+};
+
+/// Whether the insides of two triangles meet in more than a point or an edge they share, exactly. Triangles that
+/// touch do not cross; those that overlap in one plane do.
+bool triangles_cross(const Mesh& mesh, const Triangle& s, const Triangle& t);
+
+}  // namespace deburr

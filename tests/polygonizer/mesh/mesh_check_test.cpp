@@ -1,0 +1,150 @@
+#include "polygonizer/mesh/mesh_check.hpp"
+
+#include <algorithm>
+
+#include "catch.hpp"
+#include "polygonizer/mesh/triangle_tree.hpp"
+#include "polygonizer/triage/triage.hpp"
+#include "random_case.hpp"
+
+using namespace deburr;
+
+namespace {
+
+SolidTree plate(int slots, double radius = 0.2) {
+    Density body = Density::box({0, 0, 0}, {20, 10, 2});
+    for (int k = 0; k < slots; ++k) body = body & ~Density::box({2.0 + 6 * k, 2, -1}, {5.0 + 6 * k, 8, 3});
+    return flatten(Solid::rounded(radius, body));
+}
+
+Mesh mesh_of(const SolidTree& solid) { return triage(solid, polygonization_box(solid)); }
+
+MeshCheck check(const Mesh& mesh, const SolidTree& solid) { return check_mesh(mesh, solid, polygonization_box(solid)); }
+
+SolidTree with_piece(double r) {
+    return flatten(Solid::rounded(r, Density::box(Vec3(0.0), {4, 3, 4}) | Density::box({6, 0, 1.5}, {7, 1, 2.5})));
+}
+
+Mesh of_triangles(const std::vector<Vec3>& positions, const std::vector<std::array<int, 3>>& triangles) {
+    Mesh mesh;
+    mesh.positions = positions;
+    mesh.normals = {{0, 0, 1}};
+    for (const auto& t : triangles) mesh.triangles.push_back({t, {0, 0, 0}});
+    return mesh;
+}
+
+}  // namespace
+
+TEST_CASE("A mesh of its solid passes the check, and each kind of damage is found and placed") {
+    const SolidTree solid = plate(2);
+    const Mesh good = mesh_of(solid);
+    const MeshCheck passed = check(good, solid);
+    CHECK(passed.faults() == 0);
+    CHECK(passed.facets == good.triangles.size());
+    CHECK(passed.pairs > good.triangles.size());
+    SECTION("a facet less") {
+        Mesh mesh = good;
+        mesh.triangles.pop_back();
+        CHECK(check(mesh, solid).open.count == 3);
+    }
+    SECTION("a facet that is turned over") {
+        Mesh mesh = good;
+        std::swap(mesh.triangles[0].vertex[1], mesh.triangles[0].vertex[2]);
+        const MeshCheck found = check(mesh, solid);
+        CHECK(found.open.count == 3);
+        CHECK(found.inward.count == 1);
+    }
+    SECTION("all inside out") {
+        Mesh mesh = good;
+        for (Triangle& t : mesh.triangles) std::swap(t.vertex[1], t.vertex[2]);
+        const MeshCheck found = check(mesh, solid);
+        CHECK(found.open.count == 0);
+        CHECK(found.inward.count > good.triangles.size() / 2);
+        CHECK(found.missing.count > 0);
+    }
+    SECTION("a vertex drawn through the other side") {
+        Mesh mesh = good;
+        const auto top =
+            std::max_element(mesh.positions.begin(), mesh.positions.end(), [](Vec3 a, Vec3 b) { return a.z < b.z; });
+        const Vec3 x = *top;
+        top->z = -3;
+        const MeshCheck found = check(mesh, solid);
+        CHECK(found.crossing.count > 0);
+        CHECK(glm::length(Vec2(found.crossing.place - x)) < 3);
+    }
+    SECTION("a slot that is skinned over, another one, and one too many") {
+        CHECK(check(mesh_of(plate(1)), solid).added.count > 0);
+        const MeshCheck none = check(mesh_of(plate(0)), solid);
+        CHECK(none.added.count > 0);
+        CHECK(none.missing.count == 0);
+        CHECK(none.crossing.count == 0);
+        const MeshCheck three = check(mesh_of(plate(3)), solid);
+        CHECK(three.missing.count > 0);
+        CHECK(three.missing.place.x > 14);
+        CHECK(three.added.count == 0);
+    }
+}
+
+TEST_CASE("A part of the solid that is not in the mesh is found, beside another one and alone") {
+    // The cube of 1 lives to r = 0.833; its last blob is half as wide as the radius.
+    for (const double r : {0.1, 0.5, 0.75}) {
+        CAPTURE(r);
+        const SolidTree both = with_piece(r);
+        const SolidTree plate_only = flatten(Solid::rounded(r, Density::box(Vec3(0.0), {4, 3, 4})));
+        const MeshCheck found = check(mesh_of(plate_only), both);
+        CHECK(found.missing.count > 0);
+        CHECK(found.missing.place.x > 6);
+        CHECK(found.added.count == 0);
+        CHECK(check(mesh_of(plate_only), plate_only).faults() == 0);
+    }
+    const SolidTree blob = flatten(Solid::rounded(0.8, Density::box(Vec3(0.0), Vec3(1.0))));
+    CHECK(check({}, blob).missing.count > 0);
+    CHECK(check({}, flatten(Solid::rounded(0.9, Density::box(Vec3(0.0), Vec3(1.0))))).faults() == 0);
+}
+
+TEST_CASE("Triangles cross where their insides meet, and not where they touch") {
+    const auto cross = [](const std::vector<Vec3>& positions, std::array<int, 3> s, std::array<int, 3> t) {
+        const Mesh mesh = of_triangles(positions, {s, t});
+        const bool found = triangles_cross(mesh, mesh.triangles[0], mesh.triangles[1]);
+        CHECK(found == triangles_cross(mesh, mesh.triangles[1], mesh.triangles[0]));
+        return found;
+    };
+    const std::vector<Vec3> x{{0, 0, 0}, {4, 0, 0}, {0, 4, 0},  {1, 1, -1}, {1, 1, 1},     {3, 3, 1},   {1, 1, 0},
+                              {4, 4, 0}, {2, 0, 0}, {2, -2, 0}, {4, -2, 0}, {0.5, 0.5, 0}, {0.5, 1, 0}, {1, 0.5, 0}};
+    CHECK(cross(x, {0, 1, 2}, {3, 4, 5}));         // through the middle
+    CHECK(cross(x, {0, 1, 2}, {0, 3, 4}));         // the same at a corner of both
+    CHECK_FALSE(cross(x, {0, 1, 2}, {6, 4, 5}));   // stands on it
+    CHECK_FALSE(cross(x, {0, 1, 2}, {0, 1, 4}));   // shares an edge
+    CHECK_FALSE(cross(x, {0, 1, 2}, {2, 1, 7}));   // in one plane, beside it
+    CHECK_FALSE(cross(x, {0, 1, 2}, {8, 9, 10}));  // in one plane, touching a side
+    CHECK(cross(x, {0, 1, 2}, {0, 1, 7}));         // in one plane, folded over an edge
+    CHECK(cross(x, {0, 1, 2}, {11, 13, 12}));      // in one plane, within
+    CHECK(cross(x, {0, 1, 2}, {0, 2, 1}));         // the same, turned over
+}
+
+TEST_CASE("Winding numbers tell inside and outside, and edges in the way do not matter") {
+    const SolidTree solid = plate(2, 0);
+    const Mesh mesh = mesh_of(solid);
+    const TriangleTree tree(mesh);
+    int inside = 0;
+    for (const auto seed : seeds(2'000)) {
+        CAPTURE(seed);
+        Gen g(seed);
+        Vec3 x(g.between(-1, 21), g.between(-1, 11), g.between(-0.5, 2.5));
+        // As often as not above, below and beside vertices.
+        if (g.chance(0.5)) {
+            const Vec3 corner = mesh.positions[std::size_t(g.below(int(mesh.positions.size())))];
+            const int axis = g.below(3);
+            x[axis] = corner[axis];
+            x[(axis + 1) % 3] = corner[(axis + 1) % 3];
+        }
+        const auto winding = tree.winding(x);
+        if (!winding) continue;
+        ++inside;
+        CHECK((*winding == 1 || *winding == 0));
+        bool near = false;
+        for (const HalfSpace& h : solid.leaves[0].density.half_spaces) near |= std::abs(h.distance(x)) < 1e-9;
+        if (!near) CHECK((*winding == 1) == solid.contains(x));
+    }
+    CHECK(inside > 1'000);  // others lie on faces
+}
