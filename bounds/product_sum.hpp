@@ -58,7 +58,7 @@ public:
     /// ρ > ½?
     bool inside(double t) const;
     /// All crossings of ρ = ½ in [t0, t1], in order, to within `negligible`; `coarse`: no matter where
-    /// exactly. visit(Crossing) says whether to go on.
+    /// exactly. visit(RootCrossing) says whether to go on.
     template <class Visit>
     void crossings(double t0, double t1, double negligible, bool coarse, RootCounters& counters, Visit visit);
 
@@ -127,7 +127,7 @@ void ProductSumRay::crossings(double t0, double t1, double negligible, bool coar
                 continue;
             }
         }
-        if ((a.f > 0) != (b.f > 0) && !visit(Crossing{coarse ? b.t : root(a, b, negligible, counters), b.f > 0}))
+        if ((a.f > 0) != (b.f > 0) && !visit(RootCrossing{coarse ? b.t : root(a, b, negligible, counters), b.f > 0}))
             return;
         a = b;
         stack_.pop_back();

@@ -58,7 +58,7 @@ inline bool is_faint(SegmentEnd start, SegmentEnd end, RayBounds bounds, double 
     return std::abs(start.f) <= faint && std::abs(end.f) <= faint && bounds.G * length * length <= 8 * faint;
 }
 
-struct Crossing {
+struct RootCrossing {
     double t;
     bool entering;  // f > 0 beyond it
 };
@@ -68,7 +68,7 @@ public:
     RootFinder(RootSettings settings, RootCounters& counters) : settings_(settings), counters_(counters) {}
 
     /// All crossings of the surface's level in [t0, t1], in order; sharp half-spaces stay as fix_sharp
-    /// left them. `visit(Crossing)` says whether to go on; false if it said no. OnRay is a RayDensity
+    /// left them. `visit(RootCrossing)` says whether to go on; false if it said no. OnRay is a RayDensity
     /// or a FieldRay.
     template <class OnRay, class Visit>
     bool crossings(const OnRay& function, double t0, double t1, Visit&& visit);
@@ -121,7 +121,7 @@ bool RootFinder::crossings(const OnRay& function, double t0, double t1, Visit&& 
                 continue;
             }
         }
-        if ((a.f > 0) != (b.f > 0) && !visit(Crossing{root(function, a, b), b.f > 0})) return false;
+        if ((a.f > 0) != (b.f > 0) && !visit(RootCrossing{root(function, a, b), b.f > 0})) return false;
         a = b;
         --top;
     }

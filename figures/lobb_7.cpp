@@ -45,7 +45,7 @@ void make(FigureContext& context) {
     RootCounters counters;
     RootFinder finder({}, counters);
     std::vector<double> roots;
-    finder.crossings(ray, 0, length, [&](Crossing c) {
+    finder.crossings(ray, 0, length, [&](RootCrossing c) {
         roots.push_back(c.t);
         return true;
     });

@@ -120,7 +120,7 @@ private:
         std::unordered_map<std::uint64_t, CrossingPoint> known = std::move(known_crossings_);
         known_crossings_.clear();
         crossings_.clear();
-        for (const Crossing& x : linking_.crossings) {
+        for (const EdgeCrossing& x : linking_.crossings) {
             throw_if_stopped(options_.stop);
             const std::uint64_t key =
                 (std::uint64_t(x.lo[0]) | std::uint64_t(x.lo[1]) << 20 | std::uint64_t(x.lo[2]) << 40) * 4 +
@@ -172,7 +172,7 @@ private:
     // Points of the polygon around a crossing, outward; where an edge between loops is there twice,
     // with the point in its middle, and begun there.
     void polygon_around(int crossing, std::vector<int>& polygon, std::size_t& middles) {
-        const Crossing& x = linking_.crossings[std::size_t(crossing)];
+        const EdgeCrossing& x = linking_.crossings[std::size_t(crossing)];
         polygon.clear();
         middles = 0;
         for (std::size_t q = 0; q < 4; ++q) {

@@ -36,7 +36,7 @@ private:
         for (int axis = 0; axis < 3; ++axis) {
             const std::size_t u = std::size_t(axis + 1) % 3, v = std::size_t(axis + 2) % 3;
             for (int k = 0; k < 4; ++k) {
-                Crossing x;
+                EdgeCrossing x;
                 x.axis = axis;
                 x.length = c.size;
                 x.lo = c.at;
@@ -49,7 +49,7 @@ private:
         }
     }
 
-    bool leaves_around(Crossing& x, int leaf) {
+    bool leaves_around(EdgeCrossing& x, int leaf) {
         const std::size_t u = std::size_t(x.axis + 1) % 3, v = std::size_t(x.axis + 2) % 3;
         constexpr int side_u[4] = {-1, 0, 0, -1}, side_v[4] = {-1, -1, 0, 0};
         bool owner = true;
@@ -116,7 +116,7 @@ private:
         };
         std::vector<On> border;
         for (const InFace& f : face) {
-            const Crossing& x = linking_.crossings[std::size_t(f.crossing)];
+            const EdgeCrossing& x = linking_.crossings[std::size_t(f.crossing)];
             const bool on_u = std::size_t(x.axis) == u;
             const bool far = on_u ? x.lo[v] != corner[v] : x.lo[u] != corner[u];
             const int step = on_u ? x.lo[u] - corner[u] : x.lo[v] - corner[v];
@@ -175,7 +175,7 @@ private:
     }
 
     void set_loop(int crossing, int leaf, int loop) {
-        Crossing& x = linking_.crossings[std::size_t(crossing)];
+        EdgeCrossing& x = linking_.crossings[std::size_t(crossing)];
         for (std::size_t q = 0; q < 4; ++q)
             if (x.leaves[q] == leaf) x.loops[q] = loop;
     }

@@ -20,7 +20,7 @@
 
 namespace deburr {
 
-struct Crossing {
+struct EdgeCrossing {
     Corner lo;         // of the edge's ends
     int axis, length;  // in units
     bool low_inside;
@@ -46,7 +46,7 @@ struct DoubleSegment {
 };
 
 struct Linking {
-    std::vector<Crossing> crossings;
+    std::vector<EdgeCrossing> crossings;
     std::vector<Loop> loops;
     std::vector<int> around;  // crossings of the loops, in turn
     std::vector<DoubleSegment> doubles;

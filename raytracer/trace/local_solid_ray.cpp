@@ -24,7 +24,7 @@ public:
         }
         if (varying == 0) return true;
         if (varying == 1) return one_varying(which, t0, t1, visit);
-        return finder_.crossings(density_, t0, t1, [&](Crossing c) { return visit(c.t, c.entering); });
+        return finder_.crossings(density_, t0, t1, [&](RootCrossing c) { return visit(c.t, c.entering); });
     }
 
 private:
@@ -109,7 +109,7 @@ void LocalSolid::field_crossings(const Field& field, double greatest_unit, const
             if (!emit(from, !inside)) return;
         }
         RootFinder finder({scratch.criterion, 8 * epsilon * (scale_ + from), faint}, scratch.counters.roots);
-        if (!finder.crossings(ray, from, to, [&](Crossing c) { return emit(c.t, c.entering); })) return;
+        if (!finder.crossings(ray, from, to, [&](RootCrossing c) { return emit(c.t, c.entering); })) return;
         if (to >= t1) return;
     }
 }
@@ -122,7 +122,7 @@ void LocalSolid::sum_crossings(const ProductSum& sum, const Vec3& origin, const 
     ray.set(sum, origin, direction);
     if (start_inside) *start_inside = ray.inside(t0);
     ray.crossings(t0, t1, 8 * epsilon * (scale_ + t0), coarse, scratch.counters.roots,
-                  [&](Crossing c) { return visit(c.t, c.entering, coarse ? Vec3(0.0) : unit(ray.gradient(c.t))); });
+                  [&](RootCrossing c) { return visit(c.t, c.entering, coarse ? Vec3(0.0) : unit(ray.gradient(c.t))); });
 }
 
 // visit(t, entering, normal or 0: not known yet) → go on?

@@ -122,8 +122,8 @@ TEST_CASE("a product's crossings are those of the search, whatever the ray") {
         RayDensity ray;
         ray.set(density, o, way);
         RootCounters counters;
-        std::vector<Crossing> want;
-        RootFinder({Criterion::exact, negligible}, counters).crossings(ray, t0, t1, [&](Crossing c) {
+        std::vector<RootCrossing> want;
+        RootFinder({Criterion::exact, negligible}, counters).crossings(ray, t0, t1, [&](RootCrossing c) {
             want.push_back(c);
             return true;
         });
@@ -149,7 +149,7 @@ TEST_CASE("a product's crossings are those of the search, whatever the ray") {
         };
         if (int(want.size()) != all.count) {
             bool explained = false;
-            for (const Crossing& c : want) explained |= faint(c.t);
+            for (const RootCrossing& c : want) explained |= faint(c.t);
             for (int i = 0; i < all.count; ++i) explained |= faint(all.at[i].t);
             ++grazing;
             REQUIRE(explained);

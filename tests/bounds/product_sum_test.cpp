@@ -106,9 +106,9 @@ TEST_CASE("a sum's crossings are those of the search by M, L and G, whatever the
         const double t0 = g.chance(0.5) ? 0 : g.between(0, 1), t1 = g.chance(0.1) ? infinity : t0 + g.between(0, 6);
         RayDensity plain_ray;
         plain_ray.set(*c.density, o, way);
-        std::vector<Crossing> want, got, coarse;
-        const auto into = [](std::vector<Crossing>& all) {
-            return [&all](Crossing x) {
+        std::vector<RootCrossing> want, got, coarse;
+        const auto into = [](std::vector<RootCrossing>& all) {
+            return [&all](RootCrossing x) {
                 all.push_back(x);
                 return true;
             };
@@ -126,8 +126,8 @@ TEST_CASE("a sum's crossings are those of the search by M, L and G, whatever the
         };
         if (want.size() != got.size()) {
             bool explained = false;
-            for (const Crossing& x : want) explained |= faint(x.t);
-            for (const Crossing& x : got) explained |= faint(x.t);
+            for (const RootCrossing& x : want) explained |= faint(x.t);
+            for (const RootCrossing& x : got) explained |= faint(x.t);
             ++grazing;
             REQUIRE(explained);
             continue;
@@ -160,7 +160,7 @@ TEST_CASE("a ray in the plane of a sum's flush face is done soon") {
             ray.set(*products, {5, height, 0.5}, {-1, 0, 0});
             RootCounters counters;
             int crossings = 0;
-            ray.crossings(0, 8, negligible, false, counters, [&](Crossing) { return ++crossings; });
+            ray.crossings(0, 8, negligible, false, counters, [&](RootCrossing) { return ++crossings; });
             CHECK(counters.evaluations < 1'000'000);
             if (height >= 1) CHECK(crossings == 0);
         }

@@ -112,8 +112,8 @@ TEST_CASE("all crossings of a segment are found, in order") {
         RayDensity ray;
         ray.set(local, o, to);
         RootCounters counters;
-        std::vector<Crossing> found;
-        RootFinder({}, counters).crossings(ray, 0, 6, [&](Crossing c) {
+        std::vector<RootCrossing> found;
+        RootFinder({}, counters).crossings(ray, 0, 6, [&](RootCrossing c) {
             found.push_back(c);
             return true;
         });
@@ -146,7 +146,7 @@ TEST_CASE("the exact criterion accepts segments that eq. 6 sends on to be split,
         const Vec3 o = g.point(2), to = glm::normalize(g.point(0.5) - o);
         RayDensity ray;
         ray.set(local, o, to);
-        const auto pass = [](Crossing) { return true; };
+        const auto pass = [](RootCrossing) { return true; };
         RootFinder({Criterion::exact}, exact).crossings(ray, 0, 6, pass);
         RootFinder({Criterion::lobb}, lobb).crossings(ray, 0, 6, pass);
     }
@@ -169,7 +169,7 @@ TEST_CASE("a ray in the plane of a flush face is done soon, though f is 0 along 
                 ray.set(local, {5, height, 0.5}, {-1, 0, 0});
                 RootCounters counters;
                 int crossings = 0;
-                RootFinder({}, counters).crossings(ray, 0, 8, [&](Crossing) { return ++crossings; });
+                RootFinder({}, counters).crossings(ray, 0, 8, [&](RootCrossing) { return ++crossings; });
                 CHECK(counters.evaluations < 1'000'000);
                 if (height >= 1) CHECK(crossings == 0);
             }
