@@ -99,7 +99,7 @@ TEST_CASE("no function within the bounds reaches a turning point beyond a root s
     CHECK(close > 5'000);
 }
 
-TEST_CASE("all crossings of a segment are found, in order") {
+TEST_CASE("all crossings of a segment are found, in order", "[slow]") {
     int many = 0, total = 0;
     for (auto seed : seeds(3'000)) {
         CAPTURE(seed);

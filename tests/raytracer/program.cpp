@@ -5,37 +5,16 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include <algorithm>
 #include <chrono>
-#include <fstream>
-#include <sstream>
+#include <cstdlib>
 #include <stdexcept>
 #include <thread>
 
 namespace deburr::test {
 
-namespace fs = std::filesystem;
-
-Folder::Folder() {
-    std::string name = (fs::temp_directory_path() / "deburr-test-XXXXXX").string();
-    if (!mkdtemp(name.data())) throw std::runtime_error("cannot make " + name);
-    path_ = name;
-}
-
-Folder::~Folder() {
-    std::error_code ignored;
-    fs::remove_all(path_, ignored);
-}
-
-std::vector<std::string> Folder::names() const {
-    std::vector<std::string> names;
-    for (const auto& entry : fs::directory_iterator(path_)) names.push_back(entry.path().filename());
-    std::sort(names.begin(), names.end());
-    return names;
-}
-
 Call::Call(const std::vector<std::string>& words, const std::vector<std::string>& environment) {
-    std::vector<std::string> all = {DEBURR_PROGRAM};
+    const char* other = std::getenv("DEBURR_PROGRAM");
+    std::vector<std::string> all = {other ? other : DEBURR_PROGRAM};
     all.insert(all.end(), words.begin(), words.end());
     std::vector<char*> arguments;
     for (std::string& word : all) arguments.push_back(word.data());
@@ -86,15 +65,6 @@ Outcome Call::wait() {
 Outcome run(const std::vector<std::string>& words, const std::vector<std::string>& environment) {
     return Call(words, environment).wait();
 }
-
-std::string read_file(const std::string& path) {
-    std::ifstream file(path, std::ios::binary);
-    std::ostringstream text;
-    text << file.rdbuf();
-    return text.str();
-}
-
-void write_file(const std::string& path, const std::string& text) { std::ofstream(path, std::ios::binary) << text; }
 
 std::string cube_scene() {
     return R"(

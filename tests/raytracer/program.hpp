@@ -1,28 +1,14 @@
-// Runs the program as a user would, and gives it a folder and a scene to work on.
+// Runs the program as a user would, and gives it a scene to work on. The program is the one of the tests' build, or
+// that of the environment's DEBURR_PROGRAM.
 #pragma once
 #include <sys/types.h>
 
-#include <filesystem>
 #include <string>
 #include <vector>
 
+#include "raytracer/folder.hpp"
+
 namespace deburr::test {
-
-/// A fresh folder that vanishes with everything in it.
-class Folder {
-public:
-    Folder();
-    ~Folder();
-    Folder(const Folder&) = delete;
-    Folder& operator=(const Folder&) = delete;
-    /// Path of a file in it.
-    std::string operator/(const std::string& name) const { return (path_ / name).string(); }
-    /// Names of all that is in it, hidden files too, in order.
-    std::vector<std::string> names() const;
-
-private:
-    std::filesystem::path path_;
-};
 
 struct Outcome {
     int code = -1;  // exit code; 128 + signal if one ended it
@@ -51,9 +37,6 @@ private:
 };
 
 Outcome run(const std::vector<std::string>& words, const std::vector<std::string>& environment = {});
-
-std::string read_file(const std::string& path);
-void write_file(const std::string& path, const std::string& text);
 
 /// A rounded cube over a floor, 60 x 40, seen from above; parameters: r, the radius.
 std::string cube_scene();

@@ -215,7 +215,7 @@ TEST_CASE("Random free forms by octree: closed 2-manifolds, outward, on the surf
 }
 
 // More with DEBURR_STRESS=10000.
-TEST_CASE("Random CSG objects by octree: closed 2-manifolds, outward, on the surface") {
+TEST_CASE("Random CSG objects by octree: closed 2-manifolds, outward, on the surface", "[slow]") {
     const char* wanted = std::getenv("DEBURR_STRESS");
     const int cases = wanted ? std::atoi(wanted) : 200;
     std::size_t triangles = 0, inverted = 0, degenerate = 0;

@@ -245,7 +245,7 @@ TEST_CASE(
     CHECK(triangles > 100 * std::size_t(cases));
 }
 
-TEST_CASE("Facets that leaned inward face outward: folds, slivers, walls thinner than the mesh is fine") {
+TEST_CASE("Facets that leaned inward face outward: folds, slivers, walls thinner than the mesh is fine", "[slow]") {
     for (const int seed : {47,    78,    211,   285,   332,   354,   413,   448,   455,   544,   552,  584,  618,
                            659,   730,   904,   925,   962,   1162,  2356,  4446,  5342,  6502,  6714, 7346, 9824,
                            11210, 11381, 11951, 13148, 14001, 14389, 15783, 18408, 19662, 25652, 27924}) {

@@ -219,7 +219,7 @@ TEST_CASE("elsewhere than on a terminal progress is lines") {
     CHECK(o.err.find("100 %") != std::string::npos);
 }
 
-TEST_CASE("files are the same to the byte with SOURCE_DATE_EPOCH, whatever the threads") {
+TEST_CASE("files are the same to the byte with SOURCE_DATE_EPOCH, whatever the threads", "[threads]") {
     const Place place;
     const Words epoch = {"SOURCE_DATE_EPOCH=1700000000"};
     for (const std::string threads : {"1", "2", "2"}) {
@@ -316,7 +316,7 @@ TEST_CASE("statistics as a table and as JSON") {
     }
 }
 
-TEST_CASE("the first interrupt saves what there is, marked incomplete") {
+TEST_CASE("the first interrupt saves what there is, marked incomplete", "[slow]") {
     for (const int signal : {SIGINT, SIGTERM}) {
         const Place place;
         // A tile is done soon, the picture is not.

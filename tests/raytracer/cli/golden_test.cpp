@@ -10,7 +10,7 @@
 using namespace deburr::test;
 namespace fs = std::filesystem;
 
-TEST_CASE("every scene in scenes/ renders like its golden picture") {
+TEST_CASE("every scene in scenes/ renders like its golden picture", "[slow]") {
     int scenes = 0;
     for (const auto& entry : fs::directory_iterator(DEBURR_SOURCE_DIR "/scenes")) {
         if (entry.path().extension() != ".lua") continue;

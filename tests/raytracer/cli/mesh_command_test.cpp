@@ -132,7 +132,7 @@ TEST_CASE("mesh refuses what it does not know, and writes nothing") {
 // Limits: the tolerance is 0.03 r, and a ray that grazes a rounded edge meets it that much farther
 // along; variable_rounding's radius of 0.5 is as large as the object. Free forms have no radius to
 // follow: their mesh is as fine as a grid of 64 cells, and a lamp mirrored in it has other outlines.
-TEST_CASE("Every scene's mesh looks like its implicit surface") {
+TEST_CASE("Every scene's mesh looks like its implicit surface", "[slow]") {
     for (const auto& entry : fs::directory_iterator(DEBURR_SOURCE_DIR "/scenes")) {
         if (entry.path().extension() != ".lua") continue;
         // The hole punch has the same kinds of parts, in a tenth of the time.
@@ -189,7 +189,7 @@ TEST_CASE("compare tells solids of two files apart where both say which they saw
     CHECK(compared("a.exr", "b.png").first == 0);
 }
 
-TEST_CASE("a mesh does not depend on the number of threads") {
+TEST_CASE("a mesh does not depend on the number of threads", "[threads]") {
     const Folder folder;
     write_file(
         folder / "s.lua",
@@ -204,7 +204,7 @@ TEST_CASE("a mesh does not depend on the number of threads") {
     CHECK(read_file(folder / "1.ply") == read_file(folder / "4.ply"));
 }
 
-TEST_CASE("the first interrupt of a mesh ends it and writes nothing") {
+TEST_CASE("the first interrupt of a mesh ends it and writes nothing", "[slow]") {
     const Folder folder;
     // One solid is done soon, all of them are not.
     write_file(folder / "s.lua",

@@ -6,7 +6,7 @@
 #include <cstring>
 
 #include "catch.hpp"
-#include "raytracer/program.hpp"
+#include "raytracer/folder.hpp"
 #include "raytracer/util/errors.hpp"
 
 using namespace deburr;

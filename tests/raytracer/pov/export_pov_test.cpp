@@ -121,7 +121,7 @@ TEST_CASE("a formula for POV-Ray has the density's value everywhere") {
     CHECK(varying > 300);
 }
 
-TEST_CASE("no slope is steeper than what is proved for POV-Ray") {
+TEST_CASE("no slope is steeper than what is proved for POV-Ray", "[slow]") {
     for (const auto seed : seeds(100)) {
         CAPTURE(seed);
         Gen g(seed);

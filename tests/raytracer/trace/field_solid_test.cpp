@@ -7,7 +7,7 @@
 
 using namespace deburr;
 
-TEST_CASE("placed fields and rounded polyhedra, combined, are hit where the definition says") {
+TEST_CASE("placed fields and rounded polyhedra, combined, are hit where the definition says", "[slow]") {
     int rays = 0, hits = 0, differ = 0;
     for (auto seed : seeds(400)) {
         Gen g(seed);

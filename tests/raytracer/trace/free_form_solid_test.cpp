@@ -61,7 +61,7 @@ TEST_CASE("free forms of up to 80 perturbations are hit where the definition say
     CHECK(a.differ == 0);
 }
 
-TEST_CASE("free forms, mirrored, sheared and scaled unevenly, under CSG with rounded polyhedra") {
+TEST_CASE("free forms, mirrored, sheared and scaled unevenly, under CSG with rounded polyhedra", "[slow]") {
     Agreement a;
     for (auto seed : seeds(250)) {
         CAPTURE(seed);

@@ -143,7 +143,7 @@ TEST_CASE("a filter too small to be sampled leaves sharp faces with their normal
     }
 }
 
-TEST_CASE("a wheel of 40 sides, as a product and as a Boolean density with a hub and spokes") {
+TEST_CASE("a wheel of 40 sides, as a product and as a Boolean density with a hub and spokes", "[slow]") {
     for (const double r : {0.02, 0.1, 0.5}) {
         CAPTURE(r);
         const Agreement product =

@@ -5,7 +5,7 @@
 #include <sys/stat.h>
 
 #include "catch.hpp"
-#include "raytracer/program.hpp"
+#include "raytracer/folder.hpp"
 #include "raytracer/util/errors.hpp"
 
 using namespace deburr;

@@ -1,0 +1,133 @@
+// The main program of all tests: Catch2's, of either major version, and what Catch2 leaves open.
+//
+//   test_bounds [OPTION | PATTERN …]   Catch2's own call; it fails if a run matches no case
+//   test_bounds --case NAME            runs the one case of exactly this name; any other number of cases is a failure
+//   test_bounds --count                prints the number of cases that are compiled in
+//   test_bounds --ctest FILE           writes CTest's list of the cases, with their labels
+//
+// Catch2's own list for CTest is made by a CMake script that cuts names at a semicolon; Catch2 2 then finds no case of
+// such a name and reports success. Here the registry itself is asked, and every run is counted.
+//
+// Labels: `program` where the case's file includes raytracer/program.hpp, which runs the program as a user would;
+// `unit` elsewhere; and the case's tags [slow] and [threads], which tests/CMakeLists.txt explains.
+#ifdef DEBURR_CATCH_2
+#define CATCH_CONFIG_RUNNER
+#endif
+#include <cstdio>
+#include <fstream>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "catch.hpp"
+
+namespace {
+
+// Names of the cases that this run has begun.
+std::vector<std::string>& begun() {
+    static std::vector<std::string> names;
+    return names;
+}
+
+#ifdef DEBURR_CATCH_2
+using ListenerBase = Catch::TestEventListenerBase;
+#else
+using ListenerBase = Catch::EventListenerBase;
+#endif
+
+struct CountCases : ListenerBase {
+    using ListenerBase::ListenerBase;
+    void testCaseStarting(const Catch::TestCaseInfo& info) override { begun().push_back(info.name); }
+};
+CATCH_REGISTER_LISTENER(CountCases)
+
+const auto& compiled_in() { return Catch::getRegistryHub().getTestCaseRegistry().getAllTests(); }
+
+// The pattern that matches a name, whose marks a pattern would read as its own.
+std::string pattern_of(const std::string& name) {
+    std::string pattern;
+    for (const char c : name) {
+        if (std::string("\\,[]\"").find(c) != std::string::npos) pattern += '\\';
+        pattern += c;
+    }
+    return pattern;
+}
+
+// An argument as CMake takes it letter by letter.
+std::string bracket_argument(const std::string& text) {
+    std::string marks = "=";
+    while (text.find("]" + marks + "]") != std::string::npos) marks += "=";
+    return "[" + marks + "[" + text + "]" + marks + "]";
+}
+
+// True if a test's file runs the program. The compiler may have been given the path from another folder than this one.
+bool runs_program(const std::string& path) {
+    const std::string mark = "/tests/";
+    std::ifstream file(DEBURR_TESTS_DIR "/" + path.substr(path.rfind(mark) + mark.size()));
+    if (path.rfind(mark) == std::string::npos || !file) throw std::runtime_error("cannot read the test " + path);
+    for (std::string line; std::getline(file, line);)
+        if (line == "#include \"raytracer/program.hpp\"") return true;
+    return false;
+}
+
+void write_ctest(const std::string& path, const std::string& program, const std::string& folder) {
+    std::map<std::string, bool> runs;  // by file
+    std::ofstream file(path);
+    for (const auto& test : compiled_in()) {
+        const auto& info = test.getTestCaseInfo();
+        const std::string source = info.lineInfo.file;
+        if (!runs.count(source)) runs[source] = runs_program(source);
+        const bool slow = info.tagsAsString().find("[slow]") != std::string::npos;
+        const std::string name = bracket_argument(folder + ": " + info.name);
+        file << "add_test(" << name << " " << bracket_argument(program) << " --case " << bracket_argument(info.name)
+             << ")\nset_tests_properties(" << name << " PROPERTIES LABELS \"" << (runs[source] ? "program" : "unit")
+             << (slow ? ";slow\" COST 100)\n" : "\")\n");  // a case that costs much begins early
+    }
+    file.close();
+    if (!file) throw std::runtime_error("cannot write " + path);
+}
+
+int run(int argc, char** argv) {
+    const std::string option = argc > 1 ? argv[1] : "";
+    if (option == "--count") {
+        std::printf("%zu\n", compiled_in().size());
+        return 0;
+    }
+    if (option == "--ctest" && argc == 5) {
+        write_ctest(argv[2], argv[3], argv[4]);
+        return 0;
+    }
+    Catch::Session session;
+    if (option == "--case" && argc == 3) {
+        session.configData().testsOrTags = {pattern_of(argv[2])};
+        const int failed = session.run();
+        if (failed) return failed;
+        if (begun().size() == 1 && begun()[0] == argv[2]) return 0;
+        std::fprintf(stderr, "expected to run the one case '%s', ran %zu\n", argv[2], begun().size());
+        return 1;
+    }
+    if (const int failed = session.applyCommandLine(argc, argv)) return failed;
+    const auto& config = session.configData();
+    const bool only_says = config.showHelp || config.libIdentify || config.listTests || config.listTags ||
+#ifdef DEBURR_CATCH_2
+                           config.listTestNamesOnly ||
+#else
+                           config.listListeners ||
+#endif
+                           config.listReporters;
+    const int failed = session.run();
+    if (failed || only_says || !begun().empty()) return failed;
+    std::fprintf(stderr, "expected a case to run, none matched\n");
+    return 1;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    try {
+        return run(argc, argv);
+    } catch (const std::exception& error) {
+        std::fprintf(stderr, "%s: %s\n", argv[0], error.what());
+        return 1;
+    }
+}
