@@ -1,0 +1,56 @@
+// Reads any bytes as a scene, as `deburr info` would, and looks at what comes of it.
+//
+// Checked beside what the sanitizers see: a text is read or refused with SceneError, nothing else is thrown; the
+// message is one printable line that begins with the file's name; bounds and ranges of the solids are numbers in order.
+// The limits are far below a user's, so that an execution takes less than a millisecond.
+#include <algorithm>
+#include <cstdint>
+#include <cstdlib>
+
+#include "bounds/bounding_box.hpp"
+#include "bounds/solid_range.hpp"
+#include "raytracer/scene/illegal_densities.hpp"
+#include "raytracer/scene/scene_reader.hpp"
+
+namespace deburr {
+namespace {
+
+constexpr SandboxLimits limits{std::size_t(8) << 20, 100'000, 2.0};
+constexpr double most_leaves = 64;    // of a scene that is looked at
+constexpr int illegality_boxes = 50;  // cells in which a sum's range is looked at
+
+void require(bool promise) {
+    if (!promise) std::abort();
+}
+
+void check_message(const std::string& message) {
+    require(message.compare(0, 5, "f.lua") == 0);
+    require(std::none_of(message.begin(), message.end(),
+                         [](char c) { return static_cast<unsigned char>(c) < ' ' || c == 127; }));
+}
+
+void look_at(const Scene& scene) {
+    double leaves = 0;
+    for (const Solid& solid : scene.solids) leaves += solid.node().leaves;
+    if (leaves > most_leaves) return;
+    for (const Solid& solid : scene.solids) {
+        const SolidTree tree = flatten(solid);
+        const Box box = bounding_box(tree);
+        for (int k = 0; k < 3; ++k) require(box.empty() || box.lo[k] <= box.hi[k]);
+        (void)prune(tree, box.finite() && !box.empty() ? box : Box{Vec3(-1), Vec3(1)});
+    }
+    (void)illegal_densities(scene, illegality_boxes);
+}
+
+}  // namespace
+}  // namespace deburr
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+    using namespace deburr;
+    try {
+        look_at(read_scene_text({reinterpret_cast<const char*>(data), size}, "f.lua", {}, limits));
+    } catch (const SceneError& error) {
+        check_message(error.what());
+    }
+    return 0;
+}
