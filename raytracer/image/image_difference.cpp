@@ -139,6 +139,11 @@ void write_difference(const std::string& path, const Film& a, const Film& b) {
     write_raster(path, image);
 }
 
+// 0 for what is no number of a solid, which files may hold, too.
+static std::uint32_t whole_number(float value) {
+    return value >= 0 && value < 4294967296.0f ? std::uint32_t(value) : 0;
+}
+
 Film read_picture(const std::string& path) {
     const auto read = [&] {
         try {
@@ -159,8 +164,11 @@ Film read_picture(const std::string& path) {
     const int position[3] = {channel("P.X"), channel("P.Y"), channel("P.Z")};
     const int normal[3] = {channel("N.X"), channel("N.Y"), channel("N.Z")};
     std::vector<ImageLayer> kept;
-    if (position[0] >= 0) kept.push_back(ImageLayer::position);
-    if (normal[0] >= 0) kept.push_back(ImageLayer::normal);
+    // A layer that a file has in part is none.
+    const bool has_position = *std::min_element(position, position + 3) >= 0;
+    const bool has_normal = *std::min_element(normal, normal + 3) >= 0;
+    if (has_position) kept.push_back(ImageLayer::position);
+    if (has_normal) kept.push_back(ImageLayer::normal);
     if (id >= 0) kept.push_back(ImageLayer::id);
     Film film(image.width, image.height, image.window, kept);
     std::vector<PixelLayers> layers(film.pixels.size());
@@ -169,11 +177,11 @@ Film read_picture(const std::string& path) {
         Pixel& p = film.pixels[i];
         for (int k = 0; k < 3; ++k) {
             p.color[k] = from[rgb[k] >= 0 ? rgb[k] : rgb[0]];
-            if (position[0] >= 0) layers[i].position[k] = from[position[k]];
-            if (normal[0] >= 0) layers[i].normal[k] = from[normal[k]];
+            if (has_position) layers[i].position[k] = from[position[k]];
+            if (has_normal) layers[i].normal[k] = from[normal[k]];
         }
         p.alpha = alpha >= 0 ? from[alpha] : 1;
-        if (id >= 0) layers[i].id = std::uint32_t(from[id]);
+        if (id >= 0) layers[i].id = whole_number(from[id]);
     }
     film.set_layers(film.window, layers.data());
     return film;
