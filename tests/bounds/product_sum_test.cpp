@@ -56,7 +56,7 @@ TEST_CASE("a density multiplied out has the density's values and gradients") {
         REQUIRE(glm::length(ray.gradient(0) - want.gradient) < 1e-11 * (1 + glm::length(want.gradient)));
     }
     CHECK(recognized > 2'000);
-    CHECK(with_constant > 300);
+    CHECK(with_constant > 250);  // compilers evaluate operands in orders of their own: other cases, 294 with clang++
     CHECK(several > 300);
 }
 
