@@ -105,7 +105,8 @@ private:
             const Vec3 normal = area / twice;
             const Offset here = field_.at(x);
             const bool near = beside_surface(here, normal, x);
-            if (!near && !faces_outward(field_, x, here, normal, normals, longest)) result_.inward.add(x);
+            if (!near && !options_.may_lean && !faces_outward(field_, x, here, normal, normals, longest))
+                result_.inward.add(x);
             // More points of those that are large: a part that is skinned over need not be in the middle.
             const std::size_t more = std::size_t(twice / area_each);
             for (std::size_t k = 1; k <= more; ++k) {

@@ -16,6 +16,9 @@ struct MeshCheckOptions {
     /// there, and parts that have no facet within a radius are missed.
     double tolerance = infinity;
     double least_tolerance = 0;  // for what the mesh cannot be finer than
+    /// Facets may face inward where the tolerance cannot tell: those of marching cubes do, in cubes that a thin wall
+    /// passes.
+    bool may_lean = false;
     StopFlag stop = nullptr;
 };
 
