@@ -2,7 +2,8 @@
 // points that the solid holds.
 //
 // Points are taken where mistakes show: on either side of facets, and in the parts of a box around the solid that no
-// facet passes, which are cut until the solid is known there. What is found is so; that nothing is found proves
+// facet passes, which are cut until the solid is known there. Facets that reach into each other by no more than
+// rounding do not cross. What is found is so; that nothing is found proves
 // nothing of parts smaller than the tolerance.
 #pragma once
 #include "bounds/solid_tree.hpp"
