@@ -44,9 +44,9 @@ std::size_t check_parts(int usual, bool facets_lean, Polygonize polygonize) {
 }  // namespace
 
 TEST_CASE("Random parts by triage pass the check of what was made") {
-    CHECK(check_parts(150, false, [](const SolidTree& solid, const Box& box, MeshCheckOptions&) {
+    CHECK(check_parts(100, false, [](const SolidTree& solid, const Box& box, MeshCheckOptions&) {
               return triage(solid, box);
-          }) > 20'000);
+          }) > 10'000);
 }
 
 TEST_CASE("Random parts by marching cubes pass the check of what was made") {
@@ -54,7 +54,7 @@ TEST_CASE("Random parts by marching cubes pass the check of what was made") {
               options.least_tolerance = largest(box.hi - box.lo) / 50;
               options.may_lean = true;
               return marching_cubes(solid, box, options.least_tolerance);
-          }) > 20'000);
+          }) > 10'000);
 }
 
 TEST_CASE("Random parts by the octree pass the check of what was made") {
@@ -62,5 +62,5 @@ TEST_CASE("Random parts by the octree pass the check of what was made") {
               OctreeOptions of_octree;
               of_octree.edge = options.least_tolerance = largest(box.hi - box.lo) / 40;
               return octree(solid, box, of_octree);
-          }) > 20'000);
+          }) > 10'000);
 }
