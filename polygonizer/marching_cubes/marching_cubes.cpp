@@ -216,12 +216,23 @@ private:
             return false;
         };
         const std::size_t n = loop.size();
-        for (std::size_t apex = 0; apex < n; ++apex) {
+        // The first fan that faces outward as its corners do, or else the one that does best.
+        std::size_t best = n;
+        double most = -infinity;
+        for (std::size_t apex = 0; apex < n && most <= 0; ++apex) {
             bool good = true;
             for (std::size_t k = 2; k + 1 < n && good; ++k) good = !share_face(loop[apex], loop[(apex + k) % n]);
             if (!good) continue;
+            double least = infinity;
             for (std::size_t k = 1; k + 1 < n; ++k)
-                triangle(loop[apex], loop[(apex + k) % n], loop[(apex + k + 1) % n]);
+                least = std::min(least, outwardness(loop[apex], loop[(apex + k) % n], loop[(apex + k + 1) % n]));
+            if (least <= most) continue;
+            most = least;
+            best = apex;
+        }
+        if (best < n) {
+            for (std::size_t k = 1; k + 1 < n; ++k)
+                triangle(loop[best], loop[(best + k) % n], loop[(best + k + 1) % n]);
             return;
         }
         Vec3 centre(0.0);
@@ -235,6 +246,15 @@ private:
         mesh_.normals.push_back(o.normal == Vec3(0.0) ? mesh_.normals[std::size_t(loop[0])] : o.normal);
         materials_.push_back(materials_[std::size_t(loop[0])]);
         for (std::size_t k = 0; k < n; ++k) triangle(middle, loop[k], loop[(k + 1) % n]);
+    }
+
+    // Cosine between a triangle and its corners' normals, times how long these are together; 0 without area.
+    double outwardness(int a, int b, int c) const {
+        const auto x = [&](int v) { return mesh_.positions[std::size_t(v)]; };
+        const auto normal = [&](int v) { return mesh_.normals[std::size_t(v)]; };
+        const Vec3 area = glm::cross(x(b) - x(a), x(c) - x(a));
+        const double twice = glm::length(area);
+        return twice > 0 ? glm::dot(area, normal(a) + normal(b) + normal(c)) / twice : 0;
     }
 
     void triangle(int a, int b, int c) {

@@ -11,6 +11,7 @@
 #include <stdexcept>
 
 #include "polygonizer/mesh/separate_touching.hpp"
+#include "polygonizer/mesh/single_precision.hpp"
 
 namespace deburr {
 namespace {
@@ -94,9 +95,7 @@ std::string stl(const Mesh& mesh) {
     out.resize(80, ' ');
     put_word(out, count_of(mesh.triangles.size()));
     for (const Triangle& t : mesh.triangles) {
-        const Vec3 area = mesh.area_vector(t);
-        const double size = glm::length(area);
-        put_floats(out, size > 0 ? area / size : Vec3(0.0));
+        put_floats(out, single_precision_normal(mesh, t));
         for (const int v : t.vertex) put_floats(out, mesh.positions[std::size_t(v)]);
         out += std::string(2, '\0');
     }

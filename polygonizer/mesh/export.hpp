@@ -4,7 +4,7 @@
 //   OBJ   text, the shortest digits that read back as the same double; positions shared, normals
 //         apart, one object per solid
 //   PLY   binary, doubles, shared vertices. It has one normal per vertex: on a sharp seam the mean
-//   STL   binary: single precision and no sharing is all that it can hold
+//   STL   binary: single precision and no sharing is all that it can hold; normals are those of its own corners
 //   GLB   glTF 2.0: single precision; a vertex on a sharp seam is there once for each normal; one
 //         primitive per solid and material
 //   ASE   text of 3ds Max [Vyatkin §4]: positions shared, a normal for every corner, one object per

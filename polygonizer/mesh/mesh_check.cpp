@@ -73,12 +73,15 @@ private:
     }
 
     void crossings() {
+        // Where parts touch, vertices lie in facets up to the rounding of what computed them.
+        const Box all = tree_.box();
+        const double rounding = all.empty() ? 0 : 1e-11 * std::max(largest(all.lo), largest(all.hi));
         for (std::size_t s = 0; s < mesh_.triangles.size(); ++s) {
             if (s % stop_every == 0) throw_if_stopped(options_.stop);
             tree_.visit(tree_.box(int(s)), [&](int t) {
                 if (t <= int(s)) return true;
                 ++result_.pairs;
-                if (triangles_cross(mesh_, mesh_.triangles[s], mesh_.triangles[std::size_t(t)]))
+                if (triangles_cross(mesh_, mesh_.triangles[s], mesh_.triangles[std::size_t(t)], rounding))
                     result_.crossing.add(0.5 * (middle(mesh_.triangles[s]) + middle(mesh_.triangles[std::size_t(t)])));
                 return true;
             });
@@ -105,7 +108,8 @@ private:
             const Vec3 normal = area / twice;
             const Offset here = field_.at(x);
             const bool near = beside_surface(here, normal, x);
-            if (!near && !faces_outward(field_, x, here, normal, normals, longest)) result_.inward.add(x);
+            if (!near && !options_.may_lean && !faces_outward(field_, x, here, normal, normals, longest))
+                result_.inward.add(x);
             // More points of those that are large: a part that is skinned over need not be in the middle.
             const std::size_t more = std::size_t(twice / area_each);
             for (std::size_t k = 1; k <= more; ++k) {

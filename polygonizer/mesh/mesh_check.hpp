@@ -2,7 +2,8 @@
 // points that the solid holds.
 //
 // Points are taken where mistakes show: on either side of facets, and in the parts of a box around the solid that no
-// facet passes, which are cut until the solid is known there. What is found is so; that nothing is found proves
+// facet passes, which are cut until the solid is known there. Facets that reach into each other by no more than
+// rounding do not cross. What is found is so; that nothing is found proves
 // nothing of parts smaller than the tolerance.
 #pragma once
 #include "bounds/solid_tree.hpp"
@@ -16,6 +17,9 @@ struct MeshCheckOptions {
     /// there, and parts that have no facet within a radius are missed.
     double tolerance = infinity;
     double least_tolerance = 0;  // for what the mesh cannot be finer than
+    /// Facets may face inward where the tolerance cannot tell: those of marching cubes do, in cubes that a thin wall
+    /// passes.
+    bool may_lean = false;
     StopFlag stop = nullptr;
 };
 

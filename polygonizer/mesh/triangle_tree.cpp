@@ -118,18 +118,25 @@ namespace {
 
 using Corners = std::array<Vec3, 3>;
 
-int sign(double x) { return (x > 0) - (x < 0); }
+// The sign of x, or 0 where x is no more than the slack, by the unit that it is measured in.
+int sign(double x, double slack = 0, double unit = 1) { return std::abs(x) <= slack * unit ? 0 : x > 0 ? 1 : -1; }
+
+double twice_area(const Corners& t) { return glm::length(glm::cross(t[1] - t[0], t[2] - t[0])); }
 
 // Whether the segment passes through the triangle from one side to the other, within.
-bool pierces(Vec3 p, Vec3 q, const Corners& t) {
-    const int from = sign(orientation(t[0], t[1], t[2], p));
-    if (from == 0 || from != -sign(orientation(t[0], t[1], t[2], q))) return false;
-    const int side = sign(orientation(p, q, t[0], t[1]));
-    return side != 0 && side == sign(orientation(p, q, t[1], t[2])) && side == sign(orientation(p, q, t[2], t[0]));
+bool pierces(Vec3 p, Vec3 q, const Corners& t, double slack) {
+    const double area = twice_area(t), length = glm::distance(p, q);
+    const int from = sign(orientation(t[0], t[1], t[2], p), slack, area);
+    if (from == 0 || from != -sign(orientation(t[0], t[1], t[2], q), slack, area)) return false;
+    const auto side = [&](std::size_t k) {
+        const Vec3 a = t[k], b = t[(k + 1) % 3];
+        return sign(orientation(p, q, a, b), slack, length * glm::distance(a, b));
+    };
+    return side(0) != 0 && side(0) == side(1) && side(0) == side(2);
 }
 
 // Of triangles in one plane: no side of either has the other one beyond it.
-bool overlap(const Corners& s, const Corners& t) {
+bool overlap(const Corners& s, const Corners& t, double slack) {
     const Vec3 normal = glm::abs(glm::cross(s[1] - s[0], s[2] - s[0]));
     const int drop = normal.x >= normal.y && normal.x >= normal.z ? 0 : normal.y >= normal.z ? 1 : 2;
     const auto flat = [&](Vec3 x) { return Vec2(x[(drop + 1) % 3], x[(drop + 2) % 3]); };
@@ -137,8 +144,10 @@ bool overlap(const Corners& s, const Corners& t) {
         const int turn = sign(orientation(flat(a[0]), flat(a[1]), flat(a[2])));
         if (turn == 0) return true;
         for (std::size_t k = 0; k < 3; ++k) {
+            const Vec2 from = flat(a[k]), to = flat(a[(k + 1) % 3]);
             bool beyond = true;
-            for (const Vec3& x : b) beyond &= turn * sign(orientation(flat(a[k]), flat(a[(k + 1) % 3]), flat(x))) <= 0;
+            for (const Vec3& x : b)
+                beyond &= turn * sign(orientation(from, to, flat(x)), slack, glm::distance(from, to)) <= 0;
             if (beyond) return true;
         }
         return false;
@@ -148,7 +157,7 @@ bool overlap(const Corners& s, const Corners& t) {
 
 }  // namespace
 
-bool triangles_cross(const Mesh& mesh, const Triangle& s, const Triangle& t) {
+bool triangles_cross(const Mesh& mesh, const Triangle& s, const Triangle& t, double slack) {
     Corners a, b;
     int shared = 0;
     for (std::size_t k = 0; k < 3; ++k) {
@@ -157,10 +166,11 @@ bool triangles_cross(const Mesh& mesh, const Triangle& s, const Triangle& t) {
         for (const int v : t.vertex) shared += v == s.vertex[k];
     }
     // Of two that share an edge, or of which one does not reach through the other's plane, only a plane can be shared.
-    const auto reaches_through = [](const Corners& plane, const Corners& of, bool& flat) {
+    const auto reaches_through = [slack](const Corners& plane, const Corners& of, bool& flat) {
+        const double area = twice_area(plane);
         int least = 1, most = -1;
         for (const Vec3& x : of) {
-            const int side = sign(orientation(plane[0], plane[1], plane[2], x));
+            const int side = sign(orientation(plane[0], plane[1], plane[2], x), slack, area);
             least = std::min(least, side);
             most = std::max(most, side);
         }
@@ -168,11 +178,11 @@ bool triangles_cross(const Mesh& mesh, const Triangle& s, const Triangle& t) {
         return least < 0 && most > 0;
     };
     bool flat = false;
-    if (!reaches_through(a, b, flat)) return flat && overlap(a, b);
+    if (!reaches_through(a, b, flat)) return flat && overlap(a, b, slack);
     if (shared >= 2 || !reaches_through(b, a, flat)) return false;
     for (std::size_t k = 0; k < 3; ++k) {
         const std::size_t n = (k + 1) % 3;
-        if (pierces(a[k], a[n], b) || pierces(b[k], b[n], a)) return true;
+        if (pierces(a[k], a[n], b, slack) || pierces(b[k], b[n], a, slack)) return true;
     }
     return false;
 }

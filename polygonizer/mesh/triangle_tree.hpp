@@ -48,8 +48,8 @@ private:
     std::vector<Node> nodes_;
 };
 
-/// Whether the insides of two triangles meet in more than a point or an edge they share, exactly. Triangles that
-/// touch do not cross; those that overlap in one plane do.
-bool triangles_cross(const Mesh& mesh, const Triangle& s, const Triangle& t);
+/// Whether the insides of two triangles meet in more than a point or an edge they share: exactly, or but for `slack`
+/// by which they may reach into each other. Triangles that touch do not cross; those that overlap in one plane do.
+bool triangles_cross(const Mesh& mesh, const Triangle& s, const Triangle& t, double slack = 0);
 
 }  // namespace deburr

@@ -6,8 +6,10 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
+#include "bounds/bounding_box.hpp"
 #include "polygonizer/mesh/export.hpp"
 #include "polygonizer/mesh/metrics.hpp"
+#include "polygonizer/mesh/single_precision.hpp"
 #include "raytracer/cli/commands.hpp"
 #include "raytracer/cli/options.hpp"
 #include "raytracer/cli/statistics.hpp"
@@ -25,7 +27,7 @@ using Json = nlohmann::ordered_json;
 
 struct MeshCommandOptions : Options {
     std::string method, tolerance, grid, edge, level, hard_angle, faces;
-    bool no_check = false, force = false;
+    bool no_check = false, force = false, recentre = false;
 };
 
 MeshSettings settings(const MeshCommandOptions& o) {
@@ -154,6 +156,37 @@ bool passes(const MeshCommandOptions& o, const Scene& scene, const SceneMesh& me
     return o.force;
 }
 
+// The finite solids go to the origin, by their middle; returns the way.
+Vec3 recentre(Scene& scene) {
+    Box all;
+    for (const Solid& solid : scene.solids)
+        if (const Box box = bounding_box(flatten(solid)); !box.empty() && box.finite()) all = hull(all, box);
+    if (all.empty()) return Vec3(0.0);
+    Affine move;
+    move.shift = -0.5 * (all.lo + all.hi);
+    for (Solid& solid : scene.solids) solid = solid.transformed(move);
+    return move.shift;
+}
+
+// Says what files of single precision lose, if that is to be seen.
+void warn_of_single_precision(const MeshCommandOptions& o, const SceneMesh& mesh) {
+    const SinglePrecisionLoss loss = single_precision_loss(mesh.mesh);
+    double radius = infinity;
+    for (const SolidTree& tree : mesh.trees)
+        if (const double r = tree.least_radius(); r > 0) radius = std::min(radius, r);
+    constexpr double visible = 0.02;  // of a radius
+    if (loss.spoiled == 0 && loss.step <= visible * radius) return;
+    for (const std::string& path : o.outputs) {
+        const MeshFormat format = *mesh_format(path);
+        if (format != MeshFormat::stl && format != MeshFormat::glb) continue;
+        fmt::print(
+            stderr,
+            "deburr: {}: single precision has steps of {:.2g} at coordinates up to {:.6g}, and the mesh edges of "
+            "{:.2g}: {} facets are flattened or turned over; PLY and OBJ hold them, --recentre may help\n",
+            path, loss.step, loss.coordinate, loss.least_edge, loss.spoiled);
+    }
+}
+
 int run_mesh(const MeshCommandOptions& o) {
     if (o.scene.empty()) throw UsageError("mesh: expected a scene file");
     if (o.outputs.empty() && !o.stats && o.stats_json.empty())
@@ -172,8 +205,11 @@ int run_mesh(const MeshCommandOptions& o) {
 
     PhaseClock clock;
     clock.begin("read");
-    const Scene scene = load_scene(o);
+    Scene scene = load_scene(o);
     for (const std::string& path : files) check_writable(path);
+    if (o.recentre)
+        if (const Vec3 shift = recentre(scene); shift != Vec3(0.0) && !o.quiet)
+            fmt::print(stderr, "deburr: --recentre: moved by ({:.17g}, {:.17g}, {:.17g})\n", shift.x, shift.y, shift.z);
     clock.begin("polygonize");
     const std::atomic<bool>& stop = catch_interrupts(!o.quiet);
     // How many meshes --faces takes is not known before.
@@ -199,6 +235,7 @@ int run_mesh(const MeshCommandOptions& o) {
                    mesh.mesh.positions.size(), clock.wall("polygonize"));
 
     const bool written = passes(o, scene, mesh);
+    if (written && !o.quiet) warn_of_single_precision(o, mesh);
     clock.begin("write");
     MeshNotes notes{scene.names, {}};
     for (const Material& m : scene.materials) notes.colors.push_back(m.color.a);
@@ -262,6 +299,7 @@ Command add_mesh_command(CLI::App& program) {
         ->type_name("A");
     command->add_option("--faces", options->faces, "as near to this number of triangles as the method comes")
         ->type_name("N");
+    command->add_flag("--recentre", options->recentre, "move the middle of the solids to the origin");
     command->add_flag("--no-check", options->no_check, "do not check the mesh against the solids");
     command->add_flag("--force", options->force, "write the mesh even if the check fails");
     add_run_options(*command, *options);

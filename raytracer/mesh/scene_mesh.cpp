@@ -122,6 +122,7 @@ SolidMesh polygonize(const SolidTree& tree, bool cut_off, const MeshSettings& se
                                                grid, most_cubes, id));
         result.mesh = marching_cubes(tree, box, grid, stop);
         result.check_options.least_tolerance = grid;
+        result.check_options.may_lean = true;
     }
     return result;
 }

@@ -1,5 +1,6 @@
 #include "polygonizer/mesh/export.hpp"
 
+#include <array>
 #include <cstring>
 #include <fstream>
 #include <nlohmann/json.hpp>
@@ -113,4 +114,16 @@ TEST_CASE("Marching cubes closes ambiguous faces: a checkerboard of boxes") {
     const SolidTree tree = flatten(Solid::rounded(0.2, all));
     for (const double grid : {0.3, 0.1, 0.07})
         CHECK(topology(marching_cubes(tree, polygonization_box(tree), grid)).closed());
+}
+
+TEST_CASE("An STL's normals are those of the corners that it has") {
+    Mesh mesh;
+    // In doubles the triangle leans; in single precision, 1000 away, it does not.
+    mesh.positions = {{1000, 0, 0}, {1001, 0, 0}, {1000.00001, 1, 0}, {1000.00002, 0, 1}};
+    mesh.normals = {{0, 0, 1}};
+    mesh.triangles = {{{0, 3, 2}, {0, 0, 0}}};
+    const std::string bytes = encode(mesh, MeshFormat::stl);
+    std::array<float, 3> normal;
+    std::memcpy(normal.data(), bytes.data() + 84, sizeof normal);
+    CHECK(normal == std::array<float, 3>{-1, 0, 0});
 }

@@ -148,3 +148,18 @@ TEST_CASE("Winding numbers tell inside and outside, and edges in the way do not 
     }
     CHECK(inside > 1'000);  // others lie on faces
 }
+
+TEST_CASE("Parts that touch in a corner pass the check, by whatever rounding turns them") {
+    for (int degrees = 0; degrees < 90; degrees += 7) {
+        CAPTURE(degrees);
+        const double angle = degrees / 57.29577951308232;
+        Affine turn;
+        turn.linear = Mat3(std::cos(angle), std::sin(angle), 0, -std::sin(angle), std::cos(angle), 0, 0, 0, 1);
+        turn.shift = {50, 3, 7};
+        const Density wedge = Density::box({1, -1, 0.2}, {3, 1, 0.8}) * Density::half_space({-1, 1, 0}, -1) *
+                              Density::half_space({-1, -1, 0}, -1);
+        const SolidTree solid =
+            flatten((Solid::sharp(Density::box({0, -2, 0}, {1, 2, 1})) | Solid::sharp(wedge)).transformed(turn));
+        CHECK(check(mesh_of(solid), solid).faults() == 0);
+    }
+}

@@ -269,3 +269,22 @@ TEST_CASE("mesh writes nothing wrong: a lost part is said with its place, and --
     CHECK(unchecked.err == "");
     CHECK(fs::exists(folder / "a.stl"));
 }
+
+TEST_CASE("A small radius far away is more than an STL can hold: this is said, and --recentre helps") {
+    const Folder folder;
+    write_file(folder / "s.lua", "return { solids = { rounded(0.001, cube()):translate(1000,2000,-3000) } }");
+    const Outcome outcome = run({"mesh", folder / "s.lua", "-o", folder / "a.stl", "-o", folder / "a.ply"});
+    CHECK(outcome.code == 0);
+    CHECK(outcome.err.find("a.stl: single precision has steps of 0.00024 at coordinates up to 3000") !=
+          std::string::npos);
+    CHECK(outcome.err.find("--recentre") != std::string::npos);
+    CHECK(outcome.err.find("a.ply") == std::string::npos);
+    const Outcome moved = run({"mesh", folder / "s.lua", "--recentre", "-o", folder / "b.stl"});
+    CHECK(moved.code == 0);
+    CHECK(moved.err.find("moved by (-1000.5, -2000.5, 2999.5)") != std::string::npos);
+    CHECK(moved.err.find("single precision") == std::string::npos);
+    const deburr::Mesh mesh = deburr::welded_stl(read_file(folder / "b.stl"));
+    CHECK(topology(mesh).manifold());
+    CHECK(bounding_box(mesh).lo == deburr::Vec3(-0.5));
+    CHECK(bounding_box(mesh).hi == deburr::Vec3(0.5));
+}

@@ -1,0 +1,66 @@
+// Parts as people build them, by every method: what the mesh command would say of them.
+#include <cstdlib>
+
+#include "bounds/bounding_box.hpp"
+#include "catch.hpp"
+#include "polygonizer/marching_cubes/marching_cubes.hpp"
+#include "polygonizer/mesh/mesh_check.hpp"
+#include "polygonizer/octree/octree.hpp"
+#include "polygonizer/random_part.hpp"
+#include "polygonizer/triage/triage.hpp"
+
+using namespace deburr;
+
+namespace {
+
+// DEBURR_STRESS=10000: so many parts; DEBURR_STRESS_FROM=10000: others.
+// `facets_lean`: where a wall is thinner than a cell, some facets face inward.
+template <class Polygonize>
+std::size_t check_parts(int usual, bool facets_lean, Polygonize polygonize) {
+    const char* wanted = std::getenv("DEBURR_STRESS");
+    const char* from = std::getenv("DEBURR_STRESS_FROM");
+    const int cases = wanted ? std::atoi(wanted) : usual, first = from ? std::atoi(from) : 0;
+    std::size_t facets = 0, inward = 0;
+    for (int seed = first; seed < first + cases; ++seed) {
+        CAPTURE(seed);
+        RandomPart part(seed);
+        const SolidTree solid = flatten(part.solid());
+        const Box box = polygonization_box(solid);
+        MeshCheckOptions options;
+        const Mesh mesh = polygonize(solid, box, options);
+        const MeshCheck check = check_mesh(mesh, solid, box, options);
+        CHECK(check.open.count == 0);
+        inward += check.inward.count;
+        if (!facets_lean) CHECK(check.inward.count == 0);
+        CHECK(check.crossing.count == 0);
+        CHECK(check.missing.count == 0);
+        CHECK(check.added.count == 0);
+        facets += check.facets;
+    }
+    CHECK(inward <= facets / 2000);
+    return facets;
+}
+
+}  // namespace
+
+TEST_CASE("Random parts by triage pass the check of what was made") {
+    CHECK(check_parts(100, false, [](const SolidTree& solid, const Box& box, MeshCheckOptions&) {
+              return triage(solid, box);
+          }) > 10'000);
+}
+
+TEST_CASE("Random parts by marching cubes pass the check of what was made") {
+    CHECK(check_parts(20, true, [](const SolidTree& solid, const Box& box, MeshCheckOptions& options) {
+              options.least_tolerance = largest(box.hi - box.lo) / 50;
+              options.may_lean = true;
+              return marching_cubes(solid, box, options.least_tolerance);
+          }) > 10'000);
+}
+
+TEST_CASE("Random parts by the octree pass the check of what was made") {
+    CHECK(check_parts(10, true, [](const SolidTree& solid, const Box& box, MeshCheckOptions& options) {
+              OctreeOptions of_octree;
+              of_octree.edge = options.least_tolerance = largest(box.hi - box.lo) / 40;
+              return octree(solid, box, of_octree);
+          }) > 10'000);
+}
