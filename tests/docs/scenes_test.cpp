@@ -9,6 +9,7 @@
 #include "bounds/free_form.hpp"
 #include "catch.hpp"
 #include "docs/page.hpp"
+#include "raytracer/scene/lua_sandbox.hpp"
 #include "raytracer/scene/scene_functions.hpp"
 #include "raytracer/scene/scene_reader.hpp"
 
@@ -250,6 +251,15 @@ TEST_CASE("docs/scenes.md has the defaults of the fields") {
             ++defaults;
         }
     CHECK(defaults > 60);
+}
+
+TEST_CASE("docs/scenes.md has the limits of a scene") {
+    const std::string page = project_file("docs/scenes.md");
+    const SandboxLimits limits;
+    CHECK(contains(page, fmt::format("{} MiB of memory, {} million steps and {} seconds", limits.memory >> 20,
+                                     limits.work / 1'000'000, limits.seconds)));
+    CHECK(contains(page, fmt::format("{} million\nparts", most_steps / 1'000'000)));
+    CHECK(contains(page, fmt::format("at\nmost {},000,000 half-spaces", most_half_spaces / 1e6)));
 }
 
 TEST_CASE("docs/scenes.md has the arguments of every function, and what each takes") {
