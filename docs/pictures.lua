@@ -21,6 +21,8 @@ local block = box({0, 0, 0}, {0.7, 0.7, 1})
 local peg = box({0.35, 0, 0.25}, {1, 1, 0.75})
 local knob = cube() & ~box({0.25, 0.5, 0.25}, {0.75, 2, 0.75})
 
+local other = cube():translate(0.5, 0.45, -0.2)
+
 local function quadrics()
   local frame = sharp(box({-0.5, 0, -0.5}, {0.5, 1, 0.5}))
   local middle = {0, 0.5, 0}
@@ -48,8 +50,7 @@ local pictures = {
                 sharp(prism(polygon(6, 0.5), 0, 0.8)):translate(0.5, 0, 0.5) },
   roundings = { sharp(knob), rounded(0.05, knob), rounded(0.12, knob), rounded(0.2, knob), convolved(0.2, knob) },
   operators = { rounded(0.07, block | peg), rounded(0.07, block & peg), rounded(0.07, block & ~peg) },
-  flow = { rounded(0.1, cube() | cube():translate(0.3, 0.3, 0.3)):scale(0.77),
-            (rounded(0.1, cube()) | rounded(0.1, cube()):translate(0.3, 0.3, 0.3)):scale(0.77) },
+  flow = { rounded(0.15, cube() | other):scale(0.68), (rounded(0.15, cube()) | rounded(0.15, other)):scale(0.68) },
   radius = { rounded(0.25, cube()), rounded(0.25, cube() * halfspace({0, 1, 0}, 0.8):radius(0.03)) },
   quadrics = quadrics(),
   freeform = { pebble | pebble, freeform(pebble, { perturbation(3, bump) }),
