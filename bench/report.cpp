@@ -100,7 +100,7 @@ std::string Report::json() const {
 }
 
 std::string Report::markdown() const {
-    std::string text = fmt::format("{}.\n\n| | | measured | bar | |\n|---|---|---:|---:|---|\n", machine());
+    std::string text = fmt::format("{}.\n\n| | | measured | goal | |\n|---|---|---:|---:|---|\n", machine());
     for (const SectionResult& section : sections_)
         for (const Figure& f : section.figures)
             if (f.bar)

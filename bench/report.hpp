@@ -53,7 +53,7 @@ public:
     void note(const std::string& text);
 
     std::string json() const;
-    /// The figures with a bar, as a table for the README.
+    /// The figures with a bar, as a table for docs/benchmarks.md.
     std::string markdown() const;
     /// FOLDER/CURVE.dat of every curve and FOLDER/bars.dat of every figure with a bar, for gnuplot.
     void write_plot_data(const std::string& folder) const;

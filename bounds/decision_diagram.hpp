@@ -1,5 +1,5 @@
-// Boolean densities as decision diagrams over families of parallel planes [DESIGN: Boolean
-// densities].
+// Boolean densities as decision diagrams over families of parallel planes
+// [docs/design.md, Boolean densities].
 //
 // A Boolean density is the probability that the Boolean function of its half-spaces is true when a
 // point is drawn around x: independently for every direction, but with one draw for all parallel

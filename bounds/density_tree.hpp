@@ -72,9 +72,9 @@ struct DensityTree {
 /// A scene that asks for more half-spaces than this is refused.
 constexpr double most_half_spaces = 4e6;
 
-/// Rounds and places a density: radius r wherever the scene fixed none, then `to_world`. Below a
-/// Boolean operator + * - become ∨ ∧ ∧¬ (DESIGN §2). Chains of one associative operator come out
-/// balanced, and bounded parts have their supports. Throws std::length_error past most_half_spaces.
+/// Rounds and places a density: radius r wherever the scene fixed none, then `to_world`. Below a Boolean operator
+/// + * - become ∨ ∧ ∧¬ [docs/design.md, Boolean densities]. Chains of one associative operator come out balanced, and
+/// bounded parts have their supports. Throws std::length_error past most_half_spaces.
 DensityTree flatten(const Density& density, double radius, const Affine& to_world = {});
 
 /// The true convolution [Lobb eq. 1] by a ball of this radius > 0: all of the density is read as a

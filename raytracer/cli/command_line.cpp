@@ -12,7 +12,9 @@
 
 #include "bounds/decision_diagram.hpp"
 #include "polygonizer/triage/triage.hpp"
+#include "raytracer/cli/command_documents.hpp"
 #include "raytracer/cli/commands.hpp"
+#include "raytracer/cli/nearest_name.hpp"
 #include "raytracer/scene/scene_reader.hpp"
 #include "raytracer/util/errors.hpp"
 #include "raytracer/util/interrupt.hpp"
@@ -33,12 +35,14 @@ void open_standard_files() {
         if (fcntl(descriptor, F_GETFD) < 0 && open("/dev/null", O_RDWR) < 0) _exit(1);
 }
 
-// The first word that the command has no use for.
-void refuse_rest(const CLI::App& app, const std::string& name, const char* kind) {
-    for (const std::string& word : app.remaining()) {
-        const bool option = word.size() > 1 && word[0] == '-';
-        throw UsageError(fmt::format("{} '{}' (see {} --help)", option ? "unknown option" : kind,
-                                     option ? word.substr(0, word.find('=')) : word, name));
+// Refuses the first word that the command has no use for, with the nearest of its options or of `words`.
+void refuse_rest(const CLI::App& app, const std::string& name, const char* kind,
+                 const std::vector<std::string>& words = {}) {
+    for (const std::string& given : app.remaining()) {
+        const bool option = given.size() > 1 && given[0] == '-';
+        const std::string word = option ? given.substr(0, given.find('=')) : given;
+        throw UsageError(fmt::format("{} '{}'{} (see {} --help)", option ? "unknown option" : kind, word,
+                                     suggestion(word, option ? option_names(app) : words), name));
     }
 }
 
@@ -71,10 +75,10 @@ int run(CLI::App& program, const std::vector<Command>& commands, int argc, char*
         refuse_rest(*command.app, "deburr " + command.app->get_name(), "unexpected argument");
         return command.run();
     }
-    refuse_rest(program, "deburr", "unknown command");
-    std::string names;
-    for (const Command& command : commands) names += (names.empty() ? "" : ", ") + command.app->get_name();
-    throw UsageError(fmt::format("expected a command: {} (see deburr --help)", names));
+    std::vector<std::string> names;
+    for (const Command& command : commands) names.push_back(command.app->get_name());
+    refuse_rest(program, "deburr", "unknown command", names);
+    throw UsageError(fmt::format("expected a command: {} (see deburr --help)", fmt::join(names, ", ")));
 }
 
 }  // namespace
@@ -85,10 +89,12 @@ int run_program(int argc, char** argv, const std::vector<Command (*)(CLI::App&)>
     try {
         CLI::App program("Deburr renders CSG models with every edge rounded.", "deburr");
         program.set_version_flag("--version", "deburr " DEBURR_VERSION);
+        program.footer("deburr help NAME explains a command, or a name of the scene language.");
         program.allow_extras();
-        std::vector<Command> commands = {add_render_command(program), add_mesh_command(program),
-                                         add_compare_command(program), add_info_command(program),
-                                         add_export_pov_command(program)};
+        program.require_subcommand(0, 1);  // "help render" names one command, and a scene may be called "mesh"
+        std::vector<Command> commands = {add_render_command(program),     add_mesh_command(program),
+                                         add_compare_command(program),    add_info_command(program),
+                                         add_export_pov_command(program), add_help_command(program)};
         for (const auto add : more) commands.push_back(add(program));
         for (const Command& command : commands) command.app->allow_extras();
         const int code = run(program, commands, argc, argv);

@@ -1,4 +1,5 @@
-// The program's commands. Each is a file of its own, command_NAME.cpp, and registers itself here.
+// The program's commands. Each is a file of its own, NAME_command.cpp; it is declared here and added to the program by
+// run_program().
 #pragma once
 #include <CLI/CLI.hpp>
 #include <functional>
@@ -16,5 +17,6 @@ Command add_info_command(CLI::App& program);
 Command add_mesh_command(CLI::App& program);
 Command add_compare_command(CLI::App& program);
 Command add_export_pov_command(CLI::App& program);
+Command add_help_command(CLI::App& program);
 
 }  // namespace deburr

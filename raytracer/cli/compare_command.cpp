@@ -144,7 +144,7 @@ Command add_compare_command(CLI::App& program) {
         ->type_name("NAME");
     command
         ->add_option("--tolerance", options->tolerance,
-                     "of the mesh, as for mesh; default: 0.03 of each solid's least radius")
+                     "the mesh's tolerance, as for mesh; default: 0.03 of each solid's least radius")
         ->type_name("D");
     command->add_option("--json", options->json, "write the figures as JSON")->type_name("FILE");
     command

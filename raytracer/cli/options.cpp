@@ -62,12 +62,14 @@ void add_picture_options(CLI::App& command, Options& o) {
     add(command, "--aov", "LIST", "further layers of an EXR: some of P,N,Z,albedo,id,cost",
         [&o](const std::string& text) { o.layers = parse_layers("--aov", text); });
     command.add_flag("--float", o.float_color, "32 bits for the colour of an EXR, not 16");
-    add(command, "--criterion", "exact|lobb", "when a ray's segment has one root at most; default: exact",
+    add(command, "--criterion", "exact|lobb",
+        "the test that a ray's segment holds one root at most: exact, or the printed one of Lobb's paper; default: "
+        "exact",
         [&o](const std::string& text) { o.criterion = parse_criterion("--criterion", text); });
 }
 
 void add_run_options(CLI::App& command, Options& o) {
-    add(command, "--threads", "N", "default: as many as there are processors",
+    add(command, "--threads", "N", "number of threads; default: as many as there are processors",
         [&o](const std::string& text) { o.threads = int(parse_whole("--threads", text, 1, most_threads)); });
     command.add_flag("-q,--quiet", o.quiet, "say nothing but errors");
     command.add_flag("-v,--verbose", o.verbose, "say what is done");

@@ -242,25 +242,27 @@ Command add_render_command(CLI::App& program) {
     add_picture_options(*command, *options);
     command
         ->add_option("--via", options->via,
-                     "the road from the scene to the picture: implicit (exact), or a mesh by " + mesh_method_names())
+                     "how surfaces are found: implicit (exact, the default), or as a mesh by " + mesh_method_names())
         ->type_name("NAME");
     command
         ->add_option_function<std::string>(
             "--accel", [options](const std::string& text) { options->accel = parse_accel("--accel", text); },
-            "what leads exact rays to surfaces, with the same picture: BSPs with a tree of boxes, or a BVH of "
-            "Embree's; default: bsp")
+            "implicit only: find surfaces by our own BVH over BSP cells or by Embree's, with the same picture; "
+            "default: "
+            "bsp")
         ->type_name("bsp|embree");
     command
         ->add_option("--tolerance", options->tolerance,
-                     "of the mesh, as for mesh; default: 0.03 of each solid's least radius")
+                     "meshes only: the mesh's tolerance, as for mesh; default: 0.03 of each solid's least radius")
         ->type_name("D");
-    command->add_flag("--flat", options->flat, "of a mesh: each facet with one normal");
-    command->add_flag("--edges", options->edges, "of a mesh: its polygons' edges, as black lines");
+    command->add_flag("--flat", options->flat, "meshes only: shade each facet with one normal");
+    command->add_flag("--edges", options->edges, "meshes only: draw the polygons' edges as black lines");
     command
         ->add_option(
             "--wire", options->wire,
-            "of a mesh: only its edges, hidden lines removed (visible) or those of faces that look away (front)")
-        ->type_name("MODE");
+            "meshes only: draw edges alone, with hidden lines removed (visible), or all of faces towards the camera "
+            "(front)")
+        ->type_name("visible|front");
     add_run_options(*command, *options);
     add_statistics_options(*command, *options);
     return {command, [options] { return run_render(*options); }};

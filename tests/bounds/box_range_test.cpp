@@ -85,7 +85,7 @@ TEST_CASE("a solid pruned to a box has the same inside there") {
     CHECK(straddling > 800);
 }
 
-TEST_CASE("a holed cube leaves two half-spaces in boxes of half the radius, as measured in DESIGN") {
+TEST_CASE("a holed cube leaves two half-spaces in boxes of half the radius, as docs/design.md says") {
     const double r = 0.05;
     const DensityTree tree = flatten(Density::box(Vec3(0), Vec3(1)) & ~Density::box({0.3, -1, 0.3}, {0.7, 2, 0.7}), r);
     REQUIRE(tree.half_spaces.size() == 12);

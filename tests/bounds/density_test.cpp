@@ -97,7 +97,7 @@ TEST_CASE("flush faces that overlap, touch or are cut away stay flat to 1e-14") 
         // The pocket's own rim is rounded; beyond a radius from it the top is as it was.
         if (std::abs(x - 1.5) > 0.5 + r) CHECK(std::abs(at(cut, r, {x, 1, 0.75}) - 0.5) < 1e-14);
     }
-    // What DESIGN measures of the papers' sum and of a product of two equal half-spaces.
+    // What docs/design.md, Boolean densities, says of the papers' sum and of a product of two equal half-spaces.
     const Density h = Density::half_space({0, 1, 0}, 1);
     CHECK(at(slab_box(0, 2) + slab_box(1, 3), r, {1.5, 1 + 0.347 * r, 0.5}) == Approx(0.5).margin(2e-3));
     CHECK(at(h * h, r, {0, 1 - 0.284 * r, 0}) == Approx(0.5).margin(2e-3));

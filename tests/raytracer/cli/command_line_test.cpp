@@ -69,7 +69,7 @@ TEST_CASE("a wrong call is one line and exit code 2, and nothing is written") {
     const std::string output = place / "a.exr";
     const std::pair<Words, std::string> table[] = {
         {{}, "expected a command: render"},
-        {{"rendr", scene}, "unknown command 'rendr' (see deburr --help)"},
+        {{"rendr", scene}, "unknown command 'rendr', did you mean render? (see deburr --help)"},
         {{"--foo"}, "unknown option '--foo' (see deburr --help)"},
         {{"render"}, "render: expected a scene file"},
         {{"info"}, "expected a scene file"},
