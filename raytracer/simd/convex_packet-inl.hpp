@@ -194,7 +194,7 @@ Lanes crossings_of(const ConvexView& density, const RayPacket& rays, Lanes lanes
         if (part == 0) continue;
         const Convex<N> convex(density, Rays(rays, first), evaluations);
         const V lo = hn::Load(d, spans.from + first), hi = hn::Load(d, spans.to + first);
-        const V negligible = number(8 * epsilon) * (number(scale) + lo);
+        const V negligible = number(8 * epsilon) * (number(scale) + hn::Abs(lo));
         const M meeting = convex.meeting(mask_of(part), lo, hi, negligible);
         if (none(meeting)) continue;
         if constexpr (Any) {

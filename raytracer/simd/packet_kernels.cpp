@@ -16,7 +16,8 @@ HWY_BEFORE_NAMESPACE();
 namespace deburr {
 namespace HWY_NAMESPACE {
 
-void prepare(RayPacket& rays, double scale) {
+bool prepare(RayPacket& rays, double scale, double farthest) {
+    bool far = false;
     for (std::size_t first = 0; first < RayPacket::size; first += hn::Lanes(d)) {
         V reach = hn::Zero(d);
         for (int k = 0; k < 3; ++k) {
@@ -26,7 +27,9 @@ void prepare(RayPacket& rays, double scale) {
             reach = hn::Max(reach, hn::Abs(hn::Load(d, rays.origin[k] + first)));
         }
         hn::Store(number(scale) + reach, d, rays.reach + first);
+        far |= !none(reach > number(farthest));
     }
+    return far;
 }
 
 // Where rays are within a box, as span_in() says.

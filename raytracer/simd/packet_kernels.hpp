@@ -34,8 +34,8 @@ constexpr int most_packet_factors = 8;
 
 /// What there is for each set of instructions.
 struct PacketFunctions {
-    /// For a scene whose coordinates reach `scale`.
-    void (*prepare)(RayPacket& rays, double scale);
+    /// For a scene whose coordinates reach `scale`. Whether a ray begins beyond `farthest`, by its largest coordinate.
+    bool (*prepare)(RayPacket& rays, double scale, double farthest);
 
     /// Of `lanes`, the rays that meet the box before their end.
     Lanes (*enter)(const Box& box, const RayPacket& rays, Lanes lanes, PacketEntry& entry);
@@ -50,7 +50,7 @@ struct PacketFunctions {
     Lanes (*plane_crossings)(const AlphaPlane& plane, const RayPacket& rays, Lanes lanes, const PacketSpans& spans,
                              PacketCrossings& found);
 
-    /// first_crossing() for each of `lanes`, whose spans must be finite, with negligible = 8 ε (scale + from); those
+    /// first_crossing() for each of `lanes`, whose spans must be finite, with negligible = 8 ε (scale + |from|); those
     /// that have one.
     Lanes (*convex_crossings)(const ConvexView& density, const RayPacket& rays, Lanes lanes, const PacketSpans& spans,
                               double scale, PacketCrossings& found, std::uint64_t& evaluations);

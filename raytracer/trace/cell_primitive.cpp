@@ -53,7 +53,8 @@ std::size_t Pieces::half_spaces(std::size_t i) const {
 Lanes Pieces::crossings(const Piece& p, const RayPacket& rays, Lanes lanes, const PacketSpans& spans,
                         PacketCrossings& found, TraceCounters& counters) const {
     if (p.kind == Piece::Kind::convex)
-        return packet_functions.convex_crossings(view(p), rays, lanes, spans, scale_, found, counters.evaluations);
+        return packet_functions.convex_crossings(view(p), rays, lanes, spans, tolerances_.scale, found,
+                                                 counters.evaluations);
     const Lanes crossed = packet_functions.plane_crossings(planes_[p.first], rays, lanes, spans, found);
     counters.flat_hits += std::uint64_t(__builtin_popcount(crossed));
     return crossed;
@@ -62,7 +63,7 @@ Lanes Pieces::crossings(const Piece& p, const RayPacket& rays, Lanes lanes, cons
 Lanes Pieces::occlusions(const Piece& p, const RayPacket& rays, Lanes lanes, const PacketSpans& spans,
                          TraceCounters& counters) const {
     if (p.kind == Piece::Kind::convex)
-        return packet_functions.convex_occlusions(view(p), rays, lanes, spans, scale_, counters.evaluations);
+        return packet_functions.convex_occlusions(view(p), rays, lanes, spans, tolerances_.scale, counters.evaluations);
     PacketCrossings found;
     return crossings(p, rays, lanes, spans, found, counters);
 }

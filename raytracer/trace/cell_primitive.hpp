@@ -28,7 +28,7 @@ static_assert(sizeof(Piece) == 64);  // a cache line
 class Pieces {
 public:
     Pieces() = default;
-    Pieces(const Tolerances& tolerances, Criterion criterion) : scale_(tolerances.scale), criterion_(criterion) {}
+    Pieces(const Tolerances& tolerances, Criterion criterion) : tolerances_(tolerances), criterion_(criterion) {}
 
     /// `box`: the cell; `solid`: the number of its solid here.
     void add(LocalSolid&& local, const Box& box, int solid);
@@ -45,11 +45,11 @@ public:
     /// First crossing of a convex piece in [t0, t1]; whether there is one.
     ConvexCrossing convex_crossing(const Piece& p, const Vec3& origin, const Vec3& direction, double t0, double t1,
                                    TraceCounters& counters) const {
-        return first_crossing(view(p), origin, direction, t0, t1, negligible(t0), counters.evaluations);
+        return first_crossing(view(p), origin, direction, t0, t1, tolerances_.along(t0), counters.evaluations);
     }
     bool crosses_convex(const Piece& p, const Vec3& origin, const Vec3& direction, double t0, double t1,
                         TraceCounters& counters) const {
-        return any_crossing(view(p), origin, direction, t0, t1, negligible(t0), counters.evaluations);
+        return any_crossing(view(p), origin, direction, t0, t1, tolerances_.along(t0), counters.evaluations);
     }
     /// Whether packets may ask for piece i.
     bool for_packets(std::size_t i) const {
@@ -74,12 +74,11 @@ public:
 
 private:
     ConvexView view(const Piece& p) const { return {&planes_[p.first], p.soft, p.sharp, p.complement}; }
-    double negligible(double t) const { return 8 * epsilon * (scale_ + t); }
 
     std::vector<Piece> pieces_;
     std::vector<AlphaPlane> planes_;
     std::vector<LocalSolid> locals_;
-    double scale_ = 1;
+    Tolerances tolerances_;
     Criterion criterion_ = Criterion::exact;
 };
 

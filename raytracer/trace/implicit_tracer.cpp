@@ -80,7 +80,8 @@ struct InsideTogether {
 // What was found along `ray`, in the space around again.
 FoundSurface outside(FoundSurface found, const Placement& p, const Ray& ray, double rate) {
     if (!(found.crossing.t < infinity)) return {};
-    found.crossing.t /= rate;
+    found.crossing.t = (found.start + found.crossing.t) / rate;
+    found.start = 0;
     if (!p.only_moved)
         found.crossing.normal = glm::normalize(found.crossing.normal * p.into.linear);  // by the transpose
     if (found.crossing.material < 0) found.crossing.material = p.material;
@@ -133,6 +134,11 @@ Hit hit_of(const FoundSurface& found, const Ray& ray) {
     Hit hit;
     hit.t = found.crossing.t;
     hit.position = ray.origin + ray.direction * hit.t;
+    if (found.start > 0) [[unlikely]] {
+        hit.t += found.start;
+        // Summed up as the search did: on the surface, wherever the ray comes from.
+        hit.position = (ray.origin + ray.direction * found.start) + ray.direction * found.crossing.t;
+    }
     hit.normal = found.crossing.normal;
     hit.solid = found.solid;
     hit.material = std::max(0, found.crossing.material);

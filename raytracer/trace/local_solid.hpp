@@ -25,6 +25,8 @@ struct Tolerances {
 
     /// Bound planes keep clear by this, so that a density's sign on them can be relied upon.
     double clear() const { return scale * 0x1p-40; }
+    /// Stretches of a ray that are no longer than this count as nothing at its parameter t.
+    double along(double t) const { return 8 * epsilon * (scale + std::abs(t)); }
     /// Cells know their solids this far beyond their walls.
     double margin() const { return scale * 0x1p-38; }
     /// A smaller filter lies between neighbouring points: α would jump, and overflow.

@@ -96,10 +96,10 @@ void LocalSolid::field_crossings(const Field& field, double greatest_unit, const
         ++scratch.counters.roots.evaluations;
         return ray.at(t).value > RootFinder::rounding;
     };
-    // Piece by piece, each no longer than it is away: far from here f may be so large that what is
-    // here would be lost in its rounding.
+    // Piece by piece, each no longer than it is away, be it ahead of t = 0 or behind: far from here f may be so large
+    // that what is here would be lost in its rounding.
     for (double from = t0, to;; from = to) {
-        to = std::min(t1, 2 * from + 4 * scale_);
+        to = std::min(t1, from < 0 ? from + std::max(-0.5 * from, 4 * scale_) : 2 * from + 4 * scale_);
         // Where a piece begins, f may have another sign than where the last ended, by rounding.
         const bool inside = from > t0 && inside_at(from);
         ray.set(field, origin, direction, from, to);
@@ -108,7 +108,7 @@ void LocalSolid::field_crossings(const Field& field, double greatest_unit, const
         } else if (inside_at(from) != inside) {
             if (!emit(from, !inside)) return;
         }
-        RootFinder finder({scratch.criterion, 8 * epsilon * (scale_ + from), faint}, scratch.counters.roots);
+        RootFinder finder({scratch.criterion, Tolerances{scale_}.along(from), faint}, scratch.counters.roots);
         if (!finder.crossings(ray, from, to, [&](RootCrossing c) { return emit(c.t, c.entering); })) return;
         if (to >= t1) return;
     }
@@ -121,7 +121,7 @@ void LocalSolid::sum_crossings(const ProductSum& sum, const Vec3& origin, const 
     ProductSumRay& ray = scratch.sum;
     ray.set(sum, origin, direction);
     if (start_inside) *start_inside = ray.inside(t0);
-    ray.crossings(t0, t1, 8 * epsilon * (scale_ + t0), coarse, scratch.counters.roots,
+    ray.crossings(t0, t1, Tolerances{scale_}.along(t0), coarse, scratch.counters.roots,
                   [&](RootCrossing c) { return visit(c.t, c.entering, coarse ? Vec3(0.0) : unit(ray.gradient(c.t))); });
 }
 
@@ -133,7 +133,7 @@ void LocalSolid::soft_crossings(const Soft& soft, const Vec3& origin, const Vec3
         return field_crossings(*soft.field, soft.unit, origin, direction, t0, t1, scratch, start_inside, visit);
     if (soft.convex) {
         const ConvexView view = ConvexView::of(*soft.convex);
-        const ConvexCrossings all = all_crossings(view, origin, direction, t0, t1, 8 * epsilon * (scale_ + t0),
+        const ConvexCrossings all = all_crossings(view, origin, direction, t0, t1, Tolerances{scale_}.along(t0),
                                                   scratch.counters.roots.evaluations);
         if (start_inside) *start_inside = all.start_inside;
         for (int i = 0; i < all.count; ++i) {
@@ -172,7 +172,7 @@ void LocalSolid::soft_crossings(const Soft& soft, const Vec3& origin, const Vec3
             }
             if (!(hi < 1e300)) hi = 1e300;
         }
-        const double negligible = 8 * epsilon * (scale_ + lo);
+        const double negligible = Tolerances{scale_}.along(lo);
         Stretch stretch(density, scratch, negligible);
         const auto pass = [&](double t, bool entering) { return visit(t, entering, Vec3(0.0)); };
         if (!has_sharp) {
@@ -280,7 +280,7 @@ SurfaceCrossing LocalSolid::first_crossing(const Vec3& origin, const Vec3& direc
     // all of them counts.
     for (std::size_t i = 0; i < events.size();) {
         const std::size_t first = i;
-        const double same = events[first].t + 16 * epsilon * (scale_ + events[first].t);
+        const double same = events[first].t + 2 * Tolerances{scale_}.along(events[first].t);
         std::size_t decisive = first;
         bool now = before;
         for (; i < events.size() && events[i].t <= same; ++i) {

@@ -12,6 +12,7 @@ struct FoundSurface {
     SurfaceCrossing crossing;  // t = infinity: none
     int solid = -1;            // as the space numbers them
     double error = 0;          // of the position: what floating point rounds it by
+    double start = 0;          // crossing.t counts from here on the ray that was asked for
 };
 
 class NearestCrossing {
@@ -41,7 +42,7 @@ public:
     }
 
     /// What was found; `rounding`: what the place is rounded by on a ray of this space.
-    FoundSurface surface(const Ray& ray, double rounding) const {
+    [[gnu::always_inline]] FoundSurface surface(const Ray& ray, double rounding) const {
         if (!found_) return {};
         if (!pieces_) return {{end_, normal_, material_}, solid_, error_};
         return {{end_, pieces_->normal(number_, convex_, ray.origin, ray.direction), material_}, solid_, rounding};

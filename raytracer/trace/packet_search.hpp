@@ -13,9 +13,10 @@ template <bool Any>
 class PacketSearch {
 public:
     /// Of at most RayPacket::size rays.
-    PacketSearch(const Surfaces& surfaces, const SeveralRays& rays, TraceCounters& counters, const Others* others)
+    PacketSearch(const Surfaces& surfaces, const SeveralRays& rays, TraceCounters& counters, const Others* others,
+                 double farthest = infinity)
         : surfaces_(surfaces),
-          rays_(rays.rays),
+          rays_(rays),
           counters_(counters),
           others_(others),
           lanes_((Lanes(1) << rays.size()) - 1) {
@@ -29,8 +30,11 @@ public:
             packet_.end[k] = std::min(rays.t_max[i], rays.end[i]);
             if constexpr (!Any) nearest_[k] = NearestCrossing(packet_.end[k]);
         }
-        packet_functions.prepare(packet_, surfaces.scale);
+        is_far_ = packet_functions.prepare(packet_, surfaces.scale, farthest);
     }
+
+    /// Whether a ray begins beyond `farthest`.
+    bool is_far() const { return is_far_; }
 
     void search(const BoxTree& boxes) {
         look_at_planes();
@@ -49,16 +53,17 @@ public:
     Lanes any() const { return any_; }
     /// What ray k found.
     FoundSurface surface(int k) const {
-        return nearest_[k].surface(rays_[std::size_t(k)], rounding_of(packet_.reach[k], nearest_[k].end()));
+        return nearest_[k].surface(ray(k), rounding_of(packet_.reach[k], nearest_[k].end()));
     }
 
 private:
+    const Ray& ray(int k) const { return rays_.rays[std::size_t(k)]; }
     double longest_way() const { return packet_functions.longest_way(packet_, lanes_, entry_); }
     void look_at_planes() {
         if (surfaces_.planes.size() == 0) return;
         PacketSpans spans;
         for (int k = 0; k < RayPacket::size; ++k) {
-            spans.from[k] = 0;
+            spans.from[k] = std::size_t(k) < rays_.begin.size() ? rays_.begin[std::size_t(k)] : 0;
             spans.to[k] = packet_.t_max[k];
         }
         for (std::size_t i = 0; i < surfaces_.planes.size(); ++i)
@@ -91,8 +96,8 @@ private:
         Lanes crossed = 0;
         for_each_lane(lanes, [&](int k) {
             NearestCrossing& nearest = nearest_[Any ? 0 : k];  // of no use where that there is one is all that is asked
-            const bool crosses = look_at_piece<Any>(pieces, i, rays_[std::size_t(k)], spans.from[k], spans.to[k],
-                                                    packet_.reach[k], nearest, counters_);
+            const bool crosses =
+                look_at_piece<Any>(pieces, i, ray(k), spans.from[k], spans.to[k], packet_.reach[k], nearest, counters_);
             crossed |= Lanes(crosses) << k;
         });
         return found(crossed);
@@ -108,7 +113,7 @@ private:
         int lane[RayPacket::size];
         std::size_t count = 0;
         for_each_lane(in, [&](int k) {
-            rays[count] = rays_[std::size_t(k)];
+            rays[count] = ray(k);
             t_max[count] = packet_.t_max[k];
             end[count] = packet_.end[k];
             lane[count++] = k;
@@ -148,10 +153,11 @@ private:
     }
 
     const Surfaces& surfaces_;
-    std::span<const Ray> rays_;
+    const SeveralRays& rays_;
     TraceCounters& counters_;
     const Others* others_;
     Lanes lanes_, any_ = 0;  // that go on; that found something
+    bool is_far_;
     RayPacket packet_;
     PacketEntry entry_;
     NearestCrossing nearest_[Any ? 1 : RayPacket::size];

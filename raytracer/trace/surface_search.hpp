@@ -12,10 +12,11 @@
 
 namespace deburr {
 
-/// Rays that run close to each other: each in [0, t_max]; what lies beyond `end` need not be found.
+/// Rays that run close to each other: each in [begin, t_max]; what lies beyond `end` need not be found.
 struct SeveralRays {
     std::span<const Ray> rays;
     std::span<const double> t_max, end;
+    std::span<const double> begin = {};  // empty: 0
 
     std::size_t size() const { return rays.size(); }
 };
@@ -54,7 +55,7 @@ struct Surfaces {
 };
 
 /// What a distance along a ray is rounded by, where coordinates that are added reach so far.
-inline double rounding_of(double reach, double t) { return 4 * epsilon * (reach + t); }
+inline double rounding_of(double reach, double t) { return 4 * epsilon * (reach + std::abs(t)); }
 
 /// Whether the ray crosses piece i in [from, to]. Unless that is all that is asked (`Any`), the first crossing is
 /// offered to `nearest`.
@@ -83,17 +84,18 @@ template <bool Any>
     return true;
 }
 
-/// `Any`: that there is a crossing in [0, t_max] is all that is asked.
+/// `Any`: that there is a crossing in [begin, t_max] is all that is asked.
 template <bool Any>
 class SurfaceSearch {
 public:
-    /// In [0, t_max]; what lies beyond `end` need not be found.
+    /// In [begin, t_max]; what lies beyond `end` need not be found.
     SurfaceSearch(const Surfaces& surfaces, const Ray& ray, double t_max, double end, TraceCounters& counters,
-                  const Others* others)
+                  const Others* others, double begin = 0)
         : surfaces_(surfaces),
           ray_(ray),
           inverse_(reciprocal(ray.direction)),
           reach_(surfaces.scale + largest(ray.origin)),
+          begin_(begin),
           t_max_(t_max),
           nearest_(std::min(t_max, end)),
           counters_(counters),
@@ -102,6 +104,7 @@ public:
     const Ray& ray() const { return ray_; }
     const Vec3& inverse() const { return inverse_; }
     bool found() const { return nearest_.found() || any_; }
+    double begin() const { return begin_; }
     /// Nothing counts beyond.
     double end() const { return nearest_.end(); }
     /// Nothing more needs to be looked at.
@@ -110,7 +113,8 @@ public:
     double rounding(double t) const { return rounding_of(reach_, t); }
 
     void look_at_planes() {
-        for (std::size_t i = 0; i < surfaces_.planes.size(); ++i) look(surfaces_.planes, std::uint32_t(i), 0, t_max_);
+        for (std::size_t i = 0; i < surfaces_.planes.size(); ++i)
+            look(surfaces_.planes, std::uint32_t(i), begin_, t_max_);
     }
 
     void look_at(std::uint32_t i) {
@@ -126,10 +130,10 @@ public:
 private:
     void look_in_cell(std::uint32_t i) {
         // As far as t_max, not end(): what is found may depend on both ends of the stretch, by rounding.
-        const BoxSpan span = span_in(surfaces_.pieces[i].box, ray_.origin, inverse_, 0, t_max_);
+        const BoxSpan span = span_in(surfaces_.pieces[i].box, ray_.origin, inverse_, begin_, t_max_);
         // Cells overlap by what their walls are rounded by: a surface in a wall belongs to both.
         const double pad = rounding(std::min(span.lo, span.hi));
-        const double from = std::max(0.0, span.lo - pad), to = std::min(t_max_, span.hi + pad);
+        const double from = std::max(begin_, span.lo - pad), to = std::min(t_max_, span.hi + pad);
         if (from <= to && from <= end()) look(surfaces_.pieces, i, from, to);
     }
 
@@ -153,7 +157,7 @@ private:
     const Ray& ray_;
     Vec3 inverse_;
     double reach_;  // of coordinates that are added
-    double t_max_;
+    double begin_, t_max_;
     NearestCrossing nearest_;
     bool any_ = false;
     TraceCounters& counters_;

@@ -27,10 +27,13 @@ void traverse(const BspTree& tree, const Ray& ray, double t0, double t1, OnCell 
             continue;
         }
         const double o = ray.origin[node.axis], d = ray.direction[node.axis];
-        const bool upper = o > node.split || (o == node.split && d > 0);
-        const int near = node.child + upper, far = node.child + !upper;
-        const double t = (node.split - o) / d;  // NaN or not positive: the plane is never reached
-        if (!(t > 0) || t >= now.t1) {
+        if (d == 0) {
+            now.node = node.child + (o > node.split);
+            continue;
+        }
+        const int near = node.child + (d < 0), far = node.child + (d > 0);
+        const double t = (node.split - o) / d;
+        if (t >= now.t1) {
             now.node = near;
         } else if (t <= now.t0) {
             now.node = far;
@@ -54,7 +57,7 @@ template <bool Any>
     const BoxSpan span = span_in(around_, ray.origin, search.inverse(), 0, search.end());
     const bool meets = !around_.empty() && span.lo <= span.hi;
     if (!bounded_) {
-        walk(search, 0, meets ? span.lo : search.end());
+        walk(search, search.begin(), meets ? span.lo : search.end());
         if (search.enough() || (search.found() && search.end() < span.lo)) return true;
     }
     if (!meets) return search.found();
@@ -83,16 +86,44 @@ void BspTracer::walk(SurfaceSearch<Any>& search, double t0, double t1) const {
     });
 }
 
-FoundSurface BspTracer::find(const Ray& ray, double t_max, TraceCounters& counters, const Others* others,
-                             double end) const {
-    SurfaceSearch<false> s(surfaces_, ray, t_max, end, counters, others);
+FoundSurface BspTracer::find_nearby(const Ray& ray, double begin, double t_max, TraceCounters& counters,
+                                    const Others* others, double end) const {
+    SurfaceSearch<false> s(surfaces_, ray, t_max, end, counters, others, begin);
     return search(s) ? s.surface() : FoundSurface{};
 }
 
-bool BspTracer::any(const Ray& ray, double t_max, TraceCounters& counters, const Others* others) const {
-    SurfaceSearch<true> s(surfaces_, ray, t_max, t_max, counters, others);
+bool BspTracer::any_nearby(const Ray& ray, double begin, double t_max, TraceCounters& counters,
+                           const Others* others) const {
+    SurfaceSearch<true> s(surfaces_, ray, t_max, t_max, counters, others, begin);
     return search(s);
 }
+
+// ---- rays from far away --------------------------------------------------------------------------
+
+FoundSurface BspTracer::find_from_afar(const Ray& ray, double t_max, TraceCounters& counters, const Others* others,
+                                       double end) const {
+    const double start = vicinity_.start(ray);
+    if (start == 0) return find_nearby(ray, 0, t_max, counters, others, end);
+    const FarRay far(ray, start, t_max, surfaces_.scale);
+    if (has_unbounded()) {
+        const FoundSurface first = find_nearby(ray, 0, std::min(t_max, far.middle), counters, others, end);
+        if (first.crossing.t < infinity) return first;
+    }
+    if (std::min(t_max, end) < far.middle) return {};
+    FoundSurface found = find_nearby(far.moved, far.begin, far.t_max, counters, others, end - start);
+    found.start = start;
+    return found;
+}
+
+bool BspTracer::any_from_afar(const Ray& ray, double t_max, TraceCounters& counters, const Others* others) const {
+    const double start = vicinity_.start(ray);
+    if (start == 0) return any_nearby(ray, 0, t_max, counters, others);
+    const FarRay far(ray, start, t_max, surfaces_.scale);
+    if (has_unbounded() && any_nearby(ray, 0, std::min(t_max, far.middle), counters, others)) return true;
+    return t_max >= far.middle && any_nearby(far.moved, far.begin, far.t_max, counters, others);
+}
+
+// ---- rays together -------------------------------------------------------------------------------
 
 namespace {
 
@@ -103,6 +134,11 @@ constexpr std::size_t fewest_together = 4;
 
 bool BspTracer::leads_together(std::size_t rays) const { return rays >= fewest_together && bounded_ && !embree_; }
 
+// Those that begin elsewhere than at 0 are moved already.
+double BspTracer::farthest(const SeveralRays& rays) const {
+    return rays.begin.empty() ? vicinity_.farthest() : infinity;
+}
+
 void BspTracer::find(const SeveralRays& rays, FoundSurface* found, TraceCounters& counters,
                      const Others* others) const {
     if (!leads_together(rays.size())) {
@@ -110,7 +146,8 @@ void BspTracer::find(const SeveralRays& rays, FoundSurface* found, TraceCounters
             found[k] = find(rays.rays[k], rays.t_max[k], counters, others, rays.end[k]);
         return;
     }
-    PacketSearch<false> packet(surfaces_, rays, counters, others);
+    PacketSearch<false> packet(surfaces_, rays, counters, others, farthest(rays));
+    if (packet.is_far()) return find_from_afar(rays, found, counters, others);
     packet.search(boxes_);
     for (int k = 0; k < int(rays.size()); ++k) found[k] = packet.surface(k);
 }
@@ -122,9 +159,80 @@ Lanes BspTracer::any(const SeveralRays& rays, TraceCounters& counters, const Oth
             found |= Lanes(any(rays.rays[k], rays.t_max[k], counters, others)) << k;
         return found;
     }
-    PacketSearch<true> packet(surfaces_, rays, counters, others);
+    PacketSearch<true> packet(surfaces_, rays, counters, others, farthest(rays));
+    if (packet.is_far()) return any_from_afar(rays, counters, others);
     packet.search(boxes_);
     return packet.any();
+}
+
+namespace {
+
+// Rays that go on together beside the space: those from far away are moved.
+struct RaysBeside {
+    std::size_t count = 0;
+    Ray rays[RayPacket::size];
+    double t_max[RayPacket::size], end[RayPacket::size], begin[RayPacket::size], start[RayPacket::size];
+    std::size_t number[RayPacket::size];  // among those that were asked for together
+
+    /// on_the_way(number, until): whether a ray from far away is done with before it comes near.
+    template <class OnTheWay>
+    RaysBeside(const SeveralRays& all, const Vicinity& vicinity, double scale, OnTheWay on_the_way) {
+        for (std::size_t k = 0; k < all.size(); ++k) {
+            FarRay far(all.rays[k], vicinity.start(all.rays[k]), all.t_max[k], scale);
+            if (far.start > 0 && on_the_way(k, far.middle)) continue;
+            rays[count] = far.start > 0 ? far.moved : all.rays[k];
+            t_max[count] = far.start > 0 ? far.t_max : all.t_max[k];
+            end[count] = all.end[k] - far.start;
+            begin[count] = far.start > 0 ? far.begin : 0;
+            start[count] = far.start;
+            number[count++] = k;
+        }
+    }
+    SeveralRays several() const { return {{rays, count}, {t_max, count}, {end, count}, {begin, count}}; }
+};
+
+}  // namespace
+
+void BspTracer::find_from_afar(const SeveralRays& rays, FoundSurface* found, TraceCounters& counters,
+                               const Others* others) const {
+    const RaysBeside beside(rays, vicinity_, surfaces_.scale, [&](std::size_t k, double middle) {
+        if (!has_unbounded()) return false;
+        found[k] = find_nearby(rays.rays[k], 0, std::min(rays.t_max[k], middle), counters, others, rays.end[k]);
+        return found[k].crossing.t < infinity;
+    });
+    if (beside.count < fewest_together) {
+        for (std::size_t i = 0; i < beside.count; ++i) {
+            const std::size_t k = beside.number[i];
+            found[k] = find(rays.rays[k], rays.t_max[k], counters, others, rays.end[k]);
+        }
+        return;
+    }
+    FoundSurface of_moved[RayPacket::size];
+    find(beside.several(), of_moved, counters, others);
+    for (std::size_t i = 0; i < beside.count; ++i) {
+        found[beside.number[i]] = of_moved[i];
+        found[beside.number[i]].start = beside.start[i];
+    }
+}
+
+Lanes BspTracer::any_from_afar(const SeveralRays& rays, TraceCounters& counters, const Others* others) const {
+    Lanes found = 0;
+    const RaysBeside beside(rays, vicinity_, surfaces_.scale, [&](std::size_t k, double middle) {
+        const bool any =
+            has_unbounded() && any_nearby(rays.rays[k], 0, std::min(rays.t_max[k], middle), counters, others);
+        found |= Lanes(any) << k;
+        return any;
+    });
+    if (beside.count < fewest_together) {
+        for (std::size_t i = 0; i < beside.count; ++i) {
+            const std::size_t k = beside.number[i];
+            found |= Lanes(any(rays.rays[k], rays.t_max[k], counters, others)) << k;
+        }
+        return found;
+    }
+    const Lanes of_moved = any(beside.several(), counters, others);
+    for (std::size_t i = 0; i < beside.count; ++i) found |= (of_moved >> i & 1) << beside.number[i];
+    return found;
 }
 
 // ---- construction --------------------------------------------------------------------------------
@@ -190,7 +298,11 @@ BspTracer::BspTracer(BspTree&& tree, Criterion criterion, Accel accel)
 
 BspTracer::BspTracer(std::vector<NamedBsp> bsps, const std::vector<Box>& others, Criterion criterion, Accel accel) {
     Tolerances tolerances = bsps[0].tree.tolerances;
-    for (const NamedBsp& bsp : bsps) tolerances.scale = std::max(tolerances.scale, bsp.tree.tolerances.scale);
+    double least_scale = infinity;  // of BSPs that hold anything
+    for (const NamedBsp& bsp : bsps) {
+        tolerances.scale = std::max(tolerances.scale, bsp.tree.tolerances.scale);
+        if (!bsp.tree.locals.empty()) least_scale = std::min(least_scale, bsp.tree.tolerances.scale);
+    }
     surfaces_.scale = tolerances.scale;
     Pieces &pieces = surfaces_.pieces, &planes = surfaces_.planes;
     pieces = planes = Pieces(tolerances, criterion);
@@ -242,6 +354,8 @@ BspTracer::BspTracer(std::vector<NamedBsp> bsps, const std::vector<Box>& others,
         parts.push_back(builder.item(first++, box));
     }
     for (const NumberedBox& item : items) around_ = hull(around_, item.box);
+    // Rays that meet planes only are as exact as they can be.
+    if (!around_.empty() || !bounded_) vicinity_ = Vicinity(around_, tolerances.scale, least_scale);
     if (accel == Accel::embree && items.size() > few)
         embree_.emplace(items);
     else

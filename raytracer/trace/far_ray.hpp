@@ -1,0 +1,70 @@
+// Rays from far away, which are begun anew where they come near a space.
+//
+// A point of a ray is rounded in proportion to the largest number that it is added up from, and from far away that
+// is the ray's origin. What cells know of their solids beyond their walls, and how far bounds keep clear of a density,
+// is set by the space's own coordinates (Tolerances). Where the first is more than the second, a cell is asked about
+// places that it knows nothing of, and faces are lost. So the origin of a far ray is moved along the ray, once for
+// the whole space, to o′ = o + start·d, beside the space. Rounding moves o′ off the ray by ε·|o|, and a ray in double
+// precision is not known any better; but o′ + t′·d is one straight line for all cells, on which every point is
+// rounded in proportion to its own coordinates.
+#pragma once
+#include "raytracer/trace/surface_search.hpp"
+
+namespace deburr {
+
+class Vicinity {
+public:
+    /// No ray is far.
+    Vicinity() = default;
+    /// `around`: all bounded surfaces of a space, or empty; the scales are those of its BSPs' tolerances, the least of
+    /// those that hold anything.
+    Vicinity(const Box& around, double largest_scale, double least_scale) {
+        double reach = largest_scale;
+        radius_ = 2 * reach;
+        if (!around.empty()) {
+            reach = std::max({reach, largest(around.lo), largest(around.hi)});
+            middle_ = 0.5 * (around.lo + around.hi);
+            radius_ = 0.5 * glm::length(around.hi - around.lo);
+        }
+        farthest_ = std::max(nearest_far * reach, surely_near * std::min(reach, least_scale));
+    }
+
+    /// Rays that begin beyond, by their largest coordinate, may have to be moved.
+    double farthest() const { return farthest_; }
+    bool is_far(const Vec3& origin) const { return largest(origin) > farthest_; }
+
+    /// Parameter of a ray from far away where it comes near: before it enters the ball around the space, or, if it
+    /// does not, before it is nearest to its middle. 0: the ray begins near the space, or leads away from it.
+    double start(const Ray& ray) const {
+        if (!is_far(ray.origin)) return 0;
+        const double clear = radius_ + 16 * epsilon * largest(ray.origin);
+        const double start = glm::dot(middle_ - ray.origin, ray.direction) - clear;
+        return start > 0 && start < infinity ? start : 0;
+    }
+
+private:
+    // Chosen: rounding of a ray from nearer, 2⁻⁵⁰ (1 + 2·128) of the scale, is less than a fourth of what bounds keep
+    // clear by, 2⁻⁴⁰ of it. Solids much smaller than the scale would need more, but even near the space a ray's
+    // coordinates are some times the scale.
+    static constexpr double surely_near = 128, nearest_far = 4;
+
+    Vec3 middle_{0.0};
+    double radius_ = 0, farthest_ = infinity;
+};
+
+/// A ray from far away, in two parts. The first leads to the middle of its way to the space: what is met there is as
+/// far from the space as from the ray's origin. The second is the moved ray's. A surface between them is in both.
+struct FarRay {
+    FarRay(const Ray& ray, double start, double t_max, double scale)
+        : start(start),
+          middle(0.5 * start),
+          moved{ray.origin + ray.direction * start, ray.direction},
+          begin(-middle - rounding_of(scale + largest(ray.origin), middle)),
+          t_max(t_max - start) {}
+
+    double start, middle;
+    Ray moved;
+    double begin, t_max;  // of the second part, on the moved ray
+};
+
+}  // namespace deburr
