@@ -13,6 +13,7 @@
 #include "bounds/decision_diagram.hpp"
 #include "polygonizer/triage/triage.hpp"
 #include "raytracer/cli/commands.hpp"
+#include "raytracer/render/render_tiles.hpp"
 #include "raytracer/scene/scene_reader.hpp"
 #include "raytracer/util/errors.hpp"
 #include "raytracer/util/interrupt.hpp"
@@ -77,9 +78,15 @@ int run(CLI::App& program, const std::vector<Command>& commands, int argc, char*
     throw UsageError(fmt::format("expected a command: {} (see deburr --help)", names));
 }
 
-}  // namespace
+// Where threads are still at work, nothing that they use may be destroyed.
+int leave(int code) {
+    if (!any_tiles_abandoned()) return code;
+    std::fflush(nullptr);
+    _exit(code);
+}
 
-int run_program(int argc, char** argv, const std::vector<Command (*)(CLI::App&)>& more) {
+int answer(int argc, char** argv, const std::vector<Command (*)(CLI::App&)>& more) {
+    end_on_interrupt();
     open_standard_files();
     signal(SIGXFSZ, SIG_IGN);  // a file that grows too large is an error of write, not an end
     try {
@@ -109,6 +116,12 @@ int run_program(int argc, char** argv, const std::vector<Command (*)(CLI::App&)>
     } catch (const std::exception& error) {
         return fail(1, error.what());
     }
+}
+
+}  // namespace
+
+int run_program(int argc, char** argv, const std::vector<Command (*)(CLI::App&)>& more) {
+    return leave(answer(argc, argv, more));
 }
 
 }  // namespace deburr

@@ -16,7 +16,6 @@
 #include "raytracer/render/render_tiles.hpp"
 #include "raytracer/trace/implicit_tracer.hpp"
 #include "raytracer/util/errors.hpp"
-#include "raytracer/util/interrupt.hpp"
 #include "raytracer/util/whole_file.hpp"
 
 namespace deburr {
@@ -29,15 +28,12 @@ struct CompareOptions : Options {
     std::string most_missed, most_distance, most_rmse;
 };
 
-Film trace(const Scene& scene, const RayTracer& tracer, Size size, int spp, std::uint64_t seed,
-           const std::atomic<bool>& stop) {
+Film trace(const Scene& scene, const RayTracer& tracer, Size size, int spp, std::uint64_t seed) {
     const Integrator integrator(scene, tracer, {size.width, size.height, spp, seed, false});
-    return render(
-               Film(size.width, size.height, {0, 0, size.width, size.height}, compared_layers()),
-               [&](const Window& block, Pixel* pixels, PixelLayers* layers, TraceCounters& counters) {
-                   integrator.block(block, pixels, layers, counters);
-               },
-               stop)
+    return render(Film(size.width, size.height, {0, 0, size.width, size.height}, compared_layers()),
+                  [&](const Window& block, Pixel* pixels, PixelLayers* layers, TraceCounters& counters) {
+                      integrator.block(block, pixels, layers, counters);
+                  })
         .film;
 }
 
@@ -76,7 +72,6 @@ int run_compare(const CompareOptions& o) {
     const double most_rmse = limit_of("--max-rmse", o.most_rmse);
     const int threads = o.threads.value_or(tbb::info::default_concurrency());
     const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, std::size_t(threads));
-    const std::atomic<bool>& stop = catch_interrupts(!o.quiet);
 
     Film a, b;
     std::vector<double> units;
@@ -94,11 +89,10 @@ int run_compare(const CompareOptions& o) {
         const Scene scene = load_scene(o);
         const Size size = picture_size(o, scene);
         const int spp = o.spp.value_or(1);
-        const SceneMesh mesh = mesh_scene(scene, settings, {&stop});
+        const SceneMesh mesh = mesh_scene(scene, settings);
         units = radii(mesh);
-        a = trace(scene, ImplicitTracer(scene.solids), size, spp, o.seed, stop);
-        b = trace(scene, MeshTracer(mesh.mesh, mesh.near), size, spp, o.seed, stop);
-        if (stop) return interrupted_exit_code;
+        a = trace(scene, ImplicitTracer(scene.solids), size, spp, o.seed);
+        b = trace(scene, MeshTracer(mesh.mesh, mesh.near), size, spp, o.seed);
         j["scene"] = scene.file;
         j["first"] = "implicit";
         j["second"] = mesh.method_names();

@@ -13,7 +13,6 @@
 #include "raytracer/cli/statistics.hpp"
 #include "raytracer/mesh/scene_mesh.hpp"
 #include "raytracer/util/errors.hpp"
-#include "raytracer/util/interrupt.hpp"
 #include "raytracer/util/message.hpp"
 #include "raytracer/util/progress.hpp"
 #include "raytracer/util/whole_file.hpp"
@@ -175,13 +174,12 @@ int run_mesh(const MeshCommandOptions& o) {
     const Scene scene = load_scene(o);
     for (const std::string& path : files) check_writable(path);
     clock.begin("polygonize");
-    const std::atomic<bool>& stop = catch_interrupts(!o.quiet);
     // How many meshes --faces takes is not known before.
     Progress progress(1, Progress::standard_error(o.quiet || faces));
     SceneMesh mesh;
     try {
-        mesh = faces ? mesh_scene(scene, method, faces, &stop)
-                     : mesh_scene(scene, method, {&stop, [&](double share) { progress.advance(share); }});
+        mesh = faces ? mesh_scene(scene, method, faces)
+                     : mesh_scene(scene, method, {nullptr, [&](double share) { progress.advance(share); }});
     } catch (...) {
         progress.stop();
         throw;

@@ -20,6 +20,7 @@ namespace fs = std::filesystem;
 // The hidden file's name for a signal handler. One file is written at a time.
 std::atomic<const char*> unfinished{nullptr};
 static_assert(std::atomic<const char*>::is_always_lock_free);
+std::atomic<bool> file_written{false};
 
 [[noreturn]] void fail(const std::string& path, const std::string& why) {
     throw WorkError(fmt::format("cannot write '{}': {}", path, why));
@@ -33,10 +34,12 @@ public:
     HiddenFile(const std::string& path, const fs::path& folder) : path_(path) {
         for (int n = 0; descriptor_ < 0; ++n) {
             name_ = (folder / fmt::format(".deburr-{}-{}.tmp", getpid(), n)).string();
+            unfinished = name_.c_str();  // before there is one, or a signal in between would leave it
             descriptor_ = open(name_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
-            if (descriptor_ < 0 && errno != EEXIST) fail(path, errno);
+            if (descriptor_ >= 0 || errno == EEXIST) continue;
+            unfinished = nullptr;
+            fail(path, errno);
         }
-        unfinished = name_.c_str();
     }
     ~HiddenFile() {
         if (descriptor_ >= 0) close(descriptor_);
@@ -55,7 +58,7 @@ public:
         descriptor_ = -1;
         if (closed != 0) fail(path_, errno);
         if (rename(name_.c_str(), target.c_str()) != 0) fail(path_, errno);
-        kept_ = true;
+        kept_ = file_written = true;
     }
 
 private:
@@ -112,6 +115,7 @@ void write_whole_file(const std::string& path, std::string_view bytes) {
     if (target.direct) {
         const int descriptor = open(path.c_str(), O_WRONLY | O_CLOEXEC);
         if (descriptor < 0) fail(path, errno);
+        file_written = true;
         try {
             write_all(path, descriptor, bytes);
         } catch (...) {
@@ -135,5 +139,7 @@ void write_whole_file(const std::string& path, std::string_view bytes) {
 void remove_unfinished_file() noexcept {
     if (const char* name = unfinished.load()) unlink(name);
 }
+
+bool any_file_written() noexcept { return file_written.load(); }
 
 }  // namespace deburr

@@ -20,4 +20,7 @@ void write_whole_file(const std::string& path, std::string_view bytes);
 /// process.
 void remove_unfinished_file() noexcept;
 
+/// Whether this process has written any file, or a part of one that is written directly; for use in a signal handler.
+bool any_file_written() noexcept;
+
 }  // namespace deburr

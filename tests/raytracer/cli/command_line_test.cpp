@@ -1,12 +1,9 @@
 // The program as a user calls it: messages, exit codes, files.
 #include <OpenImageIO/imageio.h>
-#include <signal.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cstring>
 #include <nlohmann/json.hpp>
-#include <thread>
 
 #include "catch.hpp"
 #include "raytracer/program.hpp"
@@ -314,39 +311,6 @@ TEST_CASE("statistics as a table and as JSON") {
         CHECK(j["seconds"][phase]["wall"] >= 0);
         CHECK(j["seconds"][phase]["cpu"] >= 0);
     }
-}
-
-TEST_CASE("the first interrupt saves what there is, marked incomplete") {
-    for (const int signal : {SIGINT, SIGTERM}) {
-        const Place place;
-        // A tile is done soon, the picture is not.
-        Call call({"render", place.scene, "-o", place / "a.exr", "-v", "--size", "600x600", "--spp", "1000",
-                   "--stats-json", place / "s.json"});
-        REQUIRE(call.says(" half-spaces"));
-        std::this_thread::sleep_for(std::chrono::seconds(2));  // to start tracing, however busy the machine is
-        call.send(signal);
-        const Outcome o = call.wait();
-        CAPTURE(o.err);
-        CHECK(o.code == 130);
-        CHECK(o.err.find("the picture is marked incomplete") != std::string::npos);
-        CHECK(place.names() == Words{"a.exr", "cube.lua", "s.json"});
-        CHECK(Picture(place / "a.exr").spec.get_int_attribute("deburr.incomplete") == 1);
-        CHECK(nlohmann::json::parse(read_file(place / "s.json"))["complete"] == false);
-    }
-}
-
-TEST_CASE("the second interrupt ends at once and leaves nothing") {
-    const Place place;
-    // A single tile takes longer than anyone waits.
-    Call call({"render", place.scene, "-o", place / "a.exr", "-v", "--spp", "1048576"});
-    REQUIRE(call.says(" half-spaces"));
-    std::this_thread::sleep_for(std::chrono::milliseconds(300));
-    call.send(SIGINT);
-    REQUIRE(call.says("once more stops at once"));
-    CHECK(call.running());
-    call.send(SIGINT);
-    CHECK(call.wait().code == 130);
-    CHECK(place.names() == Words{"cube.lua"});
 }
 
 TEST_CASE("info says what is in a scene") {
