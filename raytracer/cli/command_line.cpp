@@ -6,6 +6,7 @@
 #include <unistd.h>
 
 #include <cstdio>
+#include <exception>
 #include <new>
 #include <string>
 #include <vector>
@@ -18,6 +19,7 @@
 #include "raytracer/util/errors.hpp"
 #include "raytracer/util/interrupt.hpp"
 #include "raytracer/util/message.hpp"
+#include "raytracer/util/whole_file.hpp"
 
 namespace deburr {
 namespace {
@@ -34,10 +36,30 @@ void open_standard_files() {
         if (fcntl(descriptor, F_GETFD) < 0 && open("/dev/null", O_RDWR) < 0) _exit(1);
 }
 
+// Where an exception cannot get out, of a library's thread or for want of memory to throw it, the program would be
+// aborted without a word.
+[[noreturn]] void end_with_error() {
+    std::string_view line = "deburr: out of memory\n";  // if nothing could be thrown
+    if (const std::exception_ptr error = std::current_exception()) try {
+            std::rethrow_exception(error);
+        } catch (const std::bad_alloc&) {
+        } catch (...) {
+            line = "deburr: an error inside the program: an exception was not caught\n";
+        }
+    [[maybe_unused]] const auto n = write(STDERR_FILENO, line.data(), line.size());
+    remove_unfinished_file();
+    _exit(1);
+}
+
 // The first word that the command has no use for.
 void refuse_rest(const CLI::App& app, const std::string& name, const char* kind) {
+    bool options = true;  // until "--", which CLI11 leaves among the rest
     for (const std::string& word : app.remaining()) {
-        const bool option = word.size() > 1 && word[0] == '-';
+        if (options && word == "--") {
+            options = false;
+            continue;
+        }
+        const bool option = options && word.size() > 1 && word[0] == '-';
         throw UsageError(fmt::format("{} '{}' (see {} --help)", option ? "unknown option" : kind,
                                      option ? word.substr(0, word.find('=')) : word, name));
     }
@@ -86,6 +108,7 @@ int leave(int code) {
 }
 
 int answer(int argc, char** argv, const std::vector<Command (*)(CLI::App&)>& more) {
+    std::set_terminate(end_with_error);
     end_on_interrupt();
     open_standard_files();
     signal(SIGXFSZ, SIG_IGN);  // a file that grows too large is an error of write, not an end

@@ -163,7 +163,7 @@ int run_mesh(const MeshCommandOptions& o) {
                 fmt::format("-o: expected a name that ends in one of {}, got '{}'", known_mesh_extensions(), path));
     std::vector<std::string> files = o.outputs;
     if (!o.stats_json.empty()) files.push_back(o.stats_json);
-    check_distinct(files);
+    check_outputs(o.outputs, {o.stats_json}, {o.scene});
     const MeshSettings method = settings(o);
     const auto faces = o.faces.empty() ? 0 : std::size_t(parse_whole("--faces", o.faces, 4, 100'000'000));
     const int threads = o.threads.value_or(tbb::info::default_concurrency());

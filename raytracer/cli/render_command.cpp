@@ -34,6 +34,8 @@ struct RenderOptions : Options {
     std::string via = "implicit", tolerance;
     std::string wire;  // "": no wire frame
     bool flat = false, edges = false;
+    int bits = 8;  // of a PNG
+    bool alpha = false;
     std::optional<Accel> accel;
 };
 
@@ -84,22 +86,17 @@ void check_options(const RenderOptions& o) {
     if (o.scene.empty()) throw UsageError("render: expected a scene file");
     if (o.outputs.empty()) throw UsageError("render: expected an output file, -o FILE");
     check_image_names("-o", o.outputs);
-    bool exr = false;
-    for (const std::string& path : o.outputs) exr |= image_kind(path) == ImageKind::exr;
+    bool exr = false, png = false;
+    for (const std::string& path : o.outputs) {
+        exr |= image_kind(path) == ImageKind::exr;
+        png |= image_extension(path) == ".png";
+        if (o.alpha && image_extension(path) != ".png" && image_kind(path) != ImageKind::exr)
+            throw UsageError("--alpha: expected outputs that end in .exr or .png, got '" + path + "'");
+    }
+    if (!png && o.bits != 8) throw UsageError("--bits: expected an output that ends in .png, got none");
     if (!exr && !o.layers.empty()) throw UsageError("--aov: expected an output that ends in .exr, got none");
     if (!exr && o.float_color) throw UsageError("--float: expected an output that ends in .exr, got none");
-    std::vector<std::string> files = o.outputs;
-    if (!o.stats_json.empty()) files.push_back(o.stats_json);
-    check_distinct(files);
-}
-
-// Better now than killed by the system in the middle of the work.
-void check_memory(const Window& window, const std::vector<ImageLayer>& layers) {
-    const double needed = double(window.width) * window.height * Film::bytes_per_pixel(layers);
-    const double there = double(sysconf(_SC_PHYS_PAGES)) * double(sysconf(_SC_PAGESIZE));
-    if (needed > there)
-        throw WorkError(fmt::format("a picture of {}x{} needs {:.1f} GiB of memory, this machine has {:.1f}",
-                                    window.width, window.height, needed / 0x1p30, there / 0x1p30));
+    check_outputs(o.outputs, {o.stats_json}, {o.scene});
 }
 
 // Every file that can be written is, for the picture was dear; the first error is reported then.
@@ -109,7 +106,7 @@ void write_images(const RenderOptions& o, const Film& film, const ImageNotes& no
         const double work = writing_work * double(film.pixels.size());
         double told = 0;
         try {
-            write_image(path, film, {o.float_color, threads}, notes, [&](double share) {
+            write_image(path, film, {o.float_color, threads, o.bits, o.alpha}, notes, [&](double share) {
                 progress.advance(work * (share - told));
                 told = share;
             });
@@ -145,10 +142,8 @@ struct Frame {
 Frame frame_of(const RenderOptions& o, const Scene& scene) {
     Frame frame;
     frame.size = picture_size(o, scene);
-    frame.window = o.crop.value_or(Window{0, 0, frame.size.width, frame.size.height});
+    frame.window = picture_window(o, scene, Film::bytes_per_pixel(o.layers));
     frame.spp = o.spp.value_or(scene.spp);
-    check_crop("--crop", frame.window, frame.size);
-    check_memory(frame.window, o.layers);
     return frame;
 }
 
@@ -161,7 +156,7 @@ void build_implicit(const RenderOptions& o, World& world) {
     say(o, fmt::format("{} cells of {} half-spaces", world.bsp->cells, world.bsp->half_spaces));
 }
 
-void build_mesh(const RenderOptions& o, Size size, World& world) {
+void build_mesh(const RenderOptions& o, const Frame& frame, World& world) {
     SceneMesh mesh = mesh_scene(world.scene, picture_mesh_settings(o.via, o.tolerance));
     say(o, fmt::format("{} triangles, {} vertices", mesh.mesh.triangles.size(), mesh.mesh.positions.size()));
     const bool lines = o.edges || !o.wire.empty();
@@ -170,8 +165,9 @@ void build_mesh(const RenderOptions& o, Size size, World& world) {
         std::make_unique<MeshTracer>(o.flat ? flat_shaded(std::move(mesh.mesh)) : std::move(mesh.mesh), mesh.near);
     if (!lines) return;
     const auto edges = mesh_edges(drawn, o.via == "triage" ? EdgeChoice::polygons : EdgeChoice::triangles);
-    world.strokes = wire_frame(drawn, edges, *world.tracer, PinholeCamera(world.scene.camera, size.width, size.height),
-                               size.width, size.height, o.wire == "front" ? WireMode::front : WireMode::visible);
+    const PinholeCamera camera(world.scene.camera, frame.size.width, frame.size.height);
+    world.strokes = wire_frame(drawn, edges, *world.tracer, camera, frame.window,
+                               o.wire == "front" ? WireMode::front : WireMode::visible);
 }
 
 Rendering trace(const RenderOptions& o, const Frame& frame, const std::shared_ptr<const World>& world,
@@ -182,14 +178,15 @@ Rendering trace(const RenderOptions& o, const Frame& frame, const std::shared_pt
         world->integrator->block(part, pixels, layers, counters);
     };
     if (!o.wire.empty())
-        block = [](const Window& part, Pixel* pixels, PixelLayers* layers, TraceCounters&) {
-            std::fill_n(pixels, part.width * part.height, Pixel{.color = Vec3(1.0), .alpha = 1});  // paper
+        block = [paper = o.alpha ? Pixel() : Pixel{.color = Vec3(1.0), .alpha = 1}](
+                    const Window& part, Pixel* pixels, PixelLayers* layers, TraceCounters&) {
+            std::fill_n(pixels, part.width * part.height, paper);
             if (layers) std::fill_n(layers, part.width * part.height, PixelLayers{});
         };
     Rendering rendering = render(
         Film(frame.size.width, frame.size.height, frame.window, o.layers), block, stop,
         [&](std::int64_t done) { progress.advance(double(done) * frame.spp); }, grace);
-    draw_strokes(rendering.film, world->strokes, Vec3(0.0), line_width);
+    draw_strokes(rendering.film, world->strokes, Vec3(0.0), line_width, o.alpha);
     return rendering;
 }
 
@@ -238,9 +235,10 @@ int run_render(const RenderOptions& o) {
     if (o.via == "implicit")
         build_implicit(o, *world);
     else
-        build_mesh(o, size, *world);
+        build_mesh(o, frame, *world);
     const bool cost = std::count(o.layers.begin(), o.layers.end(), ImageLayer::cost) > 0;
-    world->integrator.emplace(scene, *world->tracer, RenderSettings{size.width, size.height, spp, o.seed, cost});
+    world->integrator.emplace(scene, *world->tracer,
+                              RenderSettings{size.width, size.height, spp, o.seed, cost, !o.alpha});
 
     clock.begin("trace");
     const std::atomic<bool>& stop = catch_interrupts(!o.quiet);
@@ -301,6 +299,17 @@ Command add_render_command(CLI::App& program) {
             "--wire", options->wire,
             "of a mesh: only its edges, hidden lines removed (visible) or those of faces that look away (front)")
         ->type_name("MODE");
+    command
+        ->add_option_function<std::string>(
+            "--bits",
+            [options](const std::string& text) {
+                if (text != "8" && text != "16") throw UsageError("--bits: expected 8 or 16, got '" + text + "'");
+                options->bits = text == "8" ? 8 : 16;
+            },
+            "of each number in a PNG; default: 8")
+        ->type_name("8|16");
+    command->add_flag("--alpha", options->alpha,
+                      "without the background that the camera sees: a PNG is transparent there, and an EXR black");
     add_run_options(*command, *options);
     add_statistics_options(*command, *options);
     return {command, [options] { return run_render(*options); }};
