@@ -30,7 +30,6 @@ void make(FigureContext& context) {
     const Scene scene = context.scene("convolution.lua");
     context.picture(context.render(scene, {.width = 720, .height = 400, .spp = 10}),
                     "Left quasi-convolution, right true convolution");
-    context.check_stop();
 
     const Solid &first = scene.solids.at(0), &second = scene.solids.at(1);
     const auto middle = [](const Solid& solid) {
@@ -43,7 +42,6 @@ void make(FigureContext& context) {
     const double r = truth.leaves.at(0).density.half_spaces.at(0).radius;
     Mesh mesh = triage(truth, box, {.tolerance = 0.02 * r});
     const Topology shape = topology(mesh);
-    context.check_stop();
 
     const OffsetField at_quasi(quasi, box, 2 * r), at_truth(truth, box, 2 * r);
     double worst = 0, mean = 0, area = 0, off = 0;

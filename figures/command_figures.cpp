@@ -12,7 +12,6 @@
 #include "figures/plot.hpp"
 #include "raytracer/cli/options.hpp"
 #include "raytracer/util/errors.hpp"
-#include "raytracer/util/interrupt.hpp"
 #include "raytracer/util/message.hpp"
 #include "raytracer/util/progress.hpp"
 
@@ -77,7 +76,6 @@ int run_figures(const FiguresOptions& o) {
 
     const int threads = o.threads.value_or(tbb::info::default_concurrency());
     const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, std::size_t(threads));
-    const std::atomic<bool>& stop = catch_interrupts(!o.quiet);
     Progress progress(work, Progress::standard_error(o.quiet));
     const auto say = [&](const std::string& line) {
         progress.stop();
@@ -87,15 +85,10 @@ int run_figures(const FiguresOptions& o) {
     for (const Task& task : tasks) {
         const auto start = std::chrono::steady_clock::now();
         try {
-            FigureContext context(task.figure, scenes, o.folder, o.draft, stop);
+            FigureContext context(task.figure, scenes, o.folder, o.draft);
             task.figure.make(context);
-            context.check_stop();
             album.add(task.figure, task.fingerprint, context.result(), scenes);
-        } catch (const Interrupted&) {
-            say(fmt::format("interrupted in {}: the figures before it are kept", task.figure.name));
-            return interrupted_exit_code;
         } catch (const std::exception& error) {  // the others can still be made
-            if (stop) return interrupted_exit_code;
             say(fmt::format("{}: {}", task.figure.name, error.what()));
             code = 1;
         }

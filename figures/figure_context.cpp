@@ -17,17 +17,11 @@ namespace deburr {
 
 namespace fs = std::filesystem;
 
-FigureContext::FigureContext(const Figure& figure, std::string scene_folder, std::string output_folder, bool draft,
-                             const std::atomic<bool>& stop)
+FigureContext::FigureContext(const Figure& figure, std::string scene_folder, std::string output_folder, bool draft)
     : figure_(figure),
       scene_folder_(std::move(scene_folder)),
       output_folder_(std::move(output_folder)),
-      draft_(draft),
-      stop_(stop) {}
-
-void FigureContext::check_stop() const {
-    if (stop_) throw Interrupted{};
-}
+      draft_(draft) {}
 
 Scene FigureContext::scene(const std::string& file, const std::map<std::string, std::string>& parameters) const {
     if (!std::count(figure_.scenes.begin(), figure_.scenes.end(), file))
@@ -49,14 +43,11 @@ Film FigureContext::render(const Scene& scene, const RayTracer& tracer, const Fi
     const int height = std::max(1, (settings.height ? settings.height : scene.height) / shrink);
     const int spp = std::max(1, (settings.spp ? settings.spp : scene.spp) / fewer);
     const Integrator integrator(scene, tracer, {width, height, spp, 0});
-    Film film = deburr::render(
-                    Film(width, height, {0, 0, width, height}),
-                    [&](const Window& block, Pixel* pixels, PixelLayers* layers, TraceCounters& counters) {
-                        integrator.block(block, pixels, layers, counters);
-                    },
-                    stop_)
-                    .film;
-    check_stop();
+    Film film =
+        deburr::render(Film(width, height, {0, 0, width, height}), [&](const Window& block, Pixel* pixels,
+                                                                       PixelLayers* layers, TraceCounters& counters) {
+            integrator.block(block, pixels, layers, counters);
+        }).film;
     return film;
 }
 
@@ -88,7 +79,6 @@ void FigureContext::picture_bytes(std::string_view png, int width, const std::st
 
 void FigureContext::plot(const Plot& plot, const std::string& caption, std::string suffix) {
     if (!figure_.plots) throw std::logic_error(figure_.name + " makes a plot, but does not say so");
-    check_stop();
     FigureItem item;
     const std::string name = next_file(suffix);
     item.file = name + ".png";

@@ -1,6 +1,5 @@
 // What a figure's function works with: scenes, renderings, and places to put what comes of them.
 #pragma once
-#include <atomic>
 #include <map>
 #include <string>
 #include <vector>
@@ -35,9 +34,6 @@ struct FigureResult {
     int columns = 1;  // of pictures on the page
 };
 
-/// Thrown out of a figure when the user asked for an end.
-struct Interrupted {};
-
 struct FigurePictureSettings {
     int width = 0, height = 0;  // 0: the scene's
     int spp = 0;                // 0: the scene's
@@ -46,8 +42,7 @@ struct FigurePictureSettings {
 class FigureContext {
 public:
     /// Keeps references.
-    FigureContext(const Figure& figure, std::string scene_folder, std::string output_folder, bool draft,
-                  const std::atomic<bool>& stop);
+    FigureContext(const Figure& figure, std::string scene_folder, std::string output_folder, bool draft);
 
     /// Reads a scene that the figure names.
     Scene scene(const std::string& file, const std::map<std::string, std::string>& parameters = {}) const;
@@ -72,8 +67,6 @@ public:
 
     /// Quick and rough: fewer samples and smaller pictures.
     bool draft() const { return draft_; }
-    /// Throws Interrupted if the user asked for an end; for long work that is not rendering.
-    void check_stop() const;
     const FigureResult& result() const { return result_; }
 
 private:
@@ -82,7 +75,6 @@ private:
     const Figure& figure_;
     std::string scene_folder_, output_folder_;
     bool draft_;
-    const std::atomic<bool>& stop_;
     FigureResult result_;
 };
 

@@ -86,7 +86,6 @@ void make(FigureContext& context) {
         table.rows.push_back({fmt::format("{:g}°", degrees), r(a.quasi_truth), r(a.truth_fillet), r(a.quasi_fillet),
                               r(-edge.quasi(0)), r(-edge.truth(0)), r(-edge.fillet(0)), r(edge.quasi_reach()),
                               r(edge.truth_reach())});
-        context.check_stop();
     }
     context.table(table);
     context.measured(

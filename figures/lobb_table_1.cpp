@@ -34,7 +34,6 @@ void make(FigureContext& context) {
     FigureTable table{{"figure", "rounded, s", "unrounded, s", "ratio", "the paper's"}, {}};
     std::vector<double> ratios;
     for (const Row& row : rows) {
-        context.check_stop();
         const Scene rounded = context.scene(row.scene), sharp = context.scene(row.scene, {{row.parameter, "0"}});
         const ImplicitTracer a(rounded.solids), b(sharp.solids);
         const Ratio ratio = ratio_of([&] { trace(rounded, a); }, [&] { trace(sharp, b); }, 5);

@@ -29,7 +29,7 @@ Film wire_picture(const FigureContext& context, const Scene& scene, const Mesh& 
     const MeshTracer tracer(mesh);
     draw_strokes(film,
                  wire_frame(mesh, mesh_edges(mesh, look.edges), tracer, PinholeCamera(scene.camera, width, height),
-                            width, height, look.mode),
+                            film.window, look.mode),
                  Vec3(0.02), look.line_width);
     return film;
 }

@@ -93,8 +93,8 @@ Film mesh_picture(const FigureContext& context, const Mesh& mesh, const std::vec
     }
     if (look.lines)
         draw_strokes(film,
-                     wire_frame(mesh, mesh_edges(mesh, look.edges), tracer, PinholeCamera(camera, width, height), width,
-                                height, look.mode),
+                     wire_frame(mesh, mesh_edges(mesh, look.edges), tracer, PinholeCamera(camera, width, height),
+                                film.window, look.mode),
                      look.line_color, look.line_width);
     return film;
 }

@@ -26,7 +26,6 @@ void make(FigureContext& context) {
     SceneMesh triage, marching;
     const double triage_time = cpu_seconds_of([&] { triage = mesh_scene(objects, {}); });
     const double marching_time = cpu_seconds_of([&] { marching = cubes(objects); });
-    context.check_stop();
     const FigurePictureSettings size{.width = 640, .height = 405, .spp = 24};
     const auto wire = [&](const Mesh& mesh, EdgeChoice edges, double width) {
         return wire_picture(context, scene, mesh,

@@ -37,7 +37,7 @@ Film picture(const FigureContext& context, const std::function<double(Vec2)>& f,
             normals.push_back(std::abs(dx) + std::abs(dy) > 100 ? Vec3(0, 1, 0)
                                                                 : glm::normalize(Vec3(-height * dx, 1, height * dy)));
         }
-        draw_strokes(film, visible_line(points, normals, tracer, pinhole, width, tall), color, thick);
+        draw_strokes(film, visible_line(points, normals, tracer, pinhole, {0, 0, width, tall}), color, thick);
     };
     constexpr int lines = 18, steps = 360;
     for (int k = 0; k <= lines; ++k)

@@ -18,7 +18,6 @@ void make(FigureContext& context) {
     std::size_t triangles = 0, most = 0, open = 0;
     double vanished = 0;
     for (int i = 0; i < most_frames && vanished == 0; ++i) {
-        context.check_stop();
         const double r = first * std::pow(factor, i);
         const Scene scene = context.scene("melting_robot.lua", {{"r", fmt::format("{:.6f}", r)}});
         const SceneMesh mesh = mesh_scene(scene, {.reach = rendering_reach});

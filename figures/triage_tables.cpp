@@ -31,7 +31,6 @@ void against_marching_cubes(FigureContext& context) {
                 .kind = Curve::Kind::points_and_line};
     double cross = infinity;
     for (const double r : {0.02, 0.035, 0.05, 0.1, 0.15, 0.2, 0.25}) {
-        context.check_stop();
         const Scene scene = context.scene("csg_examples.lua", {{"r", fmt::format("{}", r)}});
         const SolidTree tree = flatten(scene.solids.at(4));
         const Box box = polygonization_box(tree);
@@ -87,7 +86,6 @@ void growth(FigureContext& context) {
     FigureTable table{{"half-spaces n", "triangles", "ms", "µs per half-space"}, {}};
     Curve measured{.points = {}, .title = "measured", .kind = Curve::Kind::points};
     for (const int count : {1, 4, 16, 64, 256, 1024}) {
-        context.check_stop();
         const SolidTree tree = boxes(count);
         const Box box = polygonization_box(tree);
         std::size_t triangles = 0;

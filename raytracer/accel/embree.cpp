@@ -2,12 +2,16 @@
 
 #include <dlfcn.h>
 
+#include "raytracer/util/module.hpp"
+
 namespace deburr {
 namespace {
 
 EmbreeLibrary load() {
     const auto fail = [] {
-        throw UnsupportedError(std::string("meshes and --accel embree need " DEBURR_EMBREE_LIBRARY ": ") + dlerror());
+        const std::string why = dlerror();
+        check_loader_memory(why);
+        throw UnsupportedError("meshes and --accel embree need " DEBURR_EMBREE_LIBRARY ": " + why);
     };
     void* library = dlopen(DEBURR_EMBREE_LIBRARY, RTLD_NOW | RTLD_LOCAL);
     if (!library) fail();

@@ -105,6 +105,7 @@ private:
         Device device = known.lock();
         if (device) return device;
         RTCDevice fresh = embree().new_device(nullptr);
+        if (!fresh && embree().device_error(nullptr) == RTC_ERROR_OUT_OF_MEMORY) throw std::bad_alloc();
         if (!fresh) throw WorkError("Embree does not start on this machine");
         device = Device(fresh, embree().release_device);
         known = device;

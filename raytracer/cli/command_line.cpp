@@ -6,6 +6,7 @@
 #include <unistd.h>
 
 #include <cstdio>
+#include <exception>
 #include <new>
 #include <string>
 #include <vector>
@@ -15,10 +16,12 @@
 #include "raytracer/cli/command_documents.hpp"
 #include "raytracer/cli/commands.hpp"
 #include "raytracer/cli/nearest_name.hpp"
+#include "raytracer/render/render_tiles.hpp"
 #include "raytracer/scene/scene_reader.hpp"
 #include "raytracer/util/errors.hpp"
 #include "raytracer/util/interrupt.hpp"
 #include "raytracer/util/message.hpp"
+#include "raytracer/util/whole_file.hpp"
 
 namespace deburr {
 namespace {
@@ -35,11 +38,31 @@ void open_standard_files() {
         if (fcntl(descriptor, F_GETFD) < 0 && open("/dev/null", O_RDWR) < 0) _exit(1);
 }
 
+// Where an exception cannot get out, of a library's thread or for want of memory to throw it, the program would be
+// aborted without a word.
+[[noreturn]] void end_with_error() {
+    std::string_view line = "deburr: out of memory\n";  // if nothing could be thrown
+    if (const std::exception_ptr error = std::current_exception()) try {
+            std::rethrow_exception(error);
+        } catch (const std::bad_alloc&) {
+        } catch (...) {
+            line = "deburr: an error inside the program: an exception was not caught\n";
+        }
+    [[maybe_unused]] const auto n = write(STDERR_FILENO, line.data(), line.size());
+    remove_unfinished_file();
+    _exit(1);
+}
+
 // Refuses the first word that the command has no use for, with the nearest of its options or of `words`.
 void refuse_rest(const CLI::App& app, const std::string& name, const char* kind,
                  const std::vector<std::string>& words = {}) {
+    bool options = true;  // until "--", which CLI11 leaves among the rest
     for (const std::string& given : app.remaining()) {
-        const bool option = given.size() > 1 && given[0] == '-';
+        if (options && given == "--") {
+            options = false;
+            continue;
+        }
+        const bool option = options && given.size() > 1 && given[0] == '-';
         const std::string word = option ? given.substr(0, given.find('=')) : given;
         throw UsageError(fmt::format("{} '{}'{} (see {} --help)", option ? "unknown option" : kind, word,
                                      suggestion(word, option ? option_names(app) : words), name));
@@ -81,9 +104,16 @@ int run(CLI::App& program, const std::vector<Command>& commands, int argc, char*
     throw UsageError(fmt::format("expected a command: {} (see deburr --help)", fmt::join(names, ", ")));
 }
 
-}  // namespace
+// Where threads are still at work, nothing that they use may be destroyed.
+int leave(int code) {
+    if (!any_tiles_abandoned()) return code;
+    std::fflush(nullptr);
+    _exit(code);
+}
 
-int run_program(int argc, char** argv, const std::vector<Command (*)(CLI::App&)>& more) {
+int answer(int argc, char** argv, const std::vector<Command (*)(CLI::App&)>& more) {
+    std::set_terminate(end_with_error);
+    end_on_interrupt();
     open_standard_files();
     signal(SIGXFSZ, SIG_IGN);  // a file that grows too large is an error of write, not an end
     try {
@@ -115,6 +145,12 @@ int run_program(int argc, char** argv, const std::vector<Command (*)(CLI::App&)>
     } catch (const std::exception& error) {
         return fail(1, error.what());
     }
+}
+
+}  // namespace
+
+int run_program(int argc, char** argv, const std::vector<Command (*)(CLI::App&)>& more) {
+    return leave(answer(argc, argv, more));
 }
 
 }  // namespace deburr

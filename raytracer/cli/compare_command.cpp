@@ -16,7 +16,6 @@
 #include "raytracer/render/render_tiles.hpp"
 #include "raytracer/trace/implicit_tracer.hpp"
 #include "raytracer/util/errors.hpp"
-#include "raytracer/util/interrupt.hpp"
 #include "raytracer/util/whole_file.hpp"
 
 namespace deburr {
@@ -29,15 +28,12 @@ struct CompareOptions : Options {
     std::string most_missed, most_distance, most_rmse;
 };
 
-Film trace(const Scene& scene, const RayTracer& tracer, Size size, int spp, std::uint64_t seed,
-           const std::atomic<bool>& stop) {
+Film trace(const Scene& scene, const RayTracer& tracer, Size size, const Window& window, int spp, std::uint64_t seed) {
     const Integrator integrator(scene, tracer, {size.width, size.height, spp, seed, false});
-    return render(
-               Film(size.width, size.height, {0, 0, size.width, size.height}, compared_layers()),
-               [&](const Window& block, Pixel* pixels, PixelLayers* layers, TraceCounters& counters) {
-                   integrator.block(block, pixels, layers, counters);
-               },
-               stop)
+    return render(Film(size.width, size.height, window, compared_layers()),
+                  [&](const Window& block, Pixel* pixels, PixelLayers* layers, TraceCounters& counters) {
+                      integrator.block(block, pixels, layers, counters);
+                  })
         .film;
 }
 
@@ -68,6 +64,7 @@ std::vector<double> radii(const SceneMesh& mesh) {
 int run_compare(const CompareOptions& o) {
     if (o.scene.empty()) throw UsageError("compare: expected a scene file, or two pictures");
     check_image_names("-o", o.outputs);
+    check_outputs(o.outputs, {o.json}, {o.scene, o.second});
     const auto limit_of = [](const char* name, const std::string& text) {
         return text.empty() ? infinity : parse_limit(name, text);
     };
@@ -76,7 +73,6 @@ int run_compare(const CompareOptions& o) {
     const double most_rmse = limit_of("--max-rmse", o.most_rmse);
     const int threads = o.threads.value_or(tbb::info::default_concurrency());
     const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, std::size_t(threads));
-    const std::atomic<bool>& stop = catch_interrupts(!o.quiet);
 
     Film a, b;
     std::vector<double> units;
@@ -93,12 +89,12 @@ int run_compare(const CompareOptions& o) {
         const MeshSettings settings = picture_mesh_settings(o.via, o.tolerance);
         const Scene scene = load_scene(o);
         const Size size = picture_size(o, scene);
+        const Window window = picture_window(o, scene, 2 * Film::bytes_per_pixel(compared_layers()));
         const int spp = o.spp.value_or(1);
-        const SceneMesh mesh = mesh_scene(scene, settings, {&stop});
+        const SceneMesh mesh = mesh_scene(scene, settings);
         units = radii(mesh);
-        a = trace(scene, ImplicitTracer(scene.solids), size, spp, o.seed, stop);
-        b = trace(scene, MeshTracer(mesh.mesh, mesh.near), size, spp, o.seed, stop);
-        if (stop) return interrupted_exit_code;
+        a = trace(scene, ImplicitTracer(scene.solids), size, window, spp, o.seed);
+        b = trace(scene, MeshTracer(mesh.mesh, mesh.near), size, window, spp, o.seed);
         j["scene"] = scene.file;
         j["first"] = "implicit";
         j["second"] = mesh.method_names();
@@ -109,7 +105,8 @@ int run_compare(const CompareOptions& o) {
     const double missed = j["missed_percent"].get<double>();
     const double distance = d.distance ? d.distance->p99 : 0;
     const bool within = missed <= most_missed && distance <= most_distance && d.rmse <= most_rmse;
-    j["within_limits"] = within;
+    const bool limited = most_missed < infinity || most_distance < infinity || most_rmse < infinity;
+    j["within_limits"] = limited ? Json(within) : Json(nullptr);
     for (const std::string& path : o.outputs) write_difference(path, a, b);
     if (!o.json.empty()) write_whole_file(o.json, j.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
     if (!o.quiet)
@@ -121,6 +118,8 @@ int run_compare(const CompareOptions& o) {
                 fmt::print("{:<20}{:.6g}\n", name, value.get<double>());
             else if (value.is_string())
                 fmt::print("{:<20}{}\n", name, value.get<std::string>());
+            else if (name == "within_limits" && value.is_null())
+                fmt::print("{:<20}no limit was given\n", name);
             else
                 fmt::print("{:<20}{}\n", name, value.is_null() ? "infinite" : value.dump());
         }

@@ -25,7 +25,7 @@ int run_export_pov(const ExportPovOptions& o) {
     for (const std::string& path : o.outputs)
         if (!path.ends_with(".pov"))
             throw UsageError(fmt::format("-o: expected a name that ends in .pov, got '{}'", path));
-    check_distinct(o.outputs);
+    check_outputs(o.outputs, {}, {o.scene});
     if (o.surface.sharp && (o.surface.max_gradient > 0 || o.surface.accuracy > 0 || o.surface.min_max))
         throw UsageError(
             "--sharp: expected neither --max-gradient, --accuracy nor --min-max, which are for isosurfaces");

@@ -15,7 +15,6 @@
 #include "raytracer/cli/statistics.hpp"
 #include "raytracer/mesh/scene_mesh.hpp"
 #include "raytracer/util/errors.hpp"
-#include "raytracer/util/interrupt.hpp"
 #include "raytracer/util/message.hpp"
 #include "raytracer/util/progress.hpp"
 #include "raytracer/util/whole_file.hpp"
@@ -197,7 +196,7 @@ int run_mesh(const MeshCommandOptions& o) {
                 fmt::format("-o: expected a name that ends in one of {}, got '{}'", known_mesh_extensions(), path));
     std::vector<std::string> files = o.outputs;
     if (!o.stats_json.empty()) files.push_back(o.stats_json);
-    check_distinct(files);
+    check_outputs(o.outputs, {o.stats_json}, {o.scene});
     const MeshSettings method = settings(o);
     const auto faces = o.faces.empty() ? 0 : std::size_t(parse_whole("--faces", o.faces, 4, 100'000'000));
     const int threads = o.threads.value_or(tbb::info::default_concurrency());
@@ -211,13 +210,12 @@ int run_mesh(const MeshCommandOptions& o) {
         if (const Vec3 shift = recentre(scene); shift != Vec3(0.0) && !o.quiet)
             fmt::print(stderr, "deburr: --recentre: moved by ({:.17g}, {:.17g}, {:.17g})\n", shift.x, shift.y, shift.z);
     clock.begin("polygonize");
-    const std::atomic<bool>& stop = catch_interrupts(!o.quiet);
     // How many meshes --faces takes is not known before.
     Progress progress(1, Progress::standard_error(o.quiet || faces));
     SceneMesh mesh;
     try {
-        mesh = faces ? mesh_scene(scene, method, faces, &stop)
-                     : mesh_scene(scene, method, {&stop, [&](double share) { progress.advance(share); }});
+        mesh = faces ? mesh_scene(scene, method, faces)
+                     : mesh_scene(scene, method, {nullptr, [&](double share) { progress.advance(share); }});
     } catch (...) {
         progress.stop();
         throw;

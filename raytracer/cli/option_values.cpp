@@ -1,6 +1,7 @@
 #include "raytracer/cli/option_values.hpp"
 
 #include <fmt/format.h>
+#include <sys/stat.h>
 
 #include <charconv>
 #include <cmath>
@@ -42,11 +43,11 @@ double number_of(std::string_view text) {
 }
 
 // "AxB"
-std::optional<Size> sides(std::string_view text) {
+std::optional<Size> sides(std::string_view text, int largest) {
     const std::size_t x = text.find('x');
     if (x == std::string_view::npos) return std::nullopt;
-    const auto width = whole(text.substr(0, x), 1, largest_side);
-    const auto height = whole(text.substr(x + 1), 1, largest_side);
+    const auto width = whole(text.substr(0, x), 1, largest);
+    const auto height = whole(text.substr(x + 1), 1, largest);
     if (!width || !height) return std::nullopt;
     return Size{int(*width), int(*height)};
 }
@@ -76,20 +77,27 @@ std::uint64_t parse_seed(std::string_view option, std::string_view text) {
 }
 
 Size parse_size(std::string_view option, std::string_view text) {
-    const auto size = sides(text);
-    if (!size) expected(option, fmt::format("WxH, each from 1 to {}", largest_side), text);
-    if (std::int64_t(size->width) * size->height > most_pixels)
-        expected(option, fmt::format("WxH of at most {} pixels", most_pixels), text);
+    const auto size = sides(text, largest_picture_side);
+    if (!size) expected(option, fmt::format("WxH, each from 1 to {}", largest_picture_side), text);
     return *size;
+}
+
+void check_pixels(std::string_view option, const Window& window) {
+    if (std::int64_t(window.width) * window.height > most_pixels ||
+        std::max(window.width, window.height) > largest_side)
+        expected(
+            option,
+            fmt::format("at most {} pixels and {} a side at once (--crop renders parts)", most_pixels, largest_side),
+            fmt::format("{}x{}", window.width, window.height));
 }
 
 Window parse_crop(std::string_view option, std::string_view text) {
     const std::size_t first = text.find('+');
     const std::size_t second = first == std::string_view::npos ? first : text.find('+', first + 1);
     if (second != std::string_view::npos) {
-        const auto size = sides(text.substr(0, first));
-        const auto x = whole(text.substr(first + 1, second - first - 1), 0, largest_side);
-        const auto y = whole(text.substr(second + 1), 0, largest_side);
+        const auto size = sides(text.substr(0, first), largest_side);
+        const auto x = whole(text.substr(first + 1, second - first - 1), 0, largest_picture_side);
+        const auto y = whole(text.substr(second + 1), 0, largest_picture_side);
         if (size && x && y) return {int(*x), int(*y), size->width, size->height};
     }
     expected(option, "WxH+X+Y, for example 100x50+20+10", text);
@@ -166,13 +174,45 @@ void check_image_names(std::string_view option, const std::vector<std::string>& 
     check_distinct(paths);
 }
 
+namespace {
+
+namespace fs = std::filesystem;
+
+// What two names of one file have in common: its number, or the place where it is to be.
+std::string identity(const std::string& path) {
+    struct stat status {};
+    if (stat(path.c_str(), &status) == 0) return fmt::format("{}:{}", status.st_dev, status.st_ino);
+    fs::path file = path;
+    std::error_code error;  // a folder that cannot be looked into is found when it is written to
+    for (int links = 0; links < 40 && fs::is_symlink(file, error); ++links)
+        file = file.parent_path() / fs::read_symlink(file, error);
+    fs::path canonical = fs::weakly_canonical(fs::absolute(file, error), error);
+    return error ? path : canonical.string();
+}
+
+bool is_regular(const std::string& path) {
+    struct stat status {};
+    return stat(path.c_str(), &status) == 0 && S_ISREG(status.st_mode);
+}
+
+}  // namespace
+
 void check_distinct(const std::vector<std::string>& paths) {
-    std::set<std::filesystem::path> seen;
-    for (const std::string& path : paths) {
-        std::error_code error;  // a folder that cannot be looked into is found when it is written to
-        auto canonical = std::filesystem::weakly_canonical(path, error);
-        if (error) canonical = path;
-        if (!seen.insert(std::filesystem::absolute(canonical)).second) expected("outputs", "different files", path);
+    std::set<std::string> seen;
+    for (const std::string& path : paths)
+        if (!seen.insert(identity(path)).second) expected("outputs", "different files", path);
+}
+
+void check_outputs(std::vector<std::string> outputs, const std::vector<std::string>& more_outputs,
+                   const std::vector<std::string>& inputs) {
+    for (const std::string& path : more_outputs)
+        if (!path.empty()) outputs.push_back(path);
+    check_distinct(outputs);
+    for (const std::string& input : inputs) {
+        if (!is_regular(input)) continue;  // a terminal may be read and written
+        for (const std::string& output : outputs)
+            if (identity(output) == identity(input))
+                expected("outputs", fmt::format("other files than the input '{}'", input), output);
     }
 }
 

@@ -15,7 +15,8 @@
 
 namespace deburr {
 
-constexpr int largest_side = 65536;
+/// Of a whole picture, of which crops are rendered; and of what is rendered at once.
+constexpr int largest_picture_side = 1'000'000, largest_side = 65536;
 constexpr std::int64_t most_pixels = std::int64_t(1) << 28;
 
 std::int64_t parse_whole(std::string_view option, std::string_view text, std::int64_t least, std::int64_t most);
@@ -29,6 +30,8 @@ Size parse_size(std::string_view option, std::string_view text);
 /// WxH+X+Y, the geometry string of X11 and of OpenImageIO; whether it fits is for check_crop.
 Window parse_crop(std::string_view option, std::string_view text);
 void check_crop(std::string_view option, const Window& crop, Size picture);
+/// Throws if it is too much to be rendered at once.
+void check_pixels(std::string_view option, const Window& window);
 /// Names with commas between them.
 std::vector<ImageLayer> parse_layers(std::string_view option, std::string_view text);
 Criterion parse_criterion(std::string_view option, std::string_view text);
@@ -45,5 +48,9 @@ void parse_define(std::string_view option, std::string_view text, std::map<std::
 void check_image_names(std::string_view option, const std::vector<std::string>& paths);
 /// Throws if one file is named twice, be it in different words.
 void check_distinct(const std::vector<std::string>& paths);
+/// Throws if one file is to be written twice, or one that is read is to be written: by whatever names, symbolic and
+/// hard links included. Empty names stand for no file.
+void check_outputs(std::vector<std::string> outputs, const std::vector<std::string>& more_outputs,
+                   const std::vector<std::string>& inputs);
 
 }  // namespace deburr

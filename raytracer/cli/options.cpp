@@ -1,6 +1,7 @@
 #include "raytracer/cli/options.hpp"
 
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <cerrno>
 #include <cstring>
@@ -140,8 +141,22 @@ Scene load_scene(const Options& o) {
 
 Size picture_size(const Options& o, const Scene& scene) {
     if (o.size) return *o.size;
-    // The same limits as for --size, said of the scene.
-    return parse_size(scene.file + ": image", fmt::format("{}x{}", scene.width, scene.height));
+    return {scene.width, scene.height};
+}
+
+Window picture_window(const Options& o, const Scene& scene, double bytes_per_pixel) {
+    const Size size = picture_size(o, scene);
+    const Window window = o.crop.value_or(Window{0, 0, size.width, size.height});
+    check_crop("--crop", window, size);
+    check_pixels(o.crop ? "--crop" : o.size ? "--size" : scene.file + ": image", window);
+    // Better now than killed by the system in the middle of the work.
+    const double needed = double(window.width) * window.height * bytes_per_pixel;
+    const double there = double(sysconf(_SC_PHYS_PAGES)) * double(sysconf(_SC_PAGESIZE));
+    if (needed > there)
+        throw WorkError(fmt::format("{} of {}x{} needs {:.1f} GiB of memory, this machine has {:.1f}",
+                                    o.crop ? "a crop" : "a picture", window.width, window.height, needed / 0x1p30,
+                                    there / 0x1p30));
+    return window;
 }
 
 }  // namespace deburr

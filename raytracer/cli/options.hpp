@@ -49,4 +49,8 @@ Scene load_scene(const Options& options);
 /// The whole picture's size: --size, or else what the scene says.
 Size picture_size(const Options& options, const Scene& scene);
 
+/// The part of it that is rendered: --crop, or all. Throws UsageError if it does not lie in the picture or is too much,
+/// WorkError if `bytes_per_pixel` of it are more than the machine has.
+Window picture_window(const Options& options, const Scene& scene, double bytes_per_pixel);
+
 }  // namespace deburr

@@ -34,6 +34,8 @@ struct RenderOptions : Options {
     std::string via = "implicit", tolerance;
     std::string wire;  // "": no wire frame
     bool flat = false, edges = false;
+    int bits = 8;  // of a PNG
+    bool alpha = false;
     std::optional<Accel> accel;
 };
 
@@ -84,22 +86,17 @@ void check_options(const RenderOptions& o) {
     if (o.scene.empty()) throw UsageError("render: expected a scene file");
     if (o.outputs.empty()) throw UsageError("render: expected an output file, -o FILE");
     check_image_names("-o", o.outputs);
-    bool exr = false;
-    for (const std::string& path : o.outputs) exr |= image_kind(path) == ImageKind::exr;
+    bool exr = false, png = false;
+    for (const std::string& path : o.outputs) {
+        exr |= image_kind(path) == ImageKind::exr;
+        png |= image_extension(path) == ".png";
+        if (o.alpha && image_extension(path) != ".png" && image_kind(path) != ImageKind::exr)
+            throw UsageError("--alpha: expected outputs that end in .exr or .png, got '" + path + "'");
+    }
+    if (!png && o.bits != 8) throw UsageError("--bits: expected an output that ends in .png, got none");
     if (!exr && !o.layers.empty()) throw UsageError("--aov: expected an output that ends in .exr, got none");
     if (!exr && o.float_color) throw UsageError("--float: expected an output that ends in .exr, got none");
-    std::vector<std::string> files = o.outputs;
-    if (!o.stats_json.empty()) files.push_back(o.stats_json);
-    check_distinct(files);
-}
-
-// Better now than killed by the system in the middle of the work.
-void check_memory(const Window& window, const std::vector<ImageLayer>& layers) {
-    const double needed = double(window.width) * window.height * Film::bytes_per_pixel(layers);
-    const double there = double(sysconf(_SC_PHYS_PAGES)) * double(sysconf(_SC_PAGESIZE));
-    if (needed > there)
-        throw WorkError(fmt::format("a picture of {}x{} needs {:.1f} GiB of memory, this machine has {:.1f}",
-                                    window.width, window.height, needed / 0x1p30, there / 0x1p30));
+    check_outputs(o.outputs, {o.stats_json}, {o.scene});
 }
 
 // Every file that can be written is, for the picture was dear; the first error is reported then.
@@ -109,7 +106,7 @@ void write_images(const RenderOptions& o, const Film& film, const ImageNotes& no
         const double work = writing_work * double(film.pixels.size());
         double told = 0;
         try {
-            write_image(path, film, {o.float_color, threads}, notes, [&](double share) {
+            write_image(path, film, {o.float_color, threads, o.bits, o.alpha}, notes, [&](double share) {
                 progress.advance(work * (share - told));
                 told = share;
             });
@@ -122,77 +119,134 @@ void write_images(const RenderOptions& o, const Film& film, const ImageNotes& no
     throw WorkError(error);
 }
 
+// What rays are traced in, and how. Tiles that are abandoned share in it.
+struct World {
+    Scene scene;
+    std::unique_ptr<RayTracer> tracer;
+    std::optional<Integrator> integrator;
+    std::optional<BspStatistics> bsp;
+    std::vector<Stroke> strokes;  // that are drawn over the picture
+};
+
+void say(const RenderOptions& o, const std::string& line) {
+    if (o.verbose && !o.quiet) message(line);
+}
+
+// The picture's size and the part of it that is rendered.
+struct Frame {
+    Size size;
+    Window window;
+    int spp = 1;
+};
+
+Frame frame_of(const RenderOptions& o, const Scene& scene) {
+    Frame frame;
+    frame.size = picture_size(o, scene);
+    frame.window = picture_window(o, scene, Film::bytes_per_pixel(o.layers));
+    frame.spp = o.spp.value_or(scene.spp);
+    return frame;
+}
+
+void build_implicit(const RenderOptions& o, World& world) {
+    auto tracer = std::make_unique<ImplicitTracer>(
+        world.scene.solids, o.criterion, o.criterion == Criterion::lobb ? Search::always : Search::where_needed,
+        o.accel.value_or(Accel::bsp));
+    world.bsp = tracer->statistics();
+    world.tracer = std::move(tracer);
+    say(o, fmt::format("{} cells of {} half-spaces", world.bsp->cells, world.bsp->half_spaces));
+}
+
+void build_mesh(const RenderOptions& o, const Frame& frame, World& world) {
+    SceneMesh mesh = mesh_scene(world.scene, picture_mesh_settings(o.via, o.tolerance));
+    say(o, fmt::format("{} triangles, {} vertices", mesh.mesh.triangles.size(), mesh.mesh.positions.size()));
+    const bool lines = o.edges || !o.wire.empty();
+    Mesh drawn = lines ? mesh.mesh : Mesh();
+    world.tracer =
+        std::make_unique<MeshTracer>(o.flat ? flat_shaded(std::move(mesh.mesh)) : std::move(mesh.mesh), mesh.near);
+    if (!lines) return;
+    const auto edges = mesh_edges(drawn, o.via == "triage" ? EdgeChoice::polygons : EdgeChoice::triangles);
+    const PinholeCamera camera(world.scene.camera, frame.size.width, frame.size.height);
+    world.strokes = wire_frame(drawn, edges, *world.tracer, camera, frame.window,
+                               o.wire == "front" ? WireMode::front : WireMode::visible);
+}
+
+Rendering trace(const RenderOptions& o, const Frame& frame, const std::shared_ptr<const World>& world,
+                const std::atomic<bool>& stop, Progress& progress) {
+    // What tiles in hand are given once a stop is asked for.
+    constexpr std::chrono::milliseconds grace(300);
+    BlockFunction block = [world](const Window& part, Pixel* pixels, PixelLayers* layers, TraceCounters& counters) {
+        world->integrator->block(part, pixels, layers, counters);
+    };
+    if (!o.wire.empty())
+        block = [paper = o.alpha ? Pixel() : Pixel{.color = Vec3(1.0), .alpha = 1}](
+                    const Window& part, Pixel* pixels, PixelLayers* layers, TraceCounters&) {
+            std::fill_n(pixels, part.width * part.height, paper);
+            if (layers) std::fill_n(layers, part.width * part.height, PixelLayers{});
+        };
+    Rendering rendering = render(
+        Film(frame.size.width, frame.size.height, frame.window, o.layers), block, stop,
+        [&](std::int64_t done) { progress.advance(double(done) * frame.spp); }, grace);
+    draw_strokes(rendering.film, world->strokes, Vec3(0.0), line_width, o.alpha);
+    return rendering;
+}
+
+ImageNotes notes_of(const RenderOptions& o, const World& world, int spp, double trace_seconds) {
+    const auto epoch = source_date_epoch();
+    const Scene& scene = world.scene;
+    ImageNotes notes;
+    notes.camera = scene.camera;
+    notes.spp = spp;
+    notes.date = date_text(epoch.value_or(std::time(nullptr)));
+    if (!epoch) notes.render_seconds = trace_seconds;
+    notes.attributes = {{"scene", scene.file},
+                        {"seed", fmt::format("{}", o.seed)},
+                        {"via", o.via},
+                        {"criterion", o.criterion == Criterion::lobb ? "lobb" : "exact"}};
+    if (world.bsp) notes.attributes.push_back({"accel", name(o.accel.value_or(Accel::bsp))});
+    for (const auto& [name, value] : scene.parameters) notes.attributes.push_back({"parameter." + name, value});
+    return notes;
+}
+
+void write_statistics(const RenderOptions& o, const RunStatistics& run) {
+    if (o.stats) fmt::print("{}", statistics_table(run));
+    if (!o.stats_json.empty()) write_whole_file(o.stats_json, statistics_json(run));
+}
+
 int run_render(const RenderOptions& o) {
     check_options(o);
-    const auto epoch = source_date_epoch();
-    const std::atomic<bool>& stop = catch_interrupts(!o.quiet);
+    source_date_epoch();  // or what is wrong with it is said when the work is done
     const int threads = o.threads.value_or(tbb::info::default_concurrency());
     const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, std::size_t(threads));
-    const auto say = [&](const std::string& line) {
-        if (o.verbose && !o.quiet) message(line);
-    };
 
     PhaseClock clock;
     clock.begin("read");
-    const Scene scene = load_scene(o);
-    const Size size = picture_size(o, scene);
-    const Window window = o.crop.value_or(Window{0, 0, size.width, size.height});
-    check_crop("--crop", window, size);
-    check_memory(window, o.layers);
+    const auto world = std::make_shared<World>();
+    const Scene& scene = world->scene = load_scene(o);
+    const Frame frame = frame_of(o, scene);
+    const auto [size, window, spp] = frame;
     for (const std::string& path : o.outputs) check_writable(path);
     if (!o.stats_json.empty()) check_writable(o.stats_json);
-    const int spp = o.spp.value_or(scene.spp);
-    say(fmt::format("{}: {} solids, {} lights; picture {}x{}, {} samples per pixel, {} threads", o.scene,
-                    scene.solids.size(), scene.lights.size(), size.width, size.height, spp, threads));
-
+    say(o, fmt::format("{}: {} solids, {} lights; picture {}x{}, {} samples per pixel, {} threads", o.scene,
+                       scene.solids.size(), scene.lights.size(), size.width, size.height, spp, threads));
     if (!o.quiet)
         for (const std::string& what : illegal_densities(scene, boxes_to_warn)) message("warning: " + what);
 
     clock.begin("build");
-    std::unique_ptr<RayTracer> tracer;
-    std::optional<BspStatistics> bsp;
-    const Accel accel = o.accel.value_or(Accel::bsp);
-    Mesh lines;  // whose edges are drawn
-    if (o.via == "implicit") {
-        auto implicit = std::make_unique<ImplicitTracer>(
-            scene.solids, o.criterion, o.criterion == Criterion::lobb ? Search::always : Search::where_needed, accel);
-        bsp = implicit->statistics();
-        tracer = std::move(implicit);
-        say(fmt::format("{} cells of {} half-spaces", bsp->cells, bsp->half_spaces));
-    } else {
-        SceneMesh mesh = mesh_scene(scene, picture_mesh_settings(o.via, o.tolerance), {&stop});
-        say(fmt::format("{} triangles, {} vertices", mesh.mesh.triangles.size(), mesh.mesh.positions.size()));
-        if (o.edges || !o.wire.empty()) lines = mesh.mesh;
-        tracer =
-            std::make_unique<MeshTracer>(o.flat ? flat_shaded(std::move(mesh.mesh)) : std::move(mesh.mesh), mesh.near);
-    }
-    clock.end();
+    if (o.via == "implicit")
+        build_implicit(o, *world);
+    else
+        build_mesh(o, frame, *world);
+    const bool cost = std::count(o.layers.begin(), o.layers.end(), ImageLayer::cost) > 0;
+    world->integrator.emplace(scene, *world->tracer,
+                              RenderSettings{size.width, size.height, spp, o.seed, cost, !o.alpha});
 
     clock.begin("trace");
-    const Integrator integrator(
-        scene, *tracer,
-        {size.width, size.height, spp, o.seed, std::count(o.layers.begin(), o.layers.end(), ImageLayer::cost) > 0});
-    Pixel paper;  // of a wire frame
-    paper.color = Vec3(1.0);
-    paper.alpha = 1;
+    const std::atomic<bool>& stop = catch_interrupts(!o.quiet);
     const double pixels = double(window.width) * window.height;
     Progress progress(pixels * (spp + writing_work * double(o.outputs.size())), Progress::standard_error(o.quiet));
-    Rendering rendering = render(
-        Film(size.width, size.height, window, o.layers),
-        [&](const Window& block, Pixel* pixels, PixelLayers* layers, TraceCounters& counters) {
-            if (o.wire.empty()) return integrator.block(block, pixels, layers, counters);
-            std::fill_n(pixels, block.width * block.height, paper);
-            if (layers) std::fill_n(layers, block.width * block.height, PixelLayers{});
-        },
-        stop, [&](std::int64_t done) { progress.advance(double(done) * spp); });
-    if (!lines.triangles.empty())
-        draw_strokes(
-            rendering.film,
-            wire_frame(lines, mesh_edges(lines, o.via == "triage" ? EdgeChoice::polygons : EdgeChoice::triangles),
-                       *tracer, PinholeCamera(scene.camera, size.width, size.height), size.width, size.height,
-                       o.wire == "front" ? WireMode::front : WireMode::visible),
-            Vec3(0.0), line_width);
+    const Rendering rendering = trace(o, frame, world, stop, progress);
     const Film& film = rendering.film;
+    clock.end();
     if (rendering.pixels_done == 0) {
         progress.stop();
         message("interrupted before the first tile: nothing is written");
@@ -200,32 +254,16 @@ int run_render(const RenderOptions& o) {
     }
 
     clock.begin("write");
-    ImageNotes notes;
-    notes.camera = scene.camera;
-    notes.spp = spp;
-    notes.date = date_text(epoch.value_or(std::time(nullptr)));
-    if (!epoch) notes.render_seconds = clock.wall("trace");
-    notes.attributes = {{"scene", scene.file},
-                        {"seed", fmt::format("{}", o.seed)},
-                        {"via", o.via},
-                        {"criterion", o.criterion == Criterion::lobb ? "lobb" : "exact"}};
-    if (bsp) notes.attributes.push_back({"accel", name(accel)});
-    for (const auto& [name, value] : scene.parameters) notes.attributes.push_back({"parameter." + name, value});
-    write_images(o, film, notes, threads, progress);
+    write_images(o, film, notes_of(o, *world, spp, clock.wall("trace")), threads, progress);
     clock.end();
     if (film.complete)
         progress.finish();
     else
         progress.stop();
-
-    if (o.stats || !o.stats_json.empty()) {
-        const RunStatistics run{
-            scene.file, o.via,         bsp ? name(accel) : "", size.width,    size.height,        window, spp, threads,
-            o.seed,     film.complete, rendering.pixels_done,  clock.times(), rendering.counters, bsp};
-        if (o.stats) fmt::print("{}", statistics_table(run));
-        if (!o.stats_json.empty()) write_whole_file(o.stats_json, statistics_json(run));
-    }
-    for (const std::string& path : o.outputs) say("wrote " + path);
+    write_statistics(
+        o, {scene.file, o.via, world->bsp ? name(o.accel.value_or(Accel::bsp)) : "", size.width, size.height, window,
+            spp, threads, o.seed, film.complete, rendering.pixels_done, clock.times(), rendering.counters, world->bsp});
+    for (const std::string& path : o.outputs) say(o, "wrote " + path);
     if (film.complete) return 0;
     message(fmt::format("interrupted after {:.0f} % of the pixels: the picture is marked incomplete",
                         std::floor(100 * double(rendering.pixels_done) / pixels)));
@@ -263,6 +301,17 @@ Command add_render_command(CLI::App& program) {
             "meshes only: draw edges alone, with hidden lines removed (visible), or all of faces towards the camera "
             "(front)")
         ->type_name("visible|front");
+    command
+        ->add_option_function<std::string>(
+            "--bits",
+            [options](const std::string& text) {
+                if (text != "8" && text != "16") throw UsageError("--bits: expected 8 or 16, got '" + text + "'");
+                options->bits = text == "8" ? 8 : 16;
+            },
+            "of each number in a PNG; default: 8")
+        ->type_name("8|16");
+    command->add_flag("--alpha", options->alpha,
+                      "without the background that the camera sees: a PNG is transparent there, and an EXR black");
     add_run_options(*command, *options);
     add_statistics_options(*command, *options);
     return {command, [options] { return run_render(*options); }};

@@ -150,6 +150,8 @@ Film read_picture(const std::string& path) {
             return image_module().read(path);
         } catch (const UnsupportedError&) {
             throw;
+        } catch (const std::bad_alloc&) {
+            throw;
         } catch (const std::exception& error) {
             throw UsageError(fmt::format("cannot read picture '{}': {}", path, error.what()));
         }

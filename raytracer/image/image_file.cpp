@@ -64,6 +64,25 @@ const LayerChannels layer_channels[] = {
     {ImageLayer::cost, {"cost"}},
 };
 
+// R, G, B and, if asked for, A of a PNG. What alpha has weighed is divided by it.
+template <class Number>
+std::vector<ImageChannel> png_channels(const Film& film, ChannelType type, bool alpha, Number srgb) {
+    std::vector<ImageChannel> list;
+    const Pixel* pixels = film.pixels.data();
+    for (int k = 0; k < 3; ++k)
+        list.push_back(image_channel(std::string(1, "RGB"[k]), type, [pixels, k, alpha, srgb](std::size_t i) {
+            const double value = glm::value_ptr(pixels[i].color)[k];
+            if (!alpha) return srgb(value);
+            return srgb(pixels[i].alpha > 0 ? value / pixels[i].alpha : 0.0);
+        }));
+    const double most = type == ChannelType::byte ? 255 : 65535;
+    if (alpha)
+        list.push_back(image_channel("A", type, [pixels, most](std::size_t i) {
+            return std::round(most * std::clamp(pixels[i].alpha, 0.0, 1.0));
+        }));
+    return list;
+}
+
 std::vector<ImageChannel> channels(const Film& film, ImageKind kind, const ImageFormat& format) {
     std::vector<ImageChannel> list;
     const Pixel* pixels = film.pixels.data();
@@ -120,6 +139,13 @@ std::vector<ImageAttribute> attributes(const Film& film, const ImageNotes& notes
 
 unsigned char srgb_byte(double linear) { return srgb_bytes()(linear); }
 
+std::uint16_t srgb_word(double linear) {
+    if (!(linear > 0)) return 0;
+    if (linear >= 1) return 65535;
+    const double v = linear <= 0.0031308 ? 12.92 * linear : 1.055 * std::pow(linear, 1 / 2.4) - 0.055;
+    return static_cast<std::uint16_t>(std::lround(65535 * v));
+}
+
 void write_raster(const std::string& path, const ImageRaster& image, int threads, const ShareDone& done) {
     const std::string extension = image_extension(path);
     std::string bytes;
@@ -140,9 +166,15 @@ void write_image(const std::string& path, const Film& film, const ImageFormat& f
                  const ShareDone& done) {
     const auto kind = image_kind(path);
     if (!kind) throw WorkError(fmt::format("cannot write '{}': unknown image format", path));
-    const bool exr = *kind == ImageKind::exr;
-    write_raster(path,
-                 {film.width, film.height, film.window, channels(film, *kind, format), attributes(film, notes, exr)},
+    const bool exr = *kind == ImageKind::exr, png = image_extension(path) == ".png";
+    std::vector<ImageChannel> list;
+    if (png && format.bits == 16)
+        list = png_channels(film, ChannelType::word, format.alpha, srgb_word);
+    else if (png && format.alpha)
+        list = png_channels(film, ChannelType::byte, true, srgb_byte);
+    else
+        list = channels(film, *kind, format);
+    write_raster(path, {film.width, film.height, film.window, std::move(list), attributes(film, notes, exr)},
                  format.threads, done);
 }
 

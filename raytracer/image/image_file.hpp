@@ -4,7 +4,9 @@
 //             included; A is the share of samples that hit something. A crop is a data window
 //             inside the whole display window.
 //   8 bit     sRGB. The background is part of the picture, so it is opaque and there is no alpha.
-//             A crop is a picture of the crop's size.
+//             A crop is a picture of the crop's size. A PNG has 16 bits, or alpha, on request.
+//   alpha     on request of films without background: colour has been weighed by alpha, as an EXR
+//             has it, and is divided by it for a PNG.
 //   .hdr      as 8 bit, but scene-linear.
 //
 // Half holds no more than 65504: what is brighter is written as that, so that no infinity reaches
@@ -34,6 +36,8 @@ struct ImageNotes {
 struct ImageFormat {
     bool float_color = false;  // EXR: 32 bits for R G B A
     int threads = 1;           // EXR: that compress
+    int bits = 8;              // PNG: 8 or 16
+    bool alpha = false;        // PNG: there is an alpha, and the film is without background
 };
 
 /// Writes the whole file or nothing; throws WorkError. An EXR gets all layers that the film keeps. The format follows
@@ -45,5 +49,7 @@ void write_raster(const std::string& path, const ImageRaster& image, int threads
 
 /// The sRGB transfer curve [IEC 61966-2-1], 8 bit; less than 0 and NaN give 0.
 unsigned char srgb_byte(double linear);
+/// The same, 16 bit.
+std::uint16_t srgb_word(double linear);
 
 }  // namespace deburr

@@ -19,13 +19,14 @@ namespace deburr {
 
 enum class ChannelType {
     byte,        // 8 bit; the value is 0 … 255
+    word,        // 16 bit; the value is 0 … 65535
     half_float,  // of what is brighter, the largest finite one
     single_float,
     whole,  // 32 bit, unsigned
 };
 
 constexpr std::size_t size_of(ChannelType type) {
-    return type == ChannelType::byte ? 1 : type == ChannelType::half_float ? 2 : 4;
+    return type == ChannelType::byte ? 1 : type == ChannelType::half_float || type == ChannelType::word ? 2 : 4;
 }
 
 /// The bits of a number of 16 bits, finite.
@@ -54,6 +55,8 @@ ImageChannel image_channel(std::string name, ChannelType type, Value value) {
     switch (type) {
         case ChannelType::byte:
             return {std::move(name), type, write_as([](auto v) { return static_cast<unsigned char>(v); })};
+        case ChannelType::word:
+            return {std::move(name), type, write_as([](auto v) { return static_cast<std::uint16_t>(v); })};
         case ChannelType::half_float: return {std::move(name), type, write_as([](auto v) { return half_bits(v); })};
         case ChannelType::single_float: return {std::move(name), type, write_as([](auto v) { return float(v); })};
         case ChannelType::whole: return {std::move(name), type, write_as([](auto v) { return std::uint32_t(v); })};
@@ -87,7 +90,8 @@ void by_rows(const ImageRaster& image, const ShareDone& done, Rows rows) {
     }
 }
 
-/// The bytes of a file; throws std::runtime_error. R, G, B as bytes: sRGB. Attributes become text.
+/// The bytes of a file; throws std::runtime_error. R, G, B, and A if there is one, all as bytes or all as words:
+/// sRGB, not multiplied by alpha [PNG §6.2]. Attributes become text.
 std::string encode_png(const ImageRaster& image, const ShareDone& done);
 
 }  // namespace deburr

@@ -9,6 +9,8 @@ namespace {
 
 // Steps along a line, in pixels: the ends of its visible parts are found to this.
 constexpr double step = 0.5;
+// A stroke ends where a multiple of so many steps does: a window costs no more than the lines in and around it.
+constexpr std::int64_t stroke_steps = 64;
 // A point is asked about a little in front of the faces that are seen, and nearer to the eye, by this
 // share of its distance: far above Embree's single precision, far below a pixel.
 constexpr double lift = 1e-4;
@@ -57,11 +59,12 @@ bool clip(Line3& line, const PinholeCamera& camera) {
     return true;
 }
 
-// The part of p + t (q − p), t in [0, 1], that is within a margin of the picture.
-bool clip(Vec2 p, Vec2 q, int width, int height, double& t0, double& t1) {
+// The part of p + t (q − p), t in [0, 1], that is within a margin of the window.
+bool clip(Vec2 p, Vec2 q, const Window& window, double& t0, double& t1) {
     constexpr double margin = 8;
     t0 = 0, t1 = 1;
-    const double lo[2] = {-margin, -margin}, hi[2] = {width + margin, height + margin};
+    const double lo[2] = {window.x - margin, window.y - margin};
+    const double hi[2] = {window.x + window.width + margin, window.y + window.height + margin};
     for (int k = 0; k < 2; ++k) {
         const double d = q[k] - p[k];
         if (d == 0) {
@@ -85,43 +88,41 @@ bool seen(Vec3 x, Vec3 normal, const RayTracer& hiding, const PinholeCamera& cam
     return !hiding.occluded({start, way / length}, length, unused);
 }
 
-void add_visible(Line3 line, const RayTracer* hiding, const PinholeCamera& camera, int width, int height,
+void add_visible(Line3 line, const RayTracer* hiding, const PinholeCamera& camera, const Window& window,
                  std::vector<Stroke>& out) {
     if (!clip(line, camera)) return;
     const Vec3 p = camera.project(line.a), q = camera.project(line.b);
     const Vec2 from(p), to(q);
     double t0, t1;
-    if (!clip(from, to, width, height, t0, t1)) return;
-    if (!hiding) {
-        out.push_back({glm::mix(from, to, t0), glm::mix(from, to, t1)});
-        return;
-    }
-    // Even steps on the picture; 1/z is linear there.
-    const int steps = std::max(2, int(std::ceil((t1 - t0) * glm::length(to - from) / step)));
-    double begin = -1;
-    for (int i = 0; i <= steps; ++i) {
+    if (!clip(from, to, window, t0, t1)) return;
+    // Even steps on the picture; 1/z is linear there. Where they and the strokes begin does not depend on the window.
+    const auto steps = std::max(std::int64_t(2), std::int64_t(std::ceil(glm::length(to - from) / step)));
+    const std::int64_t first = std::int64_t(t0 * double(steps)) / stroke_steps * stroke_steps;
+    const std::int64_t last = std::min(steps, (std::int64_t(t1 * double(steps)) / stroke_steps + 1) * stroke_steps);
+    const auto share = [&](double i) { return i / double(steps); };
+    std::int64_t begin = -1;
+    for (std::int64_t i = first; i <= last; ++i) {
         bool visible = false;
-        if (i < steps) {
-            const double t = t0 + (t1 - t0) * (i + 0.5) / steps;
+        if (i < last) {
+            const double t = share(double(i) + 0.5);
             const double u = t / q.z / ((1 - t) / p.z + t / q.z);
-            visible = seen(glm::mix(line.a, line.b, u), glm::mix(line.na, line.nb, u), *hiding, camera);
+            visible = !hiding || seen(glm::mix(line.a, line.b, u), glm::mix(line.na, line.nb, u), *hiding, camera);
         }
-        const double at = t0 + (t1 - t0) * i / steps;
-        if (visible && begin < 0) begin = at;
-        if (!visible && begin >= 0) {
-            out.push_back({glm::mix(from, to, begin), glm::mix(from, to, at)});
+        if (begin >= 0 && (!visible || i % stroke_steps == 0)) {
+            out.push_back({glm::mix(from, to, share(double(begin))), glm::mix(from, to, share(double(i)))});
             begin = -1;
         }
+        if (visible && begin < 0) begin = i;
     }
 }
 
 template <class LineOf>
 std::vector<Stroke> strokes_of(std::size_t lines, LineOf line_of, const RayTracer* hiding, const PinholeCamera& camera,
-                               int width, int height) {
+                               const Window& window) {
     std::vector<std::vector<Stroke>> parts(lines);  // in the lines' order, whatever thread did it
     tbb::parallel_for(std::size_t(0), lines, [&](std::size_t i) {
         Line3 line;
-        if (line_of(i, line)) add_visible(line, hiding, camera, width, height, parts[i]);
+        if (line_of(i, line)) add_visible(line, hiding, camera, window, parts[i]);
     });
     std::vector<Stroke> all;
     for (const auto& part : parts) all.insert(all.end(), part.begin(), part.end());
@@ -155,7 +156,7 @@ std::vector<MeshEdge> mesh_edges(const Mesh& mesh, EdgeChoice choice) {
 }
 
 std::vector<Stroke> wire_frame(const Mesh& mesh, const std::vector<MeshEdge>& edges, const RayTracer& hiding,
-                               const PinholeCamera& camera, int width, int height, WireMode mode) {
+                               const PinholeCamera& camera, const Window& window, WireMode mode) {
     const auto line_of = [&](std::size_t i, Line3& line) {
         const MeshEdge& e = edges[i];
         line.a = mesh.positions[std::size_t(e.a)];
@@ -174,19 +175,19 @@ std::vector<Stroke> wire_frame(const Mesh& mesh, const std::vector<MeshEdge>& ed
         line.na = line.nb = glm::length(normal) > 0 ? glm::normalize(normal) : normal;
         return front;  // no part of an edge between two faces that look away is seen
     };
-    return strokes_of(edges.size(), line_of, mode == WireMode::visible ? &hiding : nullptr, camera, width, height);
+    return strokes_of(edges.size(), line_of, mode == WireMode::visible ? &hiding : nullptr, camera, window);
 }
 
 std::vector<Stroke> visible_line(const std::vector<Vec3>& points, const std::vector<Vec3>& normals,
-                                 const RayTracer& hiding, const PinholeCamera& camera, int width, int height) {
+                                 const RayTracer& hiding, const PinholeCamera& camera, const Window& window) {
     const auto line_of = [&](std::size_t i, Line3& line) {
         line = {points[i], points[i + 1], normals[i], normals[i + 1]};
         return true;
     };
-    return strokes_of(points.empty() ? 0 : points.size() - 1, line_of, &hiding, camera, width, height);
+    return strokes_of(points.empty() ? 0 : points.size() - 1, line_of, &hiding, camera, window);
 }
 
-void draw_strokes(Film& film, const std::vector<Stroke>& strokes, Vec3 color, double line_width) {
+void draw_strokes(Film& film, const std::vector<Stroke>& strokes, Vec3 color, double line_width, bool alpha) {
     const Window& w = film.window;
     // The most that any line covers of the pixel: where lines meet they are no darker.
     std::vector<float> covered(film.pixels.size(), 0);
@@ -213,8 +214,11 @@ void draw_strokes(Film& film, const std::vector<Stroke>& strokes, Vec3 color, do
             }
         }
     }
-    for (std::size_t i = 0; i < covered.size(); ++i)
-        if (covered[i] > 0) film.pixels[i].color = glm::mix(film.pixels[i].color, color, double(covered[i]));
+    for (std::size_t i = 0; i < covered.size(); ++i) {
+        if (!(covered[i] > 0)) continue;
+        film.pixels[i].color = glm::mix(film.pixels[i].color, color, double(covered[i]));
+        if (alpha) film.pixels[i].alpha = glm::mix(film.pixels[i].alpha, 1.0, double(covered[i]));
+    }
 }
 
 Mesh flat_shaded(Mesh mesh) {

@@ -35,17 +35,19 @@ struct Stroke {
     Vec2 from, to;
 };
 
-/// The visible parts of edges. `mesh` hides, and so does what else `hiding` sees.
+/// The visible parts of edges in and around a window of the camera's picture. `mesh` hides, and so does what else
+/// `hiding` sees.
 std::vector<Stroke> wire_frame(const Mesh& mesh, const std::vector<MeshEdge>& edges, const RayTracer& hiding,
-                               const PinholeCamera& camera, int width, int height, WireMode mode);
+                               const PinholeCamera& camera, const Window& window, WireMode mode);
 
 /// The visible parts of a line through space that lies on surfaces; it is taken as visible where
 /// nothing hides the same point lifted by `lift` along `normals`.
 std::vector<Stroke> visible_line(const std::vector<Vec3>& points, const std::vector<Vec3>& normals,
-                                 const RayTracer& hiding, const PinholeCamera& camera, int width, int height);
+                                 const RayTracer& hiding, const PinholeCamera& camera, const Window& window);
 
 /// Draws over the film, each pixel by the share of it that the lines cover; `line_width` in pixels.
-void draw_strokes(Film& film, const std::vector<Stroke>& strokes, Vec3 color, double line_width);
+/// `alpha`: lines are opaque too; else alpha is of the solids alone.
+void draw_strokes(Film& film, const std::vector<Stroke>& strokes, Vec3 color, double line_width, bool alpha = false);
 
 /// The same mesh, each facet with one normal.
 Mesh flat_shaded(Mesh mesh);

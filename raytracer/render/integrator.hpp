@@ -44,7 +44,8 @@ struct RenderSettings {
     int width = 0, height = 0;  // of the whole picture
     int spp = 1;                // 1: one ray through the pixel's centre
     std::uint64_t seed = 0;
-    bool cost = true;  // PixelLayers::cost is asked for: then no two pixels' rays are traced together
+    bool cost = true;        // PixelLayers::cost is asked for: then no two pixels' rays are traced together
+    bool background = true;  // false: where the camera sees it, colours are 0, so that alpha has weighed the others
 };
 
 class Integrator {

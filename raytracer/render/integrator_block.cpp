@@ -94,7 +94,7 @@ private:
         }
         if (!use.sample) return;
         if (!hit) {
-            m_.colors[i] = in_.sky_.towards(direction);
+            m_.colors[i] = in_.settings_.background ? in_.sky_.towards(direction) : Vec3(0.0);
             return;
         }
         const Vec3 albedo = in_.texture_color(hit);

@@ -6,18 +6,85 @@
 
 #include <algorithm>
 #include <array>
+#include <future>
+#include <memory>
+#include <mutex>
+#include <shared_mutex>
+#include <thread>
 
 namespace deburr {
 namespace {
 
 std::int64_t tiles_along(int pixels) { return (std::int64_t(pixels) + tile_side - 1) / tile_side; }
 
-struct Work {
-    std::array<Pixel, tile_side * tile_side> pixels_in_hand;
-    std::vector<PixelLayers> layers_in_hand;
-    TraceCounters counters;
-    std::int64_t pixels = 0;
+// A picture in the making. It outlives its caller where tiles are abandoned.
+class Making {
+public:
+    Making(Film film, const BlockFunction& block, const std::atomic<bool>& stop, const PixelsDone& done)
+        : block_(block), stop_(stop), done_(done), window_(film.window), with_layers_(film.keeps_layers()) {
+        result_.film = std::move(film);
+    }
+
+    void run() {
+        // The scheduler hands out tickets in an order of its own; whoever holds one takes the next tile
+        // from the top, so that an interrupted picture has no holes above its lower edge.
+        tbb::parallel_for(
+            tbb::blocked_range<std::int64_t>(0, tile_count(window_)),
+            [&](const tbb::blocked_range<std::int64_t>& tickets) {
+                Work& mine = work_.local();
+                for (std::int64_t i = tickets.begin(); i != tickets.end(); ++i)
+                    if (!stop_.load(std::memory_order_relaxed)) fill(tile(window_, next_++), mine);
+            },
+            tbb::simple_partitioner{});
+    }
+
+    // What is finished by now; nothing is added to it any more.
+    Rendering take() {
+        const std::unique_lock all(film_);
+        closed_ = true;
+        result_.film.complete = result_.pixels_done == std::int64_t(window_.width) * std::int64_t(window_.height);
+        return std::move(result_);
+    }
+
+private:
+    struct Work {
+        std::array<Pixel, tile_side * tile_side> pixels;
+        std::vector<PixelLayers> layers;
+    };
+
+    void fill(const Window& part, Work& work) {
+        if (with_layers_) work.layers.resize(work.pixels.size());
+        TraceCounters counters;
+        block_(part, work.pixels.data(), with_layers_ ? work.layers.data() : nullptr, counters);
+        const std::shared_lock one(film_);
+        if (closed_) return;
+        Film& film = result_.film;
+        for (int y = 0; y < part.height; ++y)
+            std::copy_n(&work.pixels[std::size_t(y * part.width)], part.width, &film.at(part.x, part.y + y));
+        if (with_layers_) film.set_layers(part, work.layers.data());
+        const std::int64_t pixels = std::int64_t(part.width) * part.height;
+        {
+            const std::lock_guard lock(sums_);
+            result_.counters += counters;
+            result_.pixels_done += pixels;
+        }
+        if (done_) done_(pixels);
+    }
+
+    const BlockFunction block_;
+    const std::atomic<bool>& stop_;
+    const PixelsDone done_;
+    const Window window_;
+    const bool with_layers_;
+    std::atomic<std::int64_t> next_{0};
+    tbb::enumerable_thread_specific<Work> work_;
+    std::shared_mutex film_;  // shared by those who add tiles of their own
+    std::mutex sums_;
+    bool closed_ = false;
+    Rendering result_;
 };
+
+std::atomic<bool> abandoned{false};
 
 }  // namespace
 
@@ -30,42 +97,45 @@ Window tile(const Window& window, std::int64_t index) {
 }
 
 Rendering render(Film film, const BlockFunction& block, const std::atomic<bool>& stop, const PixelsDone& done) {
-    Rendering result;
-    result.film = std::move(film);
-    const Window window = result.film.window;
-    const bool with_layers = result.film.keeps_layers();
-    const auto fill = [&](std::int64_t index, Work& work) {
-        const Window part = tile(window, index);
-        if (with_layers) work.layers_in_hand.resize(work.pixels_in_hand.size());
-        block(part, work.pixels_in_hand.data(), with_layers ? work.layers_in_hand.data() : nullptr, work.counters);
-        for (int y = 0; y < part.height; ++y)
-            std::copy_n(&work.pixels_in_hand[std::size_t(y * part.width)], part.width,
-                        &result.film.at(part.x, part.y + y));
-        if (with_layers) result.film.set_layers(part, work.layers_in_hand.data());
-        const std::int64_t pixels = std::int64_t(part.width) * part.height;
-        work.pixels += pixels;
-        if (done) done(pixels);
-    };
+    Making making(std::move(film), block, stop, done);
+    making.run();
+    return making.take();
+}
 
-    // The scheduler hands out tickets in an order of its own; whoever holds one takes the next tile
-    // from the top, so that an interrupted picture has no holes above its lower edge.
-    std::atomic<std::int64_t> next{0};
-    tbb::enumerable_thread_specific<Work> work;
-    tbb::parallel_for(
-        tbb::blocked_range<std::int64_t>(0, tile_count(window)),
-        [&](const tbb::blocked_range<std::int64_t>& tickets) {
-            Work& mine = work.local();
-            for (std::int64_t i = tickets.begin(); i != tickets.end(); ++i)
-                if (!stop.load(std::memory_order_relaxed)) fill(next++, mine);
-        },
-        tbb::simple_partitioner{});
+Rendering render(Film film, const BlockFunction& block) {
+    const std::atomic<bool> never{false};
+    return render(std::move(film), block, never, {});
+}
 
-    for (const Work& part : work) {
-        result.counters += part.counters;
-        result.pixels_done += part.pixels;
+Rendering render(Film film, const BlockFunction& block, const std::atomic<bool>& stop, const PixelsDone& done,
+                 std::chrono::milliseconds grace) {
+    // How soon a stop is noticed, and an end told.
+    constexpr std::chrono::milliseconds look = std::chrono::milliseconds(20);
+    const auto making = std::make_shared<Making>(std::move(film), block, stop, done);
+    std::packaged_task<void()> run([making] { making->run(); });
+    std::future<void> end = run.get_future();
+    std::thread thread;
+    try {
+        thread = std::thread(std::move(run));
+    } catch (const std::system_error&) {  // none is to be had: then this one does the work
+        making->run();
+        return making->take();
     }
-    result.film.complete = result.pixels_done == std::int64_t(window.width) * std::int64_t(window.height);
+    std::chrono::milliseconds waited(0);
+    while (end.wait_for(look) != std::future_status::ready && waited < grace)
+        if (stop) waited += look;
+    if (end.wait_for(std::chrono::seconds(0)) == std::future_status::ready) {
+        thread.join();
+        end.get();
+        return making->take();
+    }
+    thread.detach();
+    abandoned = true;
+    Rendering result = making->take();
+    result.abandoned = true;
     return result;
 }
+
+bool any_tiles_abandoned() { return abandoned; }
 
 }  // namespace deburr

@@ -5,6 +5,7 @@
 // threads, on the tiles or on the window.
 #pragma once
 #include <atomic>
+#include <chrono>
 #include <cstdint>
 #include <functional>
 
@@ -34,10 +35,24 @@ struct Rendering {
     Film film;  // film.complete is false if it was stopped with tiles left
     TraceCounters counters;
     std::int64_t pixels_done = 0;
+    bool abandoned = false;  // threads are still at work on tiles that nobody waits for
 };
 
 /// Fills an empty film. Tiles start from the top. Once `stop` is set no further tile starts; those in hand are
 /// finished. What `block` throws comes through.
 Rendering render(Film film, const BlockFunction& block, const std::atomic<bool>& stop, const PixelsDone& done = {});
+
+/// The same where nobody asks for an end.
+Rendering render(Film film, const BlockFunction& block);
+
+/// The same with an end soon after `stop` is set, however long a tile takes: those that are not finished after `grace`
+/// are abandoned, and stay empty. Their threads go on until the process ends, with copies of `block`, which shares in
+/// the ownership of all that it uses. `stop` outlives them; `done` is called no more after the return.
+Rendering render(Film film, const BlockFunction& block, const std::atomic<bool>& stop, const PixelsDone& done,
+                 std::chrono::milliseconds grace);
+
+/// Whether threads are still at work on abandoned tiles: then the process ends by _exit(), or they would see what they
+/// use destroyed.
+bool any_tiles_abandoned();
 
 }  // namespace deburr

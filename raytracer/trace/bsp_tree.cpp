@@ -323,6 +323,8 @@ private:
             LocalSolid solid(item.solid, local, known, bsp_.tolerances, search_);
             if (solid.has_surface()) to.locals.push_back(std::move(solid));
         }
+    } catch (const std::bad_alloc&) {
+        throw;  // at once: others will not find memory either
     } catch (...) {
         to.error = std::current_exception();  // the first one in the tree's order is thrown
     }

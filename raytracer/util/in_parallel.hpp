@@ -2,25 +2,31 @@
 #pragma once
 #include <tbb/parallel_for.h>
 
+#include <atomic>
 #include <exception>
-#include <vector>
+#include <mutex>
 
 namespace deburr {
 
-/// Calls work(i) for all i < count. What has failed is thrown at the end: of several errors that of the
-/// least i.
+/// Calls work(i) for all i < count, or until one fails: of several errors that of the least i is thrown, at the end.
+/// One error is kept at a time, for without memory there is room for a few hundred exceptions only.
 template <class Work>
 void in_parallel(std::size_t count, Work work) {
-    std::vector<std::exception_ptr> errors(count);
+    std::atomic<std::size_t> failed{count};  // the least i so far
+    std::exception_ptr error;
+    std::mutex mutex;
     tbb::parallel_for(std::size_t(0), count, [&](std::size_t i) {
+        if (i > failed) return;  // what it might throw would not be told
         try {
             work(i);
         } catch (...) {
-            errors[i] = std::current_exception();
+            const std::lock_guard lock(mutex);
+            if (i > failed) return;
+            failed = i;
+            error = std::current_exception();
         }
     });
-    for (const std::exception_ptr& error : errors)
-        if (error) std::rethrow_exception(error);
+    if (error) std::rethrow_exception(error);
 }
 
 }  // namespace deburr

@@ -1,4 +1,7 @@
-// Ctrl-C and SIGTERM: the first asks for an end, the second is one.
+// SIGINT (Ctrl-C) and SIGTERM.
+//
+// While there is nothing to save the first of them ends the process, whatever code runs at that moment: reading,
+// building and meshing need no checks, and neither do libraries. While there is something to save it sets a flag.
 #pragma once
 #include <atomic>
 
@@ -7,9 +10,13 @@ namespace deburr {
 /// Exit code of a run that was interrupted.
 constexpr int interrupted_exit_code = 130;
 
-/// From now on the first SIGINT or SIGTERM sets the flag that is returned; the second ends the
-/// process at once, with exit code 130 and without leaving a half-written file. `announce` says the
-/// first on stderr.
+/// From now on the first SIGINT or SIGTERM ends the process with exit code 130 and one line on stderr, and leaves no
+/// half-written file.
+void end_on_interrupt();
+
+/// From now on the first SIGINT or SIGTERM sets the flag that is returned, and further SIGTERMs do nothing; a second
+/// SIGINT ends the process at once, with exit code 130 and without leaving a half-written file. `announce` asks for
+/// a line on stderr at the first.
 const std::atomic<bool>& catch_interrupts(bool announce);
 
 }  // namespace deburr

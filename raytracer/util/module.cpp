@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <filesystem>
+#include <new>
 
 #include "raytracer/util/errors.hpp"
 
@@ -16,6 +17,13 @@ constexpr const char* folders[] = {"", "..", DEBURR_MODULE_FOLDER};
 
 }  // namespace
 
+void check_loader_memory(const std::string& error) {
+    for (const char* words :
+         {"failed to map segment", "annot allocate memory", "cannot create shared object descriptor",
+          "cannot map zero-fill pages", "cannot create scope"})
+        if (error.find(words) != std::string::npos) throw std::bad_alloc();
+}
+
 void* module_function(const std::string& file, const char* name, const std::string& what) {
     namespace fs = std::filesystem;
     std::error_code none;
@@ -25,7 +33,10 @@ void* module_function(const std::string& file, const char* name, const std::stri
         const fs::path path = program / folder / file;
         if (found.empty() && fs::exists(path, none)) found = path;
     }
-    const auto fail = [&](const std::string& why) { throw UnsupportedError(what + " need " + file + ": " + why); };
+    const auto fail = [&](const std::string& why) {
+        check_loader_memory(why);
+        throw UnsupportedError(what + " need " + file + ": " + why);
+    };
     if (found.empty())
         fail(fmt::format("expected in '{}' or '{}', not found", program.string(),
                          (program / DEBURR_MODULE_FOLDER).lexically_normal().string()));

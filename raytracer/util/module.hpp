@@ -10,7 +10,10 @@ namespace deburr {
 /// UnsupportedError, which says `what` needs it, if it cannot be.
 void* module_function(const std::string& file, const char* name, const std::string& what);
 
-/// The same, typed.
+/// Throws std::bad_alloc if the loader says, in words of its own, that memory is what it lacks.
+void check_loader_memory(const std::string& error);
+
+/// The same as module_function, typed.
 template <class Function>
 Function* module_function(const std::string& file, const char* name, const std::string& what) {
     return reinterpret_cast<Function*>(module_function(file, name, what));

@@ -2,7 +2,9 @@
 //
 // The bytes go to a hidden file in the same folder, are flushed to the disk and take the name in
 // one step; whoever looks sees the old file or the new one. A symbolic link keeps pointing to the
-// file it names. Devices and pipes (/dev/stdout) have nothing to replace and are written directly.
+// file it names. Who writes a hidden file holds a lock on it (flock); those that nobody holds any more, of runs that
+// were killed, are removed by the next run that writes to the folder. Devices and pipes (/dev/stdout) have nothing to
+// replace and are written directly.
 #pragma once
 #include <string>
 #include <string_view>
@@ -19,5 +21,8 @@ void write_whole_file(const std::string& path, std::string_view bytes);
 /// Removes the hidden file that is being written, if any; for use in a signal handler that ends the
 /// process.
 void remove_unfinished_file() noexcept;
+
+/// Whether this process has written any file, or a part of one that is written directly; for use in a signal handler.
+bool any_file_written() noexcept;
 
 }  // namespace deburr

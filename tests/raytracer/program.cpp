@@ -55,6 +55,20 @@ bool Call::says(const std::string& text) {
     return false;
 }
 
+bool Call::handles(int signal) {
+    const std::string file = "/proc/" + std::to_string(pid_) + "/status", name = "SigCgt:";
+    for (int i = 0; i < 60000 && running(); ++i) {
+        const std::string status = read_file(file);
+        const std::size_t at = status.find(name);
+        const bool program = status.find("Name:\tdeburr") != std::string::npos;  // and not yet ourselves, forked
+        if (program && at != std::string::npos &&
+            std::stoull(status.substr(at + name.size()), nullptr, 16) >> (signal - 1) & 1)
+            return true;
+        std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    }
+    return false;
+}
+
 Outcome Call::wait() {
     if (running()) waitpid(pid_, &status_, 0);
     ended_ = true;

@@ -1,12 +1,9 @@
 // The program as a user calls it: messages, exit codes, files.
 #include <OpenImageIO/imageio.h>
-#include <signal.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cstring>
 #include <nlohmann/json.hpp>
-#include <thread>
 
 #include "catch.hpp"
 #include "raytracer/program.hpp"
@@ -84,9 +81,9 @@ TEST_CASE("a wrong call is one line and exit code 2, and nothing is written") {
         {{"render", scene, "-o", output, "--stats-json", output}, "expected different files, got"},
         {{"render", place / "no.lua", "-o", output}, "cannot read scene"},
         {{"render", place / ".", "-o", output}, "cannot read scene"},
-        {{"render", scene, "-o", output, "--size", "0x0"}, "--size: expected WxH, each from 1 to 65536, got '0x0'"},
-        {{"render", scene, "-o", output, "--size", "-5x5"}, "--size: expected WxH, each from 1 to 65536, got '-5x5'"},
-        {{"render", scene, "-o", output, "--size", "65536x65536"}, "--size: expected WxH of at most 268435456 pixels"},
+        {{"render", scene, "-o", output, "--size", "0x0"}, "--size: expected WxH, each from 1 to 1000000, got '0x0'"},
+        {{"render", scene, "-o", output, "--size", "-5x5"}, "--size: expected WxH, each from 1 to 1000000, got '-5x5'"},
+        {{"render", scene, "-o", output, "--size", "65536x65536"}, "--size: expected at most 268435456 pixels"},
         {{"render", scene, "-o", output, "--size"}, "--size: expected a value, got none"},
         {{"render", scene, "-o", output, "--crop", "61x1+0+0"},
          "--crop: expected a window within the picture of 60x40, got '61x1+0+0'"},
@@ -110,6 +107,15 @@ TEST_CASE("a wrong call is one line and exit code 2, and nothing is written") {
         {{"render", scene, "-o", output, "--accel", "embree", "--via", "triage"},
          "--accel: expected --via implicit, got 'triage'"},
         {{"render", scene, "-o", output, "--quiet=foo"}, "--quiet: expected no value, got 'foo'"},
+        {{"render", scene, "-o", output, "--bits", "16"}, "--bits: expected an output that ends in .png, got none"},
+        {{"render", scene, "-o", place / "a.png", "--bits", "12"}, "--bits: expected 8 or 16, got '12'"},
+        {{"render", scene, "-o", place / "a.jpg", "--alpha"},
+         "--alpha: expected outputs that end in .exr or .png, got"},
+        {{"render", scene, "-o", output, "--stats-json", scene}, "outputs: expected other files than the input"},
+        {{"mesh", scene, "--stats-json", scene}, "outputs: expected other files than the input"},
+        {{"compare", scene, scene, "--json", scene}, "outputs: expected other files than the input"},
+        {{"mesh", scene, "-o", place / "a.stl", "--stats-json", place / "a.stl"}, "expected different files, got"},
+        {{"info", "--", "-a.lua", "-b.lua"}, "unexpected argument '-b.lua' (see deburr info --help)"},
         {{"render", scene, "-o", output, "-D", "r"}, "-D: expected name=value, got 'r'"},
         {{"render", scene, "-o", output, "-D", "rr=3"}, "rr"},
         {{"render", scene, "-o", output, "-D", "r=-1"}, "cube.lua:"},
@@ -124,6 +130,18 @@ TEST_CASE("a wrong call is one line and exit code 2, and nothing is written") {
         CHECK(o.out.empty());
     }
     CHECK(place.names() == Words{"cube.lua"});
+}
+
+TEST_CASE("-- ends the options") {
+    const Place place;
+    write_file(place / "-a.lua", cube_scene());
+    const std::string in = "cd '" + place / "" + "' && '" DEBURR_PROGRAM "' ";
+    for (const char* call :
+         {"info -- -a.lua >/dev/null", "info -- ./cube.lua >/dev/null", "render -q -o a.png -- -a.lua",
+          "render -q -o a.png cube.lua --", "compare -q -- a.png a.png"}) {
+        CAPTURE(call);
+        CHECK(WEXITSTATUS(std::system((in + call).c_str())) == 0);
+    }
 }
 
 TEST_CASE("placements that are singular only together are one line with the solid's place") {
@@ -259,6 +277,45 @@ TEST_CASE("a crop has the bytes of the whole picture") {
     }
 }
 
+TEST_CASE("crops of a poster that is too large as a whole are rendered, and pasted are the whole") {
+    const Place place;
+    const Outcome large = run(place.render({"--size", "30000x30000", "--crop", "40x30+14000+16000"}));
+    CAPTURE(large.err);
+    REQUIRE(large.code == 0);
+    const OIIO::ImageSpec spec = Picture(place / "a.exr").spec;
+    CHECK(spec.full_width == 30000);
+    CHECK(spec.x == 14000);
+    CHECK(run(place.render({"--size", "30000x30000", "--crop", "20000x20000+0+0"})).code == 2);
+    for (const Words& how : {Words{}, Words{"--via", "triage", "--edges"}, Words{"--alpha", "--bits", "16"}}) {
+        Words more = {"--size", "90x60", "--spp", "2"};
+        more.insert(more.end(), how.begin(), how.end());
+        REQUIRE(run(place.render(more, "whole.png")).code == 0);
+        const Picture whole(place / "whole.png");
+        int pixels = 0;
+        for (int y = 0; y < 60; y += 30)
+            for (int x = 0; x < 90; x += 40) {
+                Words cut = more;
+                const int w = std::min(40, 90 - x);
+                cut.insert(cut.end(),
+                           {"--crop", std::to_string(w) + "x30+" + std::to_string(x) + "+" + std::to_string(y)});
+                REQUIRE(run(place.render(cut, "part.png")).code == 0);
+                const Picture part(place / "part.png");
+                for (int row = 0; row < 30; ++row)
+                    REQUIRE(std::memcmp(part.at(0, row), whole.at(x, y + row), std::size_t(w) * whole.pixel) == 0);
+                pixels += 30 * w;
+            }
+        CHECK(pixels == 90 * 60);
+    }
+}
+
+TEST_CASE("compare takes a crop") {
+    const Place place;
+    const Outcome o = run({"compare", place.scene, "--size", "30000x30000", "--crop", "20x10+15000+15000"});
+    CAPTURE(o.err);
+    CHECK(o.code == 0);
+    CHECK(o.out.find("pixels              200\n") != std::string::npos);
+}
+
 TEST_CASE("a picture by --accel bsp and by embree is the same to the byte, and says by which") {
     const Place place;
     for (const std::string scene : {"csg_examples", "variable_rounding", "staplers"}) {
@@ -314,39 +371,6 @@ TEST_CASE("statistics as a table and as JSON") {
         CHECK(j["seconds"][phase]["wall"] >= 0);
         CHECK(j["seconds"][phase]["cpu"] >= 0);
     }
-}
-
-TEST_CASE("the first interrupt saves what there is, marked incomplete", "[slow]") {
-    for (const int signal : {SIGINT, SIGTERM}) {
-        const Place place;
-        // A tile is done soon, the picture is not.
-        Call call({"render", place.scene, "-o", place / "a.exr", "-v", "--size", "600x600", "--spp", "1000",
-                   "--stats-json", place / "s.json"});
-        REQUIRE(call.says(" half-spaces"));
-        std::this_thread::sleep_for(std::chrono::seconds(2));  // to start tracing, however busy the machine is
-        call.send(signal);
-        const Outcome o = call.wait();
-        CAPTURE(o.err);
-        CHECK(o.code == 130);
-        CHECK(o.err.find("the picture is marked incomplete") != std::string::npos);
-        CHECK(place.names() == Words{"a.exr", "cube.lua", "s.json"});
-        CHECK(Picture(place / "a.exr").spec.get_int_attribute("deburr.incomplete") == 1);
-        CHECK(nlohmann::json::parse(read_file(place / "s.json"))["complete"] == false);
-    }
-}
-
-TEST_CASE("the second interrupt ends at once and leaves nothing") {
-    const Place place;
-    // A single tile takes longer than anyone waits.
-    Call call({"render", place.scene, "-o", place / "a.exr", "-v", "--spp", "1048576"});
-    REQUIRE(call.says(" half-spaces"));
-    std::this_thread::sleep_for(std::chrono::milliseconds(300));
-    call.send(SIGINT);
-    REQUIRE(call.says("once more stops at once"));
-    CHECK(call.running());
-    call.send(SIGINT);
-    CHECK(call.wait().code == 130);
-    CHECK(place.names() == Words{"cube.lua"});
 }
 
 TEST_CASE("info says what is in a scene") {

@@ -8,6 +8,8 @@
 #include <nlohmann/json.hpp>
 #include <thread>
 
+#include <algorithm>
+
 #include "catch.hpp"
 #include "polygonizer/welded.hpp"
 #include "raytracer/program.hpp"
@@ -165,6 +167,44 @@ TEST_CASE("compare says how two files differ, and its limits are exit codes") {
     CHECK(run({"compare", a, b, "--max-rmse", "1e-9"}).code == 1);
     CHECK(run({"compare", a, a, "--max-rmse", "-1"}).code == 2);
     CHECK(run({"compare", a, folder / "none.exr"}).code == 2);
+
+    // What was not asked for is not said to be met.
+    REQUIRE(run({"compare", a, b, "--json", folder / "j"}).code == 0);
+    CHECK(nlohmann::json::parse(read_file(folder / "j"))["within_limits"].is_null());
+    CHECK(run({"compare", a, b}).out.find("within_limits       no limit was given\n") != std::string::npos);
+    REQUIRE(run({"compare", a, b, "--max-rmse", "9", "--json", folder / "j"}).code == 0);
+    CHECK(nlohmann::json::parse(read_file(folder / "j"))["within_limits"] == true);
+}
+
+TEST_CASE("what a picture's header claims is believed as far as the file's size allows") {
+    const Folder folder;
+    const auto big_endian = [](std::uint32_t n) {
+        return std::string{char(n >> 24), char(n >> 16), char(n >> 8), char(n)};
+    };
+    // A PNG of 20,000 x 20,000 of which nothing is there but its head [PNG §11.2.1]; with the right check sum.
+    std::string head = "IHDR" + big_endian(20000) + big_endian(20000) + std::string("\x08\x06\x00\x00\x00", 5);
+    std::uint32_t crc = 0xffffffffu;
+    for (const char c : head) {
+        crc ^= static_cast<unsigned char>(c);
+        for (int k = 0; k < 8; ++k) crc = crc & 1 ? 0xedb88320u ^ (crc >> 1) : crc >> 1;
+    }
+    write_file(folder / "a.png", "\x89PNG\r\n\x1a\n" + big_endian(13) + head + big_endian(~crc) + big_endian(5000) +
+                                     "IDAT" + std::string(5000, 'x'));
+    const Outcome o = run({"compare", folder / "a.png", folder / "a.png"});
+    CAPTURE(o.err);
+    CHECK(o.code == 2);
+    CHECK(o.err.find("expected a file that holds the 20000x20000 pixels of its header, got 5041 bytes\n") !=
+          std::string::npos);
+    CHECK(std::count(o.err.begin(), o.err.end(), '\n') == 1);
+    // A black picture is a small file in every format, and is read.
+    write_file(folder / "black.lua",
+               "return { image = { width = 700, height = 600 }, background = {0, 0, 0}, "
+               "solids = { rounded(0.1, cube()):translate(0, -1e5, 0) } }");
+    for (const char* name : {"b.exr", "b.png", "b.webp", "b.jpg"}) {
+        CAPTURE(name);
+        REQUIRE(run({"render", folder / "black.lua", "-q", "-o", folder / name}).code == 0);
+        CHECK(run({"compare", "-q", "--max-rmse", "0.01", folder / name, folder / name}).code == 0);
+    }
 }
 
 TEST_CASE("compare tells solids of two files apart where both say which they saw") {

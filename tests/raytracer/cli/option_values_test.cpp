@@ -1,9 +1,16 @@
 #include "raytracer/cli/option_values.hpp"
 
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <filesystem>
+
 #include "catch.hpp"
+#include "raytracer/program.hpp"
 #include "raytracer/util/errors.hpp"
 
 using namespace deburr;
+using namespace deburr::test;
 
 namespace {
 
@@ -20,16 +27,25 @@ std::string error_of(Function function) {
 }  // namespace
 
 TEST_CASE("sizes within the limits are read, others are named") {
-    CHECK(parse_size("--size", "1x65536") == Size{1, 65536});
-    CHECK(parse_size("--size", "16384x16384") == Size{16384, 16384});
-    for (const char* text : {"0x1", "1x0", "-1x5", "5x-1", "65537x1", "5", "x", "5x", "x5", "5x5x5", "5X5", " 5x5",
+    CHECK(parse_size("--size", "1x1000000") == Size{1, 1000000});
+    CHECK(parse_size("--size", "30000x30000") == Size{30000, 30000});
+    for (const char* text : {"0x1", "1x0", "-1x5", "5x-1", "1000001x1", "5", "x", "5x", "x5", "5x5x5", "5X5", " 5x5",
                              "5x5 ", "5.0x5", "+5x5", "0x10x5", "", "99999999999999999999x1"}) {
         CAPTURE(text);
         CHECK(error_of([&] { parse_size("--size", text); }) ==
-              "--size: expected WxH, each from 1 to 65536, got '" + std::string(text) + "'");
+              "--size: expected WxH, each from 1 to 1000000, got '" + std::string(text) + "'");
     }
-    CHECK(error_of([] { parse_size("--size", "65536x65536"); }) ==
-          "--size: expected WxH of at most 268435456 pixels, got '65536x65536'");
+}
+
+TEST_CASE("limits of pixels are on what is rendered at once") {
+    check_pixels("--crop", {900000, 900000, 16384, 16384});
+    check_pixels("--crop", {0, 0, 65536, 4096});
+    CHECK(
+        error_of([] {
+            check_pixels("--size", {0, 0, 16384, 16385});
+        }) ==
+        "--size: expected at most 268435456 pixels and 65536 a side at once (--crop renders parts), got '16384x16385'");
+    CHECK(error_of([] { check_pixels("--size", {0, 0, 65537, 1}); }) != "none");
 }
 
 TEST_CASE("crops are X11 geometry strings within the picture") {
@@ -103,4 +119,32 @@ TEST_CASE("outputs: a known extension, in small or capital letters, and each fil
               check_image_names("-o", {"a.exr", "./a.exr"});
           }) == "outputs: expected different files, got './a.exr'");
     CHECK(error_of([] { check_distinct({"x/../b", "b"}); }) != "none");
+}
+
+TEST_CASE("no output is an input or another output, by whatever name") {
+    const Folder folder;
+    namespace fs = std::filesystem;
+    write_file(folder / "a.lua", "");
+    fs::create_symlink("a.lua", folder / "soft.png");
+    fs::create_hard_link(folder / "a.lua", folder / "hard.png");
+    fs::create_symlink("later.png", folder / "dangling.png");
+    fs::create_directory(folder / "sub");
+    const std::string input = folder / "a.lua";
+    const auto clash = [&](const std::string& output, const std::string& second = "") {
+        return error_of([&] { check_outputs({output}, {second}, {"", input}); });
+    };
+    CHECK(clash(folder / "b.png") == "none");
+    CHECK(clash(folder / "b.png", folder / "c.json") == "none");
+    CHECK(clash(input) == "outputs: expected other files than the input '" + input + "', got '" + input + "'");
+    for (const char* name : {"soft.png", "hard.png", "sub/../a.lua", "./a.lua"}) {
+        CAPTURE(name);
+        CHECK(clash(folder / name) != "none");
+        CHECK(clash(folder / "b.png", folder / name) != "none");
+    }
+    const int open_file = open(input.c_str(), O_RDONLY);
+    CHECK(clash("/proc/self/fd/" + std::to_string(open_file)) != "none");
+    close(open_file);
+    CHECK(clash(folder / "later.png", folder / "dangling.png") != "none");
+    CHECK(clash(folder / "b.png", folder / "sub/../b.png") != "none");
+    CHECK(error_of([] { check_outputs({"/dev/stdout"}, {}, {"/dev/stdin"}); }) == "none");
 }

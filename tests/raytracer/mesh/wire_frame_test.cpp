@@ -26,7 +26,7 @@ constexpr int width = 400, height = 300;
 
 std::vector<Stroke> strokes_of(const Mesh& mesh, WireMode mode, Camera camera) {
     return wire_frame(mesh, mesh_edges(mesh, EdgeChoice::polygons), MeshTracer(mesh),
-                      PinholeCamera(camera, width, height), width, height, mode);
+                      PinholeCamera(camera, width, height), {0, 0, width, height}, mode);
 }
 
 }  // namespace
@@ -115,4 +115,35 @@ TEST_CASE("render draws wire frames and flat facets of meshes, and of nothing el
     const Outcome outcome =
         run({"render", folder / "s.lua", "--via", "triage", "--wire", "all", "-o", folder / "a.png"});
     CHECK(outcome.err == "deburr: --wire: expected visible or front, got 'all'\n");
+}
+
+TEST_CASE("The lines of crops are those of the whole picture, to the bit, and cost no more than what is in them") {
+    const Mesh mesh = mesh_of(Density::box({0, 0, 0}, {1, 1, 1}), 0.2);
+    const Camera camera{.eye = {2, 1.4, 2.2}, .target = {0.5, 0.5, 0.5}, .fov = 30};
+    const auto edges = mesh_edges(mesh, EdgeChoice::polygons);
+    const MeshTracer tracer(mesh);
+    const auto lines_of = [&](const Window& window, WireMode mode, int scale) {
+        const PinholeCamera pinhole(camera, scale * width, scale * height);
+        return wire_frame(mesh, edges, tracer, pinhole, window, mode);
+    };
+    const auto picture = [&](const Window& window, WireMode mode) {
+        Film film(width, height, window);
+        draw_strokes(film, lines_of(window, mode, 1), Vec3(1.0), 1.5);
+        return film;
+    };
+    for (const WireMode mode : {WireMode::visible, WireMode::front}) {
+        const Film whole = picture({0, 0, width, height}, mode);
+        int lines = 0;
+        for (const Window& window : {Window{0, 0, 200, 150}, Window{133, 71, 120, 99}, Window{399, 0, 1, 300}}) {
+            const Film part = picture(window, mode);
+            for (int y = window.y; y < window.y + window.height; ++y)
+                for (int x = window.x; x < window.x + window.width; ++x) {
+                    lines += part.at(x, y).color.x > 0;
+                    REQUIRE(part.at(x, y).color == whole.at(x, y).color);
+                }
+        }
+        CHECK(lines > 500);
+    }
+    const double all = total_length(lines_of({0, 0, 100 * width, 100 * height}, WireMode::front, 100));
+    CHECK(total_length(lines_of({20000, 15000, 400, 300}, WireMode::front, 100)) < 0.01 * all);
 }

@@ -2,6 +2,9 @@
 
 #include <tbb/global_control.h>
 
+#include <chrono>
+#include <thread>
+
 #include "catch.hpp"
 
 using namespace deburr;
@@ -107,4 +110,41 @@ TEST_CASE("what a block throws comes through") {
         if (block.x == 32) throw std::runtime_error("broken");
     };
     CHECK_THROWS_AS(render(Film(64, 64, {0, 0, 64, 64}), thrower, never), std::runtime_error);
+}
+
+TEST_CASE("a tile that does not end is abandoned once the grace period is over") {
+    static std::atomic<bool> stop{false}, go_on{false};  // the thread that is left behind still looks at them
+    static std::atomic<int> left{0};
+    const auto block = [](const Window& block, Pixel* pixels, PixelLayers* layers, TraceCounters& counters) {
+        if (block.x == 16 && block.y == 0) {
+            stop = true;
+            while (!go_on) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+            ++left;
+        }
+        places(block, pixels, layers, counters);
+    };
+    const Rendering r =
+        render(Film(100, 100, {0, 0, 100, 100}, {ImageLayer::z}), block, stop, {}, std::chrono::milliseconds(50));
+    CHECK(r.abandoned);
+    CHECK(any_tiles_abandoned());
+    CHECK(left == 0);
+    CHECK_FALSE(r.film.complete);
+    CHECK(r.pixels_done >= 16 * 16);
+    CHECK(r.film.at(15, 15).color == Vec3(15, 15, 1));
+    CHECK(r.film.at(16, 0).alpha == 0);
+    go_on = true;
+    while (left == 0) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    CHECK(r.film.at(16, 0).color == Vec3(0.0));
+}
+
+TEST_CASE("without a stop the grace period changes nothing") {
+    const Rendering a = render(Film(100, 50, {0, 0, 100, 50}), places, never);
+    const Rendering b = render(Film(100, 50, {0, 0, 100, 50}), places, never, {}, std::chrono::milliseconds(0));
+    CHECK(b.film.complete);
+    CHECK_FALSE(b.abandoned);
+    CHECK(b.counters.evaluations == a.counters.evaluations);
+    for (std::size_t i = 0; i < a.film.pixels.size(); ++i) REQUIRE(a.film.pixels[i].color == b.film.pixels[i].color);
+    const auto thrower = [](const Window&, Pixel*, PixelLayers*, TraceCounters&) { throw std::bad_alloc(); };
+    CHECK_THROWS_AS(render(Film(64, 64, {0, 0, 64, 64}), thrower, never, {}, std::chrono::milliseconds(0)),
+                    std::bad_alloc);
 }

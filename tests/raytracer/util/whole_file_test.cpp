@@ -1,8 +1,15 @@
 #include "raytracer/util/whole_file.hpp"
 
+#include <fcntl.h>
 #include <signal.h>
+#include <sys/file.h>
 #include <sys/resource.h>
 #include <sys/stat.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <filesystem>
+#include <thread>
 
 #include "catch.hpp"
 #include "raytracer/folder.hpp"
@@ -80,4 +87,43 @@ TEST_CASE("a write that fails leaves what was there") {
 TEST_CASE("a full device is an error") {
     check_writable("/dev/full");
     CHECK_THROWS_AS(write_whole_file("/dev/full", "text"), WorkError);
+}
+
+TEST_CASE("the hidden file of a run that was killed is removed by the next, another's is not") {
+    const Folder folder;
+    // The owner of the first is gone; this process holds the second, and the others are no hidden files of ours.
+    write_file(folder / ".deburr-99999999-0.tmp", "half");
+    write_file(folder / ".deburr-1-0.tmp", "in work");
+    write_file(folder / ".deburr-notes.tmp", "kept");
+    std::filesystem::create_symlink("a", folder / ".deburr-7-0.tmp");
+    const int held = open((folder / ".deburr-1-0.tmp").c_str(), O_RDWR);
+    REQUIRE(flock(held, LOCK_EX) == 0);
+    check_writable(folder / "a");
+    CHECK(folder.names() == Names{".deburr-1-0.tmp", ".deburr-7-0.tmp", ".deburr-notes.tmp"});
+    close(held);
+}
+
+TEST_CASE("a run that is killed while it writes leaves a hidden file until the next run") {
+    const Folder folder;
+    write_file(folder / "cube.lua", cube_scene());
+    const auto hidden = [&] {
+        for (const std::string& name : folder.names())
+            if (name.starts_with(".deburr-")) return true;
+        return false;
+    };
+    bool left = false;
+    for (int attempt = 0; attempt < 20 && !left; ++attempt) {
+        Call call({"render", folder / "cube.lua", "-q", "--size", "3000x2000", "--float", "--aov", "P,N", "-o",
+                   folder / "a.exr"});
+        while (call.running() && !std::filesystem::exists(folder / "a.exr") && !left) {
+            if (!hidden()) continue;
+            std::this_thread::sleep_for(std::chrono::milliseconds(1));
+            call.send(SIGKILL);
+            call.wait();
+            left = hidden();
+        }
+    }
+    REQUIRE(left);
+    REQUIRE(run({"render", folder / "cube.lua", "-q", "-o", folder / "b.png"}).code == 0);
+    CHECK_FALSE(hidden());
 }

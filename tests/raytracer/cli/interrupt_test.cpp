@@ -1,0 +1,148 @@
+// SIGINT and SIGTERM, as a user or a scheduler sends them.
+#include <OpenImageIO/imageio.h>
+#include <signal.h>
+
+#include <chrono>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <thread>
+
+#include "catch.hpp"
+#include "raytracer/program.hpp"
+
+using namespace deburr::test;
+using Words = std::vector<std::string>;
+
+namespace {
+
+struct Place : Folder {
+    std::string scene = *this / "cube.lua";
+    Place() { write_file(scene, cube_scene()); }
+};
+
+void pause_for(double seconds) { std::this_thread::sleep_for(std::chrono::duration<double>(seconds)); }
+
+// A plate with 6 x 6 holes of 16 sides: to follow its rounding and to repair its mesh takes minutes.
+const char* const plate = R"(
+local holes
+for i = 1, 6 do for j = 1, 6 do
+  local p = {}
+  for k = 0, 15 do local a = 2 * math.pi * (k + 0.5) / 16; p[#p + 1] = {15 * i + 2.5 * math.cos(a), 15 * j + 2.5 * math.sin(a)} end
+  local h = prism(p, -1, 9)
+  holes = holes and (holes | h) or h
+end end
+return { solids = { rounded(0.5, box({0, 0, 0}, {105, 8, 105}) & ~holes) } }
+)";
+
+// So much of everything that no phase ends soon.
+const char* const blocks = R"(
+local all = {}
+for i = 1, 100000 do all[i] = rounded(0.1, box({i, 0, 0}, {i + 0.6, 0.6, 0.6}) + box({i, 2, 0}, {i + 0.6, 3, 0.6})) end
+return { solids = all }
+)";
+
+int incomplete(const std::string& path) {
+    const auto input = OIIO::ImageInput::open(path);
+    return input ? input->spec().get_int_attribute("deburr.incomplete", 0) : -1;
+}
+
+}  // namespace
+
+TEST_CASE("the first interrupt saves what there is, marked incomplete") {
+    for (const int signal : {SIGINT, SIGTERM}) {
+        const Place place;
+        // A tile is done soon, the picture is not.
+        Call call({"render", place.scene, "-o", place / "a.exr", "-q", "--size", "600x600", "--spp", "1000",
+                   "--stats-json", place / "s.json"});
+        pause_for(2);  // to start tracing, however busy the machine is
+        call.send(signal);
+        const Outcome o = call.wait();
+        CAPTURE(o.err);
+        CHECK(o.code == 130);
+        CHECK(o.err.find("the picture is marked incomplete") != std::string::npos);
+        CHECK(place.names() == Words{"a.exr", "cube.lua", "s.json"});
+        CHECK(incomplete(place / "a.exr") == 1);
+        CHECK(nlohmann::json::parse(read_file(place / "s.json"))["complete"] == false);
+    }
+}
+
+TEST_CASE("SIGTERM any number of times does not lose the picture, nor does one SIGINT among them") {
+    for (const bool mixed : {false, true}) {
+        const Place place;
+        Call call({"render", place.scene, "-o", place / "a.exr", "-q", "--size", "600x600", "--spp", "1000"});
+        pause_for(2);
+        for (int i = 0; i < 40; ++i) {
+            call.send(mixed && i == 20 ? SIGINT : SIGTERM);
+            pause_for(0.005);
+        }
+        CHECK(call.wait().code == 130);
+        CHECK(incomplete(place / "a.exr") == 1);
+        CHECK(place.names() == Words{"a.exr", "cube.lua"});
+    }
+}
+
+TEST_CASE("the second SIGINT ends at once and leaves nothing") {
+    const Place place;
+    // Tiles that take longer than anyone waits, and a picture that takes long to compress.
+    Call call({"render", place.scene, "-o", place / "a.exr", "-v", "--size", "7000x7000", "--aov", "P,N"});
+    REQUIRE(call.says(" half-spaces"));
+    pause_for(2);
+    call.send(SIGINT);
+    REQUIRE(call.says("another Ctrl-C stops at once"));
+    CHECK(call.running());
+    call.send(SIGINT);
+    CHECK(call.wait().code == 130);
+    CHECK(place.names() == Words{"cube.lua"});
+}
+
+TEST_CASE("a tile that takes long is not waited for") {
+    const Place place;
+    Call call({"render", place.scene, "-o", place / "a.exr", "-v", "--spp", "1048576"});
+    REQUIRE(call.says(" half-spaces"));
+    pause_for(0.5);
+    const auto start = std::chrono::steady_clock::now();
+    call.send(SIGTERM);
+    const Outcome o = call.wait();
+    CHECK(std::chrono::steady_clock::now() - start < std::chrono::seconds(1));
+    CHECK(o.code == 130);
+    CHECK(o.err.find("interrupted before the first tile: nothing is written\n") != std::string::npos);
+    CHECK(place.names() == Words{"cube.lua"});
+}
+
+TEST_CASE("an interrupt is heeded within a second in every phase") {
+    const Place place;
+    const std::string endless = place / "endless.lua", out = place / "a";
+    write_file(endless, "local s = 0\nfor i = 1, 1e15 do s = s + i % 7 end\nreturn {}");
+    write_file(place / "plate.lua", plate);
+    write_file(place / "blocks.lua", blocks);
+    const std::string holes = place / "plate.lua", many = place / "blocks.lua";
+    const std::pair<Words, double> calls[] = {
+        {{"info", endless}, 0},  // as early as the program can know of it
+        {{"render", endless, "-o", out + ".png"}, 0.2},
+        {{"info", many}, 0.7},
+        {{"render", many, "-o", out + ".png"}, 1},
+        {{"compare", many}, 1},
+        {{"export-pov", many, "-o", out + ".pov"}, 1},
+        {{"mesh", holes, "-o", out + ".stl"}, 1},
+        {{"mesh", holes, "-o", out + ".stl", "--method", "octree"}, 1},
+        {{"mesh", holes, "-o", out + ".stl", "--method", "marching-cubes", "--grid", "0.1"}, 0.5},
+        {{"render", holes, "--via", "triage", "-o", out + ".png"}, 1},
+        {{"figures", "-o", place / "figures"}, 0.5},
+    };
+    int signal = SIGINT;
+    for (const auto& [words, after] : calls) {
+        Call call(words);
+        REQUIRE(call.handles(signal));
+        pause_for(after);
+        const auto start = std::chrono::steady_clock::now();
+        call.send(signal);
+        const Outcome o = call.wait();
+        CAPTURE(words, signal, o.err);
+        CHECK(std::chrono::steady_clock::now() - start < std::chrono::seconds(1));
+        CHECK(o.code == 130);
+        CHECK(o.err.find("deburr: interrupted") != std::string::npos);
+        signal = signal == SIGINT ? SIGTERM : SIGINT;
+    }
+    std::filesystem::remove_all(place / "figures");
+    CHECK(place.names() == Words{"blocks.lua", "cube.lua", "endless.lua", "plate.lua"});
+}

@@ -1,0 +1,69 @@
+// The program without enough memory.
+#include <algorithm>
+#include <cstdlib>
+
+#include "catch.hpp"
+#include "raytracer/program.hpp"
+#include "raytracer/util/in_parallel.hpp"
+
+using namespace deburr::test;
+
+TEST_CASE("of errors in a parallel loop that of the least index is thrown, and one is kept at a time") {
+    struct Counted {
+        std::size_t index;
+        static std::atomic<int>& alive() {
+            static std::atomic<int> n{0};
+            return n;
+        }
+        explicit Counted(std::size_t i) : index(i) { ++alive(); }
+        Counted(const Counted& o) : index(o.index) { ++alive(); }
+        ~Counted() { --alive(); }
+    };
+    std::atomic<int> most{0};
+    try {
+        deburr::in_parallel(100'000, [&](std::size_t i) {
+            if (i < 17) return;
+            int n = Counted::alive();
+            for (int seen = most; n > seen && !most.compare_exchange_weak(seen, n);) {
+            }
+            throw Counted(i);
+        });
+        FAIL("nothing was thrown");
+    } catch (const Counted& error) {
+        CHECK(error.index == 17);
+    }
+    CHECK(Counted::alive() == 0);
+    CHECK(most < 100);  // of as many threads as there are, one each, and the one that is kept
+}
+
+// Sanitizers take more address space than any limit leaves.
+#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
+TEST_CASE("running out of memory is one line and exit code 1, at whatever limit") {
+    const Folder folder;
+    write_file(folder / "s.lua", R"(
+        local all = {}
+        for i = 1, 1200 do all[i] = rounded(0.1, box({i, 0, 0}, {i + 0.6, 0.6, 0.6})) end
+        return { camera = { eye = {-40, 20, 30}, target = {0, 0, 0} }, solids = all })");
+    const std::string commands[] = {"render s.lua -q --size 40x30 -o a.png", "mesh s.lua -q -o a.stl",
+                                    "render s.lua -q --size 40x30 --accel embree -o a.exr"};
+    int failed = 0, done = 0;
+    for (const std::string& command : commands)
+        for (int kib = 48'000; kib < 330'000; kib += kib / 3) {
+            // Both without dumps of memory, which take seconds to write.
+            const std::string call = "cd '" + folder / "" + "' && ulimit -c 0 -v " + std::to_string(kib) +
+                                     " && exec '" DEBURR_PROGRAM "' " + command + " 2>err";
+            const int status = std::system(("bash -c \"" + call + "\"").c_str());
+            const std::string err = read_file(folder / "err");
+            CAPTURE(command, kib, err);
+            REQUIRE(WIFEXITED(status));
+            const int code = WEXITSTATUS(status);
+            // The reader of scenes has a limit of its own, whose word it is then.
+            CHECK((code == 0 || code == 1 || (code == 2 && err.find("s.lua") != std::string::npos)));
+            CHECK(std::count(err.begin(), err.end(), '\n') == (code == 0 ? 0 : 1));
+            failed += code == 1;
+            done += code == 0;
+        }
+    CHECK(failed > 2);
+    CHECK(done > 2);
+}
+#endif

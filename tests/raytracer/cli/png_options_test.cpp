@@ -1,0 +1,100 @@
+// --bits and --alpha: what a PNG holds of a picture, told by the EXR of the same run.
+#include <OpenImageIO/imageio.h>
+
+#include <cmath>
+
+#include "catch.hpp"
+#include "raytracer/program.hpp"
+
+using namespace deburr::test;
+
+namespace {
+
+struct Place : Folder {
+    std::string scene = *this / "cube.lua";
+    Place() {
+        // Without the floor, so that there is background all around.
+        std::string text = cube_scene();
+        const std::size_t floor = text.find(", sharp(");
+        text.replace(floor, text.find(" },", floor) - floor, "");
+        write_file(scene, text);
+    }
+    void render(const std::vector<std::string>& more) const {
+        std::vector<std::string> words = {"render", scene,           "-q", "--spp",        "7", "--float",
+                                          "-o",     *this / "a.exr", "-o", *this / "a.png"};
+        words.insert(words.end(), more.begin(), more.end());
+        const Outcome o = run(words);
+        CAPTURE(o.err);
+        REQUIRE(o.code == 0);
+    }
+};
+
+struct Values {
+    OIIO::ImageSpec spec;
+    std::vector<float> numbers;  // of pixels one after the other; words and bytes as shares of the greatest
+};
+
+Values read(const std::string& path) {
+    OIIO::ImageSpec as_it_is;
+    as_it_is.attribute("oiio:UnassociatedAlpha", 1);
+    const auto input = OIIO::ImageInput::open(path, &as_it_is);
+    REQUIRE(input);
+    Values v{input->spec(), {}};
+    v.numbers.resize(std::size_t(v.spec.image_pixels()) * std::size_t(v.spec.nchannels));
+    REQUIRE(input->read_image(0, 0, 0, v.spec.nchannels, OIIO::TypeDesc::FLOAT, v.numbers.data()));
+    return v;
+}
+
+double srgb(double linear) {
+    if (!(linear > 0)) return 0;
+    if (linear >= 1) return 1;
+    return linear <= 0.0031308 ? 12.92 * linear : 1.055 * std::pow(linear, 1 / 2.4) - 0.055;
+}
+
+}  // namespace
+
+TEST_CASE("with --alpha colours are of solids alone, in an EXR weighed by alpha and in a PNG not") {
+    const Place place;
+    place.render({});
+    const Values whole = read(place / "a.exr");
+    const double background[] = {0.6, 0.7, 0.8};
+    for (const std::string bits : {"8", "16"}) {
+        place.render({"--alpha", "--bits", bits});
+        const Values exr = read(place / "a.exr"), png = read(place / "a.png");
+        REQUIRE(png.spec.nchannels == 4);
+        CHECK(png.spec.format == (bits == "8" ? OIIO::TypeDesc::UINT8 : OIIO::TypeDesc::UINT16));
+        const double step = bits == "8" ? 1 / 255.0 : 1 / 65535.0;
+        int empty = 0, full = 0, between = 0;
+        for (std::size_t i = 0; i < whole.numbers.size(); i += 4) {
+            const double alpha = exr.numbers[i + 3];
+            (alpha == 0 ? empty : alpha == 1 ? full : between) += 1;
+            REQUIRE(alpha == whole.numbers[i + 3]);
+            REQUIRE(std::abs(png.numbers[i + 3] - alpha) <= 0.51 * step);
+            for (std::size_t k = 0; k < 3; ++k) {
+                const double color = exr.numbers[i + k];
+                REQUIRE(std::abs(color + (1 - alpha) * background[k] - whole.numbers[i + k]) < 1e-5);
+                const double straight = alpha > 0 ? color / alpha : 0;
+                REQUIRE(std::abs(png.numbers[i + k] - srgb(straight)) <= 0.51 * step);
+            }
+        }
+        CHECK(empty > 100);
+        CHECK(full > 100);
+        CHECK(between > 50);
+    }
+}
+
+TEST_CASE("a PNG of 16 bits is opaque sRGB, and 8 bits are what they were") {
+    const Place place;
+    place.render({"--bits", "16"});
+    const Values exr = read(place / "a.exr"), words = read(place / "a.png");
+    CHECK(words.spec.format == OIIO::TypeDesc::UINT16);
+    REQUIRE(words.spec.nchannels == 3);
+    for (std::size_t i = 0; i < exr.numbers.size() / 4; ++i)
+        for (std::size_t k = 0; k < 3; ++k)
+            REQUIRE(std::abs(words.numbers[3 * i + k] - srgb(exr.numbers[4 * i + k])) < 0.51 / 65535);
+    place.render({"--bits", "8"});
+    CHECK(read(place / "a.png").spec.format == OIIO::TypeDesc::UINT8);
+    const std::string asked = read_file(place / "a.png").substr(0, 33);
+    place.render({});
+    CHECK(read_file(place / "a.png").substr(0, 33) == asked);
+}
