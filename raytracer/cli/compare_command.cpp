@@ -17,6 +17,7 @@
 #include "raytracer/trace/implicit_tracer.hpp"
 #include "raytracer/util/errors.hpp"
 #include "raytracer/util/interrupt.hpp"
+#include "raytracer/util/printable.hpp"
 #include "raytracer/util/whole_file.hpp"
 
 namespace deburr {
@@ -120,7 +121,7 @@ int run_compare(const CompareOptions& o) {
             else if (value.is_number_float())
                 fmt::print("{:<20}{:.6g}\n", name, value.get<double>());
             else if (value.is_string())
-                fmt::print("{:<20}{}\n", name, value.get<std::string>());
+                fmt::print("{:<20}{}\n", name, printable(value.get<std::string>()));
             else
                 fmt::print("{:<20}{}\n", name, value.is_null() ? "infinite" : value.dump());
         }
