@@ -17,7 +17,6 @@ namespace {
 
 constexpr std::size_t largest_file = std::size_t(16) << 20;
 constexpr int largest_side = 65'536;
-constexpr int most_samples = 65'536;
 constexpr int most_bounces = 1'000;
 
 // Up and view this nearly parallel leave no direction for the picture's side. Chosen.
@@ -30,7 +29,7 @@ void read_image(const LuaValue& value, Scene& scene) {
     };
     read("width", scene.width, 1, largest_side);
     read("height", scene.height, 1, largest_side);
-    read("spp", scene.spp, 1, most_samples);
+    read("spp", scene.spp, 1, max_samples);
     read("bounces", scene.bounces, 0, most_bounces);
 }
 

@@ -245,7 +245,7 @@ TEST_CASE("the scene's table says what it expects, with the line that writes it"
         {"return { image = {\n height = 1.5 }, solids = { cube() } }",
          "s.lua:2: image.height: expected a whole number from 1 to 65536, got 1.5"},
         {"return { image = {\n spp = '4' }, solids = { cube() } }",
-         "s.lua:2: image.spp: expected a whole number from 1 to 65536, got '4'"},
+         "s.lua:2: image.spp: expected a whole number from 1 to 1048576, got '4'"},
         {"return {\n lights = point_light{ position = {0, 0, 0} }, solids = { cube() } }",
          "s.lua:2: lights: expected a list of lights, got a light"},
         {"return {\n lights = { cube() }, solids = { cube() } }",
