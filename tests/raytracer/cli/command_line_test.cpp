@@ -388,6 +388,39 @@ TEST_CASE("info rounds away what a box reaches too far, and minus zero") {
     CHECK(j["solids"][0]["bounds"]["lo"].dump() == "[-2.0,0.0,-2.0]");
 }
 
+TEST_CASE("no name and no text of a scene reaches the terminal as a control character") {
+    const Place place;
+    const std::string scene = place / "a\33[31m.lua", title = "\33]0;owned\7\302\233";
+    write_file(scene,
+               "print('\\27]0;printed\\7', 'a\\nb') local s = '\\27]0;owned\\7\\194\\155'\n"
+               "return { solids = { rounded(param(s, 0.1), cube()):name(s) } }");
+    const auto is_clean = [](const std::string& text) {
+        return text.find_first_of("\33\7\177") == std::string::npos && text.find("\302\233") == std::string::npos;
+    };
+    const Outcome info = run({"info", scene});
+    CHECK(info.code == 0);
+    CHECK(is_clean(info.out));
+    CHECK(is_clean(info.err));
+    CHECK(info.err == "\\x1b]0;printed\\x07\ta\nb\n");
+    CHECK(info.out.find("scene         ") == 0);
+    CHECK(info.out.find("a\\x1b[31m.lua\n") != std::string::npos);
+    CHECK(info.out.find("\\x1b]0;owned\\x07\\u{9b}: 6 half-spaces") != std::string::npos);
+    CHECK(info.out.find("parameter     \\x1b]0;owned") != std::string::npos);
+    const Outcome json = run({"info", "--json", scene});
+    CHECK(is_clean(json.out));
+    CHECK(nlohmann::json::parse(json.out)["solids"][0]["name"] == title);
+    const Outcome mesh = run({"mesh", scene, "--stats", "-q"});
+    CHECK(mesh.code == 0);
+    CHECK(is_clean(mesh.out));
+    write_file(scene, "error('\\27[2J')");
+    const Outcome wrong = run({"info", scene});
+    CHECK(wrong.code == 2);
+    CHECK(is_clean(wrong.err));
+    CHECK(wrong.err.find("a\\x1b[31m.lua:1: \\x1b[2J\n") != std::string::npos);
+    CHECK(is_clean(run({"info", "\33[31m.lua"}).err));
+    CHECK(is_clean(run({"\33[31m"}).err));
+}
+
 TEST_CASE("a scene is read once, so that it may come from a pipe") {
     const Place place;
     const auto shell = [](const std::string& command) {
@@ -403,6 +436,17 @@ TEST_CASE("a scene is read once, so that it may come from a pipe") {
     CHECK(shell(program + "info /dev/stdin < '" + place.scene + "' > /dev/null") == 0);
     CHECK(shell(program + "info /dev/null 2> '" + place / "err" + "'") == 2);
     CHECK(read_file(place / "err").find("deburr: /dev/null: scene: expected the chunk to return") == 0);
+}
+
+TEST_CASE("a scene that prints without an end stops at a limit") {
+    const Place place;
+    write_file(place / "p.lua", "local s = ('a'):rep(2^10) while true do pcall(print, s) end");
+    const Outcome o = run({"info", place / "p.lua"});
+    CHECK(o.code == 2);
+    CHECK(o.err.size() < (1 << 20) + 300);
+    const std::string last = o.err.substr(o.err.rfind('\n', o.err.size() - 2) + 1);
+    CHECK(last == "deburr: " + place / "p.lua" +
+                      ":1: expected a scene that prints at most 1048576 bytes, got one that prints more\n");
 }
 
 TEST_CASE("a density that is too entangled to be evaluated is not supported, and soon told") {

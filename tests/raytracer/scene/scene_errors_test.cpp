@@ -288,7 +288,7 @@ TEST_CASE("expressions that grow beyond all bounds are refused at once") {
           "s.lua:4: solids: expected at most 4000000 half-spaces, got 6291456");
     CHECK(error_of("local t = {}\nfor i = 1, 1000 do t[i] = 0 end\nfor k = 1, 5 do local u = {}\n"
                    "for i = 1, 1000 do u[i] = t end t = u end\nreturn t") ==
-          "s.lua:5: scene: expected at most 5000000 values, got more");
+          "s.lua:5: expected a scene that needs at most 64 MiB, got one that needs more");
 }
 
 TEST_CASE("a file that is no scene says what it is") {
