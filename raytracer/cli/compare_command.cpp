@@ -16,6 +16,7 @@
 #include "raytracer/render/render_tiles.hpp"
 #include "raytracer/trace/implicit_tracer.hpp"
 #include "raytracer/util/errors.hpp"
+#include "raytracer/util/printable.hpp"
 #include "raytracer/util/whole_file.hpp"
 
 namespace deburr {
@@ -117,7 +118,7 @@ int run_compare(const CompareOptions& o) {
             else if (value.is_number_float())
                 fmt::print("{:<20}{:.6g}\n", name, value.get<double>());
             else if (value.is_string())
-                fmt::print("{:<20}{}\n", name, value.get<std::string>());
+                fmt::print("{:<20}{}\n", name, printable(value.get<std::string>()));
             else if (name == "within_limits" && value.is_null())
                 fmt::print("{:<20}no limit was given\n", name);
             else

@@ -9,6 +9,7 @@
 #include "raytracer/cli/commands.hpp"
 #include "raytracer/cli/options.hpp"
 #include "raytracer/scene/illegal_densities.hpp"
+#include "raytracer/util/printable.hpp"
 
 namespace deburr {
 namespace {
@@ -46,9 +47,31 @@ Json json_of(Vec3 v) {
     return j;
 }
 
+// A box that holds a solid for certain is a little too large: by this share of its largest coordinate, or by this where
+// all of its planes go through the origin (bounds/polyhedron_box.cpp).
+constexpr double box_slack = 1e-9;
+
+// The box with each side rounded to the decimal place above its slack: a cube begins at 0, not at -1e-09.
 Json json_of(const Box& box) {
     if (box.empty()) return nullptr;
-    return {{"lo", json_of(box.lo)}, {"hi", json_of(box.hi)}};
+    double largest = 0;
+    for (int k = 0; k < 3; ++k)
+        for (const double side : {box.lo[k], box.hi[k]})
+            if (std::isfinite(side)) largest = glm::max(largest, std::abs(side));
+    if (largest == box_slack) largest = 1;
+    const double places = std::floor(-std::log10(4 * box_slack * largest));
+    const double unit = std::pow(10.0, std::abs(places));  // exact, unlike its inverse
+    const auto rounded = [&](double x) {
+        if (!std::isfinite(x)) return x;
+        const double r = places > 0 ? std::round(x * unit) / unit : std::round(x / unit) * unit;
+        return std::isfinite(r) ? r + 0.0 : x;  // -0 becomes 0
+    };
+    Box told = box;
+    for (int k = 0; k < 3; ++k) {
+        told.lo[k] = rounded(box.lo[k]);
+        told.hi[k] = rounded(box.hi[k]);
+    }
+    return {{"lo", json_of(told.lo)}, {"hi", json_of(told.hi)}};
 }
 
 // What a solid is made of.
@@ -131,7 +154,9 @@ std::string some(const Json& count, const char* of_what) {
 }
 
 void print(const Json& j) {
-    const auto row = [](const std::string& name, const std::string& value) { fmt::print("{:<14}{}\n", name, value); };
+    const auto row = [](const std::string& name, const std::string& value) {
+        fmt::print("{:<14}{}\n", name, printable(value));
+    };
     row("scene", j["scene"].get<std::string>());
     row("image", fmt::format("{}x{}, {} samples per pixel", j["image"]["width"].get<int>(),
                              j["image"]["height"].get<int>(), j["image"]["spp"].get<int>()));
@@ -166,7 +191,7 @@ int run_info(const InfoOptions& o) {
     const Scene scene = load_scene(o);
     const Json description = describe(scene, picture_size(o, scene));
     if (o.json)
-        fmt::print("{}\n", description.dump(2, ' ', false, Json::error_handler_t::replace));
+        fmt::print("{}\n", description.dump(2, ' ', true, Json::error_handler_t::replace));  // ASCII: nothing to escape
     else
         print(description);
     return 0;

@@ -16,6 +16,7 @@
 #include "raytracer/mesh/scene_mesh.hpp"
 #include "raytracer/util/errors.hpp"
 #include "raytracer/util/message.hpp"
+#include "raytracer/util/printable.hpp"
 #include "raytracer/util/progress.hpp"
 #include "raytracer/util/whole_file.hpp"
 
@@ -94,7 +95,8 @@ void print_table(const Json& j, const std::string& prefix = "") {
         else if (value.is_number_float())
             fmt::print("{:<40}{:.6g}\n", prefix + name, value.get<double>());
         else if (!value.is_array())
-            fmt::print("{:<40}{}\n", prefix + name, value.is_string() ? value.get<std::string>() : value.dump());
+            fmt::print("{:<40}{}\n", printable(prefix + name),
+                       printable(value.is_string() ? value.get<std::string>() : value.dump()));
     }
 }
 
@@ -227,7 +229,7 @@ int run_mesh(const MeshCommandOptions& o) {
     else
         progress.finish();
     for (const std::string& warning : mesh.warnings)
-        if (!o.quiet) fmt::print(stderr, "deburr: {}\n", warning);
+        if (!o.quiet) message(warning);
     if (o.verbose && !o.quiet)
         fmt::print(stderr, "deburr: {} triangles, {} vertices in {:.3f} s\n", mesh.mesh.triangles.size(),
                    mesh.mesh.positions.size(), clock.wall("polygonize"));

@@ -3,9 +3,6 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
-#include <cerrno>
-#include <cstring>
-#include <fstream>
 #include <unordered_set>
 
 #include "bounds/canonical_solids.hpp"
@@ -16,7 +13,6 @@
 namespace deburr {
 namespace {
 
-constexpr int most_samples = 1 << 20;
 constexpr int most_threads = 1024;
 
 // An option whose text goes to a function; CLI11's own conversions know nothing of our ranges.
@@ -55,7 +51,7 @@ void add_size_option(CLI::App& command, Options& o) {
 void add_picture_options(CLI::App& command, Options& o) {
     add_size_option(command, o);
     add(command, "--spp", "N", "samples per pixel, 1: one ray through its centre; default: the scene's",
-        [&o](const std::string& text) { o.spp = int(parse_whole("--spp", text, 1, most_samples)); });
+        [&o](const std::string& text) { o.spp = int(parse_whole("--spp", text, 1, max_samples)); });
     add(command, "--crop", "WxH+X+Y", "only this part of the picture",
         [&o](const std::string& text) { o.crop = parse_crop("--crop", text); });
     add(command, "--seed", "N", "seed of all random numbers; default: 0",
@@ -123,18 +119,7 @@ void check_placements(const Scene& scene) {
 
 Scene load_scene(const Options& o) {
     if (o.scene.empty()) throw UsageError("expected a scene file");
-    std::ifstream file(o.scene);
-    if (!file || (file.peek(), file.bad()))  // a folder opens but cannot be read
-        throw UsageError(fmt::format("cannot read scene '{}': {}", o.scene, std::strerror(errno)));
-    file.close();
     Scene scene = read_scene(o.scene, o.defines);
-    for (const auto& [name, value] : o.defines) {
-        if (scene.parameters.count(name)) continue;
-        std::string known;
-        for (const auto& [has, unused] : scene.parameters) known += (known.empty() ? "" : ", ") + has;
-        throw UsageError(fmt::format("-D: expected a parameter of '{}' ({}), got '{}'", o.scene,
-                                     known.empty() ? "it has none" : known, name));
-    }
     check_placements(scene);
     return scene;
 }

@@ -1,12 +1,11 @@
 #include "raytracer/scene/lua_library.hpp"
 
 #include <algorithm>
-#include <cmath>
-#include <cstdio>
 #include <cstring>
 #include <limits>
 #include <lua.hpp>
 
+#include "raytracer/scene/lua_replacements.hpp"
 #include "raytracer/scene/lua_sandbox.hpp"
 
 namespace deburr {
@@ -67,17 +66,6 @@ std::int64_t as_work(double amount) {
     return amount < 1e18 ? std::int64_t(std::max(amount, 0.0)) : std::numeric_limits<std::int64_t>::max();
 }
 
-int print(lua_State* lua) {
-    const int arguments = lua_gettop(lua);
-    for (int i = 1; i <= arguments; ++i) {
-        const char* text = luaL_tolstring(lua, i, nullptr);
-        std::fprintf(stderr, "%s%s", i > 1 ? "\t" : "", text);
-        lua_pop(lua, 1);
-    }
-    std::fputc('\n', stderr);
-    return 0;
-}
-
 // Finalizers run with hooks off. Lua marks an object for one when its metatable is set, so what is
 // added to the metatable later does not matter.
 int set_metatable(lua_State* lua) {
@@ -97,6 +85,12 @@ int create_coroutine(lua_State* lua) {
     return call_original(lua);
 }
 
+// What may take long for long texts, so that the run need not be left behind in it.
+int heeding_time(lua_State* lua) {
+    Sandbox::spend(lua, 0);
+    return call_original(lua);
+}
+
 // ("").rep(1e18) loops as often as it says.
 int repeat_string(lua_State* lua) {
     std::size_t size = 0, separator = 0;
@@ -110,14 +104,8 @@ int repeat_string(lua_State* lua) {
     return call_original(lua);
 }
 
-// Table functions believe a __len, and loop that often in C; so they take plain tables only.
-void check_plain(lua_State* lua, int index) {
-    luaL_checktype(lua, index, LUA_TTABLE);
-    if (lua_getmetatable(lua, index)) luaL_error(lua, "expected a table without metatable, got one that has it");
-}
-
 int over_whole_table(lua_State* lua) {  // concat, unpack, insert and remove at a place
-    check_plain(lua, 1);
+    check_plain_table(lua, 1);
     Sandbox::spend(lua, as_work(double(lua_rawlen(lua, 1))));
     return call_original(lua);
 }
@@ -125,26 +113,19 @@ int over_whole_table(lua_State* lua) {  // concat, unpack, insert and remove at 
 // insert(t, x) and remove(t), at the end, cost nothing that grows.
 int insert_into_table(lua_State* lua) {
     if (lua_gettop(lua) > 2) return over_whole_table(lua);
-    check_plain(lua, 1);
+    check_plain_table(lua, 1);
     return call_original(lua);
 }
 
 int remove_from_table(lua_State* lua) {
     if (lua_gettop(lua) > 1) return over_whole_table(lua);
-    check_plain(lua, 1);
-    return call_original(lua);
-}
-
-int sort_table(lua_State* lua) {
-    check_plain(lua, 1);
-    const double size = double(lua_rawlen(lua, 1));
-    Sandbox::spend(lua, as_work(4 * size * std::log2(size + 2)));
+    check_plain_table(lua, 1);
     return call_original(lua);
 }
 
 int move_range(lua_State* lua) {
-    check_plain(lua, 1);
-    if (!lua_isnoneornil(lua, 5)) check_plain(lua, 5);
+    check_plain_table(lua, 1);
+    if (!lua_isnoneornil(lua, 5)) check_plain_table(lua, 5);
     Sandbox::spend(lua, as_work(double(luaL_checkinteger(lua, 3)) - double(luaL_checkinteger(lua, 2))));
     return call_original(lua);
 }
@@ -249,6 +230,11 @@ int pairs(lua_State* lua) {
     return 3;
 }
 
+void replace(lua_State* lua, const char* name, lua_CFunction function) {
+    lua_pushcfunction(lua, function);
+    lua_setfield(lua, -2, name);
+}
+
 template <class Names>
 void remove_names(lua_State* lua, const Names& names) {
     for (const char* name : names) {
@@ -259,10 +245,15 @@ void remove_names(lua_State* lua, const Names& names) {
 
 }  // namespace
 
+void check_plain_table(lua_State* lua, int index) {
+    luaL_checktype(lua, index, LUA_TTABLE);
+    if (lua_getmetatable(lua, index)) luaL_error(lua, "expected a table without metatable, got one that has it");
+}
+
 void open_library(lua_State* lua) {
     luaL_requiref(lua, LUA_TABLIBNAME, luaopen_table, 1);
     for (const char* name : {"concat", "unpack"}) wrap(lua, name, over_whole_table);
-    wrap(lua, "sort", sort_table);
+    replace(lua, "sort", sort_table);
     wrap(lua, "move", move_range);
     wrap(lua, "insert", insert_into_table);
     wrap(lua, "remove", remove_from_table);
@@ -272,11 +263,15 @@ void open_library(lua_State* lua) {
     luaL_requiref(lua, LUA_STRLIBNAME, luaopen_string, 1);
     remove_names(lua, gone_from_string);
     wrap(lua, "rep", repeat_string);
+    wrap(lua, "format", format_text);
+    for (const char* name : {"byte", "char", "lower", "pack", "reverse", "unpack", "upper"})
+        wrap(lua, name, heeding_time);
     refuse_missing_names(lua, "string.");
     lua_pop(lua, 1);
 
     luaL_requiref(lua, LUA_MATHLIBNAME, luaopen_math, 1);
     wrap(lua, "randomseed", seed_random);
+    for (const char* name : {"max", "min"}) wrap(lua, name, heeding_time);
     lua_getfield(lua, -1, "randomseed");
     lua_call(lua, 0, 0);
     refuse_missing_names(lua, "math.");
@@ -291,8 +286,9 @@ void open_library(lua_State* lua) {
     remove_names(lua, gone_from_base);
     wrap(lua, "pairs", pairs);
     wrap(lua, "setmetatable", set_metatable);
-    lua_pushcfunction(lua, print);
-    lua_setfield(lua, -2, "print");
+    wrap(lua, "tonumber", heeding_time);
+    replace(lua, "tostring", value_text);
+    replace(lua, "print", print_values);
     refuse_missing_names(lua, "");
     lua_pop(lua, 1);
 }

@@ -3,9 +3,14 @@
 //
 //   gone     load* dofile require collectgarbage warn next, string.dump, and string.find match
 //            gmatch gsub (matching backtracks in C, out of reach of the budget)
-//   changed  pairs walks in the order of the keys, print writes to stderr, math.random starts from
-//            one seed, setmetatable refuses __gc; what loops in C is charged to the budget
+//   changed  pairs walks in the order of the keys, print writes to stderr, escaped and metered,
+//            math.random starts from one seed, table.sort draws no pivot from the clock, no text
+//            holds an address, setmetatable refuses __gc; functions that loop in C are charged to
+//            the budget in advance
 //   names    one that is not there is an error where it is read, not nil
+//
+// Not promised: which of its borders # finds in a table with holes that has lost keys other than numbers. That depends
+// on the order of the table's hash, and so on Lua's seed.
 #pragma once
 
 struct lua_State;

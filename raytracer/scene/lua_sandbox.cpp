@@ -2,17 +2,22 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <atomic>
 #include <chrono>
+#include <condition_variable>
 #include <csetjmp>
+#include <cstdio>
 #include <cstdlib>
 #include <lua.hpp>
+#include <mutex>
+#include <thread>
 
 #include "raytracer/scene/lua_library.hpp"
+#include "raytracer/util/printable.hpp"
 
 namespace deburr {
 namespace {
-
-using Clock = std::chrono::steady_clock;
 
 // Bytes allocated (and so written at least once) for one unit of work. Both take about 4 ns: 10⁹
 // instructions under the hook took 3.5 s, fresh memory comes at some 15 GB/s.
@@ -24,22 +29,41 @@ struct alignas(16) Block {
     Block *previous, *next;
 };
 
-enum class Spent { nothing, memory, work, time };
+// A block's share of the memory, its header included.
+std::size_t bytes_of(std::size_t size) { return block_bytes(sizeof(Block) + size); }
+
+enum class Spent { nothing, memory, work, time, output };
+
+// What a run that heeds the end of its time needs to come back, which is a few instructions.
+constexpr std::chrono::milliseconds grace(200);
 
 }  // namespace
 
 struct Sandbox::State {
-    SandboxLimits limits;
-    void* host = nullptr;
+    State(SandboxLimits limits, void* host) : limits(limits), host(host), memory(limits.memory) {}
+
+    const SandboxLimits limits;
+    void* const host;
+    std::string text;
+    Prepare prepare = nullptr;
+
     lua_State* lua = nullptr;
     Block blocks{&blocks, &blocks};
-    std::size_t used = 0;
+    MemoryMeter memory;
     std::int64_t work = 0;
-    Clock::time_point start = Clock::now();
-    int line = 0;  // of the latest sample
+    std::size_t printed = 0;
+    std::atomic<int> line{0};  // of the latest sample
     Spent spent = Spent::nothing;
     bool armed = false;  // escape may be jumped to
     std::jmp_buf escape;
+
+    // Between the interpreter's thread and the one that waits for it.
+    std::mutex mutex;
+    std::condition_variable ended;
+    bool has_ended = false;
+    int status = LUA_OK;
+    std::mutex visiting;  // held during a HostCall
+    std::atomic<bool> time_is_up{false};
 
     ~State() {
         while (blocks.next != &blocks) {
@@ -55,7 +79,12 @@ struct Sandbox::State {
         std::longjmp(escape, 1);
     }
 
+    void heed_time() {
+        if (time_is_up.load(std::memory_order_relaxed) && armed) abandon(Spent::time);
+    }
+
     void charge(std::int64_t amount) {
+        heed_time();
         if (amount > limits.work - work) {
             if (armed) abandon(Spent::work);
             work = limits.work;
@@ -70,31 +99,29 @@ struct Sandbox::State {
     static int body(lua_State* lua);
     static int placed_error(lua_State* lua);
     int execute();
-
-    // What body() runs; plain, for they are read across jumps.
-    const char* text = nullptr;
-    std::size_t text_size = 0;
-    Prepare prepare = nullptr;
+    bool print_line(lua_State* lua, int first, int last) noexcept;
 };
 
 void* Sandbox::State::allocate(void* user, void* old, std::size_t old_size, std::size_t size) {
     State& state = *static_cast<State*>(user);
-    if (!old) old_size = 0;  // then it tells the kind of object
     Block* block = old ? static_cast<Block*>(old) - 1 : nullptr;
+    const std::size_t held = block ? bytes_of(old_size) : 0;  // without a block the size tells the kind of object
     if (size == 0) {
         if (block) {
             block->previous->next = block->next;
             block->next->previous = block->previous;
-            state.used -= old_size;
+            state.memory.give_back(held);
             std::free(block);
         }
         return nullptr;
     }
-    if (size > old_size) {
-        if (size - old_size > state.limits.memory - state.used) {
-            if (state.armed) state.abandon(Spent::memory);
-            return nullptr;
-        }
+    constexpr std::size_t largest = PTRDIFF_MAX / 2;  // so that no sum overflows
+    const std::size_t needed = bytes_of(std::min(size, largest));
+    if (size > largest || (needed > held && !state.memory.try_take(needed - held))) {
+        if (state.armed) state.abandon(Spent::memory);
+        return nullptr;
+    }
+    if (needed > held) {
         state.charge(std::int64_t(size / bytes_per_work));
     }
     Block *previous = &state.blocks, *next = state.blocks.next;
@@ -104,13 +131,14 @@ void* Sandbox::State::allocate(void* user, void* old, std::size_t old_size, std:
     }
     auto* moved = static_cast<Block*>(std::realloc(block, sizeof(Block) + size));
     if (!moved) {
-        if (size <= old_size) return old;  // shrinking must not fail
+        if (needed <= held) return old;  // shrinking must not fail
         if (state.armed) state.abandon(Spent::memory);
+        state.memory.give_back(needed - held);
         return nullptr;
     }
     *moved = {previous, next};
     previous->next = next->previous = moved;
-    state.used = state.used - old_size + size;
+    if (needed < held) state.memory.give_back(held - needed);
     return moved + 1;
 }
 
@@ -118,8 +146,6 @@ void Sandbox::State::sample(lua_State* lua, lua_Debug* record) {
     State& state = of(lua);
     if (lua_getinfo(lua, "l", record) && record->currentline > 0) state.line = record->currentline;
     state.charge(sample_interval);
-    const std::chrono::duration<double> elapsed = Clock::now() - state.start;
-    if (elapsed.count() > state.limits.seconds && state.armed) state.abandon(Spent::time);
 }
 
 int Sandbox::State::body(lua_State* lua) {
@@ -127,7 +153,7 @@ int Sandbox::State::body(lua_State* lua) {
     open_library(lua);
     if (state.prepare) state.prepare(lua);
     const char name[] = {'=', file_mark, 0};
-    if (luaL_loadbufferx(lua, state.text, state.text_size, name, "t") != LUA_OK) return lua_error(lua);
+    if (luaL_loadbufferx(lua, state.text.data(), state.text.size(), name, "t") != LUA_OK) return lua_error(lua);
     lua_call(lua, 0, 1);
     return 1;
 }
@@ -161,21 +187,65 @@ int Sandbox::State::execute() {
     return status;
 }
 
-Sandbox::Sandbox(SandboxLimits limits, void* host) : state_(std::make_unique<State>()) {
-    state_->limits = limits;
-    state_->host = host;
+// The values are texts. False: that would be more than a scene may print.
+bool Sandbox::State::print_line(lua_State* lua, int first, int last) noexcept try {
+    std::string line;
+    for (int i = first; i <= last; ++i) {
+        std::size_t size = 0;
+        const char* value = lua_tolstring(lua, i, &size);
+        if (size > limits.output) return false;
+        if (i > first) line += '\t';
+        line += printable({value, size}, "\n\t");
+        if (line.size() > limits.output) return false;
+    }
+    line += '\n';
+    if (line.size() > limits.output - printed) return false;
+    printed += line.size();
+    std::fwrite(line.data(), 1, line.size(), stderr);
+    return true;
+} catch (const std::bad_alloc&) {
+    return false;
 }
 
-Sandbox::~Sandbox() = default;
+Sandbox::Sandbox(SandboxLimits limits, void* host) : state_(std::make_shared<State>(limits, host)) {}
 
-void* Sandbox::host(lua_State* lua) { return State::of(lua).host; }
+MemoryMeter& Sandbox::memory() { return state_->memory; }
+
 void Sandbox::spend(lua_State* lua, std::int64_t work) {
     State& state = State::of(lua);
     if (work > state.limits.work - state.work)
         if (const int line = current_line(lua)) state.line = line;
     state.charge(work);
 }
-void Sandbox::allow_abandoning(lua_State* lua, bool allowed) { State::of(lua).armed = allowed; }
+
+void Sandbox::print(lua_State* lua, int first, int last) {
+    State& state = State::of(lua);
+    state.heed_time();
+    if (state.print_line(lua, first, last)) return;
+    if (const int line = current_line(lua)) state.line = line;
+    state.abandon(Spent::output);
+}
+
+HostCall HostCall::enter(lua_State* lua) {
+    Sandbox::State& state = Sandbox::State::of(lua);
+    state.visiting.lock();
+    if (state.time_is_up) {
+        state.visiting.unlock();
+        state.abandon(Spent::time);
+    }
+    state.armed = false;
+    return {state.host, &state.memory, state.limits.work - state.work, lua};
+}
+
+void HostCall::leave(std::int64_t work, bool memory_spent) const {
+    Sandbox::State& state = Sandbox::State::of(lua_);
+    state.armed = true;
+    state.visiting.unlock();
+    Sandbox::spend(lua_, work);
+    if (!memory_spent) return;
+    if (const int line = current_line(lua_)) state.line = line;
+    state.abandon(Spent::memory);
+}
 
 static std::string reason(const SandboxLimits& limits, Spent spent) {
     switch (spent) {
@@ -184,6 +254,9 @@ static std::string reason(const SandboxLimits& limits, Spent spent) {
                                limits.memory >> 20);
         case Spent::time:
             return fmt::format("expected a scene that is ready within {} s, got one that is not", limits.seconds);
+        case Spent::output:
+            return fmt::format("expected a scene that prints at most {} bytes, got one that prints more",
+                               limits.output);
         default:
             return fmt::format("expected a scene that ends within {} instructions, got one that does not", limits.work);
     }
@@ -198,17 +271,47 @@ static std::string error_text(lua_State* lua) {
     return std::string(text, size);
 }
 
-lua_State* Sandbox::run(const std::string& text, const std::string& file, Prepare prepare) {
-    state_->text = text.data();
-    state_->text_size = text.size();
-    state_->prepare = prepare;
-    const int status = state_->execute();
-    if (state_->spent != Spent::nothing) {
-        const std::string place = state_->line > 0 ? fmt::format("{}:{}: ", file_mark, state_->line) : std::string();
-        throw SceneError(one_line(place + reason(state_->limits, state_->spent), file));
+std::string Sandbox::memory_reason() const { return reason(state_->limits, Spent::memory); }
+
+lua_State* Sandbox::run(std::string text, const std::string& file, Prepare prepare) {
+    State& state = *state_;
+    const auto fail = [&](Spent spent) {
+        const int line = state.line;
+        const std::string place = line > 0 ? fmt::format("{}:{}: ", file_mark, line) : std::string();
+        return SceneError(one_line(place + reason(state.limits, spent), file));
+    };
+    if (!state.memory.try_take(text.size())) throw fail(Spent::memory);
+    state.text = std::move(text);
+    state.prepare = prepare;
+    std::thread thread([state = state_] {
+        const int status = state->execute();
+        const std::lock_guard lock(state->mutex);
+        state->status = status;
+        state->has_ended = true;
+        state->ended.notify_one();
+    });
+    {
+        constexpr double most_seconds = 1e6;  // what a clock's count has room for
+        const auto ended = [&] { return state.has_ended; };
+        std::unique_lock lock(state.mutex);
+        if (!state.ended.wait_for(lock, std::chrono::duration<double>(std::min(state.limits.seconds, most_seconds)),
+                                  ended)) {
+            lock.unlock();
+            {
+                const std::lock_guard no_visit(state.visiting);
+                state.time_is_up = true;
+            }
+            lock.lock();
+            if (!state.ended.wait_for(lock, grace, ended)) {
+                thread.detach();
+                throw fail(Spent::time);
+            }
+        }
     }
-    if (status != LUA_OK) throw SceneError(one_line(error_text(state_->lua), file));
-    return state_->lua;
+    thread.join();
+    if (state.spent != Spent::nothing) throw fail(state.spent);
+    if (state.status != LUA_OK) throw SceneError(one_line(error_text(state.lua), file));
+    return state.lua;
 }
 
 int current_line(lua_State* lua) {
@@ -220,19 +323,19 @@ int current_line(lua_State* lua) {
 
 std::string one_line(const std::string& message, const std::string& file) {
     constexpr std::size_t longest = 600;
-    std::string line;
     const char mark[] = {file_mark, ':', 0};
-    if (message.compare(0, 2, mark) != 0) line = file + ": ";
-    for (std::size_t i = 0; i < message.size(); ++i) {
-        if (message.compare(i, 2, mark) == 0)
-            line += file;
-        else if (static_cast<unsigned char>(message[i]) < ' ' || message[i] == 127)
-            line += ' ';
-        else
-            line += message[i];
-        if (line.size() > file.size() + longest) return line + " …";
+    const std::string_view rest = message;
+    std::string line;
+    if (rest.substr(0, 2) != mark) line = file + ": ";
+    for (std::size_t at = 0; at < rest.size() && line.size() <= file.size() + longest;) {
+        const bool marked = rest.substr(at, 2) == mark;
+        if (marked) line += file;
+        at += marked;
+        const std::size_t end = std::min(rest.find(mark, at), rest.size());
+        line += printable(shortened(rest.substr(at, end - at), longest));
+        at = end;
     }
-    return line;
+    return shortened(line, file.size() + longest);
 }
 
 }  // namespace deburr

@@ -6,7 +6,9 @@
 #include <cmath>
 #include <lua.hpp>
 
+#include "raytracer/scene/memory_meter.hpp"
 #include "raytracer/scene/scene_functions.hpp"
+#include "raytracer/util/printable.hpp"
 
 namespace deburr {
 namespace {
@@ -15,22 +17,32 @@ namespace {
 constexpr int deepest = 12;
 static_assert(read_value_slots > 3 * deepest);
 
-// A table that is used in many places is copied there: without an end, twelve levels of a thousand
-// references each would be.
-constexpr std::size_t most_values = 5'000'000;
+// Names may be as long as memory allows; messages quote so much of them.
+constexpr std::size_t longest_name = 40;
+
+std::string quotable(const std::string& name) { return shortened(name, longest_name); }
 
 struct Reader {
     lua_State* lua;
-    std::int64_t& total;
-    std::size_t count = 0;
+    MemoryMeter* memory;
+    ReadCost& cost;
+
+    void take(std::size_t bytes) {
+        if (memory) memory->take(bytes);
+        cost.bytes += bytes;
+    }
+    std::string take_text(const char* text, std::size_t size) {
+        take(block_bytes(size + 1));
+        return std::string(text, size);
+    }
 
     LuaValue read(int index, const std::string& place, int depth);
     LuaValue read_table(int index, const std::string& place, int depth);
 };
 
 LuaValue Reader::read(int index, const std::string& place, int depth) {
-    ++total;
-    if (++count > most_values) throw BadValue(place, fmt::format("expected at most {} values, got more", most_values));
+    ++cost.values;
+    take(sizeof(LuaValue));
     switch (lua_type(lua, index)) {
         case LUA_TNONE:
         case LUA_TNIL: return {};
@@ -39,7 +51,7 @@ LuaValue Reader::read(int index, const std::string& place, int depth) {
         case LUA_TSTRING: {
             std::size_t size = 0;
             const char* text = lua_tolstring(lua, index, &size);
-            return std::string(text, size);
+            return take_text(text, size);
         }
         case LUA_TLIGHTUSERDATA: return static_cast<const SceneObject*>(lua_touserdata(lua, index));
         case LUA_TTABLE: return read_table(lua_absindex(lua, index), place, depth);
@@ -56,6 +68,7 @@ LuaValue Reader::read_table(int index, const std::string& place, int depth) {
     std::vector<std::pair<std::string, int>> names;  // and where on the stack
     std::string other;                               // the least key of another kind
     const int top = lua_gettop(lua);
+    take(block_bytes(sizeof(LuaTable) + 2 * sizeof(void*)));
     const auto room = [&] {
         if (!lua_checkstack(lua, 8)) throw BadValue(place, "expected fewer fields, got too many");
     };
@@ -64,9 +77,12 @@ LuaValue Reader::read_table(int index, const std::string& place, int depth) {
         if (lua_type(lua, -1) == LUA_TSTRING) {
             std::size_t size = 0;
             const char* text = lua_tolstring(lua, -1, &size);
-            names.emplace_back(std::string(text, size), lua_gettop(lua));
+            take(3 * sizeof(names[0]) + block_bytes(sizeof(LuaTable::Field) + 4 * sizeof(void*)) +
+                 block_bytes(size + 1));
+            names.emplace_back(take_text(text, size), lua_gettop(lua));
             lua_pushvalue(lua, -1);  // one stays, one leads on
         } else if (lua_isinteger(lua, -1)) {
+            take(3 * sizeof(lua_Integer));
             numbers.push_back(lua_tointeger(lua, -1));
         } else {
             const std::string key = described(read(-1, place, depth + 1));
@@ -78,10 +94,11 @@ LuaValue Reader::read_table(int index, const std::string& place, int depth) {
     std::sort(numbers.begin(), numbers.end());
 
     auto table = std::make_shared<LuaTable>();
+    table->list.reserve(numbers.size());
     for (const auto& [name, at] : names) {
         lua_pushvalue(lua, at);
         lua_rawget(lua, index);
-        LuaValue value = read(-1, place + "." + name, depth + 1);
+        LuaValue value = read(-1, place + "." + quotable(name), depth + 1);
         lua_pop(lua, 1);
         table->fields.emplace(name, std::move(value));
     }
@@ -102,9 +119,9 @@ const LuaValue nil_value;
 
 }  // namespace
 
-LuaValue read_value(lua_State* lua, int index, const std::string& place, std::int64_t* count) {
-    std::int64_t ignored = 0;
-    return Reader{lua, count ? *count : ignored}.read(index, place, 0);
+LuaValue read_value(lua_State* lua, int index, const std::string& place, MemoryMeter* memory, ReadCost* cost) {
+    ReadCost ignored;
+    return Reader{lua, memory, cost ? *cost : ignored}.read(index, place, 0);
 }
 
 std::string described(const LuaValue& value) {
@@ -112,10 +129,7 @@ std::string described(const LuaValue& value) {
         std::string operator()(std::monostate) const { return "nothing"; }
         std::string operator()(bool b) const { return b ? "true" : "false"; }
         std::string operator()(double x) const { return std::isnan(x) ? "nan" : fmt::format("{}", x); }
-        std::string operator()(const std::string& s) const {
-            constexpr std::size_t longest = 40;
-            return s.size() <= longest ? "'" + s + "'" : "'" + s.substr(0, longest) + "…'";
-        }
+        std::string operator()(const std::string& s) const { return fmt::format("'{}'", quotable(s)); }
         std::string operator()(const SceneObject* object) const { return kind_of(*object); }
         std::string operator()(const std::shared_ptr<const LuaTable>& table) const {
             if (!table->fields.empty()) return "a table with names";
@@ -231,7 +245,7 @@ Fields::Fields(const LuaValue& value, std::string place, std::initializer_list<c
     for (const auto& [name, field] : table_->fields) {
         if (std::find(known.begin(), known.end(), name) != known.end()) continue;
         throw BadValue(this->place(name),
-                       fmt::format("expected one of the fields {}, got '{}'", fmt::join(known, ", "), name));
+                       fmt::format("expected one of the fields {}, got '{}'", fmt::join(known, ", "), quotable(name)));
     }
 }
 
@@ -245,6 +259,8 @@ const LuaValue& Fields::get(const std::string& name) const {
     return value ? *value : nil_value;
 }
 
-std::string Fields::place(const std::string& name) const { return place_.empty() ? name : place_ + "." + name; }
+std::string Fields::place(const std::string& name) const {
+    return place_.empty() ? quotable(name) : place_ + "." + quotable(name);
+}
 
 }  // namespace deburr

@@ -18,6 +18,7 @@ struct lua_State;
 
 namespace deburr {
 
+class MemoryMeter;
 struct SceneObject;  // what a scene's functions make: scene_functions.hpp
 struct LuaTable;
 struct LuaOther {  // function, coroutine
@@ -28,6 +29,7 @@ using LuaValue = std::variant<std::monostate, bool, double, std::string, const S
                               std::shared_ptr<const LuaTable>, LuaOther>;
 
 struct LuaTable {
+    using Field = std::pair<const std::string, LuaValue>;
     std::vector<LuaValue> list;  // 1, 2, …
     std::map<std::string, LuaValue> fields;
 };
@@ -44,10 +46,17 @@ public:
 /// Free stack slots that read_value needs.
 constexpr int read_value_slots = 40;
 
-/// The value at `index`. Throws BadValue at tables with holes, other keys than names and 1, 2, …,
+/// A copy of the value at `index`. Throws BadValue at tables with holes, other keys than names and 1, 2, …,
 /// and at those nested so deep that they may contain themselves.
-/// `count`, if given, grows by the number of values read, also when it throws.
-LuaValue read_value(lua_State* lua, int index, const std::string& place, std::int64_t* count = nullptr);
+///
+/// `memory`, if given, lends what the copy takes: MemorySpent is thrown where there is less. `cost`, if given, grows by
+/// what was read and taken, also when it throws.
+struct ReadCost {
+    std::int64_t values = 0;
+    std::size_t bytes = 0;
+};
+LuaValue read_value(lua_State* lua, int index, const std::string& place, MemoryMeter* memory = nullptr,
+                    ReadCost* cost = nullptr);
 
 /// As in "got a density".
 std::string described(const LuaValue& value);

@@ -13,6 +13,9 @@
 
 namespace deburr {
 
+/// Samples per pixel, of a scene and of the command line.
+constexpr int max_samples = 1 << 20;
+
 /// A colour that may vary through space.
 struct Texture {
     enum class Kind { constant, checker, wood };

@@ -113,9 +113,9 @@ SceneResult hyperboloid(SceneCall& call) {
 }
 
 const Quadric& need_quadric(const SceneCall& call, std::size_t index) {
-    const SceneObject* object = as_object(call.argument(index));
-    if (!object || !std::holds_alternative<Quadric>(object->is)) expected(call.name, "a quadric", call.argument(index));
-    return std::get<Quadric>(object->is);
+    const auto* quadric = as<Quadric>(as_object(call.argument(index)));
+    if (!quadric) expected(call.name, "a quadric", call.argument(index));
+    return *quadric;
 }
 
 SceneResult perturbation(SceneCall& call) {
@@ -135,15 +135,14 @@ SceneResult freeform(SceneCall& call) {
     if (given->list.size() > most_perturbations)
         throw BadValue(call.name, fmt::format("expected at most {} perturbations, got {}", most_perturbations,
                                               given->list.size()));
+    call.builder.spend(work_per_perturbation * std::int64_t(given->list.size()));
     std::vector<Perturbation> perturbations;
     for (const LuaValue& item : given->list) {
-        const SceneObject* object = as_object(item);
-        if (!object || !std::holds_alternative<Perturbation>(object->is))
-            expected(fmt::format("{}[{}]", call.name, perturbations.size() + 1), "a perturbation", item);
-        perturbations.push_back(std::get<Perturbation>(object->is));
+        const auto* perturbation = as<Perturbation>(as_object(item));
+        if (!perturbation) expected(fmt::format("{}[{}]", call.name, perturbations.size() + 1), "a perturbation", item);
+        perturbations.push_back(*perturbation);
     }
-    call.builder.spend(perturbations.size());
-    call.builder.work += work_per_perturbation * std::int64_t(perturbations.size());
+    call.builder.keep_parts(perturbations.size() * sizeof(Perturbation));
     return call.make(solid_of_form(call.name, base, std::move(perturbations), call.line));
 }
 

@@ -7,21 +7,15 @@
 #include <lua.hpp>
 
 #include "raytracer/scene/lua_sandbox.hpp"
+#include "raytracer/util/printable.hpp"
 
 namespace deburr {
 
 std::string kind_of(const SceneObject& object) {
-    struct Kind {
-        const char* operator()(const Density&) const { return "a density"; }
-        const char* operator()(const Solid&) const { return "a solid"; }
-        const char* operator()(const Quadric&) const { return "a quadric"; }
-        const char* operator()(const Perturbation&) const { return "a perturbation"; }
-        const char* operator()(const Material&) const { return "a material"; }
-        const char* operator()(const Light&) const { return "a light"; }
-        const char* operator()(const Texture&) const { return "a texture"; }
-        const char* operator()(const Background&) const { return "a sky"; }
-    };
-    return std::visit(Kind{}, object.is);
+    static constexpr const char* kinds[] = {"a density",  "a solid", "a quadric", "a perturbation",
+                                            "a material", "a light", "a texture", "a sky"};
+    static_assert(std::size(kinds) == std::variant_size_v<decltype(object.is)>);
+    return kinds[object.is.index()];
 }
 
 void SceneBuilder::check_size(double half_spaces) {
@@ -29,31 +23,52 @@ void SceneBuilder::check_size(double half_spaces) {
         throw std::runtime_error(fmt::format("expected at most {} half-spaces, got {}", most_half_spaces, half_spaces));
 }
 
-void SceneBuilder::spend(std::size_t steps) {
-    steps_ += steps;
-    if (steps_ > most_steps)
-        throw std::runtime_error(
-            fmt::format("expected a scene that makes at most {} parts, got one that makes more", most_steps));
+// A node as make_shared makes it, and its list of children.
+template <class Node>
+static std::size_t node_bytes(const Node& node) {
+    return block_bytes(sizeof(Node) + 2 * sizeof(void*)) + block_bytes(node.children.size() * sizeof(node.children[0]));
 }
 
-const SceneObject* SceneBuilder::make(decltype(SceneObject::is) object, int line, std::string name) {
-    spend(2);
-    if (const auto* density = std::get_if<Density>(&object)) check_size(density->node().leaves);
-    if (const auto* solid = std::get_if<Solid>(&object)) check_size(solid->node().leaves);
-    return &objects_.emplace_back(SceneObject{std::move(object), std::move(name), line});
+void SceneBuilder::keep_parts(std::size_t bytes) {
+    part_bytes_ += bytes;
+    if (part_bytes_ > max_part_bytes_)
+        throw std::runtime_error(fmt::format(
+            "expected a scene whose parts take at most {} MiB, got one whose take more", max_part_bytes_ >> 20));
+}
+
+void SceneBuilder::keep_half_spaces(std::size_t count) {
+    keep_parts(count * (block_bytes(sizeof(DensityNode) + 2 * sizeof(void*)) + sizeof(Density)));
+}
+
+void SceneBuilder::spend(std::int64_t amount) {
+    if (amount > work_left - work) throw WorkSpent();
+    work += amount;
+}
+
+void SceneBuilder::borrow(std::size_t bytes) {
+    memory->take(bytes);
+    cost.bytes += bytes;
+}
+
+const SceneObject* SceneBuilder::keep(SceneObject object) {
+    const auto* density = as<Density>(&object);
+    const auto* solid = as<Solid>(&object);
+    keep_parts(sizeof(SceneObject) + (density ? node_bytes(density->node()) : solid ? node_bytes(solid->node()) : 0));
+    if (density) check_size(density->node().leaves);
+    if (solid) check_size(solid->node().leaves);
+    return &objects_.emplace_back(std::move(object));
 }
 
 Solid SceneBuilder::solid(const SceneObject& object) {
-    if (const auto* solid = std::get_if<Solid>(&object.is)) return *solid;
-    spend(2);
-    if (const auto* quadric = std::get_if<Quadric>(&object.is))
-        return solid_of_form("quadric", *quadric, {}, object.line);
-    return Solid::sharp(std::get<Density>(object.is), object.line);
+    if (const auto* solid = as<Solid>(&object)) return *solid;
+    keep_parts(node_bytes(SolidNode()));
+    if (const auto* quadric = as<Quadric>(&object)) return solid_of_form("quadric", *quadric, {}, object.line);
+    return Solid::sharp(*as<Density>(&object), object.line);
 }
 
 int SceneBuilder::index_of(const SceneObject* material) {
     const auto [at, is_new] = indices_.try_emplace(material, int(materials_.size()));
-    if (is_new) materials_.push_back(std::get<Material>(material->is));
+    if (is_new) materials_.push_back(*as<Material>(material));
     return at->second;
 }
 
@@ -70,23 +85,31 @@ static bool from_text(const std::string& text, double& value) {
 }
 
 SceneResult SceneBuilder::parameter(const std::string& name, const LuaValue& fallback) {
-    const std::string place = "param '" + name + "'";
+    const std::string place = "param '" + shortened(name, 40) + "'";
     const bool is_number = std::holds_alternative<double>(fallback);
     const bool is_bool = std::holds_alternative<bool>(fallback);
     if (!is_number && !is_bool && !std::holds_alternative<std::string>(fallback))
         expected(place, "a number, boolean or text as default", fallback);
 
+    // Both are kept here and in the scene.
+    const auto keep = [&](const std::string& value) {
+        if (parameters_.count(name) == 0)
+            memory->take(2 * (block_bytes(sizeof(std::pair<std::string, std::string>) + 4 * sizeof(void*)) +
+                              block_bytes(name.size() + 1)));
+        memory->take(2 * block_bytes(value.size() + 1));
+        parameters_[name] = value;
+    };
     const auto define = defines_.find(name);
     if (define == defines_.end()) {
         const auto* string = std::get_if<std::string>(&fallback);
-        parameters_[name] = string ? *string : described(fallback);
+        keep(string ? *string : described(fallback));
         return Argument{2};
     }
     const std::string& given = define->second;
     const auto wrong = [&](const char* what) {
         return BadValue(place, fmt::format("expected {} after -D {}=, got '{}'", what, name, given));
     };
-    parameters_[name] = given;
+    keep(given);
     if (is_number) {
         long long whole = 0;
         double value = 0;
@@ -117,25 +140,34 @@ namespace {
 // Copying a value out of Lua takes as long as some 20 instructions.
 constexpr std::int64_t work_per_value = 20;
 
+// So do an exception and the message that it carries, of some 500.
+constexpr std::int64_t work_per_failure = 500;
+
+enum class Ending { done, failed, memory_spent, work_spent };
+
 // Everything between Lua's two worlds: no exception leaves it, and it calls nothing of Lua that
-// raises. False: the message is set.
-bool call_body(lua_State* lua, SceneBuilder& builder, const SceneFunction& function) noexcept {
+// raises. If it failed, the message is set.
+Ending call_body(lua_State* lua, SceneBuilder& builder, const SceneFunction& function) noexcept {
     int line = 0;
-    builder.values = builder.work = 0;
     const auto fail = [&](const char* what) {
         if (line > 0)
             std::snprintf(builder.message, sizeof builder.message, "%c:%d: %s", file_mark, line, what);
         else
             std::snprintf(builder.message, sizeof builder.message, "%c: %s", file_mark, what);
-        return false;
+        return Ending::failed;
     };
     try {
         line = current_line(lua);
         SceneCall call{builder, function.name, line, {}};
         for (int i = 1, last = lua_gettop(lua); i <= last; ++i)
-            call.arguments.push_back(read_value(lua, i, function.name, &builder.values));
+            call.arguments.push_back(read_value(lua, i, function.name, builder.memory, &builder.cost));
+        builder.spend(work_per_value * builder.cost.values);
         builder.result = function.body(call);
-        return true;
+        return Ending::done;
+    } catch (const MemorySpent&) {
+        return Ending::memory_spent;
+    } catch (const WorkSpent&) {
+        return Ending::work_spent;
     } catch (const std::bad_alloc&) {
         return fail("expected a scene that fits into memory, got one that does not");
     } catch (const BadValue& error) {
@@ -165,13 +197,18 @@ int push_result(lua_State* lua, const SceneResult& result) {
 // No object with a destructor here: what follows the body may raise.
 int call_from_lua(lua_State* lua) {
     const auto* function = static_cast<const SceneFunction*>(lua_touserdata(lua, lua_upvalueindex(1)));
-    auto* builder = static_cast<SceneBuilder*>(Sandbox::host(lua));
     luaL_checkstack(lua, read_value_slots, "too many arguments");
-    Sandbox::allow_abandoning(lua, false);
-    const bool done = call_body(lua, *builder, *function);
-    Sandbox::allow_abandoning(lua, true);
-    Sandbox::spend(lua, builder->work + work_per_value * builder->values);
-    if (done) return push_result(lua, builder->result);
+    const HostCall visit = HostCall::enter(lua);
+    auto* builder = static_cast<SceneBuilder*>(visit.host);
+    builder->memory = visit.memory;
+    builder->work_left = visit.work_left;
+    builder->work = 0;
+    builder->cost = {};
+    const Ending ending = call_body(lua, *builder, *function);
+    visit.memory->give_back(builder->cost.bytes);
+    if (ending == Ending::failed) builder->work += work_per_failure;
+    visit.leave(ending == Ending::work_spent ? visit.work_left + 1 : builder->work, ending == Ending::memory_spent);
+    if (ending == Ending::done) return push_result(lua, builder->result);
     lua_pushstring(lua, builder->message);
     return lua_error(lua);
 }

@@ -5,30 +5,53 @@
 #pragma once
 #include <deque>
 #include <map>
+#include <memory>
 #include <string>
+#include <type_traits>
 #include <variant>
 #include <vector>
 
 #include "bounds/free_form.hpp"
 #include "raytracer/scene/lua_values.hpp"
+#include "raytracer/scene/memory_meter.hpp"
 #include "raytracer/scene/scene.hpp"
 
 struct lua_State;
 
 namespace deburr {
 
+using SceneName = std::shared_ptr<const std::string>;
+
+/// What a scene's function made. A scene has a million of them where it places a block that often, so what is large and
+/// rare is kept elsewhere.
 struct SceneObject {
-    std::variant<Density, Solid, Quadric, Perturbation, Material, Light, Texture, Background> is;
-    std::string name;  // of a solid; "" none
-    int line = 0;      // of the scene, where it was made
+    template <class T>
+    static constexpr bool is_handle = std::is_same_v<T, Density> || std::is_same_v<T, Solid>;
+    template <class T>
+    using Kept = std::conditional_t<is_handle<T>, T, std::shared_ptr<const T>>;
+
+    std::variant<Kept<Density>, Kept<Solid>, Kept<Quadric>, Kept<Perturbation>, Kept<Material>, Kept<Light>,
+                 Kept<Texture>, Kept<Background>>
+        is;
+    SceneName name;  // of a solid; null: none
+    int line = 0;    // of the scene, where it was made
 };
+
+/// The T that `object` is, or null.
+template <class T>
+const T* as(const SceneObject* object) {
+    const auto* kept = object ? std::get_if<SceneObject::Kept<T>>(&object->is) : nullptr;
+    if constexpr (SceneObject::is_handle<T>)
+        return kept;
+    else
+        return kept ? kept->get() : nullptr;
+}
 
 /// As in "a density".
 std::string kind_of(const SceneObject& object);
 
-/// A scene that makes more parts than this is refused: two for an object (one is its expression's node)
-/// and one for each half-space of a shape. None is freed before the end, so this bounds the memory.
-constexpr std::size_t most_steps = 4'000'000;
+/// Thrown where work that is about to be done is more than is left of the budget.
+struct WorkSpent : std::exception {};
 
 /// What a function gives back to the scene.
 struct Argument {  // the argument with this number, counted from 1
@@ -38,9 +61,19 @@ using SceneResult = std::variant<Argument, const SceneObject*, bool, double, lon
 
 class SceneBuilder {
 public:
-    explicit SceneBuilder(const std::map<std::string, std::string>& defines) : defines_(defines) {}
+    /// `max_part_bytes`: see SandboxLimits::parts.
+    SceneBuilder(const std::map<std::string, std::string>& defines, std::size_t max_part_bytes)
+        : defines_(defines), max_part_bytes_(max_part_bytes) {}
 
-    const SceneObject* make(decltype(SceneObject::is) object, int line, std::string name = "");
+    template <class T>
+    const SceneObject* make(T object, int line, SceneName name = nullptr) {
+        if constexpr (SceneObject::is_handle<T>) {
+            return keep({std::move(object), std::move(name), line});
+        } else {
+            keep_parts(block_bytes(sizeof(T) + 2 * sizeof(void*)));
+            return keep({std::make_shared<const T>(std::move(object)), std::move(name), line});
+        }
+    }
     /// The solid that `object` is or, for a density or a quadric, means.
     Solid solid(const SceneObject& object);
     /// The place of a material in materials(); each has one, however often it is used.
@@ -53,22 +86,33 @@ public:
 
     /// Throws if an expression has more than most_half_spaces.
     static void check_size(double half_spaces);
-    /// Charges steps, throws if there are more than most_steps.
-    void spend(std::size_t steps);
+    /// Counts parts; throws if all take more than they may.
+    void keep_parts(std::size_t bytes);
+    void keep_half_spaces(std::size_t count);
+    /// Charges work that is about to be done; throws WorkSpent if there is less left.
+    void spend(std::int64_t amount);
+    /// Takes memory until the present call from Lua ends; throws MemorySpent if there is less left.
+    void borrow(std::size_t bytes);
+
+    MemoryMeter* memory = nullptr;  // of the sandbox
 
     // What the latest call from Lua left, kept here so that it outlives every C++ frame.
     SceneResult result;
     char message[2048] = "";
-    std::int64_t values = 0;  // read from its arguments
-    std::int64_t work = 0;    // besides, for the sandbox's budget
+    ReadCost cost;               // of its arguments, and what was borrowed
+    std::int64_t work = 0;       // besides, for the sandbox's budget
+    std::int64_t work_left = 0;  // before it
 
 private:
+    const SceneObject* keep(SceneObject object);
+
     const std::map<std::string, std::string>& defines_;
     std::map<std::string, std::string> parameters_;
     std::deque<SceneObject> objects_;
     std::vector<Material> materials_{Material{}};
     std::map<const SceneObject*, int> indices_;
-    std::size_t steps_ = 0;
+    const std::size_t max_part_bytes_;
+    std::size_t part_bytes_ = 0;
 };
 
 /// One call from a scene.
@@ -84,7 +128,8 @@ struct SceneCall {
     void at_most(std::size_t count) const;
     /// "name: argument"
     std::string place(const char* argument) const { return std::string(name) + ": " + argument; }
-    const SceneObject* make(decltype(SceneObject::is) object, std::string object_name = "") const {
+    template <class T>
+    const SceneObject* make(T object, SceneName object_name = nullptr) const {
         return builder.make(std::move(object), line, std::move(object_name));
     }
 };

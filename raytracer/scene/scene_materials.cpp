@@ -26,9 +26,9 @@ void read_texture(const Fields& fields, Texture& texture) {
     const LuaValue* given = fields.find("color");
     if (!given) return;
     if (const SceneObject* object = as_object(*given)) {
-        if (!std::holds_alternative<Texture>(object->is))
-            expected(fields.place("color"), "a colour or a texture", *given);
-        texture = std::get<Texture>(object->is);
+        const auto* pattern = as<Texture>(object);
+        if (!pattern) expected(fields.place("color"), "a colour or a texture", *given);
+        texture = *pattern;
     } else {
         texture.a = color(*given, fields.place("color"), 1);
     }

@@ -11,13 +11,13 @@
 
 #include "raytracer/scene/scene_functions.hpp"
 #include "raytracer/scene/source_lines.hpp"
+#include "raytracer/util/printable.hpp"
 
 namespace deburr {
 namespace {
 
 constexpr std::size_t largest_file = std::size_t(16) << 20;
 constexpr int largest_side = 65'536;
-constexpr int most_samples = 65'536;
 constexpr int most_bounces = 1'000;
 
 // Up and view this nearly parallel leave no direction for the picture's side. Chosen.
@@ -30,7 +30,7 @@ void read_image(const LuaValue& value, Scene& scene) {
     };
     read("width", scene.width, 1, largest_side);
     read("height", scene.height, 1, largest_side);
-    read("spp", scene.spp, 1, most_samples);
+    read("spp", scene.spp, 1, max_samples);
     read("bounces", scene.bounces, 0, most_bounces);
 }
 
@@ -58,8 +58,8 @@ void read_camera(const LuaValue& value, Camera& camera) {
 
 void read_background(const LuaValue& value, Background& background) {
     const SceneObject* object = as_object(value);
-    if (object && std::holds_alternative<Background>(object->is))
-        background = std::get<Background>(object->is);
+    if (const auto* sky = as<Background>(object))
+        background = *sky;
     else if (object)
         expected("background", "a colour or sky{…}", value);
     else
@@ -70,10 +70,9 @@ void read_lights(const LuaValue& value, std::vector<Light>& lights) {
     const LuaTable* table = as_table(value);
     if (!table || !table->fields.empty()) expected("lights", "a list of lights", value);
     for (const LuaValue& item : table->list) {
-        const SceneObject* object = as_object(item);
-        if (!object || !std::holds_alternative<Light>(object->is))
-            expected(fmt::format("lights[{}]", lights.size() + 1), "a light", item);
-        lights.push_back(std::get<Light>(object->is));
+        const auto* light = as<Light>(as_object(item));
+        if (!light) expected(fmt::format("lights[{}]", lights.size() + 1), "a light", item);
+        lights.push_back(*light);
     }
 }
 
@@ -85,11 +84,12 @@ void read_solids(const LuaValue& value, SceneBuilder& builder, Scene& scene) {
     for (const LuaValue& item : table->list) {
         const std::string place = fmt::format("solids[{}]", scene.solids.size() + 1);
         const SceneObject* object = as_object(item);
-        if (!object || !(std::holds_alternative<Solid>(object->is) || std::holds_alternative<Density>(object->is) ||
-                         std::holds_alternative<Quadric>(object->is)))
+        if (!as<Solid>(object) && !as<Density>(object) && !as<Quadric>(object))
             expected(place, "a solid or a density", item);
         scene.solids.push_back(builder.solid(*object));
-        scene.names.push_back(object->name);
+        const std::string name = object->name ? *object->name : "";
+        builder.memory->take_text(name.size());
+        scene.names.push_back(name);
         half_spaces += scene.solids.back().node().leaves;
     }
     if (half_spaces > most_half_spaces)
@@ -128,7 +128,11 @@ void check_defines(const std::map<std::string, std::string>& defines,
     for (const auto& [name, value] : defines) {
         if (parameters.count(name)) continue;
         std::string known;
-        for (const auto& parameter : parameters) known += (known.empty() ? "" : ", ") + parameter.first;
+        for (const auto& parameter : parameters) {
+            constexpr std::size_t longest = 400;
+            known += (known.empty() ? "" : ", ") + shortened(parameter.first, longest);
+            if (known.size() > longest) break;
+        }
         throw std::runtime_error(
             fmt::format("-D {}: ", name) +
             (known.empty() ? "expected no parameters, the scene has none"
@@ -177,19 +181,23 @@ Scene read_scene_text(const std::string& given, const std::string& file,
     if (text.compare(0, 3, "\xEF\xBB\xBF") == 0) text.erase(0, 3);  // byte order mark
     if (text.compare(0, 1, "#") == 0) text.insert(0, "--");         // #!, as the lua command allows
 
-    SceneBuilder builder(defines);
+    SceneBuilder builder(defines, limits.parts);
     Sandbox sandbox(limits, &builder);
     lua_State* lua = sandbox.run(text, file, open_scene_functions);
+    builder.memory = &sandbox.memory();
     Scene scene;
     scene.file = file;
     try {
-        read_table(read_value(lua, 1, "scene"), builder, scene);
+        read_table(read_value(lua, 1, "scene", builder.memory), builder, scene);
         check_defines(defines, builder.parameters());
     } catch (const BadValue& error) {
         const int line = line_of(text, error.place);
         throw SceneError(one_line(line > 0 ? fmt::format("{}:{}: {}", file_mark, line, error.what())
                                            : fmt::format("{}: {}", file_mark, error.what()),
                                   file));
+    } catch (const MemorySpent&) {
+        throw SceneError(
+            one_line(fmt::format("{}:{}: {}", file_mark, line_of(text, "scene"), sandbox.memory_reason()), file));
     } catch (const std::bad_alloc&) {
         throw SceneError(one_line("expected a scene that fits into memory, got one that does not", file));
     } catch (const SceneError&) {

@@ -13,17 +13,17 @@ constexpr std::size_t most_hull_points = 100'000;
 // take 0.8 s.
 constexpr std::int64_t work_per_hull_point = 2'500;
 
+// Memory of qhull's for each point of a hull, and ours for its faces, which are twice as many. Points on a sphere take
+// it.
+constexpr std::size_t bytes_per_hull_point = 1'000;
+
 constexpr std::size_t most_polygon_points = 4'096;  // the check for convexity takes its square
 
-const Density* as_density(const LuaValue& value) {
-    const SceneObject* object = as_object(value);
-    return object ? std::get_if<Density>(&object->is) : nullptr;
-}
+const Density* as_density(const LuaValue& value) { return as<Density>(as_object(value)); }
 
 bool is_set(const LuaValue& value) {  // something with an inside
     const SceneObject* object = as_object(value);
-    return object && (std::holds_alternative<Density>(object->is) || std::holds_alternative<Solid>(object->is) ||
-                      std::holds_alternative<Quadric>(object->is));
+    return as<Density>(object) || as<Solid>(object) || as<Quadric>(object);
 }
 
 const SceneObject& need_set(const LuaValue& value, const std::string& place) {
@@ -33,7 +33,7 @@ const SceneObject& need_set(const LuaValue& value, const std::string& place) {
 
 const SceneObject& need_movable(const LuaValue& value, const std::string& place) {
     const SceneObject* object = as_object(value);
-    if (object && std::holds_alternative<Perturbation>(object->is)) return *object;
+    if (as<Perturbation>(object)) return *object;
     return need_set(value, place);
 }
 
@@ -70,7 +70,7 @@ SceneResult half_space(SceneCall& call) {
 
 SceneResult cube(SceneCall& call) {
     call.at_most(0);
-    call.builder.spend(6);
+    call.builder.keep_half_spaces(6);
     return call.make(Density::box(Vec3(0), Vec3(1)));
 }
 
@@ -81,13 +81,13 @@ SceneResult box(SceneCall& call) {
     for (int k = 0; k < 3; ++k)
         if (!(lo[k] < hi[k]))
             throw BadValue(call.name, fmt::format("expected {0}0 < {0}1, got {1} and {2}", "xyz"[k], lo[k], hi[k]));
-    call.builder.spend(6);
+    call.builder.keep_half_spaces(6);
     return call.make(Density::box(lo, hi));
 }
 
 SceneResult product_of(SceneCall& call, const std::vector<HullFace>& faces) {
     SceneBuilder::check_size(double(faces.size()));
-    call.builder.spend(faces.size());
+    call.builder.keep_half_spaces(faces.size());
     std::vector<Density> parts;
     for (const HullFace& face : faces) parts.push_back(Density::half_space(face.normal, face.offset));
     return call.make(Density::product(parts));
@@ -95,23 +95,25 @@ SceneResult product_of(SceneCall& call, const std::vector<HullFace>& faces) {
 
 SceneResult convex(SceneCall& call) {
     call.at_most(1);
+    const std::vector<LuaValue>& given = need_list(call.argument(0), call.name, "points", most_hull_points);
+    call.builder.spend(work_per_hull_point * std::int64_t(given.size()));
+    call.builder.borrow(bytes_per_hull_point * given.size());
     std::vector<Vec3> points;
-    for (const LuaValue& point : need_list(call.argument(0), call.name, "points", most_hull_points))
-        points.push_back(vector(point, item(call.name, points.size())));
-    call.builder.work += work_per_hull_point * std::int64_t(points.size());
+    for (const LuaValue& point : given) points.push_back(vector(point, item(call.name, points.size())));
     return product_of(call, convex_hull(std::move(points)));
 }
 
 SceneResult make_prism(SceneCall& call) {
     call.at_most(3);
+    const std::vector<LuaValue>& given = need_list(call.argument(0), call.name, "points", most_polygon_points);
+    call.builder.spend(std::int64_t(given.size() * given.size()));
     std::vector<glm::dvec2> polygon;
-    for (const LuaValue& point : need_list(call.argument(0), call.name, "points", most_polygon_points)) {
+    for (const LuaValue& point : given) {
         const std::string place = item(call.name, polygon.size());
         const LuaTable* pair = as_table(point);
         if (!pair || !pair->fields.empty() || pair->list.size() != 2) expected(place, "two numbers {x, z}", point);
         polygon.emplace_back(number(pair->list[0], place), number(pair->list[1], place));
     }
-    call.builder.work += std::int64_t(polygon.size() * polygon.size());
     const double y0 = number(call.argument(1), call.place("y0"));
     const double y1 = number(call.argument(2), call.place("y1"));
     return product_of(call, prism(std::move(polygon), y0, y1));
@@ -191,24 +193,25 @@ SceneResult material(SceneCall& call) {
     call.at_most(2);
     const SceneObject& self = need_set(call.argument(0), call.name);
     const SceneObject* given = as_object(call.argument(1));
-    if (!given || !std::holds_alternative<Material>(given->is)) expected(call.name, "a material", call.argument(1));
+    if (!as<Material>(given)) expected(call.name, "a material", call.argument(1));
     return call.make(call.builder.solid(self).material(call.builder.index_of(given)), self.name);
 }
 
 SceneResult name(SceneCall& call) {
     call.at_most(2);
     const SceneObject& self = need_set(call.argument(0), call.name);
-    return call.make(call.builder.solid(self), text(call.argument(1), call.name));
+    const std::string& given = text(call.argument(1), call.name);
+    call.builder.memory->take_text(given.size());
+    return call.make(call.builder.solid(self), std::make_shared<const std::string>(given));
 }
 
 SceneResult place(SceneCall& call, const Affine& map) {
     const SceneObject& self = need_movable(call.argument(0), call.name);
-    if (const auto* density = std::get_if<Density>(&self.is)) return call.make(density->transformed(map));
-    if (const auto* quadric = std::get_if<Quadric>(&self.is))
-        return call.make(ordinary(transformed(*quadric, map), call.name));
-    if (const auto* p = std::get_if<Perturbation>(&self.is))
+    if (const auto* density = as<Density>(&self)) return call.make(density->transformed(map));
+    if (const auto* quadric = as<Quadric>(&self)) return call.make(ordinary(transformed(*quadric, map), call.name));
+    if (const auto* p = as<Perturbation>(&self))
         return call.make(Perturbation{p->factor, ordinary(transformed(p->quadric, map), call.name)});
-    return call.make(std::get<Solid>(self.is).transformed(map), self.name);
+    return call.make(as<Solid>(&self)->transformed(map), self.name);
 }
 
 SceneResult translate(SceneCall& call) {

@@ -4,14 +4,13 @@
 #include <cstdio>
 #include <string>
 
+#include "raytracer/util/printable.hpp"
+
 namespace deburr {
 
-/// "deburr: TEXT" as one line, whatever control characters a name in it holds.
+/// "deburr: TEXT" as one printable line, whatever a name in it holds.
 inline void message(const std::string& text) {
-    std::string line = "deburr: " + text;
-    for (char& c : line)
-        if (static_cast<unsigned char>(c) < ' ') c = ' ';
-    line += '\n';
+    const std::string line = "deburr: " + printable(text) + "\n";
     std::fwrite(line.data(), 1, line.size(), stderr);
 }
 

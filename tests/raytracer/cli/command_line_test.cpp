@@ -79,8 +79,8 @@ TEST_CASE("a wrong call is one line and exit code 2, and nothing is written") {
         {{"render", scene, "-o", place / "a"}, "-o: expected a file name that ends in .exr"},
         {{"render", scene, "-o", output, "-o", output}, "expected different files, got"},
         {{"render", scene, "-o", output, "--stats-json", output}, "expected different files, got"},
-        {{"render", place / "no.lua", "-o", output}, "cannot read scene"},
-        {{"render", place / ".", "-o", output}, "cannot read scene"},
+        {{"render", place / "no.lua", "-o", output}, "no.lua: expected a scene, got: No such file or directory"},
+        {{"render", place / ".", "-o", output}, ".: expected a scene, got a directory"},
         {{"render", scene, "-o", output, "--size", "0x0"}, "--size: expected WxH, each from 1 to 1000000, got '0x0'"},
         {{"render", scene, "-o", output, "--size", "-5x5"}, "--size: expected WxH, each from 1 to 1000000, got '-5x5'"},
         {{"render", scene, "-o", output, "--size", "65536x65536"}, "--size: expected at most 268435456 pixels"},
@@ -389,6 +389,88 @@ TEST_CASE("info says what is in a scene") {
     CHECK(j["quadrics"] == 0);
     CHECK(j["parameters"]["r"] == "0.1");
     CHECK(j["image"]["width"] == 60);
+}
+
+TEST_CASE("info rounds away what a box reaches too far, and minus zero") {
+    const Place place;
+    const std::string scene = place / "s.lua";
+    const auto bounds = [&](const std::string& solid) {
+        write_file(scene, "return { solids = { " + solid + " } }");
+        const std::string out = run({"info", scene}).out;
+        const std::size_t at = out.find(" in [");
+        return out.substr(at + 4, out.find('\n', at) - at - 4);
+    };
+    CHECK(bounds("cube()") == "[0, 1] x [0, 1] x [0, 1]");
+    CHECK(bounds("cube():translate(0, 0, -1)") == "[0, 1] x [0, 1] x [-1, 0]");
+    CHECK(bounds("halfspace({0, 1, 0}, 0)") == "[-inf, inf] x [-inf, 0] x [-inf, inf]");
+    CHECK(bounds("halfspace({0, 1, 0}, 1e-9)") == "[-inf, inf] x [-inf, 1e-09] x [-inf, inf]");
+    CHECK(bounds("box({0, -0.015, 0}, {110, 0, 83.185})") == "[0, 110] x [-0.015, 0] x [0, 83.185]");
+    CHECK(bounds("box({0, 1e-7, -3e-7}, {1e-6, 2e-6, 0})") == "[0, 1e-06] x [1e-07, 2e-06] x [-3e-07, 0]");
+    CHECK(bounds("box({0, -1e12, 0}, {3e14, 123456, 7})") == "[0, 3e+14] x [-1e+12, 0] x [0, 0]");
+    CHECK(bounds("ellipsoid{ center = {0, 2, 0}, radius = 2 }") == "[-2, 2] x [0, 4] x [-2, 2]");
+    const auto j = nlohmann::json::parse(run({"info", "--json", scene}).out);
+    CHECK(j["solids"][0]["bounds"]["lo"].dump() == "[-2.0,0.0,-2.0]");
+}
+
+TEST_CASE("no name and no text of a scene reaches the terminal as a control character") {
+    const Place place;
+    const std::string scene = place / "a\33[31m.lua", title = "\33]0;owned\7\302\233";
+    write_file(scene,
+               "print('\\27]0;printed\\7', 'a\\nb') local s = '\\27]0;owned\\7\\194\\155'\n"
+               "return { solids = { rounded(param(s, 0.1), cube()):name(s) } }");
+    const auto is_clean = [](const std::string& text) {
+        return text.find_first_of("\33\7\177") == std::string::npos && text.find("\302\233") == std::string::npos;
+    };
+    const Outcome info = run({"info", scene});
+    CHECK(info.code == 0);
+    CHECK(is_clean(info.out));
+    CHECK(is_clean(info.err));
+    CHECK(info.err == "\\x1b]0;printed\\x07\ta\nb\n");
+    CHECK(info.out.find("scene         ") == 0);
+    CHECK(info.out.find("a\\x1b[31m.lua\n") != std::string::npos);
+    CHECK(info.out.find("\\x1b]0;owned\\x07\\u{9b}: 6 half-spaces") != std::string::npos);
+    CHECK(info.out.find("parameter     \\x1b]0;owned") != std::string::npos);
+    const Outcome json = run({"info", "--json", scene});
+    CHECK(is_clean(json.out));
+    CHECK(nlohmann::json::parse(json.out)["solids"][0]["name"] == title);
+    const Outcome mesh = run({"mesh", scene, "--stats", "-q"});
+    CHECK(mesh.code == 0);
+    CHECK(is_clean(mesh.out));
+    write_file(scene, "error('\\27[2J')");
+    const Outcome wrong = run({"info", scene});
+    CHECK(wrong.code == 2);
+    CHECK(is_clean(wrong.err));
+    CHECK(wrong.err.find("a\\x1b[31m.lua:1: \\x1b[2J\n") != std::string::npos);
+    CHECK(is_clean(run({"info", "\33[31m.lua"}).err));
+    CHECK(is_clean(run({"\33[31m"}).err));
+}
+
+TEST_CASE("a scene is read once, so that it may come from a pipe") {
+    const Place place;
+    const auto shell = [](const std::string& command) {
+        return WEXITSTATUS(std::system(("bash -c \"" + command + "\"").c_str()));
+    };
+    const std::string program = "'" DEBURR_PROGRAM "' ", output = " -q -o '" + place / "a.png" + "'";
+    CHECK(shell("cat '" + place.scene + "' | " + program + "render /dev/stdin" + output) == 0);
+    CHECK(Picture(place / "a.png").spec.width == 60);
+    CHECK(shell(program + "render <(cat '" + place.scene + "')" + output + " -D r=0.2") == 0);
+    CHECK(shell("mkfifo '" + place / "fifo" + "'; cat '" + place.scene + "' > '" + place / "fifo" + "' & " + program +
+                "info '" + place / "fifo" + "' > '" + place / "out" + "'") == 0);
+    CHECK(read_file(place / "out").find("60x40") != std::string::npos);
+    CHECK(shell(program + "info /dev/stdin < '" + place.scene + "' > /dev/null") == 0);
+    CHECK(shell(program + "info /dev/null 2> '" + place / "err" + "'") == 2);
+    CHECK(read_file(place / "err").find("deburr: /dev/null: scene: expected the chunk to return") == 0);
+}
+
+TEST_CASE("a scene that prints without an end stops at a limit") {
+    const Place place;
+    write_file(place / "p.lua", "local s = ('a'):rep(2^10) while true do pcall(print, s) end");
+    const Outcome o = run({"info", place / "p.lua"});
+    CHECK(o.code == 2);
+    CHECK(o.err.size() < (1 << 20) + 300);
+    const std::string last = o.err.substr(o.err.rfind('\n', o.err.size() - 2) + 1);
+    CHECK(last == "deburr: " + place / "p.lua" +
+                      ":1: expected a scene that prints at most 1048576 bytes, got one that prints more\n");
 }
 
 TEST_CASE("a density that is too entangled to be evaluated is not supported, and soon told") {

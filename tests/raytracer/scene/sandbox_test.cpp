@@ -75,7 +75,7 @@ TEST_CASE("what is wrong in a chunk is one line with file and line") {
     const Case c = GENERATE(values<Case>({
         {"local x = = 1", "s.lua:1: unexpected symbol near '='"},
         {"\n\nerror('stop')", "s.lua:3: stop"},
-        {"error('a\\nb\\0c')", "s.lua:1: a b c"},
+        {"error('a\\nb\\0c')", R"(s.lua:1: a\nb\x00c)"},
         {"error({})", "s.lua:1: expected an error with a message, got one with a table value"},
         {"error()", "s.lua:1: expected an error with a message, got one with a nil value"},
         {"error(42)", "s.lua:1: 42"},

@@ -245,7 +245,7 @@ TEST_CASE("the scene's table says what it expects, with the line that writes it"
         {"return { image = {\n height = 1.5 }, solids = { cube() } }",
          "s.lua:2: image.height: expected a whole number from 1 to 65536, got 1.5"},
         {"return { image = {\n spp = '4' }, solids = { cube() } }",
-         "s.lua:2: image.spp: expected a whole number from 1 to 65536, got '4'"},
+         "s.lua:2: image.spp: expected a whole number from 1 to 1048576, got '4'"},
         {"return {\n lights = point_light{ position = {0, 0, 0} }, solids = { cube() } }",
          "s.lua:2: lights: expected a list of lights, got a light"},
         {"return {\n lights = { cube() }, solids = { cube() } }",
@@ -288,7 +288,7 @@ TEST_CASE("expressions that grow beyond all bounds are refused at once") {
           "s.lua:4: solids: expected at most 4000000 half-spaces, got 6291456");
     CHECK(error_of("local t = {}\nfor i = 1, 1000 do t[i] = 0 end\nfor k = 1, 5 do local u = {}\n"
                    "for i = 1, 1000 do u[i] = t end t = u end\nreturn t") ==
-          "s.lua:5: scene: expected at most 5000000 values, got more");
+          "s.lua:5: expected a scene that needs at most 64 MiB, got one that needs more");
 }
 
 TEST_CASE("a file that is no scene says what it is") {

@@ -1,0 +1,92 @@
+// The same scene gives the same bytes on every run: neither a clock nor an address gets in.
+#include <set>
+
+#include "catch.hpp"
+#include "raytracer/scene/lua_sandbox.hpp"
+#include "raytracer/scene/lua_values.hpp"
+
+using namespace deburr;
+
+namespace {
+
+// The first result as text, or the error.
+std::string result_of(const std::string& text) {
+    try {
+        Sandbox sandbox;
+        const LuaValue value = read_value(sandbox.run(text, "s.lua"), 1, "result");
+        const auto* string = std::get_if<std::string>(&value);
+        return string ? *string : described(value);
+    } catch (const SceneError& error) {
+        return error.what();
+    }
+}
+
+}  // namespace
+
+TEST_CASE("no text of a value holds an address") {
+    CHECK(result_of("return tostring({}) .. ' ' .. tostring(print) .. ' ' .. tostring(function() end) .. ' ' ..\n"
+                    "tostring(coroutine.create(print))") == "table function function thread");
+    CHECK(result_of("return string.format('%s|%10s|%-9s|%.3s', {}, print, {}, print)") ==
+          "table|  function|table    |fun");
+    CHECK(result_of("return ('%d%%%s %5.1f'):format(3, nil, 2.25)") == "3%nil   2.2");
+    CHECK(result_of("return tostring(setmetatable({}, {__name = 'Wheel'}))") == "Wheel");
+    CHECK(result_of("return tostring(setmetatable({}, {__name = 3}))") == "table");
+    CHECK(result_of("return tostring(setmetatable({}, {__tostring = function() return 'own' end}))") == "own");
+    CHECK(result_of("return string.format('%s', setmetatable({}, {__tostring = function() return 'own' end}))") ==
+          "own");
+    CHECK(result_of("return tostring(setmetatable({}, {__tostring = function() return {} end}))") ==
+          "s.lua:1: '__tostring' must return a string");
+    CHECK(result_of("return tostring(1.5) .. tostring(7) .. tostring(nil) .. tostring(true)") == "1.57niltrue");
+    CHECK(result_of("tostring()") == "s.lua:1: bad argument #1 to 'tostring' (value expected)");
+    for (const std::string format : {"%p", "%5p", "%-20p", "a%%%p", "%s%p"})
+        CHECK_THAT(result_of("return string.format('" + format + "', {}, {})"),
+                   Catch::Matchers::StartsWith("s.lua:1: string.format: %p is not available in a scene"));
+    CHECK(result_of("return string.format('%')") == "s.lua:1: bad argument #2 to 'format' (no value)");
+    CHECK(result_of("string.format('%d', {})") == "s.lua:1: bad argument #2 to 'format' (number expected, got table)");
+}
+
+TEST_CASE("ties come out of table.sort in the same order on every run") {
+    // Partitions of so many equal and few extreme items are uneven: then Lua's own sort asks the clock.
+    const std::string text =
+        "local n, t = 20000, {}\n"
+        "for i = 1, n do t[i] = {10 + i % 7, i} end\n"
+        "t[1][1] = 0 t[5000][1] = 1 t[n][1] = 2\n"
+        "table.sort(t, function(a, b) return a[1] < b[1] end)\n"
+        "local h = 0 for i = 1, n do h = (h * 31 + t[i][2]) % 1000000007 end\n"
+        "for i = 2, n do assert(t[i - 1][1] <= t[i][1]) end\n"
+        "return '' .. h";
+    const std::string first = result_of(text);
+    CHECK(first == "52402346");
+    for (int i = 0; i < 3; ++i) CHECK(result_of(text) == first);
+}
+
+TEST_CASE("table.sort sorts, whatever the order before") {
+    for (const std::string item : {"i", "-i", "i % 7", "(i * 7919) % 1009", "math.abs(i - 500)", "-math.abs(i - 500)",
+                                   "0", "math.random(100)", "i & -i", "i ~ 341"})
+        for (const std::string size : {"0", "1", "2", "3", "4", "10", "99", "100", "101", "102", "1000", "5000"}) {
+            CAPTURE(item, size);
+            CHECK(result_of("local n, t, count = " + size +
+                            ", {}, {}\n"
+                            "for i = 1, n do t[i] = " +
+                            item +
+                            " count[t[i]] = (count[t[i]] or 0) + 1 end\n"
+                            "table.sort(t)\n"
+                            "for i = 1, n do assert(i == 1 or t[i - 1] <= t[i]) count[t[i]] = count[t[i]] - 1 end\n"
+                            "for _, c in pairs(count) do assert(c == 0) end\n"
+                            "table.sort(t, function(a, b) return a > b end)\n"
+                            "for i = 2, n do assert(t[i - 1] >= t[i]) end return 'sorted'") == "sorted");
+        }
+    CHECK(result_of("local t = {'b', 'a', 'c'} table.sort(t) return table.concat(t)") == "abc");
+    CHECK(result_of("table.sort({2, 1}, 3)") == "s.lua:1: bad argument #2 to 'sort' (function expected, got number)");
+    CHECK_THAT(result_of("local t = {} for i = 1, 300 do t[i] = i end table.sort(t, function() return true end)"),
+               Catch::Matchers::EndsWith("invalid order function for sorting"));
+    CHECK(result_of(
+              "local t = {} for i = 1, 300 do t[i] = i end table.sort(t, function() return false end) return 'ends'") ==
+          "ends");
+}
+
+TEST_CASE("the middle as pivot is the worst for no order that a scene is likely to have") {
+    // Comparisons for organ pipes, whose middle and ends are all extreme.
+    CHECK(result_of("local n, t, c = 100000, {}, 0 for i = 1, n do t[i] = math.min(i, n - i) end\n"
+                    "table.sort(t, function(a, b) c = c + 1 return a < b end) return tostring(c < 6000000)") == "true");
+}
