@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "polygonizer/mesh/union_find.hpp"
+#include "bounds/union_find.hpp"
 
 namespace deburr {
 namespace {

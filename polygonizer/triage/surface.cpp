@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cstdint>
 
+#include "bounds/union_find.hpp"
 #include "polygonizer/mesh/polygon_triangles.hpp"
-#include "polygonizer/mesh/union_find.hpp"
 #include "polygonizer/triage/boundary_polygons.hpp"
 
 namespace deburr {
