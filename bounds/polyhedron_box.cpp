@@ -91,12 +91,39 @@ bool maximize(const std::vector<Constraint<D>>& constraints, const std::array<do
     return true;
 }
 
+// A side of the box, scaled back. An unbounded program ends at `far`, or beside it after projections.
+double side(double value, double sign, double scale) {
+    if (sign * value > 0.5 * far) return sign * infinity;
+    return (value + sign * 1e-9 * std::max(1.0, std::abs(value))) * scale;
+}
+
+bool is_along_axis(const Vec3& n) { return (n.x != 0) + (n.y != 0) + (n.z != 0) == 1; }
+
+// The same where every plane is at right angles to an axis, and so is a side.
+Box axis_parallel_box(const std::vector<BoundPlane>& planes, double scale) {
+    Vec3 lo(-far), hi(far);
+    for (const BoundPlane& p : planes)
+        for (int k = 0; k < 3; ++k) {
+            if (p.normal[k] > 0) hi[k] = std::min(hi[k], p.offset / scale / p.normal[k]);
+            if (p.normal[k] < 0) lo[k] = std::max(lo[k], p.offset / scale / p.normal[k]);
+        }
+    Box box;
+    for (int k = 0; k < 3; ++k) {
+        if (lo[k] - hi[k] > feasible) return {};
+        box.lo[k] = side(lo[k], -1, scale);
+        box.hi[k] = side(hi[k], 1, scale);
+    }
+    return box;
+}
+
 }  // namespace
 
 Box polyhedron_box(const std::vector<BoundPlane>& planes) {
     double scale = 0;
     for (const BoundPlane& p : planes) scale = std::max(scale, std::abs(p.offset));
     if (!(scale > 0)) scale = 1;
+    if (std::all_of(planes.begin(), planes.end(), [](const BoundPlane& p) { return is_along_axis(p.normal); }))
+        return axis_parallel_box(planes, scale);
     std::vector<Constraint<3>> constraints;
     for (const BoundPlane& p : planes) constraints.push_back({{p.normal.x, p.normal.y, p.normal.z}, p.offset / scale});
     // Any fixed disorder makes the expected time linear.
@@ -112,13 +139,7 @@ Box polyhedron_box(const std::vector<BoundPlane>& planes) {
             goal[std::size_t(k)] = sign;
             Point<3> x;
             if (!maximize<3>(constraints, goal, x)) return {};
-            double value = x[std::size_t(k)];
-            // An unbounded program ends at `far`, or beside it after projections.
-            if (sign * value > 0.5 * far)
-                value = sign * infinity;
-            else
-                value = (value + sign * 1e-9 * std::max(1.0, std::abs(value))) * scale;
-            (sign > 0 ? box.hi : box.lo)[k] = value;
+            (sign > 0 ? box.hi : box.lo)[k] = side(x[std::size_t(k)], sign, scale);
         }
     return box;
 }
