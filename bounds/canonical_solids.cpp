@@ -1,15 +1,25 @@
 #include "bounds/canonical_solids.hpp"
 
 #include <algorithm>
+#include <cstring>
+#include <unordered_set>
 
 namespace deburr {
 namespace {
 
+const Affine identity;
+
 template <class... Values>
-std::string key_of(const Values&... values) {
-    std::string key;
+void append(std::string& key, const Values&... values) {
     (key.append(reinterpret_cast<const char*>(&values), sizeof values), ...);
-    return key;
+}
+
+// Most parts of long unions are not placed: what they are placed by is left out.
+void append_placed(std::string& key, const PlacedForm& part) {
+    append(key, part.form, part.material);
+    const bool placed = std::memcmp(&part.map, &identity, sizeof identity) != 0;
+    key.push_back(char(placed));
+    if (placed) append(key, part.map);
 }
 
 // Rounding knows lengths only. What floating point makes of a rotation deviates by a few ε.
@@ -67,32 +77,49 @@ int number_bottom_up(std::unordered_map<const void*, int>& known, const Handle& 
 
 }  // namespace
 
-int SolidForms::number(std::unordered_map<std::string, int>& all, const std::string& key, bool& fresh) {
-    const auto [at, is_new] = all.emplace(key, int(all.size()));
-    fresh = is_new;
-    return at->second;
+int SolidForms::Numbering::number_of_appended() {
+    const std::size_t start = ends_.empty() ? 0 : ends_.back();
+    ends_.push_back(bytes_.size());
+    const auto [at, is_new] = known_.insert(int(ends_.size()) - 1);
+    if (!is_new) {
+        ends_.pop_back();
+        bytes_.resize(start);
+    }
+    return *at;
 }
 
 int SolidForms::density(const Density& root) {
     return number_bottom_up(
         known_densities_, root,
         [](const Density& d, auto visit) {
-            for (const Density& child : d.node().children) visit(child);
+            for (const Density& child : d.node().children)
+                if (child.node().kind != DensityNode::Kind::half_space) visit(child);
         },
         [&](const Density& d) {
             const DensityNode& n = d.node();
-            std::string key =
-                n.kind == DensityNode::Kind::transform ? key_of(n.kind, n.map) : key_of(n.kind, n.normal, n.value);
-            for (const Density& child : n.children) key += key_of(known_densities_.at(&child.node()));
-            bool fresh;
-            return number(density_keys_, key, fresh);
+            std::string& key = density_keys_.bytes();
+            append(key, n.kind);
+            if (n.kind == DensityNode::Kind::transform)
+                append(key, n.map);
+            else
+                append(key, n.normal, n.value);
+            for (const Density& child : n.children) {  // half-spaces, of which there are most, need no number
+                const DensityNode& c = child.node();
+                const bool is_half_space = c.kind == DensityNode::Kind::half_space;
+                key.push_back(char(is_half_space));
+                if (is_half_space)
+                    append(key, c.normal, c.value);
+                else
+                    append(key, known_densities_.at(&c));
+            }
+            return density_keys_.number_of_appended();
         });
 }
 
 int SolidForms::rounded(const SolidNode& node, const Density& of) {
-    bool fresh;
-    const int form = number(solid_keys_, key_of(node.kind, node.radius, node.convolved, density(of)), fresh);
-    if (fresh)
+    append(solid_keys_.bytes(), node.kind, node.radius, node.convolved, density(of));
+    const int form = solid_keys_.number_of_appended();
+    if (std::size_t(form) == solids_.size())
         solids_.push_back(node.convolved ? Solid::convolved(node.radius, of, node.line)
                                          : Solid::rounded(node.radius, of, node.line));
     return form;
@@ -109,14 +136,12 @@ int SolidForms::base(const Solid& root) {
             }
         },
         [&](const Solid& s) {
-            std::string key = key_of(s.node().kind, s.node().field.get());
-            for (const Solid& child : s.node().children) {
-                const PlacedForm part = of(child);
-                key += key_of(part.form, part.map, part.material);
-            }
-            bool fresh;
-            const int form = number(solid_keys_, key, fresh);
-            if (fresh) solids_.push_back(s);
+            std::vector<PlacedForm> parts;  // before the key is begun: a part may have to be numbered
+            for (const Solid& child : s.node().children) parts.push_back(of(child));
+            append(solid_keys_.bytes(), s.node().kind, s.node().field.get());
+            for (const PlacedForm& part : parts) append_placed(solid_keys_.bytes(), part);
+            const int form = solid_keys_.number_of_appended();
+            if (std::size_t(form) == solids_.size()) solids_.push_back(s);
             return form;
         });
 }
@@ -132,6 +157,18 @@ PlacedForm SolidForms::of(const Solid& solid) {
         to.form = base(at);  // at once, where base() is under way: it has numbered the parts
     }
     return to;
+}
+
+double half_spaces_to_lay_out(const std::vector<Solid>& solids) {
+    std::unordered_set<const SolidNode*> met;
+    double sum = 0;
+    const auto enter = [&](const SolidNode& node) {
+        if (!met.insert(&node).second) return false;
+        if (is_laid_out(node)) sum += node.leaves;
+        return !is_laid_out(node);
+    };
+    for_each_leaf(solids, enter, [](const Solid&, const Affine&) {});
+    return sum;
 }
 
 }  // namespace deburr

@@ -23,7 +23,7 @@ public:
     /// Product of six half-spaces; lo < hi on each axis.
     static Density box(Vec3 lo, Vec3 hi);
     /// Product of all; at least one.
-    static Density product(const std::vector<Density>& parts);
+    static Density product(std::vector<Density> parts);
 
     /// The papers' arithmetic. `line` is the scene's line that wrote it, for messages; 0 unknown.
     static Density sum(Density a, Density b, int line = 0);
@@ -60,12 +60,13 @@ struct DensityNode {
     enum class Kind { half_space, sum, product, difference, disjunction, conjunction, complement, radius, transform };
     Kind kind = Kind::half_space;
     std::vector<Density> children;
-    Vec3 normal{0.0};         // half_space: unit
-    double value = 0.0;       // half_space: offset; radius: r
-    Affine map;               // transform
-    int line = 0;             // sum, product, difference: place in the scene
-    bool has_radius = false;  // radius, or anything below it
-    double leaves = 1.0;      // half-spaces below, counted once per use; may overflow to infinity
+    Vec3 normal{0.0};             // half_space: unit
+    double value = 0.0;           // half_space: offset; radius: r
+    Affine map;                   // transform
+    int line = 0;                 // sum, product, difference: place in the scene
+    bool has_radius = false;      // radius, or anything below it
+    bool may_be_illegal = false;  // a sum or difference is in it that no Boolean operator is above
+    double leaves = 1.0;          // half-spaces below, counted once per use; may overflow to infinity
 
     DensityNode() = default;
     DensityNode(const DensityNode&) = delete;

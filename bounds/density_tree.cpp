@@ -1,5 +1,9 @@
 #include "bounds/density_tree.hpp"
 
+#include <cstdint>
+#include <iomanip>
+#include <sstream>
+
 #include "bounds/expression.hpp"
 #include "bounds/support.hpp"
 
@@ -135,6 +139,14 @@ private:
 
 }  // namespace
 
+TooManyHalfSpaces::TooManyHalfSpaces(double got)
+    : std::length_error([&] {
+          std::ostringstream text;
+          text << "expected a solid of at most " << std::int64_t(most_half_spaces)
+               << " half-spaces, those of shared parts counted once per use, got " << std::setprecision(7) << got;
+          return text.str();
+      }()) {}
+
 HalfSpace transformed(const HalfSpace& h, const Affine& map, bool carry_radius) {
     const Vec3 normal = glm::transpose(glm::inverse(map.linear)) * h.normal;
     const double length = glm::length(normal);
@@ -142,9 +154,8 @@ HalfSpace transformed(const HalfSpace& h, const Affine& map, bool carry_radius) 
             carry_radius ? h.radius / length : h.radius};
 }
 
-static DensityTree flatten(const Density& density, double radius, const Affine& to_world, bool convolved) {
-    if (density.node().leaves > most_half_spaces)
-        throw std::length_error("a density has more than 4 million half-spaces");
+static DensityTree without_supports(const Density& density, double radius, const Affine& to_world, bool convolved) {
+    if (density.node().leaves > most_half_spaces) throw TooManyHalfSpaces(density.node().leaves);
     DensityTree tree = Flattening().run(density.node(), {radius, Affine{}}, convolved);
     if (convolved) {
         for (HalfSpace& h : tree.half_spaces) h.radius = radius;
@@ -152,8 +163,17 @@ static DensityTree flatten(const Density& density, double radius, const Affine& 
         tree.ball = to_world.linear * radius;
     }
     for (HalfSpace& h : tree.half_spaces) h = transformed(h, to_world, true);
+    return tree;
+}
+
+static DensityTree flatten(const Density& density, double radius, const Affine& to_world, bool convolved) {
+    DensityTree tree = without_supports(density, radius, to_world, convolved);
     find_supports(tree);
     return tree;
+}
+
+std::vector<HalfSpace> flat_half_spaces(const Density& density, double radius, const Affine& to_world) {
+    return without_supports(density, radius, to_world, false).half_spaces;
 }
 
 DensityTree flatten(const Density& density, double radius, const Affine& to_world) {

@@ -69,13 +69,20 @@ struct DensityTree {
     ValueGradient gradient_at(Vec3 x) const;
 };
 
-/// A scene that asks for more half-spaces than this is refused.
+/// More half-spaces than this are not laid out at once.
 constexpr double most_half_spaces = 4e6;
+
+struct TooManyHalfSpaces : std::length_error {
+    explicit TooManyHalfSpaces(double got);
+};
 
 /// Rounds and places a density: radius r wherever the scene fixed none, then `to_world`. Below a Boolean operator
 /// + * - become ∨ ∧ ∧¬ [docs/design.md, Boolean densities]. Chains of one associative operator come out balanced, and
-/// bounded parts have their supports. Throws std::length_error past most_half_spaces.
+/// bounded parts have their supports. Throws TooManyHalfSpaces.
 DensityTree flatten(const Density& density, double radius, const Affine& to_world = {});
+
+/// The half-spaces of flatten() alone.
+std::vector<HalfSpace> flat_half_spaces(const Density& density, double radius, const Affine& to_world = {});
 
 /// The true convolution [Lobb eq. 1] by a ball of this radius > 0: all of the density is read as a
 /// Boolean function, and radii of its own are not looked at.

@@ -31,15 +31,49 @@ struct Candidate {
     Box box;
 };
 
+// The part of a tree below one of its nodes, as a tree of its own.
+DensityTree part_below(const DensityTree& tree, int root) {
+    std::vector<int> below{root};
+    for (std::size_t k = 0; k < below.size(); ++k) {
+        const TreeNode& n = tree.nodes[std::size_t(below[k])];
+        if (n.op == Op::half_space || n.op == Op::constant) continue;
+        below.push_back(n.a);
+        if (n.b >= 0) below.push_back(n.b);
+    }
+    std::sort(below.begin(), below.end());
+    const auto new_index = [&](int old) {
+        return int(std::lower_bound(below.begin(), below.end(), old) - below.begin());
+    };
+    DensityTree part;
+    for (const int i : below) {
+        TreeNode n = tree.nodes[std::size_t(i)];
+        if (n.op == Op::half_space) {
+            part.half_spaces.push_back(tree.half_spaces[std::size_t(n.a)]);
+            n.a = int(part.half_spaces.size()) - 1;
+        } else if (n.op != Op::constant) {
+            n.a = new_index(n.a);
+            if (n.b >= 0) n.b = new_index(n.b);
+        }
+        if (n.support >= 0) {
+            part.supports.push_back(tree.supports[std::size_t(n.support)]);
+            n.support = int(part.supports.size()) - 1;
+        }
+        part.nodes.push_back(n);
+    }
+    return part;
+}
+
 // Worst point found in [0, 1]'s outside; half of the boxes are taken widest first, half deepest
-// first: the one finds what is large, the other what is thin.
-IllegalDensity search(const DensityTree& tree, const Box& start, int boxes) {
+// first: the one finds what is large, the other what is thin. Ends once `nodes` is spent, and counts it down.
+IllegalDensity search(const DensityTree& tree, const Box& start, int boxes, std::int64_t& nodes) {
     IllegalDensity worst;
     double most = tolerance;
     std::deque<Candidate> open;
     const auto look = [&](const DensityTree& from, const Box& box) {
+        nodes -= std::int64_t(from.nodes.size());
         Pruned here = prune(from, box);
         if (excess(here.range.lo) <= most && excess(here.range.hi) <= most) return;
+        nodes -= 2 * std::int64_t(here.tree.nodes.size());
         const LocalDensity local(here.tree);
         const Range range = local.range(box);
         if (excess(range.lo) <= most && excess(range.hi) <= most) return;
@@ -54,7 +88,7 @@ IllegalDensity search(const DensityTree& tree, const Box& start, int boxes) {
         open.push_back({std::move(here.tree), box});
     };
     look(tree, start);
-    for (int n = 0; n < boxes && !open.empty(); n += 2) {
+    for (int n = 0; n < boxes && !open.empty() && nodes > 0; n += 2) {
         const bool widest = n < boxes / 2;
         const Candidate now = widest ? std::move(open.front()) : std::move(open.back());
         widest ? open.pop_front() : open.pop_back();
@@ -71,31 +105,58 @@ IllegalDensity search(const DensityTree& tree, const Box& start, int boxes) {
     return worst;
 }
 
-}  // namespace
-
-std::vector<IllegalDensity> find_illegal(const DensityTree& tree, int boxes) {
-    const auto suspect = [](Op op) { return op == Op::sum || op == Op::difference; };
-    // Partial sums of a chain are no more than the whole.
+// The nodes to search. Of a chain that one line wrote only the whole is: partial sums are no more than it,
+// partial differences no less, unless an operand is illegal by itself.
+std::vector<int> suspects(const DensityTree& tree) {
     std::vector<char> covered(tree.nodes.size(), false);
-    for (const TreeNode& n : tree.nodes)
-        if (n.op == Op::sum)
-            for (const int child : {n.a, n.b}) {
-                const TreeNode& c = tree.nodes[std::size_t(child)];
-                if (c.op == Op::sum && c.line == n.line) covered[std::size_t(child)] = true;
-            }
-    std::vector<IllegalDensity> found;
+    for (const TreeNode& n : tree.nodes) {
+        const auto cover = [&](int child) {
+            const TreeNode& c = tree.nodes[std::size_t(child)];
+            if (c.op == n.op && c.line == n.line) covered[std::size_t(child)] = true;
+        };
+        if (n.op == Op::sum) cover(n.b);
+        if (n.op == Op::sum || n.op == Op::difference) cover(n.a);
+    }
+    std::vector<int> all;
+    for (std::size_t i = 0; i < tree.nodes.size(); ++i)
+        if ((tree.nodes[i].op == Op::sum || tree.nodes[i].op == Op::difference) && !covered[i]) all.push_back(int(i));
+    return all;
+}
+
+// How many nodes there are in and below each.
+std::vector<std::int64_t> sizes(const DensityTree& tree) {
+    std::vector<std::int64_t> size(tree.nodes.size(), 1);
     for (std::size_t i = 0; i < tree.nodes.size(); ++i) {
         const TreeNode& n = tree.nodes[i];
-        if (!suspect(n.op) || covered[i]) continue;
-        DensityTree part = tree;
-        part.nodes.resize(i + 1);
-        Box start = reach_of(tree);
-        if (n.support >= 0) start = intersection(start, tree.supports[std::size_t(n.support)]);
+        if (n.op == Op::half_space || n.op == Op::constant) continue;
+        size[i] += size[std::size_t(n.a)] + (n.b >= 0 ? size[std::size_t(n.b)] : 0);
+    }
+    return size;
+}
+
+}  // namespace
+
+std::vector<IllegalDensity> find_illegal(const DensityTree& tree, LegalityEffort& effort) {
+    const std::vector<int> roots = suspects(tree);
+    std::vector<IllegalDensity> worst_of(roots.size());
+    const std::vector<std::int64_t> size = sizes(tree);
+    const Box reach = reach_of(tree);
+    for (std::size_t k = roots.size(); k-- > 0;) {  // the largest first
+        const TreeNode& n = tree.nodes[std::size_t(roots[k])];
+        if (size[std::size_t(roots[k])] > effort.nodes) continue;
+        const Box start = n.support >= 0 ? intersection(reach, tree.supports[std::size_t(n.support)]) : reach;
         if (start.empty()) continue;
-        IllegalDensity worst = search(part, start, boxes);
+        std::int64_t share = effort.nodes / std::int64_t(k + 1);
+        effort.nodes -= share;
+        share -= size[std::size_t(roots[k])];
+        worst_of[k] = search(part_below(tree, roots[k]), start, effort.boxes, share);
+        effort.nodes += share;  // what is left of it
+        worst_of[k].op = n.op;
+        worst_of[k].line = n.line;
+    }
+    std::vector<IllegalDensity> found;
+    for (const IllegalDensity& worst : worst_of) {
         if (excess(worst.value) <= tolerance) continue;
-        worst.op = n.op;
-        worst.line = n.line;
         const auto same = std::find_if(found.begin(), found.end(), [&](const IllegalDensity& f) {
             return f.line == worst.line && f.op == worst.op;
         });

@@ -8,6 +8,8 @@
 // Not promised: that every illegal density is found. A search that ends with its boxes spent has
 // merely found nothing.
 #pragma once
+#include <cstdint>
+#include <limits>
 #include <vector>
 
 #include "bounds/density_tree.hpp"
@@ -21,8 +23,18 @@ struct IllegalDensity {
     double value = 0;  // ρ there
 };
 
-/// The sums and differences of the tree that leave [0, 1], the worst point found of each line;
-/// `boxes` at most are looked at for each.
-std::vector<IllegalDensity> find_illegal(const DensityTree& tree, int boxes);
+/// How long to look: at so many boxes for each operator, and at so many tree nodes in all, which are shared
+/// evenly. `nodes` is counted down; once it is spent, what is left of the operators is not looked at.
+struct LegalityEffort {
+    int boxes = 0;
+    std::int64_t nodes = std::numeric_limits<std::int64_t>::max();
+};
+
+/// The sums and differences of the tree that leave [0, 1], the worst point found of each line.
+std::vector<IllegalDensity> find_illegal(const DensityTree& tree, LegalityEffort& effort);
+inline std::vector<IllegalDensity> find_illegal(const DensityTree& tree, int boxes) {
+    LegalityEffort effort{boxes};
+    return find_illegal(tree, effort);
+}
 
 }  // namespace deburr

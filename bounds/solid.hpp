@@ -61,4 +61,11 @@ struct SolidNode {
     ~SolidNode();
 };
 
+/// Whether the node's leaves are laid out together, each once per use. Unions and placements share theirs.
+inline bool is_laid_out(const SolidNode& node) {
+    using Kind = SolidNode::Kind;
+    return node.kind == Kind::rounded || node.kind == Kind::field || node.kind == Kind::intersect ||
+           node.kind == Kind::subtract;
+}
+
 }  // namespace deburr

@@ -151,7 +151,7 @@ bool SolidTree::contains(Vec3 x) const {
 }
 
 SolidTree flatten(const Solid& solid) {
-    if (solid.node().leaves > most_half_spaces) throw std::length_error("a solid has more than 4 million half-spaces");
+    if (solid.node().leaves > most_half_spaces) throw TooManyHalfSpaces(solid.node().leaves);
     return Flattening().run(solid.node());
 }
 

@@ -42,7 +42,7 @@ struct SingularPlacement : std::domain_error {
     int line;  // of the leaf; 0 unknown
 };
 
-/// Throws std::length_error past most_half_spaces, and SingularPlacement.
+/// Throws TooManyHalfSpaces and SingularPlacement.
 SolidTree flatten(const Solid& solid);
 
 }  // namespace deburr

@@ -140,6 +140,8 @@ int answer(int argc, char** argv, const std::vector<Command (*)(CLI::App&)>& mor
         return fail(3, error.what());
     } catch (const TooEntangled& error) {
         return fail(3, error.what());
+    } catch (const TooManyHalfSpaces& error) {
+        return fail(3, error.what());
     } catch (const std::bad_alloc&) {
         return fail(1, "out of memory");
     } catch (const std::exception& error) {

@@ -91,6 +91,9 @@ bool is_ordinary(const Affine& map) {
     return fine;
 }
 
+// Of more, what is wrong is told when the solids are laid out.
+constexpr std::int64_t most_nodes_checked = 20'000'000;
+
 // What only shows once all placements of a solid are taken together. A leaf that is ordinary once
 // it is placed by an ordinary map is one wherever such a map places it.
 void check_placements(const Scene& scene) {
@@ -98,17 +101,18 @@ void check_placements(const Scene& scene) {
     const auto check = [&](const Solid& leaf, const Affine& map) {
         const bool fine = is_ordinary(map);
         if (fine && ordinary.count(&leaf.node())) return;
-        const SolidTree tree = flatten(leaf.transformed(map));
+        const SolidNode& node = leaf.node();
         bool all = fine;
-        for (const HalfSpace& h : tree.leaves[0].density.half_spaces)
-            all &= is_ordinary(h.offset) && is_ordinary(h.radius);
-        if (all) ordinary.insert(&leaf.node());
+        if (node.kind == SolidNode::Kind::rounded)
+            for (const HalfSpace& h : flat_half_spaces(node.density[0], node.radius, map))
+                all &= is_ordinary(h.offset) && is_ordinary(h.radius) && std::isfinite(glm::length(h.normal));
+        if (!all || node.field) flatten(leaf.transformed(map));  // says so where it leaves no planes
+        if (all) ordinary.insert(&node);
     };
     try {
-        for (const Solid& solid : scene.solids) {
-            if (solid.node().leaves > most_half_spaces) flatten(solid);  // says so
-            for_each_leaf(solid, check);
-        }
+        std::int64_t nodes_left = most_nodes_checked;
+        for_each_leaf(
+            scene.solids, [&](const SolidNode&) { return nodes_left-- > 0; }, check);
     } catch (const SingularPlacement& error) {
         const std::string where = error.line > 0 ? fmt::format("{}:{}", scene.file, error.line) : scene.file;
         throw SceneError(fmt::format("{}: {}", where, error.what()));

@@ -55,7 +55,8 @@ const SceneObject* SceneBuilder::keep(SceneObject object) {
     const auto* solid = as<Solid>(&object);
     keep_parts(sizeof(SceneObject) + (density ? node_bytes(density->node()) : solid ? node_bytes(solid->node()) : 0));
     if (density) check_size(density->node().leaves);
-    if (solid) check_size(solid->node().leaves);
+    // Unions share what is placed again and again; other operators lay out all that is below them.
+    if (solid && is_laid_out(solid->node())) check_size(solid->node().leaves);
     return &objects_.emplace_back(std::move(object));
 }
 

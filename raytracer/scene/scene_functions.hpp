@@ -84,7 +84,7 @@ public:
     const std::vector<Material>& materials() const { return materials_; }
     const std::map<std::string, std::string>& parameters() const { return parameters_; }
 
-    /// Throws if an expression has more than most_half_spaces.
+    /// Throws if there are more than most_half_spaces.
     static void check_size(double half_spaces);
     /// Counts parts; throws if all take more than they may.
     void keep_parts(std::size_t bytes);

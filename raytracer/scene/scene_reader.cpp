@@ -9,6 +9,7 @@
 #include <filesystem>
 #include <memory>
 
+#include "bounds/canonical_solids.hpp"
 #include "raytracer/scene/scene_functions.hpp"
 #include "raytracer/scene/source_lines.hpp"
 #include "raytracer/util/printable.hpp"
@@ -80,7 +81,6 @@ void read_solids(const LuaValue& value, SceneBuilder& builder, Scene& scene) {
     const LuaTable* table = as_table(value);
     if (!table || !table->fields.empty() || table->list.empty())
         expected("solids", "a list of at least one solid", value);
-    double half_spaces = 0;
     for (const LuaValue& item : table->list) {
         const std::string place = fmt::format("solids[{}]", scene.solids.size() + 1);
         const SceneObject* object = as_object(item);
@@ -90,8 +90,8 @@ void read_solids(const LuaValue& value, SceneBuilder& builder, Scene& scene) {
         const std::string name = object->name ? *object->name : "";
         builder.memory->take_text(name.size());
         scene.names.push_back(name);
-        half_spaces += scene.solids.back().node().leaves;
     }
+    const double half_spaces = half_spaces_to_lay_out(scene.solids);
     if (half_spaces > most_half_spaces)
         throw BadValue("solids", fmt::format("expected at most {} half-spaces, got {}", most_half_spaces, half_spaces));
 }

@@ -63,3 +63,24 @@ TEST_CASE("what is called illegal is, at the point that is named; what is legal 
     CHECK(illegal > 150);
     CHECK(legal == 800);
 }
+
+TEST_CASE("a search costs no more tree nodes than it may, however many operators there are") {
+    const auto chain = [](int count, bool one_line) {
+        Density d = cube;
+        for (int i = 1; i <= count; ++i)
+            d = Density::difference(d, Density::box(Vec3(i, 0, 0), Vec3(i + 1, 1, 1)), one_line ? 1 : i);
+        return flatten(d, 0.1);
+    };
+    for (const bool one_line : {false, true}) {
+        CAPTURE(one_line);
+        const DensityTree tree = chain(2'000, one_line);
+        LegalityEffort effort{20'000, 2'000'000};
+        const std::vector<IllegalDensity> found = find_illegal(tree, effort);
+        REQUIRE(!found.empty());
+        for (const IllegalDensity& d : found) CHECK(d.value < -0.5);
+        // The last look may pass the limit, but by no more than it takes.
+        CHECK(effort.nodes > -4 * std::int64_t(tree.nodes.size()));
+        // Of one line the whole chain is searched, and no part of it.
+        if (one_line) CHECK(effort.nodes > 1'000'000);
+    }
+}

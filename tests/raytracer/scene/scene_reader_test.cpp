@@ -1,5 +1,6 @@
 #include "raytracer/scene/scene_reader.hpp"
 
+#include "bounds/canonical_solids.hpp"
 #include "catch.hpp"
 
 using namespace deburr;
@@ -284,6 +285,15 @@ TEST_CASE("a hundred thousand parts in one expression are read and freed without
         "return { solids = { a, s } }");
     CHECK(scene.solids[0].node().leaves == 100'006);
     CHECK(scene.solids[1].node().leaves == 100'006);
+}
+
+TEST_CASE("half-spaces of what is placed again and again count once") {
+    const Scene scene = scene_of(
+        "local s = sharp(cube())\n"
+        "for i = 1, 40 do s = s | s:translate(2 ^ i, 0, 0) end\n"
+        "return { solids = { s } }");
+    CHECK(scene.solids[0].node().leaves == 6 * std::pow(2.0, 40));
+    CHECK(half_spaces_to_lay_out(scene.solids) == 6);
 }
 
 TEST_CASE("a first line for the shell and a byte order mark are passed over") {
