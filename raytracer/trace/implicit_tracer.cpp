@@ -11,7 +11,7 @@ namespace {
 // there what they mean here; distances along it are longer by `rate`.
 class Placed final : public Others {
 public:
-    Placed(const std::vector<Space>& all, const Space& space) : all_(all), space_(space) {}
+    Placed(const Spaces& all, const Space& space) : all_(all), space_(space) {}
 
     FoundSurface find(std::uint32_t number, const Ray& ray, double t_max, double end,
                       TraceCounters& counters) const override;
@@ -23,7 +23,7 @@ public:
 private:
     struct Entered;
 
-    const std::vector<Space>& all_;
+    const Spaces& all_;
     const Space& space_;
 };
 
@@ -31,12 +31,14 @@ private:
 struct Placed::Entered {
     Entered(const Placed& around, std::uint32_t number, std::size_t rays, TraceCounters& counters)
         : p(around.space_.placements[number]),
-          bsp(around.all_[std::size_t(p.space)].bsp),
-          others(around.all_, around.all_[std::size_t(p.space)]) {
+          space(around.all_[std::size_t(p.space)]),
+          bsp(space.bsp),
+          others(around.all_, space) {
         counters.placements += rays;
     }
 
     const Placement& p;
+    const Space& space;
     const BspTracer& bsp;
     Placed others;
 };
@@ -118,12 +120,8 @@ Lanes Placed::any_together(std::uint32_t number, const SeveralRays& rays, TraceC
 
 }  // namespace
 
-struct ImplicitTracer::Spaces {
-    std::vector<Space> all;
-};
-
 ImplicitTracer::ImplicitTracer(const std::vector<Solid>& solids, Criterion criterion, Search search, Accel accel)
-    : spaces_(new Spaces{build_spaces(solids, criterion, search, accel)}) {}
+    : spaces_(new Spaces(solids, criterion, search, accel)) {}
 
 ImplicitTracer::~ImplicitTracer() = default;
 
@@ -151,24 +149,24 @@ Hit hit_of(const FoundSurface& found, const Ray& ray) {
 
 Hit ImplicitTracer::first_hit(const Ray& ray, double t_max, TraceCounters& counters) const {
     ++counters.rays;
-    const Placed placed(spaces_->all, spaces_->all[0]);
-    return hit_of(spaces_->all[0].bsp.find(ray, t_max, counters, &placed), ray);
+    const Placed placed(*spaces_, (*spaces_)[0]);
+    return hit_of((*spaces_)[0].bsp.find(ray, t_max, counters, &placed), ray);
 }
 
 bool ImplicitTracer::occluded(const Ray& ray, double t_max, TraceCounters& counters) const {
     ++counters.shadow_rays;
-    const Placed placed(spaces_->all, spaces_->all[0]);
-    return spaces_->all[0].bsp.any(ray, t_max, counters, &placed);
+    const Placed placed(*spaces_, (*spaces_)[0]);
+    return (*spaces_)[0].bsp.any(ray, t_max, counters, &placed);
 }
 
 void ImplicitTracer::first_hits(std::span<const Ray> rays, Hit* hits, TraceCounters& counters) const {
     static const std::vector<double> endless(RayPacket::size, infinity);
     counters.rays += rays.size();
-    const Placed placed(spaces_->all, spaces_->all[0]);
+    const Placed placed(*spaces_, (*spaces_)[0]);
     FoundSurface found[RayPacket::size];
     for (std::size_t first = 0; first < rays.size(); first += RayPacket::size) {
         const auto packet = rays.subspan(first, std::min(rays.size() - first, std::size_t(RayPacket::size)));
-        spaces_->all[0].bsp.find({packet, endless, endless}, found, counters, &placed);
+        (*spaces_)[0].bsp.find({packet, endless, endless}, found, counters, &placed);
         for (std::size_t k = 0; k < packet.size(); ++k) hits[first + k] = hit_of(found[k], packet[k]);
     }
 }
@@ -176,11 +174,11 @@ void ImplicitTracer::first_hits(std::span<const Ray> rays, Hit* hits, TraceCount
 void ImplicitTracer::occlusions(std::span<const Ray> rays, std::span<const double> t_max, bool* occluded,
                                 TraceCounters& counters) const {
     counters.shadow_rays += rays.size();
-    const Placed placed(spaces_->all, spaces_->all[0]);
+    const Placed placed(*spaces_, (*spaces_)[0]);
     for (std::size_t first = 0; first < rays.size(); first += RayPacket::size) {
         const std::size_t count = std::min(rays.size() - first, std::size_t(RayPacket::size));
         const auto ends = t_max.subspan(first, count);
-        const Lanes any = spaces_->all[0].bsp.any({rays.subspan(first, count), ends, ends}, counters, &placed);
+        const Lanes any = (*spaces_)[0].bsp.any({rays.subspan(first, count), ends, ends}, counters, &placed);
         for (std::size_t k = 0; k < count; ++k) occluded[first + k] = any >> k & 1;
     }
 }
@@ -188,7 +186,12 @@ void ImplicitTracer::occlusions(std::span<const Ray> rays, std::span<const doubl
 BspStatistics ImplicitTracer::statistics() const {
     BspStatistics s;
     std::size_t local = 0;
-    for (const Space& space : spaces_->all) {
+    for (std::size_t i = 0; i < spaces_->size(); ++i) {
+        if (!spaces_->built(i)) {
+            ++s.spaces;
+            continue;
+        }
+        const Space& space = *spaces_->built(i);
         const Pieces& pieces = space.bsp.surfaces().pieces;
         s.placements += space.placements.size() + space.bsp.trees().size() - 1;
         std::uint32_t first = 0;  // piece of the tree

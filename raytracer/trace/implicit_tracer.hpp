@@ -12,6 +12,9 @@
 
 namespace deburr {
 
+class Spaces;
+
+/// Of what has been built so far (instances.hpp), but `spaces` of all.
 struct BspStatistics {
     std::size_t cells = 0, empty_cells = 0, flat_cells = 0;
     std::size_t half_spaces = 0;        // that the cells were made of
@@ -35,8 +38,7 @@ public:
     BspStatistics statistics() const;
 
 private:
-    struct Spaces;
-    std::unique_ptr<Spaces> spaces_;
+    std::unique_ptr<const Spaces> spaces_;
 };
 
 }  // namespace deburr

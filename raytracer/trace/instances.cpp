@@ -1,11 +1,13 @@
 #include "raytracer/trace/instances.hpp"
 
 #include <algorithm>
+#include <functional>
 #include <map>
 #include <unordered_map>
 
 #include "bounds/bounding_box.hpp"
 #include "bounds/canonical_solids.hpp"
+#include "bounds/union_find.hpp"
 #include "raytracer/util/in_parallel.hpp"
 
 namespace deburr {
@@ -23,6 +25,21 @@ constexpr double least_size = 0x1p-10;
 // Tolerances of a solid among larger ones are at least these ones' times this: cells must know their solids
 // further beyond their walls, by 2⁻³⁸, than a ray's place is off by, of the larger scale and a few times 2⁻⁵⁰.
 constexpr double least_share_of_scale = 0x1p-8;
+
+// The box of a union of more half-spaces is the hull of its operands' boxes; flattened, turned operands may have
+// a smaller one.
+constexpr double most_flattened = 4096;
+// So many spaces are built beforehand, with their statistics. Further ones of a single rounded density with few
+// half-spaces, which cannot fail, are built when a ray comes; a diagram of so few is never too large.
+constexpr std::size_t most_built_beforehand = 1000;
+constexpr double few_half_spaces = 12;
+
+bool is_quick_to_build(const Solid& solid) {
+    const SolidNode* node = &solid.node();
+    while (node->kind == SolidNode::Kind::transform || node->kind == SolidNode::Kind::material)
+        node = &node->children[0].node();
+    return node->kind == SolidNode::Kind::rounded && !node->convolved && node->leaves <= few_half_spaces;
+}
 
 double norm(const Mat3& m) { return std::sqrt(glm::dot(m[0], m[0]) + glm::dot(m[1], m[1]) + glm::dot(m[2], m[2])); }
 
@@ -57,6 +74,10 @@ public:
     }
 
     std::vector<PlannedSpace> spaces;
+    std::vector<Solid> later;  // each alone in a space; these are numbered after all others
+
+    /// What a placement's `space` is once the number of `spaces` is known: below the world, later ones are ~number.
+    int number_of(int space) const { return space < 0 ? int(spaces.size()) + ~space : space; }
 
 private:
     bool is_union(int form) const { return forms_.solid(form).node().kind == SolidNode::Kind::unite; }
@@ -68,9 +89,11 @@ private:
         return to;
     }
 
+    using Counts = std::unordered_map<int, double>;
+
     /// How often each form occurs, counting through unions.
-    std::map<int, double> occurrences(const std::vector<PlacedForm>& roots) {
-        std::map<int, double> count;
+    Counts occurrences(const std::vector<PlacedForm>& roots) {
+        Counts count;
         std::map<int, double, std::greater<int>> open;  // parts have lower numbers
         for (const PlacedForm& root : roots) open[root.form] += 1;
         while (!open.empty()) {
@@ -84,20 +107,60 @@ private:
         return count;
     }
 
-    /// In the form's own space.
-    const Box& box(int form) {
-        const auto [at, fresh] = boxes_.try_emplace(form);
-        if (fresh) at->second = bounding_box(flatten(forms_.solid(form)));
-        return at->second;
+    bool is_large_union(int form) const { return is_union(form) && forms_.solid(form).node().leaves > most_flattened; }
+
+    /// In the form's own space. Keeps a stack of its own, for unions may be long chains.
+    const Box& box(int root) {
+        std::vector<int> open{root};
+        while (!open.empty()) {
+            const int form = open.back();
+            if (boxes_.count(form)) {
+                open.pop_back();
+                continue;
+            }
+            if (!is_large_union(form)) {
+                boxes_[form] = bounding_box(flatten(forms_.solid(form)));
+                continue;
+            }
+            Box around;
+            bool known = true;
+            const Solid solid = forms_.solid(form);
+            for (const Solid& child : solid.node().children) {
+                const PlacedForm part = forms_.of(child);
+                const auto at = boxes_.find(part.form);
+                if (at == boxes_.end()) {
+                    open.push_back(part.form);
+                    known = false;
+                } else if (!at->second.empty()) {
+                    around = hull(around, placed_box(part.map, at->second));
+                }
+            }
+            if (known) boxes_[form] = around;
+        }
+        return boxes_.at(root);
+    }
+
+    static Box placed_box(const Affine& map, const Box& box) {
+        return box.finite() ? image(map, box) : Box::everything();
+    }
+
+    /// Finds the boxes of those forms that are no unions, several at once.
+    void find_boxes(const std::vector<PlacedForm>& all) {
+        std::vector<std::pair<const int, Box>*> open;
+        for (const PlacedForm& p : all)
+            if (!is_union(p.form))
+                if (const auto [at, is_new] = boxes_.try_emplace(p.form); is_new) open.push_back(&*at);
+        in_parallel(open.size(),
+                    [&](std::size_t i) { open[i]->second = bounding_box(flatten(forms_.solid(open[i]->first))); });
     }
 
     /// The operands of a union, as far down as unions occur once.
-    std::vector<PlacedForm> operands(const PlacedForm& root, const std::map<int, double>& count) {
+    std::vector<PlacedForm> operands(const PlacedForm& root, const Counts& count) {
         std::vector<PlacedForm> open{root}, all;
         while (!open.empty()) {
             const PlacedForm now = open.back();
             open.pop_back();
-            if (!is_union(now.form) || (count.at(now.form) > 1 && now.form != root.form)) {
+            if (!is_union(now.form) || (now.form != root.form && count.at(now.form) > 1)) {
                 all.push_back(now);
                 continue;
             }
@@ -113,19 +176,49 @@ private:
         return placed.material < 0 ? solid : solid.material(placed.material);
     }
 
+    /// Which of the boxes nearly meet, directly or by way of others: ordered lists, that of the least number first.
+    static std::vector<std::vector<int>> clusters(const std::vector<Box>& boxes, double clear) {
+        BoxTree::Builder builder;
+        std::vector<int> items;
+        for (std::size_t i = 0; i < boxes.size(); ++i) items.push_back(builder.item(std::uint32_t(i), boxes[i]));
+        const BoxTree tree(builder, builder.join_by_area(std::move(items)));
+        UnionFind together(boxes.size());
+        for (std::size_t i = 0; i < boxes.size(); ++i) {
+            const Box near = inflated(boxes[i], clear);
+            tree.meeting(near, [&](std::uint32_t j) {
+                if (j < i || intersection(near, boxes[j]).empty()) return;
+                const int a = together.find(int(i)), b = together.find(int(j));
+                together.join(std::min(a, b), std::max(a, b));
+            });
+        }
+        std::vector<std::vector<int>> all;
+        std::vector<int> cluster_of(boxes.size(), -1);
+        for (std::size_t i = 0; i < boxes.size(); ++i) {
+            int& cluster = cluster_of[std::size_t(together.find(int(i)))];
+            if (cluster < 0) {
+                cluster = int(all.size());
+                all.emplace_back();
+            }
+            all[std::size_t(cluster)].push_back(int(i));
+        }
+        return all;
+    }
+
     /// Takes a union that occurs once apart; operands that meet stay together.
-    void take_apart(const PlacedForm& root, int solid, const std::map<int, double>& count, std::vector<Part>& parts) {
-        std::vector<PlacedForm> all;
-        if (count.at(root.form) > 1)
-            all.push_back(root);
-        else
-            all = operands(root, count);
+    void take_apart(const PlacedForm& root, int solid, const Counts& count, std::vector<Part>& parts) {
+        if (!is_union(root.form) || count.at(root.form) > 1) {
+            const Box own = box(root.form);
+            if (!own.empty()) parts.push_back({root, solid, placed_box(root.map, own)});
+            return;
+        }
+        std::vector<PlacedForm> all = operands(root, count);
+        find_boxes(all);
         std::erase_if(all, [&](const PlacedForm& p) { return box(p.form).empty(); });
         if (all.empty()) return;
         std::vector<Box> boxes;
         Box around;
         for (const PlacedForm& p : all) {
-            boxes.push_back(box(p.form).finite() ? image(p.map, box(p.form)) : Box::everything());
+            boxes.push_back(placed_box(p.map, box(p.form)));
             around = hull(around, boxes.back());
         }
         const bool bounded = std::all_of(boxes.begin(), boxes.end(), [](const Box& b) { return b.finite(); });
@@ -134,29 +227,9 @@ private:
             return;
         }
         const double clear = std::max(largest(around.lo), largest(around.hi)) * 0x1p-30;  // more than any cell's margin
-        std::vector<int> group(all.size());
-        for (std::size_t i = 0; i < group.size(); ++i) group[i] = int(i);
-        const auto find = [&](int i) {
-            while (group[std::size_t(i)] != i) i = group[std::size_t(i)] = group[std::size_t(group[std::size_t(i)])];
-            return i;
-        };
-        BoxTree::Builder builder;
-        std::vector<int> items;
-        for (std::size_t i = 0; i < all.size(); ++i) items.push_back(builder.item(std::uint32_t(i), boxes[i]));
-        const BoxTree tree(builder, builder.join_by_area(std::move(items)));
-        for (std::size_t i = 0; i < all.size(); ++i) {
-            const Box near = inflated(boxes[i], clear);
-            tree.meeting(near, [&](std::uint32_t j) {
-                if (intersection(near, boxes[j]).empty()) return;
-                const int a = find(int(i)), b = find(int(j));
-                group[std::size_t(std::max(a, b))] = std::min(a, b);
-            });
-        }
-        std::map<int, std::vector<std::size_t>> together;
-        for (std::size_t i = 0; i < all.size(); ++i) together[find(int(i))].push_back(i);
-        for (const auto& [first, members] : together) {
-            Part part{all[members[0]], solid, {}};
-            for (const std::size_t i : members) part.box = hull(part.box, boxes[i]);
+        for (const std::vector<int>& members : clusters(boxes, clear)) {
+            Part part{all[std::size_t(members[0])], solid, {}};
+            for (const int i : members) part.box = hull(part.box, boxes[std::size_t(i)]);
             if (members.size() == all.size())
                 part.placed = root;
             else if (members.size() > 1)
@@ -165,9 +238,9 @@ private:
         }
     }
 
-    const Solid& sum(const std::vector<PlacedForm>& all, const std::vector<std::size_t>& members) {
-        Solid to = solid_of(all[members[0]]);
-        for (std::size_t k = 1; k < members.size(); ++k) to = to | solid_of(all[members[k]]);
+    const Solid& sum(const std::vector<PlacedForm>& all, const std::vector<int>& members) {
+        Solid to = solid_of(all[std::size_t(members[0])]);
+        for (std::size_t k = 1; k < members.size(); ++k) to = to | solid_of(all[std::size_t(members[k])]);
         sums_.push_back(to);  // forms look at it later
         return sums_.back();
     }
@@ -186,10 +259,11 @@ private:
         }
         std::vector<PlacedForm> roots;
         for (const Solid& s : solids) roots.push_back(forms_.of(s));
-        const std::map<int, double> count = occurrences(roots);
+        const Counts count = occurrences(roots);
+        find_boxes(roots);
         std::vector<Part> parts;
         for (std::size_t i = 0; i < roots.size(); ++i) take_apart(roots[i], int(i), count, parts);
-        std::map<int, int> uses;
+        std::unordered_map<int, int> uses;
         Box around;
         for (const Part& part : parts) {
             ++uses[part.placed.form];
@@ -224,14 +298,19 @@ private:
         Affine centred;  // of the placed space in the form's
         if (std::max(largest(own.lo), largest(own.hi)) > farthest * largest(sides))
             centred.shift = 0.5 * (own.lo + own.hi);
-        auto [at, fresh] = space_of_.try_emplace(form, int(spaces.size()));
-        const int number = at->second;
-        if (fresh) {
-            spaces.emplace_back();
+        const auto [at, is_new] = space_of_.try_emplace(form, int(spaces.size()));
+        if (is_new) {
+            const Affine to_middle{Mat3(1.0), -centred.shift};
             const Solid solid = forms_.solid(form);
-            fill(number, {centred.shift == Vec3(0.0) ? solid : solid.transformed({Mat3(1.0), -centred.shift})},
-                 depth + 1);
+            if (spaces.size() >= most_built_beforehand && is_quick_to_build(solid)) {
+                at->second = ~int(later.size());
+                later.push_back(solid.transformed(to_middle).material(-1));
+            } else {
+                spaces.emplace_back();
+                fill(at->second, {centred.shift == Vec3(0.0) ? solid : solid.transformed(to_middle)}, depth + 1);
+            }
         }
+        const int number = space_of_.at(form);
         const Affine map = compose(part.placed.map, centred);
         const Affine into = inverse(map);
         spaces[std::size_t(space)].placements.push_back(
@@ -246,11 +325,15 @@ private:
 
 }  // namespace
 
-std::vector<Space> build_spaces(const std::vector<Solid>& solids, Criterion criterion, Search search, Accel accel) {
+Spaces::Spaces(const std::vector<Solid>& solids, Criterion criterion, Search search, Accel accel)
+    : criterion_(criterion), search_(search), accel_(accel) {
     Plan plan(solids);
-    std::vector<Space> spaces(plan.spaces.size());
-    in_parallel(spaces.size(), [&](std::size_t i) {
+    later_ = std::move(plan.later);
+    spaces_ = std::vector<std::atomic<const Space*>>(plan.spaces.size() + later_.size());
+    std::vector<std::unique_ptr<const Space>> all(plan.spaces.size());
+    in_parallel(all.size(), [&](std::size_t i) {
         PlannedSpace& planned = plan.spaces[i];
+        for (Placement& p : planned.placements) p.space = plan.number_of(p.space);
         std::vector<NamedBsp> bsps(planned.groups.size());
         const auto build = [&](std::size_t k, double least_scale) {
             bsps[k] = {build_bsp(planned.groups[k].solids, search, least_scale), std::move(planned.groups[k].numbers)};
@@ -258,10 +341,28 @@ std::vector<Space> build_spaces(const std::vector<Solid>& solids, Criterion crit
         build(0, 0);
         const double scale = std::max(bsps[0].tree.tolerances.scale, planned.reach);
         in_parallel(bsps.size() - 1, [&](std::size_t k) { build(k + 1, least_share_of_scale * scale); });
-        spaces[i] = {BspTracer(std::move(bsps), planned.boxes, criterion, accel), std::move(planned.placements)};
-        spaces[i].bsp.others_lie_at(spaces[i].placements.data(), sizeof(Placement));
+        auto space = std::make_unique<Space>(
+            Space{BspTracer(std::move(bsps), planned.boxes, criterion, accel), std::move(planned.placements)});
+        space->bsp.others_lie_at(space->placements.data(), sizeof(Placement));
+        all[i] = std::move(space);
     });
-    return spaces;
+    for (std::size_t i = 0; i < all.size(); ++i) spaces_[i] = all[i].release();
+}
+
+Spaces::~Spaces() {
+    for (const auto& space : spaces_) delete space.load();
+}
+
+// No lock: a thread that waits for one could have been given work that needs it. Of several that build a space at
+// the same time the first one's is kept, and all are the same.
+const Space& Spaces::build(std::size_t i) const {
+    const std::size_t beforehand = spaces_.size() - later_.size();
+    std::vector<NamedBsp> alone(1);
+    alone[0] = {build_bsp({later_[i - beforehand]}, search_), {0}};
+    auto space = std::make_unique<const Space>(Space{BspTracer(std::move(alone), {}, criterion_, accel_), {}});
+    const Space* there = nullptr;
+    if (spaces_[i].compare_exchange_strong(there, space.get())) there = space.release();
+    return *there;
 }
 
 }  // namespace deburr

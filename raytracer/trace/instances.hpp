@@ -6,6 +6,7 @@
 // by a map that squeezes much, shares one BSP. A union is taken apart where its operands' boxes keep clear
 // of each other, for there its surface is theirs.
 #pragma once
+#include <atomic>
 #include <vector>
 
 #include "raytracer/trace/surface_tracer.hpp"
@@ -30,8 +31,34 @@ struct Space {
     Placements placements;
 };
 
-/// Materials that are still to be named are −1. The result does not depend on the number of threads.
-std::vector<Space> build_spaces(const std::vector<Solid>& solids, Criterion criterion, Search search,
-                                Accel accel = Accel::bsp);
+/// The world (the first) and all that is placed, in spaces of their own. Materials that are still to be named are
+/// −1.
+///
+/// Of very many forms those that are quick to build are built by the first ray that enters their space, for most of
+/// them are seldom seen. Whoever builds it, a space is the same: no result depends on the number of threads.
+class Spaces {
+public:
+    Spaces(const std::vector<Solid>& solids, Criterion criterion, Search search, Accel accel = Accel::bsp);
+    ~Spaces();
+    Spaces(const Spaces&) = delete;
+    Spaces& operator=(const Spaces&) = delete;
+
+    std::size_t size() const { return spaces_.size(); }
+    const Space& operator[](std::size_t i) const {
+        const Space* space = spaces_[i].load(std::memory_order_acquire);
+        return space ? *space : build(i);
+    }
+    /// Null if it has not been built yet.
+    const Space* built(std::size_t i) const { return spaces_[i].load(std::memory_order_acquire); }
+
+private:
+    const Space& build(std::size_t i) const;
+
+    Criterion criterion_;
+    Search search_;
+    Accel accel_;
+    std::vector<Solid> later_;  // of the last spaces
+    mutable std::vector<std::atomic<const Space*>> spaces_;
+};
 
 }  // namespace deburr

@@ -256,3 +256,39 @@ TEST_CASE("a hundred thousand placements cost a ray no more than three times wha
     const double few = placements_per_ray(5, 4), many = placements_per_ray(50, 40);
     CHECK(many <= 3 * few);
 }
+
+TEST_CASE("unions of unions are placed, not copied: a million blocks are 300 placements") {
+    Solid all = block();
+    for (int axis = 0; axis < 3; ++axis) {
+        const Solid row = all;
+        for (int i = 1; i < 100; ++i) {
+            Vec3 to(0);
+            to[axis] = 2 * i;
+            all = all | row.transformed({Mat3(1.0), to});
+        }
+    }
+    CHECK(all.node().leaves == 6e6);
+    const ImplicitTracer tracer({all});
+    CHECK(tracer.statistics().placements == 300);
+    CHECK(tracer.statistics().half_spaces == 6);
+    TraceCounters counters;
+    CHECK(std::abs(tracer.first_hit({{100, 80, 300}, {0, 0, -1}}, infinity, counters).t - 101.5) < 1e-9);
+    CHECK(!tracer.first_hit({{101, 81, 300}, {0, 0, -1}}, infinity, counters));
+}
+
+TEST_CASE("of thousands of forms those that no ray enters are not built, and the others are right") {
+    std::vector<Solid> solids;
+    for (int i = 0; i < 1'500; ++i) {
+        const Vec3 half(0.3 + 1e-4 * i, 0.4, 0.5 - 1e-4 * i);
+        solids.push_back(Solid::rounded(0.1, Density::box(-half, half))
+                             .transformed(compose(shift(2 * (i % 40) + 100, 2 * (i / 40), 0), turn(i))));
+    }
+    const ImplicitTracer tracer(solids);
+    const BspStatistics before = tracer.statistics();
+    CHECK(before.spaces == 1'501);
+    CHECK(before.half_spaces < 6 * 1'001);
+    TraceCounters counters;
+    for (int i = 0; i < 10; ++i) CHECK(tracer.first_hit({{100 + 2 * i, 2 * 37, 9}, {0, 0, -1}}, infinity, counters));
+    CHECK(tracer.statistics().half_spaces == before.half_spaces + 6 * 10);
+    CHECK(same_as_one_bsp(solids, {99, -1, -1}, {180, 75, 1}, 2'000).hits > 500);
+}
