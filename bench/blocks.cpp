@@ -21,6 +21,17 @@ std::vector<Solid> blocks(int count) {
     return solids;
 }
 
+std::vector<Solid> different_blocks(int count) {
+    const int side = std::max(1, int(std::ceil(std::cbrt(count) - 1e-9)));
+    std::vector<Solid> solids;
+    for (int i = 0; i < count; ++i) {
+        const Vec3 half(0.25 + 0.1 * fraction(0.6180 * i), 0.25 + 0.1 * fraction(0.7549 * i), 0.3 + 1e-7 * i);
+        solids.push_back(Solid::rounded(0.05, Density::box(-half, half))
+                             .transformed({Mat3(1.0), Vec3(i % side, i / side % side, i / side / side)}));
+    }
+    return solids;
+}
+
 std::vector<Ray> rays_through(double side, int count) {
     std::vector<Ray> all;
     for (int n = 1; n <= count; ++n) {

@@ -91,6 +91,16 @@ void growth_of_tracing(Report& report) {
     report.ratio(fmt::format("a ray through {:.0f} blocks / 100 blocks", objects.last_x),
                  {objects.last, objects.reference}, at_most(3));
 
+    Growth forms{10'000};
+    for (const int count : {1'000, 10'000, 100'000}) {
+        const std::vector<Solid> solids = different_blocks(count);
+        const double build = cpu_seconds_of([&] { ImplicitTracer tracer(solids); });
+        forms.add(count, build / count);
+        report.figure(fmt::format("{} different blocks: build", count), build, "s");
+    }
+    report.ratio(fmt::format("to build one of {:.0f} different blocks / of 10,000", forms.last_x),
+                 {forms.last, forms.reference}, at_most(3));
+
     Growth half_spaces{12};
     for (const int k : {1, 4, 11, 35}) {
         const int count = 7 + 5 * k * k;
