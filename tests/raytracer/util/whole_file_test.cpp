@@ -13,6 +13,7 @@
 
 #include "catch.hpp"
 #include "raytracer/folder.hpp"
+#include "raytracer/program.hpp"
 #include "raytracer/util/errors.hpp"
 
 using namespace deburr;
