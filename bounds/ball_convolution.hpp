@@ -31,6 +31,9 @@ public:
     Range range(const Box& box) const;
     Range range(const std::vector<Range>& half_spaces) const;
 
+    /// 1 where more of half-space i can only enlarge the share, −1 where it can only shrink it, 0 where either.
+    int polarity(std::size_t i) const { return uses_[i] == 1 ? 1 : uses_[i] == 2 ? -1 : 0; }
+
     /// A direction in the world as the unit ball has it.
     Vec3 in_ball(Vec3 direction) const { return to_ball_ * direction; }
 

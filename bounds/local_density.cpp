@@ -100,8 +100,10 @@ int LocalDensity::add_boolean(const DensityTree& tree, int root) {
     const TreeNode& top = tree.nodes[std::size_t(root)];
     if (top.op == Op::half_space) {  // needs no diagram
         half_spaces_.push_back(tree.half_spaces[std::size_t(top.a)]);
+        polarity_.push_back(1);
         return add({Step::half_space, int(half_spaces_.size()) - 1});
     }
+    const std::size_t first = half_spaces_.size();
     const DecisionDiagram diagram = decide(tree, root);
     // Of the diagram, what its root reaches.
     std::vector<char> reached(diagram.nodes.size(), false);
@@ -140,7 +142,43 @@ int LocalDensity::add_boolean(const DensityTree& tree, int root) {
         for (const int c : d.children) kids_.push_back(place[std::size_t(c)]);
         place[i] = add(node);
     }
+    find_polarities(tree, root, first);
     return place[std::size_t(diagram.root)];
+}
+
+// Of the half-spaces from `first` on, which came from the Boolean function at `root`.
+void LocalDensity::find_polarities(const DensityTree& tree, int root, std::size_t first) {
+    enum : unsigned char { rises = 1, falls = 2 };
+    const auto flipped = [](unsigned char p) {
+        return static_cast<unsigned char>((p & rises) << 1 | (p & falls) >> 1);
+    };
+    thread_local std::vector<unsigned char> of_node, of_plane;
+    of_node.assign(tree.nodes.size(), 0);
+    of_node[std::size_t(root)] = rises;
+    of_plane.assign(half_spaces_.size() - first, 0);
+    // Planes that the diagram took for one differ by less.
+    constexpr double same_direction = 1e-8, same_radius = 1e-8, same_offset = 1e-11;
+    for (int i = root; i >= 0; --i) {
+        const TreeNode& n = tree.nodes[std::size_t(i)];
+        const unsigned char polarity = of_node[std::size_t(i)];
+        if (polarity == 0) continue;
+        if (n.op == Op::half_space) {
+            const HalfSpace& h = tree.half_spaces[std::size_t(n.a)];
+            for (std::size_t k = 0; k < of_plane.size(); ++k) {
+                const HalfSpace& plane = half_spaces_[first + k];
+                const double side = glm::dot(h.normal, plane.normal) < 0 ? -1 : 1;
+                if (std::abs(side * h.offset - plane.offset) > same_offset * (1 + std::abs(h.offset)) ||
+                    std::abs(h.radius - plane.radius) > same_radius * h.radius ||
+                    largest(side * h.normal - plane.normal) > same_direction)
+                    continue;
+                of_plane[k] |= side > 0 ? polarity : flipped(polarity);
+            }
+        } else if (n.op != Op::constant) {
+            for (const int child : {n.a, n.b})
+                if (child >= 0) of_node[std::size_t(child)] |= n.op == Op::complement ? flipped(polarity) : polarity;
+        }
+    }
+    for (const unsigned char p : of_plane) polarity_.push_back(p == rises ? 1 : p == falls ? -1 : 0);
 }
 
 namespace {
@@ -269,6 +307,79 @@ Range LocalDensity::range_from(OfHalfSpace leaf) const {
         }
     }
     return done[nodes_.size() - 1];
+}
+
+namespace {
+
+Range product(Range a, Range b) {
+    const auto [lo, hi] = std::minmax({a.lo * b.lo, a.lo * b.hi, a.hi * b.lo, a.hi * b.hi});
+    return {lo, hi};
+}
+Range sum(Range a, Range b) { return {a.lo + b.lo, a.hi + b.hi}; }
+Range difference(Range a, Range b) { return {a.lo - b.hi, a.hi - b.lo}; }
+Range hull(Range a, Range b) { return {std::min(a.lo, b.lo), std::max(a.hi, b.hi)}; }
+
+Range overlap(Range a, Range b) { return {std::max(a.lo, b.lo), std::min(a.hi, b.hi)}; }
+
+struct RangeRate {
+    Range value, rate;
+};
+
+}  // namespace
+
+Range LocalDensity::rate_range(std::span<const Range> half_spaces, std::span<const Range> rates) const {
+    if (share_) {
+        Range all;
+        for (std::size_t i = 0; i < rates.size(); ++i) {
+            const int polarity = share_->polarity(i);
+            if ((polarity >= 0 && rates[i].hi > 0) || (polarity <= 0 && rates[i].lo < 0)) all.hi = infinity;
+            if ((polarity >= 0 && rates[i].lo < 0) || (polarity <= 0 && rates[i].hi > 0)) all.lo = -infinity;
+        }
+        return all;
+    }
+    RangeRate* const done = memory_for<RangeRate>(nodes_.size());
+    for (std::size_t i = 0; i < nodes_.size(); ++i) {
+        const Node& n = nodes_[i];
+        const auto at = [&](int child) -> const RangeRate& { return done[std::size_t(child)]; };
+        switch (n.step) {
+            case Step::constant: done[i] = {{n.value, n.value}, {0, 0}}; break;
+            case Step::half_space: done[i] = {half_spaces[std::size_t(n.a)], rates[std::size_t(n.a)]}; break;
+            case Step::sum: done[i] = {sum(at(n.a).value, at(n.b).value), sum(at(n.a).rate, at(n.b).rate)}; break;
+            case Step::difference:
+                done[i] = {difference(at(n.a).value, at(n.b).value), difference(at(n.a).rate, at(n.b).rate)};
+                break;
+            case Step::complement:
+                done[i] = {difference({1, 1}, at(n.a).value), difference({0, 0}, at(n.a).rate)};
+                break;
+            case Step::product:
+                done[i] = {product(at(n.a).value, at(n.b).value),
+                           sum(product(at(n.a).rate, at(n.b).value), product(at(n.a).value, at(n.b).rate))};
+                break;
+            case Step::decide: {
+                const int* thresholds = &kids_[std::size_t(n.a)];
+                const int* children = thresholds + n.b;
+                // V and V' as the head of this file has them. Averages of the children's values and rates lie within
+                // the children's, too.
+                Range value = at(children[n.b]).value, values = value, own{0, 0};
+                Range rate = at(children[n.b]).rate, child_rates = rate;
+                for (int j = 0; j < n.b; ++j) {
+                    const std::size_t h = std::size_t(thresholds[j]);
+                    const RangeRate &c = at(children[j]), &next = at(children[j + 1]);
+                    Range step = difference(c.value, next.value);
+                    if (polarity_[h] > 0) step.lo = std::max(step.lo, 0.0), step.hi = std::max(step.hi, 0.0);
+                    if (polarity_[h] < 0) step.lo = std::min(step.lo, 0.0), step.hi = std::min(step.hi, 0.0);
+                    value = sum(value, product(half_spaces[h], step));
+                    own = sum(own, product(rates[h], step));
+                    rate = sum(rate, product(half_spaces[h], difference(c.rate, next.rate)));
+                    values = hull(values, c.value);
+                    child_rates = hull(child_rates, c.rate);
+                }
+                done[i] = {overlap(value, values), sum(own, overlap(rate, child_rates))};
+                break;
+            }
+        }
+    }
+    return done[nodes_.size() - 1].rate;
 }
 
 // ---- along a ray ---------------------------------------------------------------------------------

@@ -55,6 +55,11 @@ public:
     Range range(const Box& box) const;
     /// The same over any region, given ρ of every half-space (half_spaces()) over it.
     Range range(std::span<const Range> half_spaces) const;
+    /// The rate at which ρ changes in some direction, over any region, given for every half-space its ρ over the
+    /// region and the rate at which that changes in the direction. Sound; where a half-space's side of a Boolean
+    /// function is known (it can only enlarge the solid, or only shrink it) the sign is kept. Of a true
+    /// convolution only the sign is known: the range is then half a line, or a line.
+    Range rate_range(std::span<const Range> half_spaces, std::span<const Range> rates) const;
 
 private:
     friend class RayDensity;
@@ -71,11 +76,15 @@ private:
     Range range_from(OfHalfSpace of_half_space) const;
     int add(Node node);
     int add_boolean(const DensityTree& tree, int root);
+    void find_polarities(const DensityTree& tree, int root, std::size_t first);
 
     std::shared_ptr<const BallShare> share_;  // of a true convolution, which needs no nodes
     std::vector<HalfSpace> half_spaces_;
     std::vector<Node> nodes_;  // operands first, the root last
     std::vector<int> kids_;
+    // What more of a half-space does to the Boolean function that it is part of: 1, it is true in more places; −1, in
+    // fewer; 0, either.
+    std::vector<signed char> polarity_;
     bool has_sharp_ = false;
 };
 
