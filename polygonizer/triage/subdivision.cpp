@@ -9,7 +9,8 @@
 
 namespace deburr {
 
-Subdivision::Subdivision(const SolidTree& solid, const Box& box) : complex(box, 1e-9 * glm::length(box.hi - box.lo)) {
+Subdivision::Subdivision(const SolidTree& solid, const Box& box, std::size_t least_for_simple)
+    : complex(box, 1e-9 * glm::length(box.hi - box.lo)), least_for_simple_(least_for_simple) {
     Place whole;
     whole.solid = solid.nodes;
     for (std::size_t k = 0; k < solid.leaves.size(); ++k)
@@ -23,13 +24,13 @@ Subdivision::Subdivision(const SolidTree& solid, const Box& box) : complex(box, 
 
 // Of corners_, along a normal.
 Range Subdivision::extent(Vec3 normal) {
-    for (const Extent& e : extents_) {
+    for (const AlongNormal& e : along_normals_) {
         if (e.normal == normal) return e.along;
         if (e.normal == -normal) return {-e.along.hi, -e.along.lo};
     }
     const Range along = extent_along(normal, corners_);
     constexpr std::size_t usual = 8;  // normals; what has more would look for them too long
-    if (extents_.size() < usual) extents_.push_back({normal, along});
+    if (along_normals_.size() < usual) along_normals_.push_back({normal, along});
     return along;
 }
 
@@ -79,7 +80,7 @@ void Subdivision::look_at(int cell) {
     if (looked_at_ == now) return;
     looked_at_ = now;
     corners_.clear();
-    extents_.clear();
+    along_normals_.clear();
     for (int v : complex.vertices_of(cell)) corners_.push_back(complex.vertices[std::size_t(v)]);
 }
 

@@ -4,7 +4,9 @@
 // The planes are those of the half-spaces, h, and their parallels at ±r. A plane cuts a cell only
 // if its half-space is not constant there and the cell is not decided, so planes stay local. Where
 // many half-spaces meet in a cell it is halved first, along an axis, which keeps the whole near
-// n log n; the polygons that this cuts apart are joined again (surface.hpp).
+// n log n; the polygons that this cuts apart are joined again (surface.hpp). A small cell in which
+// several half-spaces vary is left as soon as it is simple (simple_cell.hpp), and one that is not
+// simple is halved when no plane is left, so that no part of the surface lies whole within.
 //
 // Printed differently: the paper classifies by density classes (density_class.hpp). Ranges of ρ
 // over the cell say at least as much, and see that a sum of two small densities is small.
@@ -36,7 +38,15 @@ struct Place {
 class Subdivision {
 public:
     /// `box` should hold the solid; where it does not, the solid is cut off by it.
-    Subdivision(const SolidTree& solid, const Box& box);
+    /// A small cell in which `least_for_simple` half-spaces or more vary is left as soon as it is simple: `coarse` for
+    /// meshes that are refined and thinned out; by default only cells that would be halved first are, so that the
+    /// paper's cells are kept.
+    Subdivision(const SolidTree& solid, const Box& box, std::size_t least_for_simple = many + 1);
+
+    // With more half-spaces than this in a cell it is halved along an axis first: chosen, near the
+    // minimum of the triangle count over Lobb's figures.
+    static constexpr std::size_t many = 14;
+    static constexpr std::size_t coarse = 4;
 
     CellComplex complex;
     std::vector<Place> places;
@@ -51,10 +61,6 @@ public:
     void subdivide(int cell);
 
 private:
-    // With more half-spaces than this in a cell it is halved along an axis first: chosen, near the
-    // minimum of the triangle count over Lobb's figures.
-    static constexpr std::size_t many = 14;
-
     // What is known of a half-space in the cell that is being looked at.
     struct Reach {
         const HalfSpace* half_space;
@@ -62,12 +68,23 @@ private:
         int along;  // 1 or −1 where its normal is the plane's that is being considered, or against it; else 0
     };
 
+    // A cell's size, and how much is open in it.
+    struct Extents {
+        Box box;
+        int axis = 0;              // the longest, of those along which the density changes
+        double size = 0;           // along it
+        double radius = infinity;  // the least one that is not 0
+        double width = 0;          // the greatest, across the plane of a half-space
+        std::size_t half_spaces = 0;
+        bool all_small = true;  // every density is there to be evaluated
+    };
+
     struct Candidate {
         Plane plane;
         Range along;  // of the cell, along its normal
         double bias;
     };
-    struct Extent {
+    struct AlongNormal {
         Vec3 normal;
         Range along;
     };
@@ -78,15 +95,20 @@ private:
     int new_place(int parent, int cell);
     OpenLeaf localize(const OpenLeaf& leaf, Side& side);
     bool choose(const Place& place, Plane& plane);
-    bool choose_neutral(const Place& place, Plane& plane) const;
+    bool choose_own(const Place& place, Plane& plane);
+    bool choose_neutral(const Place& place, const Extents& cell, Plane& plane) const;
+    bool is_simple_cell(const Place& place) const;
+    bool shows_surface(const Place& place) const;
+    Extents extents(const Place& place) const;
     void turn(const Place& place, Vec3 normal);
     double cost(const Place& place, double offset, bool above);
     bool is_refused(const Plane& plane) const;
     void look_at(int cell);
 
+    std::size_t least_for_simple_;
     std::pair<int, std::size_t> looked_at_{-1, 0};  // a cell, and how many there were
     std::vector<Vec3> corners_;                     // of that cell
-    std::vector<Extent> extents_;                   // of them, along normals that were asked for
+    std::vector<AlongNormal> along_normals_;        // of them, along normals that were asked for
     std::vector<Reach> reach_;                      // of its densities' half-spaces, leaf by leaf
     std::vector<Candidate> candidates_;             // planes that may cut the cell
     Vec3 turned_to_{0.0};                           // the normal of planes that are being considered

@@ -3,6 +3,7 @@
 
 #include "polygonizer/triage/density_side.hpp"
 #include "polygonizer/triage/parallel_family.hpp"
+#include "polygonizer/triage/simple_cell.hpp"
 #include "polygonizer/triage/subdivision.hpp"
 
 namespace deburr {
@@ -72,16 +73,69 @@ bool Subdivision::is_refused(const Plane& plane) const {
     return false;
 }
 
-bool Subdivision::choose(const Place& place, Plane& plane) {
-    std::size_t half_spaces = 0;
-    bool all_small = true;
+// The cell that is looked at, by its size against the filter.
+Subdivision::Extents Subdivision::extents(const Place& place) const {
+    Extents e;
+    for (const Vec3& x : corners_) e.box = hull(e.box, Box{x, x});
+    Vec3 size = e.box.hi - e.box.lo, across(0.0);
     for (const OpenLeaf& leaf : place.open) {
-        half_spaces += leaf.tree->half_spaces.size();
-        all_small &= leaf.density != nullptr;
+        e.half_spaces += leaf.tree->half_spaces.size();
+        e.all_small &= leaf.density != nullptr;
+        for (const HalfSpace& h : leaf.tree->half_spaces) {
+            across += glm::abs(h.normal);
+            if (h.radius > 0) e.radius = std::min(e.radius, h.radius);
+        }
     }
-    if ((half_spaces > many || !all_small) && choose_neutral(place, plane)) return true;
-    if (!all_small) return false;
+    if (e.half_spaces <= many) {
+        // Along a sweep nothing changes.
+        size *= glm::min(across, Vec3(1.0));
+        for (const OpenLeaf& leaf : place.open)
+            for (const HalfSpace& h : leaf.tree->half_spaces) {
+                const Range along = extent_along(h.normal, corners_);
+                e.width = std::max(e.width, along.hi - along.lo);
+            }
+    } else {
+        e.width = std::max({size.x, size.y, size.z});
+    }
+    e.axis = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
+    e.size = size[e.axis];
+    return e;
+}
 
+// Every leaf that is open is simple throughout the cell.
+bool Subdivision::is_simple_cell(const Place& place) const {
+    return std::all_of(place.open.begin(), place.open.end(), [&](const OpenLeaf& leaf) {
+        return leaf.density && is_simple(*leaf.density, corners_, complex.tolerance);
+    });
+}
+
+// Some leaf that is open has corners of the cell on either side.
+bool Subdivision::shows_surface(const Place& place) const {
+    return std::any_of(place.open.begin(), place.open.end(), [&](const OpenLeaf& leaf) {
+        if (!leaf.density) return false;
+        bool above = false, below = false;
+        for (const Vec3& x : corners_) (leaf.density->at(x) > 0.5 ? above : below) = true;
+        return above && below;
+    });
+}
+
+bool Subdivision::choose(const Place& place, Plane& plane) {
+    const Extents cell = extents(place);
+    // Where several half-spaces vary together in a cell that is not much larger than their filters, few of their planes
+    // would part flat faces from the rest, and all of them together cut it into many.
+    constexpr double small = 4;  // in radii, across any of the planes: two filters
+    if (cell.all_small && cell.half_spaces >= least_for_simple_ && cell.width <= small * cell.radius &&
+        is_simple_cell(place))
+        return false;
+    if ((cell.half_spaces > many || !cell.all_small) && choose_neutral(place, cell, plane)) return true;
+    if (!cell.all_small) return false;
+    if (choose_own(place, plane)) return true;
+    // No plane is left. A part of the surface that the cell's corners do not tell of may lie whole within.
+    return !shows_surface(place) && !is_simple_cell(place) && choose_neutral(place, cell, plane);
+}
+
+// A plane of the half-spaces in the cell, or one of their parallels at ±r.
+bool Subdivision::choose_own(const Place& place, Plane& plane) {
     candidates_.clear();
     const auto consider = [&](const Plane& p, Range s, double bias) {
         if (s.hi - p.offset <= complex.tolerance || p.offset - s.lo <= complex.tolerance) return;
@@ -128,25 +182,19 @@ bool Subdivision::choose(const Place& place, Plane& plane) {
 }
 
 // Across the longest side of the cell, at a half-space's own plane if one is near the middle.
-bool Subdivision::choose_neutral(const Place& place, Plane& plane) const {
-    Box box;
-    for (const Vec3& x : corners_) box = hull(box, Box{x, x});
-    const Vec3 size = box.hi - box.lo;
-    const int axis = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
-    double least = infinity;
-    for (const OpenLeaf& leaf : place.open)
-        for (const HalfSpace& h : leaf.tree->half_spaces)
-            if (h.radius > 0) least = std::min(least, h.radius);
-    // Where many half-spaces vary together in a cell smaller than their filter, halving no longer
-    // tells them apart.
-    constexpr double smallest = 0.5;        // in radii
-    constexpr double sharp_smallest = 1e5;  // in tolerances
-    if (size[axis] <= (least < infinity ? smallest * least : sharp_smallest * complex.tolerance)) return false;
+bool Subdivision::choose_neutral(const Place& place, const Extents& cell, Plane& plane) const {
+    // That may hold several sheets, though only of a surface that its corners tell of: or of one that is lost.
+    constexpr double smallest_seen = 1, smallest_unseen = 0.125;  // in radii
+    constexpr double sharp_smallest = 1e5;                        // in tolerances
+    const auto& [box, axis, size, radius, width, half_spaces, all_small] = cell;
+    if (radius == infinity ? size <= sharp_smallest * complex.tolerance
+                           : size <= (shows_surface(place) ? smallest_seen : smallest_unseen) * radius)
+        return false;
     const double middle = 0.5 * (box.lo[axis] + box.hi[axis]);
     plane.normal = Vec3(0.0);
     plane.normal[axis] = 1;
     plane.offset = middle;
-    double nearest = 0.2 * size[axis];
+    double nearest = 0.2 * (box.hi[axis] - box.lo[axis]);
     for (const OpenLeaf& leaf : place.open)
         for (const HalfSpace& h : leaf.tree->half_spaces) {
             if (std::abs(h.normal[axis]) < 1 - 1e-12) continue;
