@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "bounds/bounding_box.hpp"
+#include "polygonizer/mesh/decimate.hpp"
 #include "polygonizer/mesh/degenerate_shells.hpp"
 #include "polygonizer/mesh/repair.hpp"
 #include "polygonizer/mesh/separate_touching.hpp"
@@ -60,7 +61,9 @@ std::vector<int> halve(Subdivision& subdivision, const std::vector<Cut>& cuts) {
 Mesh triage(const SolidTree& mixed, const Box& box, const TriageOptions& options, TriageStatistics* statistics) {
     if (box.empty()) return {};
     const SolidTree solid = separate_sharp(mixed);
-    Subdivision subdivision(solid, box);
+    const bool thin_out = options.decimate && std::isfinite(options.tolerance);
+    // What is refined and thinned out again needs no more cells than follow the surface.
+    Subdivision subdivision(solid, box, thin_out ? Subdivision::coarse : Subdivision::many + 1);
     Mesh mesh, best;
     std::vector<Origin> origins, best_origins;
     std::size_t least_left = std::numeric_limits<std::size_t>::max();
@@ -93,6 +96,7 @@ Mesh triage(const SolidTree& mixed, const Box& box, const TriageOptions& options
         }
         if (!judge) judge.emplace(solid, mesh);
         drop_sheets(mesh, origins, 10 * subdivision.complex.tolerance, judge->solid());
+        if (thin_out) decimate(mesh, origins, *judge, at_middles * options.tolerance, options.stop);
         // What repair cannot help needs smaller cells around it.
         ++mending;
         std::vector<Cut> cuts[2];

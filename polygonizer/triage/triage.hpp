@@ -10,6 +10,8 @@ struct TriageOptions {
     /// Largest distance between mesh and surface that is accepted; infinity: the paper's one
     /// refinement of each edge.
     double tolerance = infinity;
+    /// Whether a mesh with a tolerance is thinned out within it. Pictures of meshes want its normals dense instead.
+    bool decimate = true;
     /// Looked at between the rounds of refinement.
     StopFlag stop = nullptr;
 };

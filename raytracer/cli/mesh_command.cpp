@@ -33,7 +33,10 @@ struct MeshCommandOptions : Options {
 MeshSettings settings(const MeshCommandOptions& o) {
     MeshSettings s;
     if (!o.method.empty()) s.method = parse_mesh_method("--method", o.method);
-    if (!o.tolerance.empty()) s.tolerance = parse_tolerance(o.tolerance);
+    if (!o.tolerance.empty())
+        s.tolerance = parse_tolerance(o.tolerance);
+    else
+        s.triage_tolerance_in_radii = default_tolerance_in_radii;
     if (!o.grid.empty()) s.grid = parse_positive("--grid", o.grid);
     if (!o.edge.empty()) s.edge = parse_positive("--edge", o.edge);
     if (!o.level.empty()) s.level = int(parse_whole("--level", o.level, 1, 12));
@@ -285,8 +288,10 @@ Command add_mesh_command(CLI::App& program) {
                      mesh_method_names() + "; default: triage, and octree for solids with free forms")
         ->type_name("NAME");
     command
-        ->add_option("--tolerance", options->tolerance,
-                     "triage, octree: refine until no point of the mesh is farther from the surface")
+        ->add_option(
+            "--tolerance", options->tolerance,
+            "triage, octree: refine until no point of the mesh is farther from the surface, or inf; triage's default: "
+            "0.05 of each solid's least radius")
         ->type_name("D");
     command->add_option("--grid", options->grid, "marching-cubes: side of a cube; default: half the least radius")
         ->type_name("H");

@@ -18,6 +18,7 @@ std::string mesh_method_name(MeshMethod method) {
 MeshSettings picture_mesh_settings() {
     MeshSettings settings;
     settings.reach = rendering_reach;
+    settings.decimate = false;
     settings.tolerance_in_radii = rendering_tolerance;
     settings.tolerance_in_sizes = rendering_tolerance_in_sizes;
     return settings;

@@ -20,11 +20,16 @@ inline constexpr double rendering_reach = 1e4;
 /// ones, where the paper's one refinement of each edge leaves 0.26 r.
 inline constexpr double rendering_tolerance = 0.03;
 
+/// For meshes that nobody asked a tolerance of, in radii; made by triage.
+inline constexpr double default_tolerance_in_radii = 0.05;
+
 struct MeshSettings {
     /// None: triage, and the octree for solids that hold what triage cannot follow, free forms.
     std::optional<MeshMethod> method = {};
     double tolerance = infinity;                     // triage, octree
     double tolerance_in_radii = infinity;            // the same, of each solid's least radius, if less
+    double triage_tolerance_in_radii = infinity;     // the same, of triage only
+    bool decimate = true;                            // triage: thin meshes out within their tolerance
     double tolerance_in_sizes = infinity;            // octree, without a radius: of each solid's size, if less
     double grid = 0;                                 // marching cubes; 0: half the least radius
     double edge = 0;                                 // octree: side of a cell; 0: by the solid's size and radius

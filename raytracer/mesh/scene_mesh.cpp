@@ -111,9 +111,11 @@ SolidMesh polygonize(const SolidTree& tree, bool cut_off, const MeshSettings& se
     } else if (result.method == MeshMethod::triage) {
         need_densities(tree, id);
         const double radius = tree.least_radius();
-        const double relative = radius > 0 ? settings.tolerance_in_radii * radius : infinity;
+        const double in_radii = std::min(settings.tolerance_in_radii, settings.triage_tolerance_in_radii);
+        const double relative = radius > 0 ? in_radii * radius : infinity;
         const double tolerance = settings.coarseness * std::min(settings.tolerance, relative);
-        result.mesh = triage(tree, box, {tolerance, stop}, &result.triage);
+        result.mesh =
+            triage(tree, box, {.tolerance = tolerance, .decimate = settings.decimate, .stop = stop}, &result.triage);
         result.check_options.tolerance = check_slack * tolerance;
     } else {
         const double grid = settings.coarseness * (settings.grid > 0 ? settings.grid : marching_cubes_grid(tree, box));

@@ -49,6 +49,14 @@ TEST_CASE("Random parts by triage pass the check of what was made") {
           }) > 10'000);
 }
 
+TEST_CASE("Random parts by triage within a tolerance pass the check of what was made") {
+    CHECK(check_parts(100, false, [](const SolidTree& solid, const Box& box, MeshCheckOptions& options) {
+              const double radius = solid.least_radius(), tolerance = radius > 0 ? 0.05 * radius : infinity;
+              options.tolerance = 2 * tolerance;
+              return triage(solid, box, {tolerance});
+          }) > 10'000);
+}
+
 TEST_CASE("Random parts by marching cubes pass the check of what was made") {
     CHECK(check_parts(20, true, [](const SolidTree& solid, const Box& box, MeshCheckOptions& options) {
               options.least_tolerance = largest(box.hi - box.lo) / 50;
