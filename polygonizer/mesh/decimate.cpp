@@ -83,8 +83,10 @@ private:
         return facets_.normal(facets_.at(f).triangle.normal[std::size_t(facets_.place(f, v))]);
     }
 
-    // Whether the edge from v to u, of facets f and g, must stay a line of edges.
+    // Whether the edge from v to u, of facets f and g, must stay a line of edges: a crease, a border of materials, the
+    // rim of a flat face. Curved facets would spread over a flat face else, tilted by less than the tolerance.
     bool is_line(int f, int g, int v) const {
+        if ((flat_normals_[std::size_t(f)] == Vec3(0.0)) != (flat_normals_[std::size_t(g)] == Vec3(0.0))) return true;
         return facets_.at(f).triangle.material != facets_.at(g).triangle.material ||
                glm::dot(normal_at(f, v), normal_at(g, v)) < crease;
     }

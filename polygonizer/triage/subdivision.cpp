@@ -9,8 +9,7 @@
 
 namespace deburr {
 
-Subdivision::Subdivision(const SolidTree& solid, const Box& box, std::size_t least_for_simple)
-    : complex(box, 1e-9 * glm::length(box.hi - box.lo)), least_for_simple_(least_for_simple) {
+Subdivision::Subdivision(const SolidTree& solid, const Box& box) : complex(box, 1e-9 * glm::length(box.hi - box.lo)) {
     Place whole;
     whole.solid = solid.nodes;
     for (std::size_t k = 0; k < solid.leaves.size(); ++k)

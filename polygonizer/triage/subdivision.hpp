@@ -38,15 +38,7 @@ struct Place {
 class Subdivision {
 public:
     /// `box` should hold the solid; where it does not, the solid is cut off by it.
-    /// A small cell in which `least_for_simple` half-spaces or more vary is left as soon as it is simple: `coarse` for
-    /// meshes that are refined and thinned out; by default only cells that would be halved first are, so that the
-    /// paper's cells are kept.
-    Subdivision(const SolidTree& solid, const Box& box, std::size_t least_for_simple = many + 1);
-
-    // With more half-spaces than this in a cell it is halved along an axis first: chosen, near the
-    // minimum of the triangle count over Lobb's figures.
-    static constexpr std::size_t many = 14;
-    static constexpr std::size_t coarse = 4;
+    Subdivision(const SolidTree& solid, const Box& box);
 
     CellComplex complex;
     std::vector<Place> places;
@@ -61,6 +53,10 @@ public:
     void subdivide(int cell);
 
 private:
+    // With more half-spaces than this in a cell it is halved along an axis first: chosen, near the
+    // minimum of the triangle count over Lobb's figures.
+    static constexpr std::size_t many = 14;
+
     // What is known of a half-space in the cell that is being looked at.
     struct Reach {
         const HalfSpace* half_space;
@@ -105,7 +101,6 @@ private:
     bool is_refused(const Plane& plane) const;
     void look_at(int cell);
 
-    std::size_t least_for_simple_;
     std::pair<int, std::size_t> looked_at_{-1, 0};  // a cell, and how many there were
     std::vector<Vec3> corners_;                     // of that cell
     std::vector<AlongNormal> along_normals_;        // of them, along normals that were asked for

@@ -121,11 +121,10 @@ bool Subdivision::shows_surface(const Place& place) const {
 
 bool Subdivision::choose(const Place& place, Plane& plane) {
     const Extents cell = extents(place);
-    // Where several half-spaces vary together in a cell that is not much larger than their filters, few of their planes
+    // Where many half-spaces vary together in a cell that is not much larger than their filters, few of their planes
     // would part flat faces from the rest, and all of them together cut it into many.
     constexpr double small = 4;  // in radii, across any of the planes: two filters
-    if (cell.all_small && cell.half_spaces >= least_for_simple_ && cell.width <= small * cell.radius &&
-        is_simple_cell(place))
+    if (cell.all_small && cell.half_spaces > many && cell.width <= small * cell.radius && is_simple_cell(place))
         return false;
     if ((cell.half_spaces > many || !cell.all_small) && choose_neutral(place, cell, plane)) return true;
     if (!cell.all_small) return false;

@@ -46,6 +46,8 @@ namespace {
 // Of a tolerance, at the middles of triangles and edges: the rest is for what lies between, and for
 // distances being of first order.
 constexpr double at_middles = 0.85;
+// The same at the points of large triangles, between which the surface may bend more.
+constexpr double at_points = 0.65;
 
 // Makes the cuts; the cells on both sides of those that could be made.
 std::vector<int> halve(Subdivision& subdivision, const std::vector<Cut>& cuts) {
@@ -62,8 +64,7 @@ Mesh triage(const SolidTree& mixed, const Box& box, const TriageOptions& options
     if (box.empty()) return {};
     const SolidTree solid = separate_sharp(mixed);
     const bool thin_out = options.decimate && std::isfinite(options.tolerance);
-    // What is refined and thinned out again needs no more cells than follow the surface.
-    Subdivision subdivision(solid, box, thin_out ? Subdivision::coarse : Subdivision::many + 1);
+    Subdivision subdivision(solid, box);
     Mesh mesh, best;
     std::vector<Origin> origins, best_origins;
     std::size_t least_left = std::numeric_limits<std::size_t>::max();
@@ -74,6 +75,9 @@ Mesh triage(const SolidTree& mixed, const Box& box, const TriageOptions& options
     const std::size_t most_rounds = std::isfinite(options.tolerance) ? 24 : 5;
     constexpr std::size_t most_mending_rounds = 8;
     std::size_t mending = 0;
+    // Where surfaces nearly touch, halves of what is too far may be too far for ever; the check of meshes tells of it.
+    const std::size_t max_cells = 8 * subdivision.complex.cells.size() + 20'000;
+    const auto may_halve = [&] { return subdivision.complex.cells.size() < max_cells; };
     for (std::size_t round = 0; mending < most_mending_rounds; ++round) {
         throw_if_stopped(options.stop);
         Subspace subspace(subdivision);
@@ -81,12 +85,13 @@ Mesh triage(const SolidTree& mixed, const Box& box, const TriageOptions& options
         origins.clear();
         mesh = surface(subspace, solid, &origins);
         if (statistics) statistics->rounds = round + 1;
-        if (round + 1 < most_rounds) {
+        if (round + 1 < most_rounds && may_halve()) {
             const double tolerance = at_middles * options.tolerance;
             std::vector<int> halves = halve(subdivision, cells_to_halve(mesh, origins, subdivision, tolerance));
             const bool changed = !halves.empty();
             // What has been halved is looked at again without the rest, until it seems to be enough.
-            for (std::size_t k = 1; k < most_rounds && std::isfinite(tolerance) && !halves.empty(); ++k) {
+            for (std::size_t k = 1; k < most_rounds && std::isfinite(tolerance) && !halves.empty() && may_halve();
+                 ++k) {
                 throw_if_stopped(options.stop);
                 Subspace part(subdivision);
                 part.polygonize(with_neighbours(subdivision.complex, halves));
@@ -96,7 +101,7 @@ Mesh triage(const SolidTree& mixed, const Box& box, const TriageOptions& options
         }
         if (!judge) judge.emplace(solid, mesh);
         drop_sheets(mesh, origins, 10 * subdivision.complex.tolerance, judge->solid());
-        if (thin_out) decimate(mesh, origins, *judge, at_middles * options.tolerance, options.stop);
+        if (thin_out) decimate(mesh, origins, *judge, at_points * options.tolerance, options.stop);
         // What repair cannot help needs smaller cells around it.
         ++mending;
         std::vector<Cut> cuts[2];
@@ -114,7 +119,9 @@ Mesh triage(const SolidTree& mixed, const Box& box, const TriageOptions& options
             }
             if (least_left == 0) break;
         }
-        if (least_left == 0 || (halve(subdivision, cuts[0]).empty() && halve(subdivision, cuts[1]).empty())) break;
+        if (least_left == 0 || !may_halve() ||
+            (halve(subdivision, cuts[0]).empty() && halve(subdivision, cuts[1]).empty()))
+            break;
     }
     mesh = std::move(best);
     origins = std::move(best_origins);

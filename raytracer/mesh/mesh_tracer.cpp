@@ -69,13 +69,29 @@ private:
 };
 
 MeshTracer::MeshTracer(Mesh mesh, const Box& near)
-    : mesh_(split_far(std::move(mesh), near)), embree_(std::make_unique<Embree>(mesh_)) {}
+    : mesh_(split_far(std::move(mesh), near)), embree_(std::make_unique<Embree>(mesh_)) {
+    if (mesh_.triangles.empty()) return;
+    const Box box = bounding_box(mesh_);
+    middle_ = 0.5 * (box.lo + box.hi);
+    radius_ = 0.5 * glm::length(box.hi - box.lo);
+}
 MeshTracer::~MeshTracer() = default;
+
+// Parameter at which a ray from far away comes near the mesh; 0 for others.
+double MeshTracer::start(const Ray& ray) const {
+    constexpr double far = 64;         // in radii: single precision then still tells a millionth of the mesh's size
+    constexpr double clearance = 1.5;  // in radii, before the ball's nearest point
+    const double nearest = glm::dot(middle_ - ray.origin, ray.direction);
+    return nearest > far * radius_ ? nearest - clearance * radius_ : 0;
+}
 
 Hit MeshTracer::first_hit(const Ray& ray, double t_max, TraceCounters& counters) const {
     ++counters.rays;
+    const double begin = start(ray);
+    const Ray near{ray.origin + begin * ray.direction, ray.direction};
+    if (begin > 0 && begin >= t_max) return {};
     RTCRayHit query{};
-    query.ray = ray_of(ray, t_max);
+    query.ray = ray_of(near, t_max - begin);
     query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
     EmbreeContext context;
     embree_->scene.intersect(query, context);
@@ -86,7 +102,7 @@ Hit MeshTracer::first_hit(const Ray& ray, double t_max, TraceCounters& counters)
     const auto normal = [&](std::size_t k) { return mesh_.normals[std::size_t(t.normal[k])]; };
     const Vec3 e1 = at(1) - at(0), e2 = at(2) - at(0);
     double u = query.hit.u, v = query.hit.v;
-    meet(ray, at(0), e1, e2, u, v);
+    meet(near, at(0), e1, e2, u, v);
     const double w = 1 - u - v;
     hit.position = at(0) + u * e1 + v * e2;
     const Vec3 n = w * normal(0) + u * normal(1) + v * normal(2);
@@ -100,13 +116,15 @@ Hit MeshTracer::first_hit(const Ray& ray, double t_max, TraceCounters& counters)
     hit.t = std::max(glm::dot(hit.position - ray.origin, ray.direction), double(std::numeric_limits<float>::min()));
     hit.solid = t.solid;
     hit.material = t.material;
-    hit.offset = lift * std::max(largest(hit.position), largest(ray.origin));
+    hit.offset = lift * std::max(largest(hit.position), largest(near.origin));
     return hit;
 }
 
 bool MeshTracer::occluded(const Ray& ray, double t_max, TraceCounters& counters) const {
     ++counters.shadow_rays;
-    RTCRay query = ray_of(ray, t_max);
+    const double begin = start(ray);
+    if (begin > 0 && begin >= t_max) return false;
+    RTCRay query = ray_of({ray.origin + begin * ray.direction, ray.direction}, t_max - begin);
     EmbreeContext context;
     embree_->scene.occluded(query, context);
     return query.tfar < 0;

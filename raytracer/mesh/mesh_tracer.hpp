@@ -1,7 +1,8 @@
 // The polygonal road: rays against a mesh, through Embree 3 or 4, with smooth normals.
 //
 // Embree works in single precision. It only says which triangle and where in it; the hit's position
-// and distance are then computed from the mesh in double precision.
+// and distance are then computed from the mesh in double precision. A ray from far away is handed to it
+// from where it comes near the mesh, so that single precision is that of the mesh's coordinates.
 #pragma once
 #include <memory>
 
@@ -20,7 +21,11 @@ public:
 
 private:
     struct Embree;
+    double start(const Ray& ray) const;
+
     Mesh mesh_;
+    Vec3 middle_{0.0};   // of the ball around the mesh
+    double radius_ = 0;  // of that ball
     std::unique_ptr<Embree> embree_;
 };
 

@@ -12,8 +12,9 @@ constexpr double step = 0.5;
 // A stroke ends where a multiple of so many steps does: a window costs no more than the lines in and around it.
 constexpr std::int64_t stroke_steps = 64;
 // A point is asked about a little in front of the faces that are seen, and nearer to the eye, by this
-// share of its distance: far above Embree's single precision, far below a pixel.
-constexpr double lift = 1e-4;
+// share of its distance: far above Embree's single precision, far below a pixel. Where a lens is so long
+// that a pixel is less than that, by a pixel.
+constexpr double max_lift = 1e-4;
 // Two triangles count as one plane if the farther corner of the one is this close to the other's
 // plane, as a share of its size. Roots that make a strip are exact to 1e-10.
 constexpr double flat = 1e-6;
@@ -81,7 +82,8 @@ bool clip(Vec2 p, Vec2 q, const Window& window, double& t0, double& t1) {
 
 bool seen(Vec3 x, Vec3 normal, const RayTracer& hiding, const PinholeCamera& camera) {
     const double distance = glm::length(x - camera.eye());
-    const Vec3 start = x + (normal + glm::normalize(camera.eye() - x)) * (lift * distance);
+    const Vec3 start =
+        x + (normal + glm::normalize(camera.eye() - x)) * (std::min(max_lift, camera.pixel()) * distance);
     const Vec3 way = camera.eye() - start;
     const double length = glm::length(way);
     TraceCounters unused;

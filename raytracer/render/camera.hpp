@@ -14,6 +14,8 @@ public:
     /// mean nothing for z <= 0.
     Vec3 project(Vec3 point) const;
     Vec3 forward() const { return forward_; }
+    /// Side of a pixel at distance 1 along the axis.
+    double pixel() const { return glm::length(dx_); }
     Vec3 eye() const { return eye_; }
 
 private:

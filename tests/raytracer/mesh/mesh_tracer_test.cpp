@@ -89,3 +89,32 @@ TEST_CASE("Splitting far triangles keeps surface, normals and closedness") {
         CHECK(split_far(mesh, Box{}).triangles.size() == 4);
     }
 }
+
+TEST_CASE("From any distance a ray meets the mesh where double precision knows it to") {
+    const MeshTracer tracer(floor_of({0, 0, 1}, 1));
+    std::mt19937 random(5);
+    std::uniform_real_distribution<double> unit(-0.9, 0.9);
+    TraceCounters counters;
+    int missed = 0, unseen = 0, rays = 0;
+    double farthest = 0;
+    for (const double distance : {10.0, 1e3, 1e5, 1e7, 1e9})
+        for (int k = 0; k < 300; ++k, ++rays) {
+            const Vec3 at(0.7 * unit(random), 0.7 * unit(random), 0);  // within the square, however it is turned
+            const Vec3 eye = at + glm::normalize(Vec3(unit(random), unit(random), 1)) * distance;
+            const Vec3 direction = glm::normalize(at - eye);
+            const Hit hit = tracer.first_hit({eye, direction}, infinity, counters);
+            if (!hit) {
+                ++missed;
+                continue;
+            }
+            farthest = std::max(farthest, glm::distance(hit.position, at) / (1e-9 + 1e-15 * distance));
+            // The way back to a light so far away, and what is beyond the mesh.
+            unseen += tracer.occluded({hit.position + Vec3(0, 0, hit.offset), -direction}, distance, counters);
+            unseen += !tracer.occluded({eye, direction}, 2 * distance, counters);
+            unseen += tracer.occluded({eye, direction}, 0.5 * distance, counters);
+        }
+    CHECK(rays == 1500);
+    CHECK(missed == 0);
+    CHECK(unseen == 0);
+    CHECK(farthest < 10);
+}
