@@ -15,29 +15,22 @@ constexpr double slender = 0.02;
 // Facets around one vertex, beyond which a collapse makes it no better to work with.
 constexpr std::size_t max_fan = 20;
 
-Vec3 nearest_on_triangle(Vec3 x, Vec3 a, Vec3 b, Vec3 c) {
-    const Vec3 normal = glm::cross(b - a, c - a);
-    const double size2 = glm::dot(normal, normal);
-    const Vec3 corner[3] = {a, b, c};
-    bool within = size2 > 0;
+double distance_to_triangle(Vec3 x, const Vec3 (&corner)[3]) {
+    const Vec3 normal = glm::cross(corner[1] - corner[0], corner[2] - corner[0]);
+    const double size = glm::length(normal);
+    bool within = size > 0;
     for (int k = 0; k < 3 && within; ++k)
         within = glm::dot(glm::cross(corner[(k + 1) % 3] - corner[k], x - corner[k]), normal) >= 0;
-    if (within) return x - normal * (glm::dot(normal, x - a) / size2);
-    Vec3 nearest = a;
-    for (int k = 0; k < 3; ++k) {
-        const Vec3 d = corner[(k + 1) % 3] - corner[k];
-        const double square = glm::dot(d, d);
-        const Vec3 y = corner[k] + d * (square > 0 ? std::clamp(glm::dot(x - corner[k], d) / square, 0.0, 1.0) : 0.0);
-        if (glm::distance(x, y) < glm::distance(x, nearest)) nearest = y;
-    }
-    return nearest;
+    if (within) return std::abs(glm::dot(normal, x - corner[0])) / size;
+    return std::min({distance_to_segment(x, corner[0], corner[1]), distance_to_segment(x, corner[1], corner[2]),
+                     distance_to_segment(x, corner[2], corner[0])});
 }
 
 class Decimation {
 public:
     Decimation(Mesh& mesh, std::vector<Origin>& origins, const FacetJudge& judge, double tolerance, StopFlag stop)
         : facets_(mesh, origins), judge_(judge), tolerance_(tolerance), stop_(stop) {
-        for (std::size_t f = 0; f < facets_.size(); ++f) flat_normals_.push_back(flat_normal(int(f)));
+        for (std::size_t f = 0; f < facets_.size(); ++f) flat_normals_.push_back(flat_normal(facets_.at(int(f))));
     }
 
     std::size_t run() {
@@ -71,8 +64,8 @@ private:
     }
 
     // The normal of a facet that is part of a plane, or 0.
-    Vec3 flat_normal(int f) const {
-        const auto& n = facets_.at(f).triangle.normal;
+    Vec3 flat_normal(const Facet& f) const {
+        const auto& n = f.triangle.normal;
         const Vec3 a = facets_.normal(n[0]);
         for (const std::size_t k : {1, 2})
             if (n[k] != n[0] && glm::length(facets_.normal(n[k]) - a) >= same_normal) return Vec3(0.0);
@@ -139,11 +132,11 @@ private:
             if (std::find(vertex.begin(), vertex.end(), to) != vertex.end()) continue;
             const Vec3 before = facets_.area_vector(facets_.at(f).triangle);
             vertex[std::size_t(facets_.place(f, v))] = to;
-            const Vec3 a = facets_.position(vertex[0]), b = facets_.position(vertex[1]),
-                       c = facets_.position(vertex[2]);
-            const Vec3 after = glm::cross(b - a, c - a);
+            const Vec3 corner[3] = {facets_.position(vertex[0]), facets_.position(vertex[1]),
+                                    facets_.position(vertex[2])};
+            const Vec3 after = glm::cross(corner[1] - corner[0], corner[2] - corner[0]);
             if (glm::dot(before, after) <= 0.2 * glm::length(before) * glm::length(after)) return infinity;
-            least = std::min(least, glm::distance(x, nearest_on_triangle(x, a, b, c)));
+            least = std::min(least, distance_to_triangle(x, corner));
         }
         return least;
     }
@@ -158,7 +151,7 @@ private:
             if (!accept(*change, v, to, tolerance)) continue;
             for (const int f : facets_.apply(*change)) {
                 flat_normals_.resize(std::max(flat_normals_.size(), std::size_t(f) + 1));
-                flat_normals_[std::size_t(f)] = flat_normal(f);
+                flat_normals_[std::size_t(f)] = flat_normal(facets_.at(f));
             }
             return true;
         }
@@ -204,10 +197,7 @@ private:
             if (flat_normals_[std::size_t(f)] == Vec3(0.0))
                 thinnest = std::min(thinnest, slenderness(facets_.at(f).triangle));
         for (const Facet& f : change.in) {
-            const auto& n = f.triangle.normal;
-            const bool flat = glm::length(facets_.normal(n[0]) - facets_.normal(n[1])) < same_normal &&
-                              glm::length(facets_.normal(n[0]) - facets_.normal(n[2])) < same_normal;
-            if (!flat && slenderness(f.triangle) < thinnest) return false;
+            if (flat_normal(f) == Vec3(0.0) && slenderness(f.triangle) < thinnest) return false;
             const FacetShape s = judge_.shape(facets_, f, upright);
             if (s.cosine < upright || s.distance > tolerance) return false;
             if (!is_near(f.triangle, to, tolerance)) return false;

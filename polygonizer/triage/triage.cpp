@@ -75,7 +75,7 @@ Mesh triage(const SolidTree& mixed, const Box& box, const TriageOptions& options
     const std::size_t most_rounds = std::isfinite(options.tolerance) ? 24 : 5;
     constexpr std::size_t most_mending_rounds = 8;
     std::size_t mending = 0;
-    // Where surfaces nearly touch, halves of what is too far may be too far for ever; the check of meshes tells of it.
+    // Where surfaces nearly touch, halves of what is too far may be too far for ever.
     const std::size_t max_cells = 8 * subdivision.complex.cells.size() + 20'000;
     const auto may_halve = [&] { return subdivision.complex.cells.size() < max_cells; };
     for (std::size_t round = 0; mending < most_mending_rounds; ++round) {
