@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "polygonizer/mesh/split_on_surface.hpp"
+
 namespace deburr {
 namespace {
 
@@ -28,8 +30,9 @@ double distance_to_triangle(Vec3 x, const Vec3 (&corner)[3]) {
 
 class Decimation {
 public:
-    Decimation(Mesh& mesh, std::vector<Origin>& origins, const FacetJudge& judge, double tolerance, StopFlag stop)
-        : facets_(mesh, origins), judge_(judge), tolerance_(tolerance), stop_(stop) {
+    Decimation(Mesh& mesh, std::vector<Origin>& origins, const FacetJudge& judge, double tolerance,
+               const std::vector<Box>& dense, StopFlag stop)
+        : facets_(mesh, origins), judge_(judge), tolerance_(tolerance), dense_(dense), stop_(stop) {
         for (std::size_t f = 0; f < facets_.size(); ++f) flat_normals_.push_back(flat_normal(facets_.at(int(f))));
     }
 
@@ -37,6 +40,7 @@ public:
         // What costs little goes first, so that what is left can bear more.
         std::size_t gone = 0;
         for (const double share : {0.05, 0.3, 1.0}) {
+            changed_.assign(std::size_t(facets_.vertices()), true);
             constexpr int max_rounds = 6;
             for (int round = 0; round < max_rounds; ++round) {
                 const std::size_t now = pass(share * tolerance_);
@@ -52,13 +56,23 @@ private:
     struct Candidate {
         double error;
         int to;
+        bool half_way = false;  // both ends of the edge go to the surface at its middle
+        Vec3 x{0.0};            // where that is
+    };
+    // What a vertex must stay on.
+    struct Kind {
+        ShortList<Vec3, 4> planes;    // normals of the flat facets around
+        ShortList<int, 4> line_ends;  // other ends of edges that must stay lines
+        bool fixed = false;
     };
 
     std::size_t pass(double tolerance) {
         std::size_t gone = 0;
         for (int v = 0; v < facets_.vertices(); ++v) {
             if (v % 1024 == 0) throw_if_stopped(stop_);
-            if (facets_.around(v).size() > 0 && find_candidates(v, tolerance)) gone += collapse(v, tolerance);
+            if (!changed_[std::size_t(v)] || facets_.around(v).empty()) continue;
+            changed_[std::size_t(v)] = false;
+            if (find_candidates(v, tolerance)) gone += collapse(v, tolerance);
         }
         return gone;
     }
@@ -84,56 +98,85 @@ private:
                glm::dot(normal_at(f, v), normal_at(g, v)) < crease;
     }
 
-    // Where v may go, the nearest to its facets first; false if it must stay.
-    bool find_candidates(int v, double tolerance) {
-        candidates_.clear();
-        planes_.clear();
-        line_ends_.clear();
+    Kind kind_of(int v) const {
+        Kind kind;
+        const Vec3 x = facets_.position(v);
+        kind.fixed = std::any_of(dense_.begin(), dense_.end(), [&](const Box& box) { return box.contains(x); });
+        if (kind.fixed) return kind;
         const auto& fan = facets_.around(v);
         for (const int f : fan) {
             const Vec3 n = flat_normals_[std::size_t(f)];
-            if (n != Vec3(0.0) &&
-                std::none_of(planes_.begin(), planes_.end(), [&](Vec3 p) { return glm::length(p - n) < same_normal; }))
-                planes_.push_back(n);
+            if (n != Vec3(0.0) && std::none_of(kind.planes.begin(), kind.planes.end(),
+                                               [&](Vec3 p) { return glm::length(p - n) < same_normal; }))
+                kind.planes.push_back(n);
         }
-        if (planes_.size() > 2) return false;
         for (const int f : fan) {
             const int u = facets_.at(f).triangle.vertex[std::size_t((facets_.place(f, v) + 1) % 3)];
             const int g = facets_.across(v, u) == f ? facets_.across(u, v) : facets_.across(v, u);
-            if (g < 0) return false;
-            const bool line = is_line(f, g, v);
-            if (line) line_ends_.push_back(u);
-            candidates_.push_back({0, u});
+            if (g < 0)
+                kind.fixed = true;
+            else if (is_line(f, g, v))
+                kind.line_ends.push_back(u);
         }
-        if (!line_ends_.empty()) {
-            if (line_ends_.size() != 2) return false;
-            std::erase_if(candidates_,
-                          [&](const Candidate& c) { return c.to != line_ends_[0] && c.to != line_ends_[1]; });
-        }
+        kind.fixed |= kind.planes.size() > 2 || (!kind.line_ends.empty() && kind.line_ends.size() != 2);
+        return kind;
+    }
+
+    // Where v may go, the nearest to its facets first; false if it must stay.
+    bool find_candidates(int v, double tolerance) {
+        candidates_.clear();
+        const Kind kind = kind_of(v);
+        if (kind.fixed) return false;
+        planes_ = kind.planes.size();
         const Vec3 x = facets_.position(v);
-        std::erase_if(candidates_, [&](Candidate& c) {
-            const Vec3 d = facets_.position(c.to) - x;
-            for (const Vec3& n : planes_)
-                if (std::abs(glm::dot(n, d)) > 1e-9 * judge_.size()) return true;
-            c.error = error(v, c.to, x);
-            return c.error > tolerance;
-        });
+        for (const int f : facets_.around(v)) {
+            const int to = facets_.at(f).triangle.vertex[std::size_t((facets_.place(f, v) + 1) % 3)];
+            if (!kind.line_ends.empty() && to != kind.line_ends[0] && to != kind.line_ends[1]) continue;
+            const Vec3 d = facets_.position(to) - x;
+            const auto leaves = [&](Vec3 plane) { return std::abs(glm::dot(plane, d)) > 1e-9 * judge_.size(); };
+            if (std::any_of(kind.planes.begin(), kind.planes.end(), leaves)) continue;
+            const double error = this->error(v, to, x);
+            if (error <= tolerance) candidates_.push_back({error, to});
+            offer_half_way(v, f, to, kind, tolerance);
+        }
         std::sort(candidates_.begin(), candidates_.end(), [](const Candidate& a, const Candidate& b) {
-            return a.error != b.error ? a.error < b.error : a.to < b.to;
+            return a.error != b.error ? a.error < b.error : a.to != b.to ? a.to < b.to : a.half_way < b.half_way;
         });
         return !candidates_.empty();
     }
 
-    // How far v is from what its facets would be; large, too, where these turn over.
-    double error(int v, int to, Vec3 x) const {
+    // The middle of the edge from v to `to`, a facet's f, if both vertices are equally free.
+    void offer_half_way(int v, int f, int to, const Kind& kind, double tolerance) {
+        if (to < v) return;  // it is the same from there
+        const Vec3 a = facets_.position(v), b = facets_.position(to);
+        Candidate c{0, to, true, 0.5 * (a + b)};
+        // What is far off needs no point on the surface to say so.
+        if (error(v, to, a, &c.x) > 2 * tolerance) return;
+        const Kind other = kind_of(to);
+        if (other.fixed || other.planes.size() != kind.planes.size() || other.line_ends.size() != kind.line_ends.size())
+            return;
+        if (!other.line_ends.empty() && other.line_ends[0] != v && other.line_ends[1] != v) return;
+        std::vector<SurfacePiece> pieces;
+        add_surface(pieces, surface_of(facets_, facets_.at(f)));
+        const int g = facets_.across(v, to) == f ? facets_.across(to, v) : facets_.across(v, to);
+        add_surface(pieces, surface_of(facets_, facets_.at(g)));
+        if (!judge_.surfaces().project(c.x, pieces, glm::length(b - a)) || !judge_.on_surface(c.x)) return;
+        const double there = error(v, to, a, &c.x);
+        if (there > tolerance) return;
+        c.error = std::max(there, error(to, v, b, &c.x));
+        if (c.error <= tolerance) candidates_.push_back(c);
+    }
+
+    // How far x, where v is, is from what v's facets would be with v at another vertex, or at y; large, too, where
+    // these turn over.
+    double error(int v, int to, Vec3 x, const Vec3* y = nullptr) const {
         double least = infinity;
         for (const int f : facets_.around(v)) {
-            auto vertex = facets_.at(f).triangle.vertex;
+            const auto& vertex = facets_.at(f).triangle.vertex;
             if (std::find(vertex.begin(), vertex.end(), to) != vertex.end()) continue;
-            const Vec3 before = facets_.area_vector(facets_.at(f).triangle);
-            vertex[std::size_t(facets_.place(f, v))] = to;
-            const Vec3 corner[3] = {facets_.position(vertex[0]), facets_.position(vertex[1]),
-                                    facets_.position(vertex[2])};
+            Vec3 corner[3] = {facets_.position(vertex[0]), facets_.position(vertex[1]), facets_.position(vertex[2])};
+            const Vec3 before = glm::cross(corner[1] - corner[0], corner[2] - corner[0]);
+            corner[facets_.place(f, v)] = y ? *y : facets_.position(to);
             const Vec3 after = glm::cross(corner[1] - corner[0], corner[2] - corner[0]);
             if (glm::dot(before, after) <= 0.2 * glm::length(before) * glm::length(after)) return infinity;
             least = std::min(least, distance_to_triangle(x, corner));
@@ -141,17 +184,64 @@ private:
         return least;
     }
 
+    // Both ends of an edge become a vertex of its own.
+    std::optional<Change> merge(int v, int to, int middle) {
+        auto change = facets_.collapse(v, to);
+        if (!change) return {};
+        for (const int f : facets_.around(to))
+            if (std::find(change->out.begin(), change->out.end(), f) == change->out.end()) {
+                change->out.push_back(f);
+                change->in.push_back(facets_.at(f));
+            }
+        const Vec3 x = facets_.position(middle);
+        struct OfLeaf {
+            int leaf, normal;
+        };
+        ShortList<OfLeaf, 4> normals;
+        for (Facet& f : change->in) {
+            const Vec3 flat = flat_normal(f);
+            for (std::size_t k = 0; k < 3; ++k) {
+                if (f.triangle.vertex[k] != to) continue;
+                f.triangle.vertex[k] = middle;
+                if (flat != Vec3(0.0) || f.origin.leaf < 0) continue;
+                int& n = f.triangle.normal[k];
+                const auto known = std::find_if(normals.begin(), normals.end(),
+                                                [&](const OfLeaf& o) { return o.leaf == f.origin.leaf; });
+                if (known != normals.end()) {
+                    n = known->normal;
+                    continue;
+                }
+                const Vec3 outward = judge_.surfaces().at({f.origin.leaf}, x).normal;
+                n = facets_.add_normal(glm::dot(outward, facets_.normal(n)) < 0 ? -outward : outward);
+                normals.push_back({f.origin.leaf, n});
+            }
+        }
+        return change;
+    }
+
     bool collapse(int v, double tolerance) {
         constexpr std::size_t max_tries = 30;
         for (std::size_t k = 0; k < std::min(max_tries, candidates_.size()); ++k) {
-            const int to = candidates_[k].to;
-            const auto change = facets_.collapse(v, to);
-            if (!change || facets_.around(to).size() + change->in.size() > 2 + max_fan + 2 * planes_.size() * max_fan)
+            const Candidate& c = candidates_[k];
+            int to = c.to;
+            std::optional<Change> change;
+            if (c.half_way) {
+                if (spare_ < 0) spare_ = facets_.add_vertex(c.x);
+                facets_.move(spare_, c.x);
+                change = merge(v, to, spare_);
+                to = spare_;
+            } else {
+                change = facets_.collapse(v, to);
+            }
+            if (!change || facets_.around(c.to).size() + change->in.size() > 2 + max_fan + 2 * planes_ * max_fan)
                 continue;
             if (!accept(*change, v, to, tolerance)) continue;
+            if (c.half_way) spare_ = -1;
             for (const int f : facets_.apply(*change)) {
                 flat_normals_.resize(std::max(flat_normals_.size(), std::size_t(f) + 1));
                 flat_normals_[std::size_t(f)] = flat_normal(facets_.at(f));
+                changed_.resize(std::size_t(facets_.vertices()), true);
+                for (const int u : facets_.at(f).triangle.vertex) changed_[std::size_t(u)] = true;
             }
             return true;
         }
@@ -167,30 +257,6 @@ private:
         return longest2 > 0 ? glm::length(facets_.area_vector(t)) / longest2 : 0;
     }
 
-    // Whether points all over the triangle are within the tolerance: in its inside, and on its edges from `to`, for the
-    // one opposite did not change. Its middle is judged with its shape.
-    bool is_near(const Triangle& t, int to, double tolerance) const {
-        Vec3 x[3];
-        for (std::size_t k = 0; k < 3; ++k) x[k] = facets_.position(t.vertex[k]);
-        const auto near = [&](double a, double b, double c) {
-            const double d = judge_.solid().at(a * x[0] + b * x[1] + c * x[2]).distance;
-            return !std::isfinite(d) || std::abs(d) <= tolerance;
-        };
-        constexpr double most = 2.0 / 3, rest = 1.0 / 6;
-        if (!near(most, rest, rest) || !near(rest, most, rest) || !near(rest, rest, most)) return false;
-        for (std::size_t k = 0; k < 3; ++k) {
-            const std::size_t l = (k + 1) % 3;
-            if (t.vertex[k] != to && t.vertex[l] != to) continue;
-            for (const double share : {0.25, 0.5, 0.75}) {
-                double weight[3] = {0, 0, 0};
-                weight[k] = 1 - share;
-                weight[l] = share;
-                if (!near(weight[0], weight[1], weight[2])) return false;
-            }
-        }
-        return true;
-    }
-
     bool accept(const Change& change, int v, int to, double tolerance) const {
         double thinnest = slender;
         for (const int f : change.out)
@@ -200,7 +266,11 @@ private:
             if (flat_normal(f) == Vec3(0.0) && slenderness(f.triangle) < thinnest) return false;
             const FacetShape s = judge_.shape(facets_, f, upright);
             if (s.cosine < upright || s.distance > tolerance) return false;
-            if (!is_near(f.triangle, to, tolerance)) return false;
+            // The edge opposite did not change.
+            const auto& vertex = f.triangle.vertex;
+            const int corner = int(std::find(vertex.begin(), vertex.end(), to) - vertex.begin());
+            const Vec3 x[3] = {facets_.position(vertex[0]), facets_.position(vertex[1]), facets_.position(vertex[2])};
+            if (!judge_.is_near(x, tolerance, corner)) return false;
         }
         return v != to;
     }
@@ -208,20 +278,22 @@ private:
     Facets facets_;
     const FacetJudge& judge_;
     double tolerance_;
+    const std::vector<Box>& dense_;
     StopFlag stop_;
     std::vector<Vec3> flat_normals_;  // of facets; 0: curved
     // Of the vertex that is looked at.
     std::vector<Candidate> candidates_;
-    std::vector<Vec3> planes_;
-    std::vector<int> line_ends_;
+    std::size_t planes_ = 0;
+    std::vector<char> changed_;  // vertices whose facets have changed since they were looked at
+    int spare_ = -1;             // a vertex of no facet
 };
 
 }  // namespace
 
 std::size_t decimate(Mesh& mesh, std::vector<Origin>& origins, const FacetJudge& judge, double tolerance,
-                     StopFlag stop) {
+                     const std::vector<Box>& dense, StopFlag stop) {
     if (mesh.triangles.empty()) return 0;
-    return Decimation(mesh, origins, judge, tolerance, stop).run();
+    return Decimation(mesh, origins, judge, tolerance, dense, stop).run();
 }
 
 }  // namespace deburr

@@ -18,7 +18,9 @@ OffsetField field_around(const Mesh& mesh, const SolidTree& solid) {
 }
 
 FacetJudge::FacetJudge(const SolidTree& solid, const Mesh& mesh)
-    : solid_(field_around(mesh, solid)), surfaces_(solid, field_box(mesh)), one_leaf_(solid.leaves.size() == 1) {
+    : solid_(field_around(mesh, solid)),
+      one_leaf_(solid.leaves.size() == 1 && solid.nodes.size() == 1),
+      surfaces_(solid, field_box(mesh), one_leaf_ ? &solid_ : nullptr) {
     const Box box = field_box(mesh);
     size_ = glm::length(box.hi - box.lo);
 }
@@ -65,6 +67,27 @@ FacetShape FacetJudge::shape(const Facets& facets, const Facet& f, double least)
     else if (!faces_outward(solid_, middle, o, area / twice, normals, longest))
         s.cosine = std::min(nearest, -1e-3);
     return s;
+}
+
+bool FacetJudge::is_near(const Vec3 (&corners)[3], double tolerance, int only) const {
+    const auto near = [&](double a, double b, double c) {
+        const double d = solid_.at(a * corners[0] + b * corners[1] + c * corners[2]).distance;
+        return !std::isfinite(d) || std::abs(d) <= tolerance;
+    };
+    constexpr double third = 1.0 / 3, most = 2.0 / 3, rest = 1.0 / 6;
+    if (!near(third, third, third)) return false;
+    if (!near(most, rest, rest) || !near(rest, most, rest) || !near(rest, rest, most)) return false;
+    for (int k = 0; k < 3; ++k) {
+        const int l = (k + 1) % 3;
+        if (only >= 0 && k != only && l != only) continue;
+        for (const double share : {0.25, 0.5, 0.75}) {
+            double weight[3] = {0, 0, 0};
+            weight[k] = 1 - share;
+            weight[l] = share;
+            if (!near(weight[0], weight[1], weight[2])) return false;
+        }
+    }
+    return true;
 }
 
 }  // namespace deburr

@@ -20,9 +20,14 @@ class FacetJudge {
 public:
     /// `mesh` tells where the surfaces are.
     FacetJudge(const SolidTree& solid, const Mesh& mesh);
+    FacetJudge(const FacetJudge&) = delete;
+    FacetJudge& operator=(const FacetJudge&) = delete;
 
     /// Of a facet whose own cosine is below `least` no more is asked.
     FacetShape shape(const Facets& facets, const Facet& f, double least = -infinity) const;
+    /// Whether points all over the triangle are within the tolerance of the solid's surface: its middle, three around
+    /// that, and three on each edge, but for edges that do not end at corner `only` where that is not −1.
+    bool is_near(const Vec3 (&corners)[3], double tolerance, int only = -1) const;
     bool on_surface(Vec3 x) const { return std::abs(solid_.at(x).distance) <= 10 * surfaces_.slack(); }
     const OffsetField& solid() const { return solid_; }
     const LeafSurfaces& surfaces() const { return surfaces_; }
@@ -31,8 +36,8 @@ public:
 
 private:
     OffsetField solid_;
-    LeafSurfaces surfaces_;
     bool one_leaf_;
+    LeafSurfaces surfaces_;
     double size_;
 };
 

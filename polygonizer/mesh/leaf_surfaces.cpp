@@ -2,13 +2,18 @@
 
 namespace deburr {
 
-LeafSurfaces::LeafSurfaces(const SolidTree& solid, const Box& box)
-    : solid_(solid), box_(box), slack_(1e-10 * glm::length(box.hi - box.lo)) {
+LeafSurfaces::LeafSurfaces(const SolidTree& solid, const Box& box, const OffsetField* only)
+    : solid_(solid), box_(box), slack_(1e-10 * glm::length(box.hi - box.lo)), only_(only) {
     fields_.resize(solid.leaves.size());
 }
 
 Offset LeafSurfaces::at(const SurfacePiece& piece, Vec3 x) const {
     if (piece.leaf < 0) return {piece.offset - glm::dot(piece.normal, x), piece.normal, -1};
+    if (only_) {
+        Offset o = only_->at(x);
+        o.leaf = piece.leaf;
+        return o;
+    }
     auto& field = fields_[std::size_t(piece.leaf)];
     if (!field) {
         SolidTree alone;

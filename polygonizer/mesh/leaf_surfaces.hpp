@@ -18,7 +18,8 @@ struct SurfacePiece {
 /// Not for several threads at once.
 class LeafSurfaces {
 public:
-    LeafSurfaces(const SolidTree& solid, const Box& box);
+    /// `only`: the field of the whole solid, if that is one leaf; it must outlive this.
+    LeafSurfaces(const SolidTree& solid, const Box& box, const OffsetField* only = nullptr);
 
     /// To first order, as SurfaceOffset: > 0 inside the leaf, or behind the plane.
     Offset at(const SurfacePiece& piece, Vec3 x) const;
@@ -33,6 +34,7 @@ private:
     const SolidTree& solid_;
     Box box_;
     double slack_;
+    const OffsetField* only_;
     mutable std::vector<std::unique_ptr<OffsetField>> fields_;
 };
 

@@ -4,9 +4,9 @@
 #include <map>
 #include <queue>
 
+#include "polygonizer/mesh/crossing_triangles.hpp"
 #include "polygonizer/mesh/facet_judge.hpp"
 #include "polygonizer/mesh/facet_orientation.hpp"
-#include "polygonizer/mesh/triangle_tree.hpp"
 
 namespace deburr {
 namespace {
@@ -73,19 +73,9 @@ private:
     }
 
     void crossings() {
-        // Where parts touch, vertices lie in facets up to the rounding of what computed them.
-        const Box all = tree_.box();
-        const double rounding = all.empty() ? 0 : 1e-11 * std::max(largest(all.lo), largest(all.hi));
-        for (std::size_t s = 0; s < mesh_.triangles.size(); ++s) {
-            if (s % stop_every == 0) throw_if_stopped(options_.stop);
-            tree_.visit(tree_.box(int(s)), [&](int t) {
-                if (t <= int(s)) return true;
-                ++result_.pairs;
-                if (triangles_cross(mesh_, mesh_.triangles[s], mesh_.triangles[std::size_t(t)], rounding))
-                    result_.crossing.add(0.5 * (middle(mesh_.triangles[s]) + middle(mesh_.triangles[std::size_t(t)])));
-                return true;
-            });
-        }
+        for (const auto& [s, t] : crossing_triangles(mesh_, tree_, options_.stop, &result_.pairs))
+            result_.crossing.add(0.5 *
+                                 (middle(mesh_.triangles[std::size_t(s)]) + middle(mesh_.triangles[std::size_t(t)])));
     }
 
     void facets() {

@@ -5,6 +5,8 @@
 #include <optional>
 #include <unordered_set>
 
+#include "polygonizer/mesh/split_on_surface.hpp"
+
 namespace deburr {
 namespace {
 
@@ -18,7 +20,6 @@ struct Limits {
 };
 // First all that lean are helped, then those that face inward at any price.
 constexpr Limits gentle{0.2, 0.25, 2, 1e-3, 0, false}, last_resort{0.05, 0.06, 5, 2e-2, 2e-2, true};
-constexpr double same_normal = 1e-6;
 // Where surfaces run closer together than any facet is small, mending one makes two that need it. So
 // there are this many splits, more for every wrong facet, and this many tries for each.
 // Where few facets are wrong, three tries for each are enough.
@@ -66,20 +67,7 @@ public:
         return v;
     }
 
-    SurfacePiece piece(const Facet& f) const {
-        if (f.origin.leaf >= 0) return {f.origin.leaf};
-        const Vec3 n = facets_.normal(f.triangle.normal[0]);
-        return {-1, n, glm::dot(n, facets_.position(f.triangle.vertex[0]))};
-    }
-    static bool same(const SurfacePiece& a, const SurfacePiece& b) {
-        return a.leaf == b.leaf && (a.leaf >= 0 || glm::length(a.normal - b.normal) < same_normal);
-    }
-    void add_piece(std::vector<SurfacePiece>& pieces, const Facet& f) const {
-        const SurfacePiece p = piece(f);
-        for (const SurfacePiece& known : pieces)
-            if (same(known, p)) return;
-        pieces.push_back(p);
-    }
+    SurfacePiece piece(const Facet& f) const { return surface_of(facets_, f); }
 
     // Vertex u onto v, if v lies on all surfaces that meet at u, or at the last so near to them that
     // facets may stand for one or the other.
@@ -91,31 +79,8 @@ public:
         return facets_.collapse(u, v);
     }
 
-    // Edge k of f halved on its surfaces; none if there is no such point on the solid.
     std::optional<Change> split(int f, std::size_t k, double share = 0.5) {
-        const Facet& facet = facets_.at(f);
-        const int a = facet.triangle.vertex[k], b = facet.triangle.vertex[(k + 1) % 3];
-        const int other = facets_.across(a, b);
-        const Facet& beyond = facets_.at(other);
-        std::vector<SurfacePiece> pieces;
-        add_piece(pieces, facet);
-        add_piece(pieces, beyond);
-        const Vec3 xa = facets_.position(a), xb = facets_.position(b);
-        const double length = glm::length(xb - xa);
-        Vec3 x = xa + (xb - xa) * share;
-        if (!surfaces_.project(x, pieces, length)) return {};
-        if (!on_surface(x)) return {};
-        const int vertex = facets_.add_vertex(x);
-        const auto normal_on = [&](const Facet& g) {
-            if (g.origin.leaf < 0) return g.triangle.normal[0];
-            const Offset o = surfaces_.at({g.origin.leaf}, x);
-            const Vec3 na = facets_.normal(g.triangle.normal[std::size_t(place(g, a))]);
-            const Vec3 nb = facets_.normal(g.triangle.normal[std::size_t(place(g, b))]);
-            return facets_.add_normal(glm::dot(o.normal, na + nb) < 0 ? -o.normal : o.normal);
-        };
-        const int n = normal_on(facet);
-        const int m = same(piece(facet), piece(beyond)) ? n : normal_on(beyond);
-        return facets_.split(f, k, vertex, n, m);
+        return split_on_surface(facets_, judge_, f, k, share);
     }
 
     std::optional<Change> star(int f, Vec3 x) {
@@ -287,7 +252,7 @@ public:
             std::vector<SurfacePiece> pieces;
             double shortest = infinity;
             for (const int f : facets_.around(v)) {
-                add_piece(pieces, facets_.at(f));
+                add_surface(pieces, piece(facets_.at(f)));
                 for (std::size_t k = 0; k < 3; ++k)
                     if (facets_.at(f).triangle.vertex[k] != v)
                         shortest = std::min(shortest, glm::length(facets_.position(v) -

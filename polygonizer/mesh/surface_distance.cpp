@@ -210,24 +210,33 @@ OffsetField::OffsetField(const SolidTree& solid, const Box& box, double margin)
 double OffsetField::distance_along_normal(Vec3 x, double reach) const { return search_along_normal(*this, x, reach); }
 
 const SurfaceOffset& OffsetField::near(Vec3 x) const {
-    // Boxes stop where splitting pays no more, or does not help.
-    constexpr std::size_t few = 8;
+    // Boxes stop where splitting pays no more, or does not help. Where very many half-spaces vary together, the nearest
+    // have to do.
+    constexpr std::size_t few = 8, many = 40;
     constexpr int deepest = 40;
+    constexpr double least_margin = 0.05;  // of the margin
+    if (last_ && last_->box.contains(x)) return last_->solid;
     Node* node = root_.get();
-    if (!node->box.contains(x)) return node->solid;
+    // What is beyond the box sees what is nearest in it: the whole solid at once may be too much to evaluate.
+    const Vec3 y = glm::clamp(x, node->box.lo, node->box.hi);
     while (node->depth < deepest && node->half_spaces > few) {
         const Vec3 size = node->box.hi - node->box.lo;
         const int axis = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
-        if (size[axis] < 2 * margin_) break;
+        double margin = margin_;
+        if (size[axis] < 2 * margin_) {
+            margin = 0.5 * size[axis];
+            if (node->half_spaces <= many || margin < least_margin * margin_) break;
+        }
         const double middle = 0.5 * (node->box.lo[axis] + node->box.hi[axis]);
-        std::unique_ptr<Node>& child = node->children[x[axis] > middle];
+        std::unique_ptr<Node>& child = node->children[y[axis] > middle];
         if (!child) {
             Box half = node->box;
-            (x[axis] > middle ? half.lo : half.hi)[axis] = middle;
-            child = std::make_unique<Node>(half, node->solid.within(inflated(half, margin_)), node->depth + 1);
+            (y[axis] > middle ? half.lo : half.hi)[axis] = middle;
+            child = std::make_unique<Node>(half, node->solid.within(inflated(half, margin)), node->depth + 1);
         }
         node = child.get();
     }
+    last_ = node;
     return node->solid;
 }
 

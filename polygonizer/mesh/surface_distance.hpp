@@ -66,8 +66,9 @@ private:
 /// only what matters near it. Not for several threads at once.
 class OffsetField {
 public:
-    /// Surfaces that are nearer to a point than `margin` matter there, whether or not it is beyond
-    /// them: farther ones may be missing.
+    /// Surfaces that are nearer to a point than `margin` matter there, whether or not it is beyond them: farther ones
+    /// may be missing. Where dozens of half-spaces vary within it, only those that are much nearer matter. A point
+    /// beyond the box is told of the surfaces near that part of the box which is nearest to it.
     OffsetField(const SolidTree& solid, const Box& box, double margin = 0);
 
     Offset at(Vec3 x) const { return near(x).at(x); }
@@ -88,6 +89,7 @@ private:
         std::unique_ptr<Node> children[2];
     };
     std::unique_ptr<Node> root_;
+    mutable const Node* last_ = nullptr;  // that a point asked for: the next is often in its box as well
     double margin_;
 };
 

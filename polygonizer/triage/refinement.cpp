@@ -83,16 +83,30 @@ bool is_wrong(const Part& part, const LocalDensity& density, double tolerance, d
 
 }  // namespace
 
-std::vector<Cut> cells_to_halve(const Mesh& mesh, const std::vector<Origin>& origins, const Subdivision& subdivision,
-                                double tolerance) {
+std::vector<Cut> cells_to_halve(const Mesh& mesh, const std::vector<Origin>& origins, const Subdivision& subdivision) {
     std::vector<Cut> cuts;
     for (std::size_t k = 0; k < origins.size(); ++k) {
         if (origins[k].cell < 0) continue;
         const LocalDensity& density = *subdivision.open(origins[k].cell, origins[k].leaf)->density;
         const Part part = part_of(mesh, mesh.triangles[k]);
         double distance;
-        if (is_wrong(part, density, tolerance, distance))
+        if (is_wrong(part, density, infinity, distance))
             cuts.push_back({origins[k].cell, distance, halving(part, density)});
+    }
+    worst_of_each(cuts);
+    return cuts;
+}
+
+std::vector<Cut> cells_to_halve(const Mesh& mesh, const std::vector<Origin>& origins, const std::vector<int>& triangles,
+                                const Subdivision& subdivision) {
+    std::vector<Cut> cuts;
+    for (const int t : triangles) {
+        const Origin& origin = origins[std::size_t(t)];
+        if (origin.cell < 0) continue;
+        const LocalDensity& density = *subdivision.open(origin.cell, origin.leaf)->density;
+        const Triangle& triangle = mesh.triangles[std::size_t(t)];
+        const Plane plane = halving(part_of(mesh, triangle), density);
+        if (plane.normal != Vec3(0.0)) cuts.push_back({origin.cell, glm::length(mesh.area_vector(triangle)), plane});
     }
     worst_of_each(cuts);
     return cuts;

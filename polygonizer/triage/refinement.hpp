@@ -12,12 +12,15 @@ struct Cut {
     Plane plane;
 };
 
-/// Cells whose part of the mesh leans too far from the surface's normal, or is farther than `tolerance`
-/// from the surface. One cut for each.
-std::vector<Cut> cells_to_halve(const Mesh& mesh, const std::vector<Origin>& origins, const Subdivision& subdivision,
-                                double tolerance);
+/// Cells whose part of the mesh leans too far from the surface's normal. One cut for each.
+std::vector<Cut> cells_to_halve(const Mesh& mesh, const std::vector<Origin>& origins, const Subdivision& subdivision);
 
-/// The same of the polygons in a subspace, all of it or a part, before they are a mesh.
+/// The cells of these triangles. One cut for each.
+std::vector<Cut> cells_to_halve(const Mesh& mesh, const std::vector<Origin>& origins, const std::vector<int>& triangles,
+                                const Subdivision& subdivision);
+
+/// Cells whose polygons in a subspace, all of it or a part, lean too far, or are farther than `tolerance` from the
+/// surface. One cut for each.
 std::vector<Cut> cells_to_halve(const Subspace& subspace, double tolerance);
 
 /// The cells that triangles came from, and those of their neighbours.

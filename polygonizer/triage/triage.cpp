@@ -5,8 +5,10 @@
 #include <optional>
 
 #include "bounds/bounding_box.hpp"
+#include "polygonizer/mesh/crossing_triangles.hpp"
 #include "polygonizer/mesh/decimate.hpp"
 #include "polygonizer/mesh/degenerate_shells.hpp"
+#include "polygonizer/mesh/refine.hpp"
 #include "polygonizer/mesh/repair.hpp"
 #include "polygonizer/mesh/separate_touching.hpp"
 #include "polygonizer/mesh/sharp_parts.hpp"
@@ -43,11 +45,9 @@ Box polygonization_box(const SolidTree& solid) {
 
 namespace {
 
-// Of a tolerance, at the middles of triangles and edges: the rest is for what lies between, and for
-// distances being of first order.
-constexpr double at_middles = 0.85;
-// The same at the points of large triangles, between which the surface may bend more.
-constexpr double at_points = 0.65;
+// Of a tolerance, at the points of a triangle that are looked at: the rest is for what lies between, and for distances
+// being of first order.
+constexpr double at_points = 0.85;
 
 // Makes the cuts; the cells on both sides of those that could be made.
 std::vector<int> halve(Subdivision& subdivision, const std::vector<Cut>& cuts) {
@@ -56,6 +56,50 @@ std::vector<int> halve(Subdivision& subdivision, const std::vector<Cut>& cuts) {
         if (subdivision.halve(cut.cell, cut.plane))
             halves.insert(halves.end(), {cut.cell, int(subdivision.complex.cells.size()) - 1});
     return halves;
+}
+
+// Halves the cells of these triangles, and what is farther from the surface than splits of edges could mend: there
+// sheets lie close together. What has been halved is looked at again without the rest. False if nothing could be cut.
+bool cut_cells(Subdivision& subdivision, const Mesh& mesh, const std::vector<Origin>& origins,
+               const std::vector<int>& triangles, double tolerance, std::size_t max_cells, StopFlag stop) {
+    // Of the tolerance; splits of edges begin there.
+    constexpr double coarse = 5;
+    constexpr std::size_t most_rounds = 24;
+    std::vector<int> halves = halve(subdivision, cells_to_halve(mesh, origins, triangles, subdivision));
+    const bool changed = !halves.empty();
+    for (std::size_t k = 0; k < most_rounds && !halves.empty() && subdivision.complex.cells.size() < max_cells; ++k) {
+        throw_if_stopped(stop);
+        Subspace part(subdivision);
+        part.polygonize(with_neighbours(subdivision.complex, halves));
+        halves = halve(subdivision, cells_to_halve(part, coarse * tolerance));
+    }
+    return changed;
+}
+
+void add_crossing(const Mesh& mesh, std::vector<int>& triangles, StopFlag stop) {
+    for (const auto& [s, t] : crossing_triangles(mesh, TriangleTree(mesh), stop))
+        triangles.insert(triangles.end(), {s, t});
+}
+
+void add_far(const Mesh& mesh, const FacetJudge& judge, double tolerance, std::vector<int>& triangles) {
+    for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+        Vec3 x[3];
+        for (std::size_t k = 0; k < 3; ++k) x[k] = mesh.positions[std::size_t(mesh.triangles[t].vertex[k])];
+        if (!judge.is_near(x, tolerance)) triangles.push_back(int(t));
+    }
+}
+
+// Adds boxes around the triangle's corners, as large as its shortest edge.
+void add_corners(const Mesh& mesh, const Triangle& triangle, std::vector<Box>& boxes) {
+    Vec3 x[3];
+    for (std::size_t k = 0; k < 3; ++k) x[k] = mesh.positions[std::size_t(triangle.vertex[k])];
+    const double shortest = std::min({glm::length(x[0] - x[1]), glm::length(x[1] - x[2]), glm::length(x[2] - x[0])});
+    for (const Vec3& corner : x) boxes.push_back(inflated(Box{corner, corner}, 0.5 * shortest));
+}
+
+void sort_once(std::vector<int>& numbers) {
+    std::sort(numbers.begin(), numbers.end());
+    numbers.erase(std::unique(numbers.begin(), numbers.end()), numbers.end());
 }
 
 }  // namespace
@@ -70,11 +114,12 @@ Mesh triage(const SolidTree& mixed, const Box& box, const TriageOptions& options
     std::size_t least_left = std::numeric_limits<std::size_t>::max();
     double farthest = 0;
     std::optional<FacetJudge> judge;
-    // Each round halves the cells that need it. Halving quarters the distance, so a tolerance is met,
-    // or cells have become negligible, long before the last.
-    const std::size_t most_rounds = std::isfinite(options.tolerance) ? 24 : 5;
+    // Each round halves the cells that need it.
+    const std::size_t most_rounds = std::isfinite(options.tolerance) ? 6 : 5;
     constexpr std::size_t most_mending_rounds = 8;
     std::size_t mending = 0;
+    std::vector<int> best_left;  // triangles of it that are wrong
+    std::vector<Box> dense;      // where a mesh that was thinned out was wrong
     // Where surfaces nearly touch, halves of what is too far may be too far for ever.
     const std::size_t max_cells = 8 * subdivision.complex.cells.size() + 20'000;
     const auto may_halve = [&] { return subdivision.complex.cells.size() < max_cells; };
@@ -85,23 +130,24 @@ Mesh triage(const SolidTree& mixed, const Box& box, const TriageOptions& options
         origins.clear();
         mesh = surface(subspace, solid, &origins);
         if (statistics) statistics->rounds = round + 1;
-        if (round + 1 < most_rounds && may_halve()) {
-            const double tolerance = at_middles * options.tolerance;
-            std::vector<int> halves = halve(subdivision, cells_to_halve(mesh, origins, subdivision, tolerance));
-            const bool changed = !halves.empty();
-            // What has been halved is looked at again without the rest, until it seems to be enough.
-            for (std::size_t k = 1; k < most_rounds && std::isfinite(tolerance) && !halves.empty() && may_halve();
-                 ++k) {
-                throw_if_stopped(options.stop);
-                Subspace part(subdivision);
-                part.polygonize(with_neighbours(subdivision.complex, halves));
-                halves = halve(subdivision, cells_to_halve(part, tolerance));
-            }
-            if (changed) continue;
-        }
+        const bool may_cut = round + 1 < most_rounds && may_halve();
+        if (may_cut && !std::isfinite(options.tolerance) &&
+            !halve(subdivision, cells_to_halve(mesh, origins, subdivision)).empty())
+            continue;
         if (!judge) judge.emplace(solid, mesh);
         drop_sheets(mesh, origins, 10 * subdivision.complex.tolerance, judge->solid());
-        if (thin_out) decimate(mesh, origins, *judge, at_points * options.tolerance, options.stop);
+        if (std::isfinite(options.tolerance)) {
+            const double tolerance = at_points * options.tolerance;
+            const std::vector<int> left = refine(mesh, origins, *judge, tolerance, options.stop);
+            if (may_cut && !left.empty() &&
+                cut_cells(subdivision, mesh, origins, left, tolerance, max_cells, options.stop))
+                continue;
+        }
+        if (thin_out) {
+            // Facets that lean are mended first: what mends them later knows of no tolerance.
+            repair(mesh, origins, *judge);
+            decimate(mesh, origins, *judge, at_points * options.tolerance, dense, options.stop);
+        }
         // What repair cannot help needs smaller cells around it.
         ++mending;
         std::vector<Cut> cuts[2];
@@ -110,18 +156,22 @@ Mesh triage(const SolidTree& mixed, const Box& box, const TriageOptions& options
             std::vector<Origin> mended_origins = origins;
             RepairStatistics repaired = repair(mended, mended_origins, *judge, may_split);
             drop_wrong_sheets(mended, mended_origins, repaired.left);
+            add_crossing(mended, repaired.left, options.stop);
+            if (std::isfinite(options.tolerance)) add_far(mended, *judge, options.tolerance, repaired.left);
+            sort_once(repaired.left);
             cuts[may_split] = cells_around(mended, mended_origins, repaired.left, subdivision);
             if (repaired.left.size() < least_left) {
                 least_left = repaired.left.size();
                 farthest = repaired.farthest;
                 best = std::move(mended);
+                best_left = repaired.left;
                 best_origins = std::move(mended_origins);
             }
             if (least_left == 0) break;
         }
-        if (least_left == 0 || !may_halve() ||
-            (halve(subdivision, cuts[0]).empty() && halve(subdivision, cuts[1]).empty()))
-            break;
+        if (least_left == 0 || !may_halve()) break;
+        if (halve(subdivision, cuts[0]).empty() && halve(subdivision, cuts[1]).empty() && !thin_out) break;
+        for (const int t : best_left) add_corners(best, best.triangles[std::size_t(t)], dense);
     }
     mesh = std::move(best);
     origins = std::move(best_origins);

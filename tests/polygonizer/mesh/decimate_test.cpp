@@ -29,8 +29,8 @@ TEST_CASE("A mesh within a tolerance is thinned out: closed, outward, near, and 
     const Box box = polygonization_box(tree);
     const Mesh dense = triage(tree, box, {.tolerance = tolerance, .decimate = false});
     const Mesh mesh = triage(tree, box, {.tolerance = tolerance});
-    CHECK(mesh.triangles.size() < dense.triangles.size() / 3);
-    CHECK(mesh.triangles.size() < 1'200);
+    CHECK(mesh.triangles.size() < dense.triangles.size() / 2);
+    CHECK(mesh.triangles.size() < 850);
     const MeshMetrics m = measure(mesh, tree);
     CHECK(m.topology.manifold());
     CHECK(m.topology.euler == 0);

@@ -1,0 +1,178 @@
+#include "polygonizer/mesh/refine.hpp"
+
+#include <algorithm>
+#include <deque>
+
+#include "polygonizer/mesh/split_on_surface.hpp"
+
+namespace deburr {
+namespace {
+
+// Changes that lead from a facet of the mesh that was given to one that may still be changed. Each split halves an edge
+// and quarters its distance, so tolerances of any use are met long before.
+constexpr int max_generation = 24;
+
+class Refinement {
+public:
+    Refinement(Mesh& mesh, std::vector<Origin>& origins, const FacetJudge& judge, double tolerance, StopFlag stop)
+        : facets_(mesh, origins), judge_(judge), tolerance_(tolerance), stop_(stop) {
+        generation_.resize(facets_.size(), 0);
+    }
+
+    std::vector<int> run() {
+        for (std::size_t f = 0; f < facets_.size(); ++f) open_.push_back(int(f));
+        std::size_t looks = 0;
+        while (!open_.empty()) {
+            if (++looks % 1024 == 0) throw_if_stopped(stop_);
+            const int f = open_.front();
+            open_.pop_front();
+            if (!facets_.alive(f) || facets_.at(f).origin.leaf < 0 || !is_far(f)) continue;
+            if (generation_[std::size_t(f)] >= max_generation || !improve(f)) stuck_.push_back(f);
+        }
+        std::vector<int> order(facets_.size(), -1), left;
+        int t = 0;
+        for (std::size_t f = 0; f < facets_.size(); ++f)
+            if (facets_.alive(int(f))) order[f] = t++;
+        for (const int f : stuck_)
+            if (facets_.alive(f)) left.push_back(order[std::size_t(f)]);
+        facets_.finish();
+        return left;
+    }
+
+private:
+    struct Edge {
+        double distance, curvature;
+        std::size_t k;
+    };
+
+    double distance(Vec3 x) const {
+        const double d = std::abs(judge_.solid().at(x).distance);
+        return std::isfinite(d) ? d : 0;
+    }
+
+    // Of points along the edge from the surface: an edge along an S has its middle on it.
+    double distance(Vec3 a, Vec3 b) const {
+        double farthest = 0;
+        for (const double share : {0.25, 0.5, 0.75}) farthest = std::max(farthest, distance(a + share * (b - a)));
+        return farthest;
+    }
+
+    // Whether points of the facet are too far from the surface; then edges_ are the edges, the one that needs a vertex
+    // most first.
+    bool is_far(int f) {
+        const Triangle& t = facets_.at(f).triangle;
+        Vec3 x[3], n[3];
+        for (std::size_t k = 0; k < 3; ++k) {
+            x[k] = facets_.position(t.vertex[k]);
+            n[k] = facets_.normal(t.normal[k]);
+        }
+        // A triangle of the surface's own vertices is nearer to the surface than its edges are long.
+        const double longest = std::max({glm::length(x[0] - x[1]), glm::length(x[1] - x[2]), glm::length(x[2] - x[0])});
+        if (longest <= 2 * tolerance_) return false;
+        double farthest = 0, most_turn = 0;
+        std::size_t turns_most = 0;
+        for (std::size_t k = 0; k < 3; ++k) {
+            const std::size_t l = (k + 1) % 3;
+            const double d = distance(x[k], x[l]), length = glm::length(x[k] - x[l]);
+            const double turn = glm::length(n[k] - n[l]) * length;
+            farthest = std::max(farthest, d);
+            edges_[k] = {d, d / (length * length), k};
+            if (turn <= most_turn) continue;
+            most_turn = turn;
+            turns_most = k;
+        }
+        if (farthest <= tolerance_) {
+            const Vec3 middle = (x[0] + x[1] + x[2]) / 3.0;
+            farthest = std::max(farthest, distance(middle));
+            for (std::size_t k = 0; k < 3 && farthest <= tolerance_; ++k)
+                farthest = std::max(farthest, distance(0.5 * (x[k] + middle)));
+        }
+        if (farthest <= tolerance_) return false;
+        // Where the middle is far from the surface and no edge is, the normals tell along which edge it turns.
+        if (std::max({edges_[0].distance, edges_[1].distance, edges_[2].distance}) < 0.5 * tolerance_)
+            edges_[turns_most].distance = farthest;
+        std::sort(std::begin(edges_), std::end(edges_), [](const Edge& a, const Edge& b) {
+            return a.curvature != b.curvature ? a.curvature > b.curvature : a.k < b.k;
+        });
+        return true;
+    }
+
+    // Whether the other diagonal of the two facets at the edge is much nearer to the surface; then it takes its place.
+    bool flip(int f, const Edge& edge) {
+        const Triangle& t = facets_.at(f).triangle;
+        const int a = t.vertex[edge.k], b = t.vertex[(edge.k + 1) % 3], c = t.vertex[(edge.k + 2) % 3];
+        const int other = facets_.across(a, b);
+        int d = -1;
+        for (const int v : facets_.at(other).triangle.vertex)
+            if (v != a && v != b) d = v;
+        constexpr double much = 0.5;
+        if (distance(facets_.position(c), facets_.position(d)) > much * edge.distance) return false;
+        const auto change = facets_.flip(f, edge.k);
+        return change && is_better(*change) && apply(*change);
+    }
+
+    bool apply(const Change& change) {
+        int generation = 0;
+        for (const int f : change.out) generation = std::max(generation, generation_[std::size_t(f)]);
+        for (const int fresh : facets_.apply(change)) {
+            open_.push_back(fresh);
+            generation_.resize(std::max(generation_.size(), std::size_t(fresh) + 1));
+            generation_[std::size_t(fresh)] = generation + 1;
+        }
+        return true;
+    }
+
+    // The edges that are far themselves, along the way of the greatest curvature first.
+    bool improve(int f) {
+        for (const Edge& edge : edges_)
+            if (edge.distance > 0.5 * tolerance_ && flip(f, edge)) return true;
+        for (const Edge& edge : edges_) {
+            if (edge.distance <= 0.5 * tolerance_) continue;
+            const auto change = split_on_surface(facets_, judge_, f, edge.k);
+            if (change && is_better(*change)) return apply(*change);
+        }
+        return false;
+    }
+
+    // Whether a facet's longest side is many times its height, so that it leans for little.
+    bool is_sliver(const Triangle& t) const {
+        constexpr double slender = 0.2;  // height over longest side
+        double longest2 = 0;
+        for (std::size_t k = 0; k < 3; ++k) {
+            const Vec3 d = facets_.position(t.vertex[k]) - facets_.position(t.vertex[(k + 1) % 3]);
+            longest2 = std::max(longest2, glm::dot(d, d));
+        }
+        return glm::length(facets_.area_vector(t)) < slender * longest2;
+    }
+
+    // No facet leans farther from its surface than the worst did, unless all are upright. Slivers may lean: those that
+    // a split raises are flipped or collapsed later.
+    bool is_better(const Change& change) const {
+        constexpr double upright = 0.5, sliver = 0.01;  // cosines
+        double limit = upright;
+        for (const int f : change.out) limit = std::min(limit, judge_.shape(facets_, facets_.at(f)).cosine);
+        return std::all_of(change.in.begin(), change.in.end(), [&](const Facet& f) {
+            const double cosine = judge_.shape(facets_, f).cosine;
+            return cosine >= limit || (cosine >= sliver && is_sliver(f.triangle));
+        });
+    }
+
+    Facets facets_;
+    const FacetJudge& judge_;
+    double tolerance_;
+    StopFlag stop_;
+    std::deque<int> open_;
+    std::vector<int> generation_;  // of facets
+    std::vector<int> stuck_;
+    Edge edges_[3];
+};
+
+}  // namespace
+
+std::vector<int> refine(Mesh& mesh, std::vector<Origin>& origins, const FacetJudge& judge, double tolerance,
+                        StopFlag stop) {
+    if (mesh.triangles.empty()) return {};
+    return Refinement(mesh, origins, judge, tolerance, stop).run();
+}
+
+}  // namespace deburr

@@ -1,0 +1,20 @@
+// A mesh brought within a tolerance of its surface: triangles that are too far from it are split at edges, by vertices
+// on the surface [Triage §8, refinement by curvature].
+//
+// Splitting edges of the mesh costs no more than the triangles that it makes, where cutting cells anew would
+// polygonize all that lies around them again. Flat faces keep their triangles but for new vertices on their rims.
+//
+// Not promised: that splits lead there. Where two sheets are nearer to each other than a triangle is to either, they
+// may not; the triangles concerned are told.
+#pragma once
+#include "polygonizer/mesh/cancel.hpp"
+#include "polygonizer/mesh/facet_judge.hpp"
+
+namespace deburr {
+
+/// Splits edges of a closed mesh until points all over its curved triangles are within `tolerance` of the surface.
+/// Returns the triangles, in the order of the refined mesh, for which no split or flip led there. Throws Stopped.
+std::vector<int> refine(Mesh& mesh, std::vector<Origin>& origins, const FacetJudge& judge, double tolerance,
+                        StopFlag stop = nullptr);
+
+}  // namespace deburr
