@@ -147,7 +147,7 @@ static std::uint32_t whole_number(float value) {
 Film read_picture(const std::string& path) {
     const auto read = [&] {
         try {
-            return image_module().read(path);
+            return image_module().read(path, read_picture_header(path));
         } catch (const UnsupportedError&) {
             throw;
         } catch (const std::bad_alloc&) {
@@ -173,19 +173,22 @@ Film read_picture(const std::string& path) {
     if (has_normal) kept.push_back(ImageLayer::normal);
     if (id >= 0) kept.push_back(ImageLayer::id);
     Film film(image.width, image.height, image.window, kept);
-    std::vector<PixelLayers> layers(film.pixels.size());
+    const auto width = std::size_t(film.window.width);
+    std::vector<PixelLayers> row(width);  // all at once take more than the film
     for (std::size_t i = 0; i < film.pixels.size(); ++i) {
+        PixelLayers& layers = row[i % width];
         const float* from = &image.values[i * image.channels.size()];
         Pixel& p = film.pixels[i];
         for (int k = 0; k < 3; ++k) {
             p.color[k] = from[rgb[k] >= 0 ? rgb[k] : rgb[0]];
-            if (has_position) layers[i].position[k] = from[position[k]];
-            if (has_normal) layers[i].normal[k] = from[normal[k]];
+            if (has_position) layers.position[k] = from[position[k]];
+            if (has_normal) layers.normal[k] = from[normal[k]];
         }
         p.alpha = alpha >= 0 ? from[alpha] : 1;
-        if (id >= 0) layers[i].id = whole_number(from[id]);
+        if (id >= 0) layers.id = whole_number(from[id]);
+        if ((i + 1) % width == 0)
+            film.set_layers({film.window.x, film.window.y + int(i / width), film.window.width, 1}, row.data());
     }
-    film.set_layers(film.window, layers.data());
     return film;
 }
 

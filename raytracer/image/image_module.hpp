@@ -2,6 +2,7 @@
 // OpenImageIO, which reads pictures, writes formats beside EXR and PNG, and compares as eyes do.
 #pragma once
 #include "raytracer/image/image_raster.hpp"
+#include "raytracer/image/picture_header.hpp"
 
 namespace deburr {
 
@@ -20,7 +21,8 @@ public:
     /// ".jpg"; only what can be encoded in memory can be written whole or not at all.
     virtual bool writes(const std::string& extension) const = 0;
     virtual std::string encode(const std::string& extension, const ImageRaster& image, const ShareDone& done) const = 0;
-    virtual ReadImage read(const std::string& path) const = 0;
+    /// `header` is the file's.
+    virtual ReadImage read(const std::string& path, const PictureHeader& header) const = 0;
     /// Pixels of two pictures of one size in R, G, B that are visibly different [Yee 1999].
     virtual double perceptual_fails(const ReadImage& a, const ReadImage& b) const = 0;
 };
