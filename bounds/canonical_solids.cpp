@@ -36,20 +36,20 @@ const Solid& peel(const Solid& solid, PlacedForm& to) {
     for (;;) {
         const SolidNode& node = at->node();
         if (node.kind == SolidNode::Kind::material)
-            to.material = node.material;  // the innermost wins
+            to.material = node.material();  // the innermost wins
         else if (node.kind == SolidNode::Kind::transform)
-            to.map = compose(to.map, node.map);
+            to.map = compose(to.map, node.map());
         else
             return *at;
-        at = &node.children[0];
+        at = &node.children()[0];
     }
 }
 
 const Density& peel_rigid(const Density& density, PlacedForm& to) {
     const Density* at = &density;
-    while (at->node().kind == DensityNode::Kind::transform && is_rigid(at->node().map.linear)) {
-        to.map = compose(to.map, at->node().map);
-        at = &at->node().children[0];
+    while (at->node().kind == DensityNode::Kind::transform && is_rigid(at->node().map().linear)) {
+        to.map = compose(to.map, at->node().map());
+        at = &at->node().children()[0];
     }
     return *at;
 }
@@ -92,7 +92,7 @@ int SolidForms::density(const Density& root) {
     return number_bottom_up(
         known_densities_, root,
         [](const Density& d, auto visit) {
-            for (const Density& child : d.node().children)
+            for (const Density& child : d.node().children())
                 if (child.node().kind != DensityNode::Kind::half_space) visit(child);
         },
         [&](const Density& d) {
@@ -100,15 +100,17 @@ int SolidForms::density(const Density& root) {
             std::string& key = density_keys_.bytes();
             append(key, n.kind);
             if (n.kind == DensityNode::Kind::transform)
-                append(key, n.map);
-            else
-                append(key, n.normal, n.value);
-            for (const Density& child : n.children) {  // half-spaces, of which there are most, need no number
+                append(key, n.map());
+            else if (n.kind == DensityNode::Kind::half_space)
+                append(key, n.normal(), n.offset());
+            else if (n.kind == DensityNode::Kind::radius)
+                append(key, n.radius());
+            for (const Density& child : n.children()) {  // half-spaces, of which there are most, need no number
                 const DensityNode& c = child.node();
                 const bool is_half_space = c.kind == DensityNode::Kind::half_space;
                 key.push_back(char(is_half_space));
                 if (is_half_space)
-                    append(key, c.normal, c.value);
+                    append(key, c.normal(), c.offset());
                 else
                     append(key, known_densities_.at(&c));
             }
@@ -117,11 +119,11 @@ int SolidForms::density(const Density& root) {
 }
 
 int SolidForms::rounded(const SolidNode& node, const Density& of) {
-    append(solid_keys_.bytes(), node.kind, node.radius, node.convolved, density(of));
+    append(solid_keys_.bytes(), node.kind, node.radius(), node.convolved(), density(of));
     const int form = solid_keys_.number_of_appended();
     if (std::size_t(form) == solids_.size())
-        solids_.push_back(node.convolved ? Solid::convolved(node.radius, of, node.line)
-                                         : Solid::rounded(node.radius, of, node.line));
+        solids_.push_back(node.convolved() ? Solid::convolved(node.radius(), of, node.line)
+                                           : Solid::rounded(node.radius(), of, node.line));
     return form;
 }
 
@@ -130,15 +132,15 @@ int SolidForms::base(const Solid& root) {
         known_solids_, root,
         [](const Solid& s, auto visit) {
             PlacedForm ignored;
-            for (const Solid& child : s.node().children) {
+            for (const Solid& child : s.node().children()) {
                 const Solid& part = peel(child, ignored);
                 if (part.node().kind != SolidNode::Kind::rounded) visit(part);
             }
         },
         [&](const Solid& s) {
             std::vector<PlacedForm> parts;  // before the key is begun: a part may have to be numbered
-            for (const Solid& child : s.node().children) parts.push_back(of(child));
-            append(solid_keys_.bytes(), s.node().kind, s.node().field.get());
+            for (const Solid& child : s.node().children()) parts.push_back(of(child));
+            append(solid_keys_.bytes(), s.node().kind, s.node().field().get());
             for (const PlacedForm& part : parts) append_placed(solid_keys_.bytes(), part);
             const int form = solid_keys_.number_of_appended();
             if (std::size_t(form) == solids_.size()) solids_.push_back(s);
@@ -151,7 +153,7 @@ PlacedForm SolidForms::of(const Solid& solid) {
     const Solid& at = peel(solid, to);
     const SolidNode& node = at.node();
     if (node.kind == SolidNode::Kind::rounded) {
-        const Density& inner = peel_rigid(node.density[0], to);
+        const Density& inner = peel_rigid(node.density(), to);
         to.form = rounded(node, inner);
     } else {
         to.form = base(at);  // at once, where base() is under way: it has numbered the parts

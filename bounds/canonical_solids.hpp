@@ -82,13 +82,13 @@ void for_each_leaf(const std::vector<Solid>& roots, Enter enter, Visit visit) {
         open.pop_back();
         const SolidNode& node = solid->node();
         if (!enter(node)) continue;
-        if (node.children.empty()) {
+        if (node.children().empty()) {
             visit(*solid, map);
             continue;
         }
-        const Affine inner = node.kind == SolidNode::Kind::transform ? compose(map, node.map) : map;
-        for (auto child = node.children.rbegin(); child != node.children.rend(); ++child)
-            open.push_back({&*child, inner});
+        const Affine inner = node.kind == SolidNode::Kind::transform ? compose(map, node.map()) : map;
+        const auto children = node.children();
+        for (auto child = children.rbegin(); child != children.rend(); ++child) open.push_back({&*child, inner});
     }
 }
 

@@ -10,48 +10,48 @@ namespace {
 
 using Kind = DensityNode::Kind;
 
-double leaves_below(const DensityNode& node) {
-    double sum = 0;
-    for (const Density& child : node.children) sum += child.node().leaves;
-    return sum;
+std::shared_ptr<const DensityNode> make(Kind kind, DensityNode::Parts parts, int line = 0) {
+    return std::make_shared<DensityNode>(kind, std::move(parts), line);
 }
+
+DensityNode::Operands pair(Density a, Density b) { return {std::move(a), std::move(b)}; }
 
 }  // namespace
 
-DensityNode::~DensityNode() { release(children); }
-
-static std::shared_ptr<DensityNode> make(Kind kind, std::vector<Density> children, int line = 0) {
-    auto node = std::make_shared<DensityNode>();
-    node->kind = kind;
-    node->children = std::move(children);
-    node->leaves = leaves_below(*node);
-    node->has_radius = kind == Kind::radius;
-    node->may_be_illegal = kind == Kind::sum || kind == Kind::difference;
-    for (const Density& child : node->children) {
-        node->has_radius |= child.node().has_radius;
-        node->may_be_illegal |= child.node().may_be_illegal;
+DensityNode::DensityNode(Kind kind, Parts parts, int line)
+    : kind(kind),
+      has_radius(kind == Kind::radius),
+      may_be_illegal(kind == Kind::sum || kind == Kind::difference),
+      line(line),
+      parts_(std::move(parts)) {
+    if (kind == Kind::half_space) return;
+    leaves = 0;
+    for (const Density& child : children()) {
+        leaves += child.node().leaves;
+        has_radius |= child.node().has_radius;
+        may_be_illegal |= child.node().may_be_illegal;
     }
-    if (kind == Kind::disjunction || kind == Kind::conjunction || kind == Kind::complement)
-        node->may_be_illegal = false;
-    node->line = line;
-    return node;
+    if (kind == Kind::disjunction || kind == Kind::conjunction || kind == Kind::complement) may_be_illegal = false;
 }
 
-static std::vector<Density> pair(Density a, Density b) {
-    std::vector<Density> both;
-    both.reserve(2);
-    both.push_back(std::move(a));
-    both.push_back(std::move(b));
-    return both;
+std::span<const Density> DensityNode::children() const {
+    if (const auto* operands = std::get_if<Operands>(&parts_)) return *operands;
+    if (const auto* transform = std::get_if<Transform>(&parts_)) return {&transform->child, 1};
+    if (const auto* list = std::get_if<std::vector<Density>>(&parts_)) return *list;
+    if (const auto* radius = std::get_if<Radius>(&parts_)) return {&radius->child, 1};
+    if (const auto* one = std::get_if<Density>(&parts_)) return {one, 1};
+    return {};
+}
+
+DensityNode::~DensityNode() {
+    const std::span<const Density> children = this->children();
+    release(std::span<Density>(const_cast<Density*>(children.data()), children.size()));
 }
 
 Density Density::half_space(Vec3 normal, double offset) {
     const double length = glm::length(normal);
     assert(length > 0);
-    auto node = std::make_shared<DensityNode>();
-    node->normal = normal / length;
-    node->value = offset / length;
-    return Density(node);
+    return Density(make(Kind::half_space, DensityNode::HalfSpace{normal / length, offset / length}));
 }
 
 Density Density::box(Vec3 lo, Vec3 hi) {
@@ -68,7 +68,9 @@ Density Density::box(Vec3 lo, Vec3 hi) {
 
 Density Density::product(std::vector<Density> parts) {
     assert(!parts.empty());
-    return parts.size() == 1 ? parts[0] : Density(make(Kind::product, std::move(parts)));
+    if (parts.size() == 1) return parts[0];
+    if (parts.size() == 2) return product(parts[0], parts[1]);
+    return Density(make(Kind::product, std::move(parts)));
 }
 
 Density Density::sum(Density a, Density b, int line) {
@@ -86,21 +88,17 @@ Density Density::disjunction(Density a, Density b) {
 Density Density::conjunction(Density a, Density b) {
     return Density(make(Kind::conjunction, pair(std::move(a), std::move(b))));
 }
-Density Density::complement(Density a) { return Density(make(Kind::complement, {a})); }
+Density Density::complement(Density a) { return Density(make(Kind::complement, std::move(a))); }
 
 Density Density::radius(double r) const {
     assert(r >= 0);
-    auto node = make(Kind::radius, {*this});
-    node->value = r;
-    return Density(node);
+    return Density(make(Kind::radius, DensityNode::Radius{*this, r}));
 }
 
 bool Density::has_radius() const { return node_->has_radius; }
 
 Density Density::transformed(const Affine& map) const {
-    auto node = make(Kind::transform, {*this});
-    node->map = map;
-    return Density(node);
+    return Density(make(Kind::transform, DensityNode::Transform{*this, map}));
 }
 
 }  // namespace deburr

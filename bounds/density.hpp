@@ -7,14 +7,18 @@
 // Not promised: legality. `a + b` of overlapping parts and `a - b` of parts that stick out leave
 // [0, 1]; the box ranges find that (box_range.hpp).
 #pragma once
+#include <array>
+#include <cstdint>
 #include <memory>
+#include <span>
+#include <variant>
 #include <vector>
 
 #include "bounds/vec.hpp"
 
 namespace deburr {
 
-struct DensityNode;
+class DensityNode;
 
 class Density {
 public:
@@ -55,23 +59,56 @@ private:
     std::shared_ptr<const DensityNode> node_;
 };
 
-/// One step of the expression. Children are shared, so expressions are graphs without cycles.
-struct DensityNode {
-    enum class Kind { half_space, sum, product, difference, disjunction, conjunction, complement, radius, transform };
-    Kind kind = Kind::half_space;
-    std::vector<Density> children;
-    Vec3 normal{0.0};             // half_space: unit
-    double value = 0.0;           // half_space: offset; radius: r
-    Affine map;                   // transform
-    int line = 0;                 // sum, product, difference: place in the scene
-    bool has_radius = false;      // radius, or anything below it
-    bool may_be_illegal = false;  // a sum or difference is in it that no Boolean operator is above
-    double leaves = 1.0;          // half-spaces below, counted once per use; may overflow to infinity
+/// One step of the expression. Children are shared, so expressions are graphs without cycles. A node keeps what its
+/// kind needs, for a scene may have millions of them.
+class DensityNode {
+public:
+    enum class Kind : std::uint8_t {
+        half_space,
+        sum,
+        product,
+        difference,
+        disjunction,
+        conjunction,
+        complement,
+        radius,
+        transform
+    };
+    struct HalfSpace {
+        Vec3 normal;  // unit
+        double offset;
+    };
+    struct Radius {
+        Density child;
+        double radius;
+    };
+    struct Transform {
+        Density child;
+        Affine map;
+    };
+    using Operands = std::array<Density, 2>;
+    using Parts = std::variant<HalfSpace, Density, Operands, std::vector<Density>, Radius, Transform>;
 
-    DensityNode() = default;
+    DensityNode(Kind kind, Parts parts, int line = 0);
     DensityNode(const DensityNode&) = delete;
     DensityNode& operator=(const DensityNode&) = delete;
     ~DensityNode();  // iterative, so that a chain of any length dies without recursion
+
+    std::span<const Density> children() const;
+    // For the kinds that have them.
+    const Vec3& normal() const { return std::get_if<HalfSpace>(&parts_)->normal; }
+    double offset() const { return std::get_if<HalfSpace>(&parts_)->offset; }
+    double radius() const { return std::get_if<Radius>(&parts_)->radius; }
+    const Affine& map() const { return std::get_if<Transform>(&parts_)->map; }
+
+    const Kind kind;
+    bool has_radius = false;      // radius, or anything below it
+    bool may_be_illegal = false;  // a sum or difference is in it that no Boolean operator is above
+    const int line;               // sum, product, difference: place in the scene
+    double leaves = 1.0;          // half-spaces below, counted once per use; may overflow to infinity
+
+private:
+    Parts parts_;
 };
 
 }  // namespace deburr

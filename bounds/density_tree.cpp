@@ -66,10 +66,10 @@ private:
     static const DensityNode& through_placements(const DensityNode* node, Placement& place) {
         while (node->kind == Kind::radius || node->kind == Kind::transform) {
             if (node->kind == Kind::radius)
-                place.radius = node->value;
+                place.radius = node->radius();
             else
-                place.map = compose(place.map, node->map);
-            node = &node->children[0].node();
+                place.map = compose(place.map, node->map());
+            node = &node->children()[0].node();
         }
         return *node;
     }
@@ -77,7 +77,7 @@ private:
     void open(Task task) {
         const DensityNode& node = through_placements(task.node, task.place);
         if (node.kind == Kind::half_space) {
-            const HalfSpace unplaced{node.normal, node.value, task.place.radius};
+            const HalfSpace unplaced{node.normal(), node.offset(), task.place.radius};
             done_.push_back(add({Op::half_space, int(tree_.half_spaces.size())}));
             tree_.half_spaces.push_back(transformed(unplaced, task.place.map, false));
             return;
@@ -88,8 +88,8 @@ private:
         if (boolean && op == Op::difference) {  // a ∧ ¬b
             tasks_.push_back({nullptr, {}, true, Op::conjunction, 2, node.line});
             tasks_.push_back({nullptr, {}, true, Op::complement, 1, node.line});
-            tasks_.push_back({&node.children[1].node(), task.place, true});
-            tasks_.push_back({&node.children[0].node(), task.place, true});
+            tasks_.push_back({&node.children()[1].node(), task.place, true});
+            tasks_.push_back({&node.children()[0].node(), task.place, true});
             return;
         }
         const std::vector<Task> operands = chain(node, task.place, boolean, op);
@@ -100,16 +100,19 @@ private:
     // The operands of a chain of one associative operator that the scene wrote in one place.
     std::vector<Task> chain(const DensityNode& node, Placement place, bool boolean, Op op) const {
         std::vector<Task> operands, open;
-        for (auto child = node.children.rbegin(); child != node.children.rend(); ++child)
-            open.push_back({&child->node(), place, boolean});
+        const auto expand = [&](const DensityNode& parent, const Placement& at) {
+            const auto children = parent.children();
+            for (auto child = children.rbegin(); child != children.rend(); ++child)
+                open.push_back({&child->node(), at, boolean});
+        };
+        expand(node, place);
         while (!open.empty()) {
             Task task = open.back();
             open.pop_back();
             const DensityNode& inner = through_placements(task.node, task.place);
             const Op its = boolean ? boolean_reading(arithmetic(inner.kind)) : arithmetic(inner.kind);
             if (its == op && associative(op) && (boolean || inner.line == node.line)) {
-                for (auto c = inner.children.rbegin(); c != inner.children.rend(); ++c)
-                    open.push_back({&c->node(), task.place, boolean});
+                expand(inner, task.place);
             } else {
                 task.node = &inner;
                 operands.push_back(task);

@@ -1,6 +1,8 @@
 // What shared expressions have in common, whether of densities or of solids: scenes write chains as
 // long as their loops, so nothing here recurses.
 #pragma once
+#include <iterator>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -9,15 +11,14 @@ namespace deburr {
 /// Lets go of a node's children, where a Handle's last owner destroys a node that lets go of its own:
 /// what dies is put on a list, and dies there one by one.
 template <class Handle>
-void release(std::vector<Handle>& children) {
+void release(std::span<Handle> children) {
     thread_local std::vector<Handle>* dying = nullptr;
     if (children.empty()) return;
     if (dying) {
         for (Handle& child : children) dying->push_back(std::move(child));
-        children.clear();
         return;
     }
-    std::vector<Handle> list = std::move(children);
+    std::vector<Handle> list(std::move_iterator(children.begin()), std::move_iterator(children.end()));
     dying = &list;
     while (!list.empty()) {
         const Handle last = std::move(list.back());

@@ -11,27 +11,35 @@ namespace {
 
 using Kind = SolidNode::Kind;
 
-std::shared_ptr<SolidNode> make(Kind kind, std::vector<Solid> children) {
-    auto node = std::make_shared<SolidNode>();
-    node->kind = kind;
-    node->children = std::move(children);
-    node->leaves = 0;
-    for (const Solid& child : node->children) node->leaves += child.node().leaves;
-    return node;
+std::shared_ptr<SolidNode> make(Kind kind, Solid a, Solid b) {
+    const double leaves = a.node().leaves + b.node().leaves;
+    return std::make_shared<SolidNode>(kind, leaves, SolidNode::Operands{std::move(a), std::move(b)});
+}
+
+std::shared_ptr<SolidNode> make_rounded(double r, Density density, int line, bool convolved) {
+    const double leaves = density.node().leaves;
+    return std::make_shared<SolidNode>(Kind::rounded, leaves, SolidNode::Rounded{std::move(density), r, convolved},
+                                       line);
 }
 
 }  // namespace
 
-SolidNode::~SolidNode() { release(children); }
+std::span<const Solid> SolidNode::children() const {
+    if (const auto* operands = std::get_if<Operands>(&parts_)) return *operands;
+    if (const auto* transform = std::get_if<Transform>(&parts_)) return {&transform->child, 1};
+    if (const auto* material = std::get_if<Material>(&parts_)) return {&material->child, 1};
+    return {};
+}
 
-static std::shared_ptr<SolidNode> make_rounded(double r, Density density, int line, bool convolved) {
-    auto node = std::make_shared<SolidNode>();
-    node->radius = r;
-    node->convolved = convolved;
-    node->line = line;
-    node->leaves = density.node().leaves;
-    node->density.push_back(std::move(density));
-    return node;
+const std::shared_ptr<const Field>& SolidNode::field() const {
+    static const std::shared_ptr<const Field> none;
+    const auto* field = std::get_if<std::shared_ptr<const Field>>(&parts_);
+    return field ? *field : none;
+}
+
+SolidNode::~SolidNode() {
+    const std::span<const Solid> children = this->children();
+    release(std::span<Solid>(const_cast<Solid*>(children.data()), children.size()));
 }
 
 Solid Solid::rounded(double r, Density density, int line) {
@@ -45,28 +53,20 @@ Solid Solid::convolved(double r, Density density, int line) {
 }
 
 Solid Solid::of_field(FieldPtr field, int line) {
-    auto node = std::make_shared<SolidNode>();
-    node->kind = Kind::field;
-    node->line = line;
-    node->leaves = field->size();
-    node->field = std::move(field);
-    return Solid(node);
+    const double leaves = field->size();
+    return Solid(std::make_shared<SolidNode>(Kind::field, leaves, std::move(field), line));
 }
 
-Solid operator|(Solid a, Solid b) { return Solid(make(Kind::unite, {a, b})); }
-Solid operator&(Solid a, Solid b) { return Solid(make(Kind::intersect, {a, b})); }
-Solid operator-(Solid a, Solid b) { return Solid(make(Kind::subtract, {a, b})); }
+Solid operator|(Solid a, Solid b) { return Solid(make(Kind::unite, std::move(a), std::move(b))); }
+Solid operator&(Solid a, Solid b) { return Solid(make(Kind::intersect, std::move(a), std::move(b))); }
+Solid operator-(Solid a, Solid b) { return Solid(make(Kind::subtract, std::move(a), std::move(b))); }
 
 Solid Solid::material(int index) const {
-    auto node = make(Kind::material, {*this});
-    node->material = index;
-    return Solid(node);
+    return Solid(std::make_shared<SolidNode>(Kind::material, node_->leaves, SolidNode::Material{*this, index}));
 }
 
 Solid Solid::transformed(const Affine& map) const {
-    auto node = make(Kind::transform, {*this});
-    node->map = map;
-    return Solid(node);
+    return Solid(std::make_shared<SolidNode>(Kind::transform, node_->leaves, SolidNode::Transform{*this, map}));
 }
 
 }  // namespace deburr

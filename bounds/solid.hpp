@@ -4,15 +4,18 @@
 // A Solid is a cheap handle on an immutable, shared expression. A sharp half-space is a density of
 // radius 0.
 #pragma once
+#include <array>
+#include <cstdint>
 #include <memory>
-#include <vector>
+#include <span>
+#include <variant>
 
 #include "bounds/density.hpp"
 
 namespace deburr {
 
 class Field;
-struct SolidNode;
+class SolidNode;
 
 class Solid {
 public:
@@ -42,23 +45,50 @@ private:
     std::shared_ptr<const SolidNode> node_;
 };
 
-struct SolidNode {
-    enum class Kind { rounded, field, unite, intersect, subtract, material, transform };
-    Kind kind = Kind::rounded;
-    std::vector<Solid> children;
-    std::vector<Density> density;  // rounded: one
-    double radius = 0.0;           // rounded
-    bool convolved = false;        // rounded: truly
-    std::shared_ptr<const Field> field;
-    int material = -1;    // material
-    Affine map;           // transform
-    int line = 0;         // rounded, field: place in the scene, 0 unknown
-    double leaves = 1.0;  // half-spaces below, and fields' sizes, counted once per use
+/// One step of the expression. A scene has millions of them where it places a block that often, so a node keeps what
+/// its kind needs.
+class SolidNode {
+public:
+    enum class Kind : std::uint8_t { rounded, field, unite, intersect, subtract, material, transform };
+    struct Rounded {
+        Density density;
+        double radius;
+        bool convolved;  // truly
+    };
+    struct Material {
+        Solid child;
+        int index;
+    };
+    struct Transform {
+        Solid child;
+        Affine map;
+    };
+    using Operands = std::array<Solid, 2>;
+    using Parts = std::variant<Rounded, std::shared_ptr<const Field>, Operands, Material, Transform>;
 
-    SolidNode() = default;
+    SolidNode(Kind kind, double leaves, Parts parts, int line = 0)
+        : kind(kind), line(line), leaves(leaves), parts_(std::move(parts)) {}
     SolidNode(const SolidNode&) = delete;
     SolidNode& operator=(const SolidNode&) = delete;
-    ~SolidNode();
+    ~SolidNode();  // iterative, so that a chain of any length dies without recursion
+
+    std::span<const Solid> children() const;
+    // For the kinds that have them.
+    const Rounded& rounded() const { return *std::get_if<Rounded>(&parts_); }
+    const Density& density() const { return rounded().density; }
+    double radius() const { return rounded().radius; }
+    bool convolved() const { return rounded().convolved; }
+    int material() const { return std::get_if<Material>(&parts_)->index; }
+    const Affine& map() const { return std::get_if<Transform>(&parts_)->map; }
+    /// Null for other kinds.
+    const std::shared_ptr<const Field>& field() const;
+
+    const Kind kind;
+    const int line;       // rounded, field: place in the scene, 0 unknown
+    const double leaves;  // half-spaces below, and fields' sizes, counted once per use
+
+private:
+    Parts parts_;
 };
 
 /// Whether the node's leaves are laid out together, each once per use. Unions and placements share theirs.

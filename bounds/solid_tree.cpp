@@ -48,10 +48,10 @@ private:
         const SolidNode* node = task.node;
         while (node->kind == Kind::material || node->kind == Kind::transform) {
             if (node->kind == Kind::material)
-                task.material = node->material;  // the innermost wins
+                task.material = node->material();  // the innermost wins
             else
-                task.map = compose(task.map, node->map);
-            node = &node->children[0].node();
+                task.map = compose(task.map, node->map());
+            node = &node->children()[0].node();
         }
         return *node;
     }
@@ -59,16 +59,16 @@ private:
     void open(Task task) {
         const SolidNode& node = through_placements(task);
         if (node.kind == Kind::rounded) {
-            const Density& density = node.density[0];
-            tree_.leaves.push_back({node.convolved ? flatten_convolved(density, node.radius, task.map)
-                                                   : flatten(density, node.radius, task.map),
+            const Density& density = node.density();
+            tree_.leaves.push_back({node.convolved() ? flatten_convolved(density, node.radius(), task.map)
+                                                     : flatten(density, node.radius(), task.map),
                                     task.material, node.line});
             if (!has_planes(tree_.leaves.back().density)) throw SingularPlacement(node.line);
             done_.push_back(add({SolidOp::leaf, int(tree_.leaves.size()) - 1}));
             return;
         }
         if (node.kind == Kind::field) {
-            FieldPtr placed = transformed(node.field, task.map);
+            FieldPtr placed = transformed(node.field(), task.map);
             if (!placed) throw SingularPlacement(node.line);
             tree_.leaves.push_back({DensityTree::constant(0), task.material, node.line, std::move(placed)});
             done_.push_back(add({SolidOp::leaf, int(tree_.leaves.size()) - 1}));
@@ -79,7 +79,8 @@ private:
                                                           : SolidOp::subtract;
         std::vector<Task> operands, open;
         const auto expand = [&](const SolidNode& parent, const Task& at) {
-            for (auto child = parent.children.rbegin(); child != parent.children.rend(); ++child)
+            const auto children = parent.children();
+            for (auto child = children.rbegin(); child != children.rend(); ++child)
                 open.push_back({&child->node(), at.map, at.material});
         };
         expand(node, task);

@@ -104,9 +104,9 @@ void check_placements(const Scene& scene) {
         const SolidNode& node = leaf.node();
         bool all = fine;
         if (node.kind == SolidNode::Kind::rounded)
-            for (const HalfSpace& h : flat_half_spaces(node.density[0], node.radius, map))
+            for (const HalfSpace& h : flat_half_spaces(node.density(), node.radius(), map))
                 all &= is_ordinary(h.offset) && is_ordinary(h.radius) && std::isfinite(glm::length(h.normal));
-        if (!all || node.field) flatten(leaf.transformed(map));  // says so where it leaves no planes
+        if (!all || node.field()) flatten(leaf.transformed(map));  // says so where it leaves no planes
         if (all) ordinary.insert(&node);
     };
     try {

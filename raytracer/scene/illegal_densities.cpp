@@ -25,7 +25,7 @@ public:
         const auto first_met = [&](const SolidNode& node) { return met.insert(&node).second; };
         for_each_leaf(solids, first_met, [&](const Solid& leaf, const Affine& map) {
             const SolidNode& node = leaf.node();
-            if (node.field || node.convolved || !node.density[0].node().may_be_illegal) return;
+            if (node.field() || node.convolved() || !node.density().node().may_be_illegal) return;
             const PlacedForm placed = forms_.of(leaf);
             if (seen_.insert(placed.form).second) all_.push_back({placed.form, compose(map, placed.map)});
         });
@@ -34,7 +34,7 @@ public:
     std::size_t size() const { return all_.size(); }
     DensityTree tree(std::size_t i) const {
         const SolidNode& form = forms_.solid(all_[i].first).node();
-        return flatten(form.density[0], form.radius, all_[i].second);
+        return flatten(form.density(), form.radius(), all_[i].second);
     }
 
 private:

@@ -38,11 +38,11 @@ public:
 
 struct SandboxLimits {
     std::size_t memory = std::size_t(256) << 20;  // bytes
-    std::int64_t work = 250'000'000;              // instructions, and what costs about as much
+    std::int64_t work = 500'000'000;              // instructions, and what costs about as much
     double seconds = 20.0;                        // by the clock, whatever the work
     std::size_t output = std::size_t(1) << 20;    // bytes printed
     // Bytes of the objects that a scene makes and of their expressions' nodes, none of which is freed before the end.
-    // A scene may be larger than what it needs to describe it: two million placements take 600 MB.
+    // A scene may be larger than what it needs to describe it: three million placements take 600 MB.
     std::size_t parts = std::size_t(640) << 20;
 };
 

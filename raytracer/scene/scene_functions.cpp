@@ -23,10 +23,15 @@ void SceneBuilder::check_size(double half_spaces) {
         throw std::runtime_error(fmt::format("expected at most {} half-spaces, got {}", most_half_spaces, half_spaces));
 }
 
-// A node as make_shared makes it, and its list of children.
+// A node as make_shared makes it.
+template <class Node>
+constexpr std::size_t node_block = block_bytes(sizeof(Node) + 2 * sizeof(void*));
+
+// Its list of children, too, which has a block of its own if they are more than two.
 template <class Node>
 static std::size_t node_bytes(const Node& node) {
-    return block_bytes(sizeof(Node) + 2 * sizeof(void*)) + block_bytes(node.children.size() * sizeof(node.children[0]));
+    const auto children = node.children();
+    return node_block<Node> + (children.size() > 2 ? block_bytes(children.size_bytes()) : 0);
 }
 
 void SceneBuilder::keep_parts(std::size_t bytes) {
@@ -37,7 +42,7 @@ void SceneBuilder::keep_parts(std::size_t bytes) {
 }
 
 void SceneBuilder::keep_half_spaces(std::size_t count) {
-    keep_parts(count * (block_bytes(sizeof(DensityNode) + 2 * sizeof(void*)) + sizeof(Density)));
+    keep_parts(count * (node_block<DensityNode> + sizeof(Density)));
 }
 
 void SceneBuilder::spend(std::int64_t amount) {
@@ -62,7 +67,7 @@ const SceneObject* SceneBuilder::keep(SceneObject object) {
 
 Solid SceneBuilder::solid(const SceneObject& object) {
     if (const auto* solid = as<Solid>(&object)) return *solid;
-    keep_parts(node_bytes(SolidNode()));
+    keep_parts(node_block<SolidNode>);
     if (const auto* quadric = as<Quadric>(&object)) return solid_of_form("quadric", *quadric, {}, object.line);
     return Solid::sharp(*as<Density>(&object), object.line);
 }

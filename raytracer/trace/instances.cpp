@@ -37,8 +37,8 @@ constexpr double few_half_spaces = 12;
 bool is_quick_to_build(const Solid& solid) {
     const SolidNode* node = &solid.node();
     while (node->kind == SolidNode::Kind::transform || node->kind == SolidNode::Kind::material)
-        node = &node->children[0].node();
-    return node->kind == SolidNode::Kind::rounded && !node->convolved && node->leaves <= few_half_spaces;
+        node = &node->children()[0].node();
+    return node->kind == SolidNode::Kind::rounded && !node->convolved() && node->leaves <= few_half_spaces;
 }
 
 double norm(const Mat3& m) { return std::sqrt(glm::dot(m[0], m[0]) + glm::dot(m[1], m[1]) + glm::dot(m[2], m[2])); }
@@ -102,7 +102,7 @@ private:
             count[form] = times;
             if (!is_union(form)) continue;
             const Solid solid = forms_.solid(form);
-            for (const Solid& child : solid.node().children) open[forms_.of(child).form] += times;
+            for (const Solid& child : solid.node().children()) open[forms_.of(child).form] += times;
         }
         return count;
     }
@@ -125,7 +125,7 @@ private:
             Box around;
             bool known = true;
             const Solid solid = forms_.solid(form);
-            for (const Solid& child : solid.node().children) {
+            for (const Solid& child : solid.node().children()) {
                 const PlacedForm part = forms_.of(child);
                 const auto at = boxes_.find(part.form);
                 if (at == boxes_.end()) {
@@ -165,7 +165,7 @@ private:
                 continue;
             }
             const Solid solid = forms_.solid(now.form);
-            const auto& children = solid.node().children;
+            const auto children = solid.node().children();
             for (auto child = children.rbegin(); child != children.rend(); ++child) open.push_back(within(now, *child));
         }
         return all;

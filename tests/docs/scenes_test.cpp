@@ -119,7 +119,7 @@ std::string summary(const Scene& s) {
                fmt::format("{} {} ", int(m.color.kind), m.color.scale) + text(m.color.a) + text(m.color.b) +
                text(m.color.axis) + text(m.color.origin);
     for (const Solid& solid : s.solids)
-        if (const auto* form = dynamic_cast<const FreeForm*>(solid.node().field.get())) {
+        if (const auto* form = dynamic_cast<const FreeForm*>(solid.node().field().get())) {
             for (int k = 0; k < 3; ++k) all += text(form->base().A[k]);
             all += text(form->base().b) + text(form->base().centre) + fmt::format("{} ", form->base().k);
         }

@@ -24,21 +24,21 @@ const SolidNode& only_solid(const Scene& scene) {
 const DensityNode& density_of(const Scene& scene) {
     const SolidNode& node = only_solid(scene);
     REQUIRE(node.kind == SolidNode::Kind::rounded);
-    return node.density[0].node();
+    return node.density().node();
 }
 
 bool same(const Affine& a, const Affine& b) { return a.linear == b.linear && a.shift == b.shift; }
 
 void check_face(const DensityNode& face, Vec3 normal, double offset) {
     REQUIRE(face.kind == Kind::half_space);
-    CAPTURE(face.normal.x, face.normal.y, face.normal.z, face.value);
-    CHECK(face.normal == normal);
-    CHECK(face.value == offset);
+    CAPTURE(face.normal().x, face.normal().y, face.normal().z, face.offset());
+    CHECK(face.normal() == normal);
+    CHECK(face.offset() == offset);
 }
 
 bool has_face(const DensityNode& body, Vec3 normal, double offset) {
-    for (const Density& face : body.children)
-        if (face.node().normal == normal && face.node().value == offset) return true;
+    for (const Density& face : body.children())
+        if (face.node().normal() == normal && face.node().offset() == offset) return true;
     return false;
 }
 
@@ -50,11 +50,11 @@ TEST_CASE("shapes are products of their half-spaces") {
     const Scene scene = scene_with("box({-1, 0, 2}, {1, 3, 4})");
     const DensityNode& box = density_of(scene);
     CHECK(box.kind == Kind::product);
-    REQUIRE(box.children.size() == 6);
+    REQUIRE(box.children().size() == 6);
     CHECK(has_face(box, Vec3(-1, 0, 0), 1));
     CHECK(has_face(box, Vec3(0, 1, 0), 3));
     CHECK(has_face(box, Vec3(0, 0, -1), -2));
-    CHECK(density_of(scene_with("cube()")).children.size() == 6);
+    CHECK(density_of(scene_with("cube()")).children().size() == 6);
 }
 
 TEST_CASE("a convex hull has one exact half-space a face, whatever the order of the points") {
@@ -67,13 +67,13 @@ TEST_CASE("a convex hull has one exact half-space a face, whatever the order of 
         points += "{0.05, 0.1, 0.1}, {0.05, 0.1, 0}, {0.1, 0.1, 0}, {0.05, 0.3, 0.35}, {0, 0, 0}";
         const Scene scene = scene_with("convex{ " + points + " }");
         const DensityNode& box = density_of(scene);
-        REQUIRE(box.children.size() == 6);
-        check_face(box.children[0].node(), Vec3(-1, 0, 0), 0);
-        check_face(box.children[1].node(), Vec3(0, -1, 0), 0);
-        check_face(box.children[2].node(), Vec3(0, 0, -1), 0);
-        check_face(box.children[3].node(), Vec3(0, 0, 1), 0.7);
-        check_face(box.children[4].node(), Vec3(0, 1, 0), 0.3);
-        check_face(box.children[5].node(), Vec3(1, 0, 0), 0.1);
+        REQUIRE(box.children().size() == 6);
+        check_face(box.children()[0].node(), Vec3(-1, 0, 0), 0);
+        check_face(box.children()[1].node(), Vec3(0, -1, 0), 0);
+        check_face(box.children()[2].node(), Vec3(0, 0, -1), 0);
+        check_face(box.children()[3].node(), Vec3(0, 0, 1), 0.7);
+        check_face(box.children()[4].node(), Vec3(0, 1, 0), 0.3);
+        check_face(box.children()[5].node(), Vec3(1, 0, 0), 0.1);
     }
 }
 
@@ -84,10 +84,10 @@ TEST_CASE("the hull of points on a sphere touches every one of them") {
         "  local s = math.sqrt(1 - z * z) p[i] = { s * math.cos(a), s * math.sin(a), z } end\n"
         "return { solids = { convex(p) } }");
     const DensityNode& ball = density_of(scene);
-    CHECK(ball.children.size() == 2 * 200 - 4);  // triangles, by Euler's formula
-    for (const Density& face : ball.children) {
-        CHECK(face.node().value < 1);
-        CHECK(face.node().value > 0.8);
+    CHECK(ball.children().size() == 2 * 200 - 4);  // triangles, by Euler's formula
+    for (const Density& face : ball.children()) {
+        CHECK(face.node().offset() < 1);
+        CHECK(face.node().offset() > 0.8);
     }
 }
 
@@ -99,7 +99,7 @@ TEST_CASE("twelve pentagons: faces in one plane are merged though their corners 
         "  p[#p + 1] = {0, i * g, j / g} p[#p + 1] = {i / g, 0, j * g} p[#p + 1] = {i * g, j / g, "
         "0}\n"
         "end end return { solids = { convex(p) } }");
-    CHECK(density_of(scene).children.size() == 12);
+    CHECK(density_of(scene).children().size() == 12);
 }
 
 TEST_CASE("a prism takes either winding, and points along its sides") {
@@ -107,7 +107,7 @@ TEST_CASE("a prism takes either winding, and points along its sides") {
                                 "{1,0}, {2,0}, {2,0}, {2,0.5}, {2,1}, {0,1}, {0,0}, {0.5,0}, {1,0}"}) {
         const Scene scene = scene_with(std::string("prism({ ") + polygon + " }, -1, 3)");
         const DensityNode& prism = density_of(scene);
-        REQUIRE(prism.children.size() == 6);
+        REQUIRE(prism.children().size() == 6);
         CHECK(has_face(prism, Vec3(0, 1, 0), 3));
         CHECK(has_face(prism, Vec3(0, -1, 0), 1));
         CHECK(has_face(prism, Vec3(1, 0, 0), 2));
@@ -125,8 +125,8 @@ TEST_CASE("operators on densities build densities and remember the line") {
         const DensityNode& node = density_of(scene);
         CHECK(node.kind == kind);
         CHECK(node.line == line);
-        CHECK(node.children[0].node().kind == Kind::product);
-        if (kind != Kind::complement) CHECK(node.children[1].node().kind == Kind::half_space);
+        CHECK(node.children()[0].node().kind == Kind::product);
+        if (kind != Kind::complement) CHECK(node.children()[1].node().kind == Kind::half_space);
     };
     built("a + b", Kind::sum, 3);
     built("a * b", Kind::product, 3);
@@ -142,24 +142,24 @@ TEST_CASE("solids are combined, and a density among them is a sharp solid") {
                                                  "return { solids = { ") +
                                      expression + " } }");
         const SolidNode& node = only_solid(scene);
-        REQUIRE(node.children.size() == 2);
-        return std::tuple(node.kind, node.children[0].node().radius, node.children[1].node().radius);
+        REQUIRE(node.children().size() == 2);
+        return std::tuple(node.kind, node.children()[0].node().radius(), node.children()[1].node().radius());
     };
     using S = SolidNode::Kind;
     CHECK(kinds("s | s") == std::tuple(S::unite, 0.5, 0.5));
     CHECK(kinds("s & d") == std::tuple(S::intersect, 0.5, 0.0));
     CHECK(kinds("d - s") == std::tuple(S::subtract, 0.0, 0.5));
     const Scene scene = scene_of("local a = cube()\nlocal b = rounded(0.25, a)\nreturn { solids = { a, b } }");
-    CHECK(scene.solids[0].node().radius == 0.0);
+    CHECK(scene.solids[0].node().radius() == 0.0);
     CHECK(scene.solids[0].node().line == 1);
-    CHECK(scene.solids[1].node().radius == 0.25);
+    CHECK(scene.solids[1].node().radius() == 0.25);
     CHECK(scene.solids[1].node().line == 2);
 }
 
 TEST_CASE("radius is a step of the density") {
     const Scene scene = scene_with("cube():radius(0.25)");
     CHECK(density_of(scene).kind == Kind::radius);
-    CHECK(density_of(scene).value == 0.25);
+    CHECK(density_of(scene).radius() == 0.25);
 }
 
 TEST_CASE("placements of densities and solids are exact along the axes") {
@@ -168,8 +168,8 @@ TEST_CASE("placements of densities and solids are exact along the axes") {
         const Scene of_solid = scene_with("sharp(cube()):" + call);
         CHECK(density_of(of_density).kind == Kind::transform);
         CHECK(only_solid(of_solid).kind == SolidNode::Kind::transform);
-        CHECK(same(density_of(of_density).map, only_solid(of_solid).map));
-        return density_of(of_density).map;
+        CHECK(same(density_of(of_density).map(), only_solid(of_solid).map()));
+        return density_of(of_density).map();
     };
     const auto diagonal = [](double x, double y, double z) {
         return Mat3(Vec3(x, 0, 0), Vec3(0, y, 0), Vec3(0, 0, z));
@@ -207,10 +207,10 @@ TEST_CASE("a material is stored once, and solids without one have index 0") {
     CHECK(scene.materials[1].ior == 1.4);
     CHECK(scene.materials[2].kind == Material::Kind::glass);
     CHECK(scene.solids[0].node().kind == SolidNode::Kind::material);
-    CHECK(scene.solids[0].node().material == 1);
+    CHECK(scene.solids[0].node().material() == 1);
     CHECK(scene.solids[1].node().kind == SolidNode::Kind::rounded);
-    CHECK(scene.solids[2].node().material == 2);
-    CHECK(scene.solids[3].node().material == 1);
+    CHECK(scene.solids[2].node().material() == 2);
+    CHECK(scene.solids[3].node().material() == 1);
 }
 
 TEST_CASE("textures") {
@@ -271,10 +271,10 @@ TEST_CASE("parameters take the command line's value in the default's type") {
         "assert(math.type(n) == 'integer' and (on == true) == (s == 'a'))\n"
         "return { solids = { rounded(r * n, cube()) } }";
     const Scene plain = scene_of(text);
-    CHECK(only_solid(plain).radius == 3 * 0.1);
+    CHECK(only_solid(plain).radius() == 3 * 0.1);
     CHECK(plain.parameters == std::map<std::string, std::string>{{"n", "3"}, {"r", "0.1"}, {"on", "true"}, {"s", "a"}});
     const Scene given = scene_of(text, {{"n", "2"}, {"r", "2.5e-1"}, {"on", "false"}, {"s", ""}});
-    CHECK(only_solid(given).radius == 0.5);
+    CHECK(only_solid(given).radius() == 0.5);
     CHECK(given.parameters.at("r") == "2.5e-1");
 }
 
@@ -307,8 +307,8 @@ TEST_CASE("the first scene") {
     REQUIRE(scene.solids.size() == 2);
     const SolidNode& body = scene.solids[0].node();
     REQUIRE(body.kind == SolidNode::Kind::material);
-    CHECK(body.children[0].node().radius == 0.2);
-    CHECK(body.children[0].node().density[0].node().kind == Kind::difference);
+    CHECK(body.children()[0].node().radius() == 0.2);
+    CHECK(body.children()[0].node().density().node().kind == Kind::difference);
     CHECK(body.leaves == 13);
     CHECK(scene.materials.size() == 3);
 }
