@@ -104,22 +104,16 @@ int repeat_string(lua_State* lua) {
     return call_original(lua);
 }
 
-int over_whole_table(lua_State* lua) {  // concat, unpack, insert and remove at a place
+// `last`: the argument that is the table's length if it is not given.
+template <int last>
+int over_whole_table(lua_State* lua) {
     check_plain_table(lua, 1);
-    Sandbox::spend(lua, as_work(double(lua_rawlen(lua, 1))));
-    return call_original(lua);
-}
-
-// insert(t, x) and remove(t), at the end, cost nothing that grows.
-int insert_into_table(lua_State* lua) {
-    if (lua_gettop(lua) > 2) return over_whole_table(lua);
-    check_plain_table(lua, 1);
-    return call_original(lua);
-}
-
-int remove_from_table(lua_State* lua) {
-    if (lua_gettop(lua) > 1) return over_whole_table(lua);
-    check_plain_table(lua, 1);
+    const lua_Integer size = border(lua, 1);
+    Sandbox::spend(lua, as_work(double(size)));
+    if (lua_isnoneornil(lua, last)) {
+        lua_settop(lua, last - 1);
+        lua_pushinteger(lua, size);
+    }
     return call_original(lua);
 }
 
@@ -252,11 +246,12 @@ void check_plain_table(lua_State* lua, int index) {
 
 void open_library(lua_State* lua) {
     luaL_requiref(lua, LUA_TABLIBNAME, luaopen_table, 1);
-    for (const char* name : {"concat", "unpack"}) wrap(lua, name, over_whole_table);
+    wrap(lua, "concat", over_whole_table<4>);
+    wrap(lua, "unpack", over_whole_table<3>);
     replace(lua, "sort", sort_table);
     wrap(lua, "move", move_range);
-    wrap(lua, "insert", insert_into_table);
-    wrap(lua, "remove", remove_from_table);
+    replace(lua, "insert", insert_into_table);
+    replace(lua, "remove", remove_from_table);
     refuse_missing_names(lua, "table.");
     lua_pop(lua, 1);
 
@@ -289,8 +284,11 @@ void open_library(lua_State* lua) {
     wrap(lua, "tonumber", heeding_time);
     replace(lua, "tostring", value_text);
     replace(lua, "print", print_values);
+    replace(lua, "rawlen", raw_length);
     refuse_missing_names(lua, "");
     lua_pop(lua, 1);
+
+    open_length(lua);
 }
 
 }  // namespace deburr

@@ -5,12 +5,13 @@
 //            gmatch gsub (matching backtracks in C, out of reach of the budget)
 //   changed  pairs walks in the order of the keys, print writes to stderr, escaped and metered,
 //            math.random starts from one seed, table.sort draws no pivot from the clock, no text
-//            holds an address, setmetatable refuses __gc; functions that loop in C are charged to
-//            the budget in advance
+//            holds an address, setmetatable refuses __gc; # and what asks for a length find a border
+//            by the table's content alone; functions that loop in C are charged to the budget in
+//            advance
 //   names    one that is not there is an error where it is read, not nil
 //
-// Not promised: which of its borders # finds in a table with holes that has lost keys other than numbers. That depends
-// on the order of the table's hash, and so on Lua's seed.
+// Not promised: when an entry of a weak table goes. That depends on the memory that tables take, and so, where keys
+// other than numbers were removed, on the order of their hash and on Lua's seed.
 #pragma once
 
 struct lua_State;

@@ -14,6 +14,7 @@
 #include <thread>
 
 #include "raytracer/scene/lua_library.hpp"
+#include "raytracer/scene/lua_replacements.hpp"
 #include "raytracer/util/printable.hpp"
 
 namespace deburr {
@@ -280,6 +281,7 @@ lua_State* Sandbox::run(std::string text, const std::string& file, Prepare prepa
         const std::string place = line > 0 ? fmt::format("{}:{}: ", file_mark, line) : std::string();
         return SceneError(one_line(place + reason(state.limits, spent), file));
     };
+    text = with_length_by_content(text);
     if (!state.memory.try_take(text.size())) throw fail(Spent::memory);
     state.text = std::move(text);
     state.prepare = prepare;

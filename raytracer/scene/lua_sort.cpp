@@ -125,7 +125,7 @@ private:
 
 int sort_table(lua_State* lua) {
     check_plain_table(lua, 1);
-    const auto size = lua_Integer(lua_rawlen(lua, 1));
+    const lua_Integer size = border(lua, 1);
     if (!lua_isnoneornil(lua, 2)) luaL_checktype(lua, 2, LUA_TFUNCTION);
     lua_settop(lua, 2);
     Sandbox::spend(lua, std::int64_t(4 * double(size) * std::log2(double(size) + 2)));

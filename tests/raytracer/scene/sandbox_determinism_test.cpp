@@ -60,6 +60,74 @@ TEST_CASE("ties come out of table.sort in the same order on every run") {
     for (int i = 0; i < 3; ++i) CHECK(result_of(text) == first);
 }
 
+TEST_CASE("how long a table with holes is does not depend on the order of its hash") {
+    // Whether a text that is added falls on one that was removed decides whether Lua measures its array anew.
+    const std::string before =
+        "local t = {1, 2, 3, 4}\n"
+        "for j = 1, 8 do t['a' .. k .. j] = 1 end for j = 1, 8 do t['a' .. k .. j] = nil end\n"
+        "t[2], t[3] = nil, nil for j = 1, 3 do t['b' .. k .. j] = 1 end\n";
+    for (const std::string length : {"#t", "rawlen(t)", "select('#', table.unpack(t))", "#table.concat(t)",
+                                     "(table.insert(t, 9) or t[2])", "table.remove(t)", "(table.sort(t) or t[1])"}) {
+        CAPTURE(length);
+        const std::string all = result_of("local all = {} for k = 1, 200 do " + before + "all[k] = '' .. " + length +
+                                          " end return table.concat(all)");
+        REQUIRE(all.size() == 200);
+        CHECK(all == std::string(200, all[0]));
+    }
+}
+
+TEST_CASE("a length binds as Lua's # does, and stands wherever that may") {
+    const std::pair<std::string, std::string> table[] = {
+        {"'' .. #'abc'", "3"},
+        {"'' .. #{1, 2, 3} * 2", "6"},
+        {"'' .. 2 ^ #{1, 2, 3}", "8.0"},
+        {"'' .. 2 * #'ab' ^ 2", "attempt"},
+        {"'' .. -#'ab' .. #'cde'", "-23"},
+        {"tostring(not #'')", "false"},
+        {"'' .. ##{1, 2}", "attempt"},
+        {"'' .. #t.x[1]", "5"},
+        {"'' .. #t:f()", "4"},
+        {"'' .. #(t.x)", "1"},
+        {"t[#t.x + 1]", "one more"},
+        {"'#' .. [[#]] .. [==[#]]#]==] .. \"\\\"#\" .. '\\'#'", "###]]#\"#'#"},
+        {"'' .. #t.x --[[ # ]] + 1 -- #", "2"},
+        {"'' .. #t.x --[==[ # ]] ]==] + 1", "2"},
+        {"'' .. #setmetatable({}, {__len = function() return 7 end, __pow = 1})", "7"},
+        {"'' .. rawlen(setmetatable({2}, {__len = function() return 7 end}))", "1"},
+        {"'' .. #{n = 1}", "0"},
+        {"'' .. #5", "attempt to get length of a number value"},
+        {"'' .. #t.none", "attempt to get length of a nil value"},
+        {"'' .. true ^ 2", "attempt to perform arithmetic on a boolean value"},
+        {"'' .. 2 ^ false", "attempt to perform arithmetic on a boolean value"},
+    };
+    for (const auto& [expression, expected] : table) {
+        CAPTURE(expression);
+        const std::string result = result_of(
+            "local t = {x = {'hello'}, f = function() return 'four' end}\n"
+            "t[2] = 'one more'\nreturn(" +
+            expression + "\n)");
+        if (expected.rfind("attempt", 0) == 0)
+            CHECK_THAT(result, Catch::Matchers::StartsWith("s.lua:3: " + expected));
+        else
+            CHECK(result == expected);
+    }
+    CHECK(result_of("local t = {5, 6} return#t == 2 and'yes'or'no'") == "yes");
+    for (const int n : {0, 1, 2, 3, 4, 5, 7, 8, 9, 100, 1000, 1025})
+        CHECK(result_of("local t = {} for i = 1, " + std::to_string(n) + " do t[i] = i end return '' .. #t") ==
+              std::to_string(n));
+}
+
+TEST_CASE("insert and remove move what is behind") {
+    CHECK(result_of("local t = {} for i = 1, 9 do table.insert(t, i) end table.insert(t, 3, 'a')\n"
+                    "table.insert(t, 11, 'b') table.remove(t, 1) local last = table.remove(t)\n"
+                    "return table.concat(t) .. last .. tostring(table.remove({})) .. tostring(table.remove({}, 0))") ==
+          "2a3456789bnilnil");
+    for (const char* call :
+         {"table.insert({}, 2, 0)", "table.insert({}, 0, 0)", "table.remove({1}, 3)", "table.remove({1}, -1)"})
+        CHECK_THAT(result_of(call), Catch::Matchers::EndsWith("position out of bounds)"));
+    CHECK(result_of("table.insert({}, 1, 2, 3)") == "s.lua:1: wrong number of arguments to 'insert'");
+}
+
 TEST_CASE("table.sort sorts, whatever the order before") {
     for (const std::string item : {"i", "-i", "i % 7", "(i * 7919) % 1009", "math.abs(i - 500)", "-math.abs(i - 500)",
                                    "0", "math.random(100)", "i & -i", "i ~ 341"})

@@ -1,0 +1,152 @@
+// How long a table is: # and the functions that ask for it.
+//
+// Where a table has holes, Lua's # is some border, a number n with something at n and nothing at n + 1. Which one
+// depends on how much of the table Lua keeps as an array; that is found anew when its hash is full, which depends on
+// whether keys that were added fell on those that were removed; and texts fall where a seed wants them that Lua takes
+// from the clock and from addresses. Here the border is found by the table's content alone.
+#include <algorithm>
+#include <lua.hpp>
+
+#include "raytracer/scene/lua_replacements.hpp"
+#include "raytracer/scene/lua_sandbox.hpp"
+
+namespace deburr {
+namespace {
+
+bool has_item(lua_State* lua, int table, lua_Integer at) {
+    const bool has = lua_rawgeti(lua, table, at) != LUA_TNIL;
+    lua_pop(lua, 1);
+    return has;
+}
+
+// The end of what begins at `at`, if that is something that # must not be looked for in: a comment, a text, a long
+// text. Else `at`.
+std::size_t skipped(std::string_view text, std::size_t at) {
+    const auto long_end = [&](std::size_t from) {  // of [==[ … ]==], or `from`
+        std::size_t level = from + 1;
+        while (level < text.size() && text[level] == '=') ++level;
+        if (from >= text.size() || text[from] != '[' || level >= text.size() || text[level] != '[') return from;
+        std::string close(level - from + 1, '=');
+        close.front() = close.back() = ']';
+        const std::size_t end = text.find(close, level);
+        return end == std::string_view::npos ? text.size() : end + close.size();
+    };
+    if (text.substr(at, 2) == "--") {
+        const std::size_t end = long_end(at + 2);
+        return end > at + 2 ? end : std::min(text.find_first_of("\r\n", at), text.size());
+    }
+    if (text[at] == '[') return long_end(at);
+    if (text[at] != '"' && text[at] != '\'') return at;
+    std::size_t end = at + 1;
+    for (; end < text.size() && text[end] != text[at]; ++end)
+        if (text[end] == '\\') ++end;
+    return std::min(end + 1, text.size());
+}
+
+// __pow of booleans.
+int length_or_power(lua_State* lua) {
+    if (!lua_isboolean(lua, 1) || lua_toboolean(lua, 1))
+        return luaL_error(lua, "attempt to perform arithmetic on a boolean value");
+    if (lua_type(lua, 2) == LUA_TSTRING)
+        lua_pushinteger(lua, lua_Integer(lua_rawlen(lua, 2)));
+    else if (luaL_callmeta(lua, 2, "__len"))
+        return 1;
+    else if (lua_istable(lua, 2))
+        lua_pushinteger(lua, border(lua, 2));
+    else
+        return luaL_error(lua, "attempt to get length of a %s value", luaL_typename(lua, 2));
+    return 1;
+}
+
+}  // namespace
+
+lua_Integer border(lua_State* lua, int table) {
+    // Doubled until nothing is there, then halved between.
+    lua_Integer something = 0, nothing = 1;
+    std::int64_t looks = 0;
+    for (; has_item(lua, table, nothing); ++looks) {
+        something = nothing;
+        nothing *= 2;
+    }
+    for (; nothing - something > 1; ++looks) {
+        const lua_Integer middle = something + (nothing - something) / 2;
+        (has_item(lua, table, middle) ? something : nothing) = middle;
+    }
+    Sandbox::spend(lua, looks);
+    return something;
+}
+
+std::string with_length_by_content(std::string_view text) {
+    std::string changed;
+    changed.reserve(text.size());
+    for (std::size_t at = 0; at < text.size();) {
+        const std::size_t end = skipped(text, at);
+        if (end > at)
+            changed += text.substr(at, end - at);
+        else if (text[at] == '#')
+            changed += " false^";
+        else
+            changed += text[at];
+        at = std::max(end, at + 1);
+    }
+    return changed;
+}
+
+void open_length(lua_State* lua) {
+    lua_pushboolean(lua, 0);
+    lua_createtable(lua, 0, 2);
+    lua_pushcfunction(lua, length_or_power);
+    lua_setfield(lua, -2, "__pow");
+    lua_pushboolean(lua, 0);
+    lua_setfield(lua, -2, "__metatable");
+    lua_setmetatable(lua, -2);
+    lua_pop(lua, 1);
+}
+
+int raw_length(lua_State* lua) {
+    if (lua_type(lua, 1) == LUA_TSTRING)
+        lua_pushinteger(lua, lua_Integer(lua_rawlen(lua, 1)));
+    else if (lua_istable(lua, 1))
+        lua_pushinteger(lua, border(lua, 1));
+    else
+        return luaL_argerror(lua, 1, "table or string expected");
+    return 1;
+}
+
+int insert_into_table(lua_State* lua) {
+    check_plain_table(lua, 1);
+    const lua_Integer end = border(lua, 1) + 1;
+    const int count = lua_gettop(lua);
+    if (count != 2 && count != 3) return luaL_error(lua, "wrong number of arguments to 'insert'");
+    lua_Integer place = end;
+    if (count == 3) {
+        place = luaL_checkinteger(lua, 2);
+        luaL_argcheck(lua, place >= 1 && place <= end, 2, "position out of bounds");
+        Sandbox::spend(lua, end - place);
+        for (lua_Integer i = end; i > place; --i) {
+            lua_rawgeti(lua, 1, i - 1);
+            lua_rawseti(lua, 1, i);
+        }
+    }
+    lua_rawseti(lua, 1, place);
+    return 0;
+}
+
+int remove_from_table(lua_State* lua) {
+    check_plain_table(lua, 1);
+    const lua_Integer size = border(lua, 1);
+    lua_Integer place = luaL_optinteger(lua, 2, size);
+    if (lua_gettop(lua) > 1)
+        luaL_argcheck(lua, (place >= 1 && place <= size + 1) || place == size, 2, "position out of bounds");
+    lua_rawgeti(lua, 1, place);
+    Sandbox::spend(lua, size - std::min(place, size));
+    for (; place < size; ++place) {
+        lua_rawgeti(lua, 1, place + 1);
+        lua_rawseti(lua, 1, place);
+    }
+    lua_pushnil(lua);
+    lua_rawseti(lua, 1, place);
+    return 1;
+}
+
+}  // namespace deburr
