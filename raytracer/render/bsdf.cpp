@@ -145,7 +145,7 @@ double SurfaceLayer::integrate(double cosine) const {
 
 double SurfaceLayer::albedo(double cosine) const {
     const double at = std::sqrt(glm::clamp(cosine, 0.0, 1.0)) * steps;
-    const auto i = std::min(std::size_t(at), std::size_t(steps - 1));
+    const auto i = at < steps ? std::size_t(at) : std::size_t(steps - 1);  // the last for no number, too
     return glm::mix(albedo_[i], albedo_[i + 1], at - double(i));
 }
 

@@ -107,7 +107,7 @@ SkyLight::SkyLight(const Background& background) : background_(background) {
 Vec3 SkyLight::mean(Vec3 normal) const {
     if (!background_.sky) return background_.color;
     const double at = glm::clamp(0.5 * (normal.y + 1), 0.0, 1.0) * steps;
-    const auto i = std::min(std::size_t(at), std::size_t(steps - 1));
+    const auto i = at < steps ? std::size_t(at) : std::size_t(steps - 1);  // the last for no number, too
     const double share = glm::mix(zenith_share_[i], zenith_share_[i + 1], at - double(i));
     return glm::mix(background_.horizon, background_.zenith, share);
 }

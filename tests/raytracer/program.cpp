@@ -7,6 +7,7 @@
 
 #include <chrono>
 #include <cstdlib>
+#include <sstream>
 #include <stdexcept>
 #include <thread>
 
@@ -74,6 +75,17 @@ Outcome Call::wait() {
     ended_ = true;
     const int code = WIFEXITED(status_) ? WEXITSTATUS(status_) : 128 + WTERMSIG(status_);
     return {code, read_file(folder_ / "out"), read_file(folder_ / "err")};
+}
+
+std::string without_progress(const std::string& err) {
+    std::istringstream lines(err);
+    std::string rest;
+    for (std::string line; std::getline(lines, line);) {
+        const std::size_t digit = std::min(line.find_first_not_of(' '), line.size());
+        const std::size_t end = std::min(line.find_first_not_of("0123456789", digit), line.size());
+        if (end == digit || line.compare(end, 4, " %  ") != 0) rest += line + "\n";
+    }
+    return rest;
 }
 
 Outcome run(const std::vector<std::string>& words, const std::vector<std::string>& environment) {

@@ -38,6 +38,9 @@ private:
     bool ended_ = false;
 };
 
+/// The lines of stderr that do not tell how far the work is, which only runs of a second and more do.
+std::string without_progress(const std::string& err);
+
 Outcome run(const std::vector<std::string>& words, const std::vector<std::string>& environment = {});
 
 /// A rounded cube over a floor, 60 x 40, seen from above; parameters: r, the radius.

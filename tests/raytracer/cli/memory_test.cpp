@@ -37,7 +37,7 @@ TEST_CASE("of errors in a parallel loop that of the least index is thrown, and o
 }
 
 // Sanitizers take more address space than any limit leaves.
-#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
+#if !DEBURR_IS_SANITIZED
 TEST_CASE("running out of memory is one line and exit code 1, at whatever limit") {
     const Folder folder;
     write_file(folder / "s.lua", R"(

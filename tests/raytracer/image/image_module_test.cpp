@@ -21,7 +21,7 @@ std::string loaded(const std::vector<std::string>& words) {
     CHECK(outcome.code == 0);
     CHECK(outcome.err.find("libpng") != std::string::npos);
     std::string names;
-#ifdef __SANITIZE_ADDRESS__
+#if DEBURR_IS_SANITIZED
     const std::vector<const char*> libraries{"OpenEXR", "OpenImageIO"};  // Embree is linked (CMakeLists.txt)
 #else
     const std::vector<const char*> libraries{"OpenEXR", "OpenImageIO", "embree"};
@@ -44,7 +44,7 @@ TEST_CASE("only what needs OpenEXR, OpenImageIO or Embree loads it") {
     CHECK(loaded({"render", scene, "-q", "-o", folder / "a.png"}) == "");
     CHECK(loaded({"render", scene, "-q", "-o", folder / "a.exr", "-o", folder / "a.png"}) == "OpenEXR");
     CHECK(loaded({"render", scene, "-q", "-o", folder / "a.jpg"}) == "OpenEXR OpenImageIO");  // which depends on it
-#ifndef __SANITIZE_ADDRESS__
+#if !DEBURR_IS_SANITIZED
     CHECK(loaded({"render", scene, "-q", "-o", folder / "a.png", "--via", "triage"}) == "embree");
     CHECK(loaded({"render", scene, "-q", "-o", folder / "a.png", "--accel", "embree"}) == "embree");
 #endif
