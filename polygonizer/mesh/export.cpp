@@ -10,6 +10,8 @@
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 
+#include "polygonizer/mesh/export_3mf.hpp"
+#include "polygonizer/mesh/export_color.hpp"
 #include "polygonizer/mesh/separate_touching.hpp"
 #include "polygonizer/mesh/single_precision.hpp"
 
@@ -144,8 +146,7 @@ std::string glb(const Mesh& mesh, const MeshNotes& notes) {
         }
         const auto [material, is_new] = material_of.try_emplace(key.second, j["materials"].size());
         if (is_new) {
-            const Vec3 c =
-                std::size_t(key.second) < notes.colors.size() ? notes.colors[std::size_t(key.second)] : Vec3(0.8);
+            const Vec3 c = material_color(notes, key.second);
             j["materials"].push_back(
                 {{"pbrMetallicRoughness", {{"baseColorFactor", {c.x, c.y, c.z, 1.0}}, {"metallicFactor", 0.0}}}});
         }
@@ -198,13 +199,36 @@ std::string glb(const Mesh& mesh, const MeshNotes& notes) {
     return out;
 }
 
-constexpr std::pair<const char*, MeshFormat> formats[] = {{".obj", MeshFormat::obj},
-                                                          {".ply", MeshFormat::ply},
-                                                          {".stl", MeshFormat::stl},
-                                                          {".glb", MeshFormat::glb},
-                                                          {".ase", MeshFormat::ase}};
+constexpr std::pair<const char*, MeshFormat> formats[] = {{".obj", MeshFormat::obj}, {".ply", MeshFormat::ply},
+                                                          {".stl", MeshFormat::stl}, {".glb", MeshFormat::glb},
+                                                          {".ase", MeshFormat::ase}, {".3mf", MeshFormat::three_mf}};
+
+constexpr std::pair<const char*, LengthUnit> units[] = {{"micron", LengthUnit::micron},
+                                                        {"millimeter", LengthUnit::millimeter},
+                                                        {"centimeter", LengthUnit::centimeter},
+                                                        {"inch", LengthUnit::inch},
+                                                        {"foot", LengthUnit::foot},
+                                                        {"meter", LengthUnit::meter}};
 
 }  // namespace
+
+const char* unit_name(LengthUnit unit) {
+    for (const auto& [name, u] : units)
+        if (u == unit) return name;
+    return "";
+}
+
+std::optional<LengthUnit> find_unit(const std::string& name) {
+    for (const auto& [known, unit] : units)
+        if (name == known) return unit;
+    return std::nullopt;
+}
+
+std::string known_units() {
+    std::string all;
+    for (const auto& [name, unit] : units) all += (all.empty() ? "" : ", ") + std::string(name);
+    return all;
+}
 
 std::string solid_name(const MeshNotes& notes, int solid) {
     std::string name = std::size_t(solid) < notes.names.size() ? notes.names[std::size_t(solid)] : "";
@@ -234,6 +258,7 @@ std::string encode(const Mesh& mesh, MeshFormat format, const MeshNotes& notes) 
     if (format == MeshFormat::obj) return obj(mesh, notes);
     if (format == MeshFormat::ply) return ply(mesh);
     if (format == MeshFormat::ase) return encode_ase(mesh, notes);
+    if (format == MeshFormat::three_mf) return encode_3mf(mesh, notes);
     Mesh apart = mesh;  // in single precision too
     separate_touching(apart, single_precision_step(mesh));
     return format == MeshFormat::stl ? stl(apart) : glb(apart, notes);

@@ -10,6 +10,7 @@
 //   ASE   text of 3ds Max [Vyatkin §4]: positions shared, a normal for every corner, one object per
 //         solid, and the scene's materials as parts of one. Digits as in OBJ. Printed differently:
 //         its faces need not be seen from both sides, for all of them face outward
+//   3MF   a ZIP archive of XML: digits as in OBJ, one object per solid, a unit of length, and the materials' colours
 #pragma once
 #include <optional>
 #include <string>
@@ -19,15 +20,26 @@
 
 namespace deburr {
 
-enum class MeshFormat { obj, ply, stl, glb, ase };
+enum class MeshFormat { obj, ply, stl, glb, ase, three_mf };
 
 /// By the extension of the file's name, in small or capital letters.
 std::optional<MeshFormat> mesh_format(const std::string& path);
 std::string known_mesh_extensions();
 
+/// What the mesh's coordinates are measured in.
+enum class LengthUnit { micron, millimeter, centimeter, inch, foot, meter };
+
+/// As 3MF spells them.
+const char* unit_name(LengthUnit unit);
+/// From such a name.
+std::optional<LengthUnit> find_unit(const std::string& name);
+/// "micron, millimeter, …"
+std::string known_units();
+
 struct MeshNotes {
     std::vector<std::string> names;  // of solids; "" or missing: solid N
     std::vector<Vec3> colors;        // of materials, linear; missing: grey
+    LengthUnit unit = LengthUnit::millimeter;
 };
 
 /// Without blanks; never empty.

@@ -3,7 +3,8 @@
 #include <algorithm>
 #include <iterator>
 
-#include "polygonizer/mesh/export.hpp"
+#include "polygonizer/mesh/export_color.hpp"
+#include "polygonizer/mesh/mesh_objects.hpp"
 
 namespace deburr {
 namespace {
@@ -27,42 +28,33 @@ void put_material(Out to, const char* indent, const std::string& name, const cha
     fmt::format_to(to, "{0}*MATERIAL_SPECULAR 0 0 0\n{0}*MATERIAL_TRANSPARENCY 0\n", indent);
 }
 
-void put_object(Out to, const Mesh& mesh, std::size_t begin, std::size_t end, const MeshNotes& notes) {
-    // Positions of this solid, numbered from 0 in the order of their use.
-    std::vector<int> number(mesh.positions.size(), -1), used;
-    for (std::size_t t = begin; t < end; ++t)
-        for (const int v : mesh.triangles[t].vertex)
-            if (number[std::size_t(v)] < 0) {
-                number[std::size_t(v)] = int(used.size());
-                used.push_back(v);
-            }
-    const auto at = [&](const Triangle& t, std::size_t k) { return number[std::size_t(t.vertex[k])]; };
-    const std::string name = quoted(solid_name(notes, mesh.triangles[begin].solid));
+void put_object(Out to, const Mesh& mesh, const MeshObject& object, const MeshNotes& notes) {
+    const std::string name = quoted(solid_name(notes, mesh.triangles[object.begin].solid));
     fmt::format_to(to, "*GEOMOBJECT {{\n\t*NODE_NAME {0}\n\t*NODE_TM {{\n\t\t*NODE_NAME {0}\n{1}\t}}\n", name,
                    identity);
     fmt::format_to(
         to, "\t*MESH {{\n\t\t*TIMEVALUE 0\n\t\t*MESH_NUMVERTEX {}\n\t\t*MESH_NUMFACES {}\n\t\t*MESH_VERTEX_LIST {{\n",
-        used.size(), end - begin);
-    for (std::size_t v = 0; v < used.size(); ++v) {
-        const Vec3 x = mesh.positions[std::size_t(used[v])];
+        object.positions.size(), object.triangles.size());
+    for (std::size_t v = 0; v < object.positions.size(); ++v) {
+        const Vec3 x = mesh.positions[std::size_t(object.positions[v])];
         fmt::format_to(to, "\t\t\t*MESH_VERTEX {}\t{}\t{}\t{}\n", v, x.x, x.y, x.z);
     }
     fmt::format_to(to, "\t\t}}\n\t\t*MESH_FACE_LIST {{\n");
-    for (std::size_t i = begin; i < end; ++i) {
-        const Triangle& t = mesh.triangles[i];
+    for (std::size_t i = 0; i < object.triangles.size(); ++i) {
+        const auto [a, b, c] = object.triangles[i];
         fmt::format_to(to,
-                       "\t\t\t*MESH_FACE {}: A: {} B: {} C: {} AB: 1 BC: 1 CA: 1 *MESH_SMOOTHING 1 *MESH_MTLID {}\n",
-                       i - begin, at(t, 0), at(t, 1), at(t, 2), t.material);
+                       "\t\t\t*MESH_FACE {}: A: {} B: {} C: {} AB: 1 BC: 1 CA: 1 *MESH_SMOOTHING 1 *MESH_MTLID {}\n", i,
+                       a, b, c, mesh.triangles[object.begin + i].material);
     }
     fmt::format_to(to, "\t\t}}\n\t\t*MESH_NORMALS {{\n");
-    for (std::size_t i = begin; i < end; ++i) {
-        const Triangle& t = mesh.triangles[i];
+    for (std::size_t i = 0; i < object.triangles.size(); ++i) {
+        const Triangle& t = mesh.triangles[object.begin + i];
         const Vec3 area = mesh.area_vector(t);
         const Vec3 face = glm::length(area) > 0 ? glm::normalize(area) : mesh.normals[std::size_t(t.normal[0])];
-        fmt::format_to(to, "\t\t\t*MESH_FACENORMAL {}\t{}\t{}\t{}\n", i - begin, face.x, face.y, face.z);
+        fmt::format_to(to, "\t\t\t*MESH_FACENORMAL {}\t{}\t{}\t{}\n", i, face.x, face.y, face.z);
         for (std::size_t k = 0; k < 3; ++k) {
             const Vec3 n = mesh.normals[std::size_t(t.normal[k])];
-            fmt::format_to(to, "\t\t\t\t*MESH_VERTEXNORMAL {}\t{}\t{}\t{}\n", at(t, k), n.x, n.y, n.z);
+            fmt::format_to(to, "\t\t\t\t*MESH_VERTEXNORMAL {}\t{}\t{}\t{}\n", object.triangles[i][k], n.x, n.y, n.z);
         }
     }
     fmt::format_to(to, "\t\t}}\n\t}}\n\t*MATERIAL_REF 0\n}}\n");
@@ -78,23 +70,15 @@ std::string encode_ase(const Mesh& mesh, const MeshNotes& notes) {
     fmt::format_to(
         to,
         "*3DSMAX_ASCIIEXPORT\t200\n*COMMENT \"Deburr\"\n*MATERIAL_LIST {{\n\t*MATERIAL_COUNT 1\n\t*MATERIAL 0 {{\n");
-    const auto color = [&](int m) {
-        return std::size_t(m) < notes.colors.size() ? notes.colors[std::size_t(m)] : Vec3(0.8);
-    };
-    put_material(to, "\t\t", "materials", "Multi/Sub-Object", color(0));
+    put_material(to, "\t\t", "materials", "Multi/Sub-Object", material_color(notes, 0));
     fmt::format_to(to, "\t\t*NUMSUBMTLS {}\n", last + 1);
     for (int m = 0; m <= last; ++m) {
         fmt::format_to(to, "\t\t*SUBMATERIAL {} {{\n", m);
-        put_material(to, "\t\t\t", fmt::format("material_{}", m), "Standard", color(m));
+        put_material(to, "\t\t\t", fmt::format("material_{}", m), "Standard", material_color(notes, m));
         fmt::format_to(to, "\t\t}}\n");
     }
     fmt::format_to(to, "\t}}\n}}\n");
-    for (std::size_t begin = 0; begin < mesh.triangles.size();) {
-        std::size_t end = begin;
-        while (end < mesh.triangles.size() && mesh.triangles[end].solid == mesh.triangles[begin].solid) ++end;
-        put_object(to, mesh, begin, end, notes);
-        begin = end;
-    }
+    for_each_object(mesh, [&](const MeshObject& object) { put_object(to, mesh, object, notes); });
     return fmt::to_string(out);
 }
 

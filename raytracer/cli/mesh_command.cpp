@@ -3,6 +3,7 @@
 #include <tbb/global_control.h>
 #include <tbb/info.h>
 
+#include <algorithm>
 #include <memory>
 #include <nlohmann/json.hpp>
 
@@ -26,7 +27,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 struct MeshCommandOptions : Options {
-    std::string method, tolerance, grid, edge, level, hard_angle, faces;
+    std::string method, tolerance, grid, edge, level, hard_angle, faces, unit;
     bool no_check = false, force = false, recentre = false;
 };
 
@@ -60,6 +61,20 @@ MeshSettings settings(const MeshCommandOptions& o) {
     only("--level", o.level, MeshMethod::octree);
     only("--hard-edges", o.hard_angle, MeshMethod::octree);
     return s;
+}
+
+bool any_output_is(const MeshCommandOptions& o, MeshFormat format) {
+    return std::any_of(o.outputs.begin(), o.outputs.end(),
+                       [&](const std::string& path) { return mesh_format(path) == format; });
+}
+
+LengthUnit unit(const MeshCommandOptions& o) {
+    if (o.unit.empty()) return LengthUnit::millimeter;
+    const auto unit = find_unit(o.unit);
+    if (!unit) throw UsageError(fmt::format("--unit: expected one of {}, got '{}'", known_units(), o.unit));
+    if (!any_output_is(o, MeshFormat::three_mf))
+        throw UsageError("--unit: expected an output that ends in .3mf, for the other formats have no units");
+    return *unit;
 }
 
 Json json_of(const Spread& s) { return {{"mean", s.mean}, {"max", s.max}}; }
@@ -186,7 +201,7 @@ void warn_of_single_precision(const MeshCommandOptions& o, const SceneMesh& mesh
         fmt::print(
             stderr,
             "deburr: {}: single precision has steps of {:.2g} at coordinates up to {:.6g}, and the mesh edges of "
-            "{:.2g}: {} facets are flattened or turned over; PLY and OBJ hold them, --recentre may help\n",
+            "{:.2g}: {} facets are flattened or turned over; PLY, OBJ and 3MF hold them, --recentre may help\n",
             path, loss.step, loss.coordinate, loss.least_edge, loss.spoiled);
     }
 }
@@ -203,6 +218,8 @@ int run_mesh(const MeshCommandOptions& o) {
     if (!o.stats_json.empty()) files.push_back(o.stats_json);
     check_outputs(o.outputs, {o.stats_json}, {o.scene});
     const MeshSettings method = settings(o);
+    MeshNotes notes;
+    notes.unit = unit(o);
     const auto faces = o.faces.empty() ? 0 : std::size_t(parse_whole("--faces", o.faces, 4, 100'000'000));
     const int threads = o.threads.value_or(tbb::info::default_concurrency());
     const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, std::size_t(threads));
@@ -240,7 +257,7 @@ int run_mesh(const MeshCommandOptions& o) {
     const bool written = passes(o, scene, mesh);
     if (written && !o.quiet) warn_of_single_precision(o, mesh);
     clock.begin("write");
-    MeshNotes notes{scene.names, {}};
+    notes.names = scene.names;
     for (const Material& m : scene.materials) notes.colors.push_back(m.color.a);
     for (const std::string& path : o.outputs)
         if (written) write_whole_file(path, encode(mesh.mesh, *mesh_format(path), notes));
@@ -304,6 +321,10 @@ Command add_mesh_command(CLI::App& program) {
         ->type_name("A");
     command->add_option("--faces", options->faces, "as near to this number of triangles as the method comes")
         ->type_name("N");
+    command
+        ->add_option("--unit", options->unit,
+                     ".3mf: what the scene's lengths are: " + known_units() + "; default: millimeter")
+        ->type_name("NAME");
     command->add_flag("--recentre", options->recentre, "move the middle of the solids to the origin");
     command->add_flag("--no-check", options->no_check, "do not check the mesh against the solids");
     command->add_flag("--force", options->force, "write the mesh even if the check fails");

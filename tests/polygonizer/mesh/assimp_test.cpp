@@ -18,7 +18,7 @@ TEST_CASE("Assimp reads every format back as the same triangles, in the same pla
     const Mesh mesh = triage(tree, polygonization_box(tree));
     Box box;
     for (const Vec3 p : mesh.positions) box = hull(box, {p, p});
-    for (const std::string name : {"obj", "ply", "stl", "glb", "ase"}) {
+    for (const std::string name : {"obj", "ply", "stl", "glb", "ase", "3mf"}) {
         CAPTURE(name);
         const std::string bytes = encode(mesh, *mesh_format("a." + name));
         Assimp::Importer importer;

@@ -1,10 +1,16 @@
 #include "polygonizer/mesh/export.hpp"
 
+#include <zlib.h>
+
 #include <array>
+#include <chrono>
 #include <cstring>
 #include <fstream>
 #include <nlohmann/json.hpp>
+#include <regex>
+#include <set>
 #include <sstream>
+#include <thread>
 
 #include "catch.hpp"
 #include "polygonizer/marching_cubes/marching_cubes.hpp"
@@ -87,7 +93,8 @@ TEST_CASE("A GLB's accessors lie within its buffer") {
 }
 
 TEST_CASE("An empty mesh is a file in every format") {
-    for (const MeshFormat f : {MeshFormat::obj, MeshFormat::ply, MeshFormat::stl, MeshFormat::glb, MeshFormat::ase})
+    for (const MeshFormat f :
+         {MeshFormat::obj, MeshFormat::ply, MeshFormat::stl, MeshFormat::glb, MeshFormat::ase, MeshFormat::three_mf})
         CHECK_FALSE(encode(Mesh{}, f).empty());
 }
 
@@ -114,6 +121,42 @@ TEST_CASE("Marching cubes closes ambiguous faces: a checkerboard of boxes") {
     const SolidTree tree = flatten(Solid::rounded(0.2, all));
     for (const double grid : {0.3, 0.1, 0.07})
         CHECK(topology(marching_cubes(tree, polygonization_box(tree), grid)).closed());
+}
+
+// The text of the model in a 3MF. The reader is a test's: it takes what was written a moment ago.
+std::string model_of(const std::string& archive) {
+    const std::string name = "3D/3dmodel.model";
+    const std::size_t header = archive.find(name) - 30;  // of the local file [APPNOTE 4.3.7]
+    const auto word = [&](std::size_t at) { return read<std::uint32_t>(archive, header + at); };
+    std::string text(word(22), '\0');
+    z_stream stream{};
+    REQUIRE(inflateInit2(&stream, -MAX_WBITS) == Z_OK);
+    stream.next_in = reinterpret_cast<Bytef*>(const_cast<char*>(archive.data() + header + 30 + name.size()));
+    stream.avail_in = word(18);
+    stream.next_out = reinterpret_cast<Bytef*>(text.data());
+    stream.avail_out = uInt(text.size());
+    CHECK(inflate(&stream, Z_FINISH) == Z_STREAM_END);
+    inflateEnd(&stream);
+    CHECK(crc32(0, reinterpret_cast<const Bytef*>(text.data()), uInt(text.size())) == word(14));
+    return text;
+}
+
+TEST_CASE("A 3MF has the same bytes at any time, and vertices that read back as the same doubles") {
+    const Mesh m = mesh();
+    const std::string archive = encode(m, MeshFormat::three_mf);
+    CHECK(read<std::uint16_t>(archive, 10) == 0);                  // midnight
+    CHECK(read<std::uint16_t>(archive, 12) == (1 << 5 | 1));       // 1980-01-01
+    std::this_thread::sleep_for(std::chrono::milliseconds(2100));  // dates of a ZIP have steps of two seconds
+    CHECK(encode(m, MeshFormat::three_mf) == archive);
+    const std::string text = model_of(archive);
+    const std::regex vertex("<vertex x=\"([^\"]*)\" y=\"([^\"]*)\" z=\"([^\"]*)\"/>");
+    std::set<std::array<double, 3>> read, expected;
+    std::size_t count = 0;
+    for (std::sregex_iterator at(text.begin(), text.end(), vertex), end; at != end; ++at, ++count)
+        read.insert({std::stod((*at)[1]), std::stod((*at)[2]), std::stod((*at)[3])});
+    for (const Vec3& x : m.positions) expected.insert({x.x, x.y, x.z});
+    CHECK(count == m.positions.size());
+    CHECK(read == expected);
 }
 
 TEST_CASE("An STL's normals are those of the corners that it has") {

@@ -23,10 +23,11 @@ TEST_CASE("mesh writes every format, and says that the mesh is closed") {
     write_file(folder / "s.lua", "return { solids = { rounded(0.1, cube()) - sharp(box({0.5,0.5,0.5},{2,2,2})) } }");
     const Outcome outcome =
         run({"mesh", folder / "s.lua", "-o", folder / "a.obj", "-o", folder / "a.ply", "-o", folder / "a.stl", "-o",
-             folder / "a.glb", "-o", folder / "a.ase", "--stats-json", folder / "a.json"});
+             folder / "a.glb", "-o", folder / "a.ase", "-o", folder / "a.3mf", "--stats-json", folder / "a.json"});
     CHECK(without_progress(outcome.err) == "");
     REQUIRE(outcome.code == 0);
-    for (const char* name : {"a.obj", "a.ply", "a.stl", "a.glb", "a.ase"}) CHECK(fs::file_size(folder / name) > 1000);
+    for (const char* name : {"a.obj", "a.ply", "a.stl", "a.glb", "a.ase", "a.3mf"})
+        CHECK(fs::file_size(folder / name) > 1000);
     const Json j = Json::parse(read_file(folder / "a.json"));
     CHECK(j["mesh"]["manifold"] == true);
     CHECK(j["mesh"]["inverted"] == 0);
@@ -123,9 +124,11 @@ TEST_CASE("mesh refuses what it does not know, and writes nothing") {
                                                   {"-o", "a.obj", "--method", "octree", "--edge", "1", "--level", "3"},
                                                   {"-o", "a.obj", "--method", "octree", "--hard-edges", "200"},
                                                   {"-o", "a.obj", "--faces", "0"},
+                                                  {"-o", "a.3mf", "--unit", "parsec"},
+                                                  {"-o", "a.obj", "--unit", "inch"},
                                                   {}}) {
         std::vector<std::string> all{"mesh", folder / "s.lua"};
-        for (const std::string& word : words) all.push_back(word == "a.obj" ? folder / word : word);
+        for (const std::string& word : words) all.push_back(word.starts_with("a.") ? folder / word : word);
         CHECK(run(all).code == 2);
     }
     CHECK(folder.names() == std::vector<std::string>{"s.lua"});

@@ -1,0 +1,42 @@
+// A mesh of several solids, one after the other, for formats that number each solid's vertices by itself.
+#pragma once
+#include <array>
+#include <vector>
+
+#include "polygonizer/mesh/mesh.hpp"
+
+namespace deburr {
+
+/// Triangles [begin, end) of a mesh, all of one solid, and its own numbers of their vertices.
+struct MeshObject {
+    std::size_t begin = 0, end = 0;
+    std::vector<int> positions;                 // of the mesh, in the order of their first use
+    std::vector<std::array<int, 3>> triangles;  // places in `positions`
+};
+
+/// Calls take(MeshObject) for each run of triangles with one solid.
+template <class Take>
+void for_each_object(const Mesh& mesh, Take take) {
+    std::vector<int> number(mesh.positions.size(), -1);
+    for (std::size_t begin = 0; begin < mesh.triangles.size();) {
+        MeshObject object;
+        object.begin = object.end = begin;
+        for (; object.end < mesh.triangles.size() && mesh.triangles[object.end].solid == mesh.triangles[begin].solid;
+             ++object.end) {
+            std::array<int, 3>& corners = object.triangles.emplace_back();
+            for (std::size_t k = 0; k < 3; ++k) {
+                const int v = mesh.triangles[object.end].vertex[k];
+                if (number[std::size_t(v)] < 0) {
+                    number[std::size_t(v)] = int(object.positions.size());
+                    object.positions.push_back(v);
+                }
+                corners[k] = number[std::size_t(v)];
+            }
+        }
+        take(object);
+        for (const int v : object.positions) number[std::size_t(v)] = -1;
+        begin = object.end;
+    }
+}
+
+}  // namespace deburr
