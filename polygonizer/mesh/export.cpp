@@ -12,6 +12,7 @@
 
 #include "polygonizer/mesh/export_3mf.hpp"
 #include "polygonizer/mesh/export_color.hpp"
+#include "polygonizer/mesh/export_obj.hpp"
 #include "polygonizer/mesh/separate_touching.hpp"
 #include "polygonizer/mesh/single_precision.hpp"
 
@@ -45,22 +46,6 @@ std::uint32_t count_of(std::size_t n) {
     if (n > std::numeric_limits<std::uint32_t>::max())
         throw std::length_error("a mesh of more than 4 294 967 295 elements does not fit the format");
     return std::uint32_t(n);
-}
-
-std::string obj(const Mesh& mesh, const MeshNotes& notes) {
-    fmt::memory_buffer out;
-    const auto to = std::back_inserter(out);
-    fmt::format_to(to, "# Deburr: {} vertices, {} triangles\n", mesh.positions.size(), mesh.triangles.size());
-    for (const Vec3& x : mesh.positions) fmt::format_to(to, "v {} {} {}\n", x.x, x.y, x.z);
-    for (const Vec3& n : mesh.normals) fmt::format_to(to, "vn {} {} {}\n", n.x, n.y, n.z);
-    int solid = -1, material = -1;
-    for (const Triangle& t : mesh.triangles) {
-        if (t.solid != solid) fmt::format_to(to, "o {}\n", solid_name(notes, solid = t.solid));
-        if (t.material != material) fmt::format_to(to, "usemtl material_{}\n", material = t.material);
-        fmt::format_to(to, "f {}//{} {}//{} {}//{}\n", t.vertex[0] + 1, t.normal[0] + 1, t.vertex[1] + 1,
-                       t.normal[1] + 1, t.vertex[2] + 1, t.normal[2] + 1);
-    }
-    return fmt::to_string(out);
 }
 
 std::string ply(const Mesh& mesh) {
@@ -255,7 +240,7 @@ std::string known_mesh_extensions() {
 }
 
 std::string encode(const Mesh& mesh, MeshFormat format, const MeshNotes& notes) {
-    if (format == MeshFormat::obj) return obj(mesh, notes);
+    if (format == MeshFormat::obj) return encode_obj(mesh, notes);
     if (format == MeshFormat::ply) return ply(mesh);
     if (format == MeshFormat::ase) return encode_ase(mesh, notes);
     if (format == MeshFormat::three_mf) return encode_3mf(mesh, notes);

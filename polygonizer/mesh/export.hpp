@@ -2,7 +2,7 @@
 // share vertices.)
 //
 //   OBJ   text, the shortest digits that read back as the same double; positions shared, normals
-//         apart, one object per solid
+//         apart, one object per solid; its materials are a file of their own (export_obj.hpp)
 //   PLY   binary, doubles, shared vertices. It has one normal per vertex: on a sharp seam the mean
 //   STL   binary: single precision and no sharing is all that it can hold; normals are those of its own corners
 //   GLB   glTF 2.0: single precision; a vertex on a sharp seam is there once for each normal; one
@@ -37,9 +37,10 @@ std::optional<LengthUnit> find_unit(const std::string& name);
 std::string known_units();
 
 struct MeshNotes {
-    std::vector<std::string> names;  // of solids; "" or missing: solid N
-    std::vector<Vec3> colors;        // of materials, linear; missing: grey
-    LengthUnit unit = LengthUnit::millimeter;
+    std::vector<std::string> names;            // of solids; "" or missing: solid N
+    std::vector<Vec3> colors;                  // of materials, linear; missing: grey
+    LengthUnit unit = LengthUnit::millimeter;  // of 3MF
+    std::string material_file = {};            // of OBJ: the MTL beside it, "": none
 };
 
 /// Without blanks; never empty.

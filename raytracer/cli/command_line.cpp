@@ -49,7 +49,7 @@ void open_standard_files() {
             line = "deburr: an error inside the program: an exception was not caught\n";
         }
     [[maybe_unused]] const auto n = write(STDERR_FILENO, line.data(), line.size());
-    remove_unfinished_file();
+    remove_unfinished_files();
     _exit(1);
 }
 

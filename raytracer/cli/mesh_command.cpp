@@ -8,10 +8,10 @@
 #include <nlohmann/json.hpp>
 
 #include "bounds/bounding_box.hpp"
-#include "polygonizer/mesh/export.hpp"
 #include "polygonizer/mesh/metrics.hpp"
 #include "polygonizer/mesh/single_precision.hpp"
 #include "raytracer/cli/commands.hpp"
+#include "raytracer/cli/mesh_outputs.hpp"
 #include "raytracer/cli/options.hpp"
 #include "raytracer/cli/statistics.hpp"
 #include "raytracer/mesh/scene_mesh.hpp"
@@ -63,16 +63,12 @@ MeshSettings settings(const MeshCommandOptions& o) {
     return s;
 }
 
-bool any_output_is(const MeshCommandOptions& o, MeshFormat format) {
-    return std::any_of(o.outputs.begin(), o.outputs.end(),
-                       [&](const std::string& path) { return mesh_format(path) == format; });
-}
-
-LengthUnit unit(const MeshCommandOptions& o) {
+LengthUnit unit(const MeshCommandOptions& o, const std::vector<MeshOutput>& outputs) {
     if (o.unit.empty()) return LengthUnit::millimeter;
     const auto unit = find_unit(o.unit);
     if (!unit) throw UsageError(fmt::format("--unit: expected one of {}, got '{}'", known_units(), o.unit));
-    if (!any_output_is(o, MeshFormat::three_mf))
+    if (std::none_of(outputs.begin(), outputs.end(),
+                     [](const MeshOutput& out) { return out.format == MeshFormat::three_mf; }))
         throw UsageError("--unit: expected an output that ends in .3mf, for the other formats have no units");
     return *unit;
 }
@@ -188,21 +184,20 @@ Vec3 recentre(Scene& scene) {
 }
 
 // Says what files of single precision lose, if that is to be seen.
-void warn_of_single_precision(const MeshCommandOptions& o, const SceneMesh& mesh) {
+void warn_of_single_precision(const std::vector<MeshOutput>& outputs, const SceneMesh& mesh) {
     const SinglePrecisionLoss loss = single_precision_loss(mesh.mesh);
     double radius = infinity;
     for (const SolidTree& tree : mesh.trees)
         if (const double r = tree.least_radius(); r > 0) radius = std::min(radius, r);
     constexpr double visible = 0.02;  // of a radius
     if (loss.spoiled == 0 && loss.step <= visible * radius) return;
-    for (const std::string& path : o.outputs) {
-        const MeshFormat format = *mesh_format(path);
-        if (format != MeshFormat::stl && format != MeshFormat::glb) continue;
+    for (const MeshOutput& output : outputs) {
+        if (output.format != MeshFormat::stl && output.format != MeshFormat::glb) continue;
         fmt::print(
             stderr,
             "deburr: {}: single precision has steps of {:.2g} at coordinates up to {:.6g}, and the mesh edges of "
             "{:.2g}: {} facets are flattened or turned over; PLY, OBJ and 3MF hold them, --recentre may help\n",
-            path, loss.step, loss.coordinate, loss.least_edge, loss.spoiled);
+            output.path, loss.step, loss.coordinate, loss.least_edge, loss.spoiled);
     }
 }
 
@@ -210,16 +205,13 @@ int run_mesh(const MeshCommandOptions& o) {
     if (o.scene.empty()) throw UsageError("mesh: expected a scene file");
     if (o.outputs.empty() && !o.stats && o.stats_json.empty())
         throw UsageError("mesh: expected an output file, -o FILE");
-    for (const std::string& path : o.outputs)
-        if (!mesh_format(path))
-            throw UsageError(
-                fmt::format("-o: expected a name that ends in one of {}, got '{}'", known_mesh_extensions(), path));
-    std::vector<std::string> files = o.outputs;
+    const std::vector<MeshOutput> outputs = mesh_outputs(o.outputs);
+    std::vector<std::string> files = files_of(outputs);
+    check_outputs(files, {o.stats_json}, {o.scene});
     if (!o.stats_json.empty()) files.push_back(o.stats_json);
-    check_outputs(o.outputs, {o.stats_json}, {o.scene});
     const MeshSettings method = settings(o);
     MeshNotes notes;
-    notes.unit = unit(o);
+    notes.unit = unit(o, outputs);
     const auto faces = o.faces.empty() ? 0 : std::size_t(parse_whole("--faces", o.faces, 4, 100'000'000));
     const int threads = o.threads.value_or(tbb::info::default_concurrency());
     const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, std::size_t(threads));
@@ -255,12 +247,12 @@ int run_mesh(const MeshCommandOptions& o) {
                    mesh.mesh.positions.size(), clock.wall("polygonize"));
 
     const bool written = passes(o, scene, mesh);
-    if (written && !o.quiet) warn_of_single_precision(o, mesh);
+    if (written && !o.quiet) warn_of_single_precision(outputs, mesh);
     clock.begin("write");
     notes.names = scene.names;
     for (const Material& m : scene.materials) notes.colors.push_back(m.color.a);
-    for (const std::string& path : o.outputs)
-        if (written) write_whole_file(path, encode(mesh.mesh, *mesh_format(path), notes));
+    for (const MeshOutput& output : outputs)
+        if (written) write_mesh(output, mesh.mesh, notes);
     clock.end();
 
     if (o.stats || !o.stats_json.empty()) {

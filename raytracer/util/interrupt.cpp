@@ -25,7 +25,7 @@ void say(std::string_view text) {
 }
 
 [[noreturn]] void end() {
-    remove_unfinished_file();
+    remove_unfinished_files();
     _exit(interrupted_exit_code);
 }
 

@@ -6,11 +6,13 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <array>
 #include <atomic>
 #include <cerrno>
 #include <cstring>
 #include <filesystem>
 #include <mutex>
+#include <optional>
 #include <set>
 
 #include "raytracer/util/errors.hpp"
@@ -20,8 +22,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// The hidden file's name for a signal handler. One file is written at a time.
-std::atomic<const char*> unfinished{nullptr};
+// The hidden files' names for a signal handler. One group of files is written at a time.
+constexpr std::size_t most_files = 2;
+std::array<std::atomic<const char*>, most_files> unfinished{};
 static_assert(std::atomic<const char*>::is_always_lock_free);
 std::atomic<bool> file_written{false};
 
@@ -63,15 +66,17 @@ void remove_left_behind(const fs::path& folder) {
 class HiddenFile {
 public:
     HiddenFile(const std::string& path, const fs::path& folder) : path_(path) {
+        while (unfinished.at(slot_)) ++slot_;
         remove_left_behind(folder);
         for (int n = 0; descriptor_ < 0; ++n) {
             name_ = (folder / fmt::format("{}{}-{}{}", prefix, getpid(), n, suffix)).string();
-            unfinished = name_.c_str();  // before there is one, or a signal in between would leave it
+            unfinished[slot_] = name_.c_str();  // before there is one, or a signal in between would leave it
             descriptor_ = open(name_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
             if (descriptor_ < 0 && errno == EEXIST) continue;
             if (descriptor_ < 0) {
-                unfinished = nullptr;
-                fail(path, errno);
+                const int error = errno;
+                unfinished[slot_] = nullptr;
+                fail(path, error);
             }
             struct stat status {};
             flock(descriptor_, LOCK_EX);  // not every file system has locks: then nobody gets one
@@ -84,19 +89,21 @@ public:
     ~HiddenFile() {
         if (descriptor_ >= 0) close(descriptor_);
         if (!kept_) unlink(name_.c_str());
-        unfinished = nullptr;
+        unfinished[slot_] = nullptr;
     }
     HiddenFile(const HiddenFile&) = delete;
     HiddenFile& operator=(const HiddenFile&) = delete;
 
     int descriptor() const { return descriptor_; }
 
-    void keep_as(const fs::path& target, mode_t mode) {
+    /// Brings it to the disk.
+    void sync(mode_t mode) {
         if (mode && fchmod(descriptor_, mode) != 0) fail(path_, errno);
         if (fsync(descriptor_) != 0) fail(path_, errno);
-        const int closed = close(descriptor_);
-        descriptor_ = -1;
-        if (closed != 0) fail(path_, errno);
+    }
+
+    /// It stays locked until then, or it would be taken for one that was left behind.
+    void keep_as(const fs::path& target) {
         if (rename(name_.c_str(), target.c_str()) != 0) fail(path_, errno);
         kept_ = file_written = true;
     }
@@ -104,6 +111,7 @@ public:
 private:
     std::string path_, name_;
     int descriptor_ = -1;
+    std::size_t slot_ = 0;  // in `unfinished`
     bool kept_ = false;
 };
 
@@ -143,6 +151,50 @@ void write_all(const std::string& path, int descriptor, std::string_view bytes) 
     }
 }
 
+void write_directly(const std::string& path, std::string_view bytes) {
+    const int descriptor = open(path.c_str(), O_WRONLY | O_CLOEXEC);
+    if (descriptor < 0) fail(path, errno);
+    file_written = true;
+    try {
+        write_all(path, descriptor, bytes);
+    } catch (...) {
+        close(descriptor);
+        throw;
+    }
+    if (close(descriptor) != 0) fail(path, errno);
+}
+
+// A name itself lasts only once the folder is on the disk too; not every file system can.
+void sync_folder(const fs::path& path) {
+    const int folder = open(path.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+    if (folder < 0) return;
+    fsync(folder);
+    close(folder);
+}
+
+struct Output {
+    const std::string& path;
+    std::string_view bytes;
+};
+
+void write_together(const std::vector<Output>& outputs) {
+    std::vector<Target> targets;
+    for (const Output& o : outputs) targets.push_back(find_target(o.path));
+    std::array<std::optional<HiddenFile>, most_files> files;
+    for (std::size_t i = 0; i < outputs.size(); ++i) {
+        if (targets[i].direct) continue;
+        HiddenFile& file = files.at(i).emplace(outputs[i].path, targets[i].folder);
+        write_all(outputs[i].path, file.descriptor(), outputs[i].bytes);
+        file.sync(targets[i].mode);
+    }
+    for (std::size_t i = 0; i < outputs.size(); ++i)
+        if (targets[i].direct) write_directly(outputs[i].path, outputs[i].bytes);
+    for (std::size_t i = 0; i < outputs.size(); ++i)
+        if (files[i]) files[i]->keep_as(targets[i].file);
+    for (std::size_t i = 0; i < outputs.size(); ++i)
+        if (files[i]) sync_folder(targets[i].folder);
+}
+
 }  // namespace
 
 void check_writable(const std::string& path) {
@@ -150,34 +202,17 @@ void check_writable(const std::string& path) {
     if (!target.direct) HiddenFile probe(path, target.folder);
 }
 
-void write_whole_file(const std::string& path, std::string_view bytes) {
-    const Target target = find_target(path);
-    if (target.direct) {
-        const int descriptor = open(path.c_str(), O_WRONLY | O_CLOEXEC);
-        if (descriptor < 0) fail(path, errno);
-        file_written = true;
-        try {
-            write_all(path, descriptor, bytes);
-        } catch (...) {
-            close(descriptor);
-            throw;
-        }
-        if (close(descriptor) != 0) fail(path, errno);
-        return;
-    }
-    HiddenFile file(path, target.folder);
-    write_all(path, file.descriptor(), bytes);
-    file.keep_as(target.file, target.mode);
-    // The name itself lasts only once the folder is on the disk too; not every file system can.
-    const int folder = open(target.folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-    if (folder >= 0) {
-        fsync(folder);
-        close(folder);
-    }
+void write_whole_file(const std::string& path, std::string_view bytes) { write_together({{path, bytes}}); }
+
+void write_whole_files(const std::vector<FileBytes>& files) {
+    std::vector<Output> outputs;
+    for (const FileBytes& f : files) outputs.push_back({f.path, f.bytes});
+    write_together(outputs);
 }
 
-void remove_unfinished_file() noexcept {
-    if (const char* name = unfinished.load()) unlink(name);
+void remove_unfinished_files() noexcept {
+    for (const std::atomic<const char*>& file : unfinished)
+        if (const char* name = file.load()) unlink(name);
 }
 
 bool any_file_written() noexcept { return file_written.load(); }

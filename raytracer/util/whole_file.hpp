@@ -8,6 +8,7 @@
 #pragma once
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace deburr {
 
@@ -18,9 +19,18 @@ void check_writable(const std::string& path);
 /// Throws WorkError and leaves what was there before if anything fails.
 void write_whole_file(const std::string& path, std::string_view bytes);
 
-/// Removes the hidden file that is being written, if any; for use in a signal handler that ends the
+struct FileBytes {
+    std::string path;
+    std::string bytes;
+};
+
+/// Files that belong together, at most two: all are on the disk before the first of them takes its name. Throws
+/// WorkError, and leaves what was there before if any of them cannot be written.
+void write_whole_files(const std::vector<FileBytes>& files);
+
+/// Removes the hidden files that are being written, if any; for use in a signal handler that ends the
 /// process.
-void remove_unfinished_file() noexcept;
+void remove_unfinished_files() noexcept;
 
 /// Whether this process has written any file, or a part of one that is written directly; for use in a signal handler.
 bool any_file_written() noexcept;

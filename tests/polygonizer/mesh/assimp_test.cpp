@@ -6,9 +6,10 @@
 #include <sstream>
 
 #include "catch.hpp"
-#include "polygonizer/mesh/export.hpp"
+#include "polygonizer/mesh/export_obj.hpp"
 #include "polygonizer/octree/octree.hpp"
 #include "polygonizer/triage/triage.hpp"
+#include "raytracer/folder.hpp"
 
 using namespace deburr;
 
@@ -106,4 +107,35 @@ TEST_CASE("ASE keeps every vertex's digits, every corner's normal, and each soli
     CHECK(red == of_material[2]);
     CHECK(dark == 0);
     CHECK(red > 10);
+}
+
+TEST_CASE("Assimp reads the colours and names of an OBJ with its MTL") {
+    const SolidTree tree = flatten(Solid::rounded(0.1, Density::box(Vec3(0.0), Vec3(1.0, 1.0 / 3, 0.7))).material(0) -
+                                   Solid::sharp(Density::box({0.5, -1, 0.3}, {2, 2, 2})).material(2));
+    const Mesh mesh = triage(tree, polygonization_box(tree));
+    MeshNotes notes{{"lid"}, {Vec3(0.1, 0.2, 0.3), Vec3(0.0), Vec3(1.0, 0.5, 0.25)}};
+    notes.material_file = "a part.mtl";
+    const deburr::test::Folder folder;
+    deburr::test::write_file(folder / "a.obj", encode(mesh, MeshFormat::obj, notes));
+    deburr::test::write_file(folder / notes.material_file, encode_mtl(mesh, notes));
+    Assimp::Importer importer;
+    const aiScene* scene = importer.ReadFile(folder / "a.obj", aiProcess_Triangulate);
+    REQUIRE(scene != nullptr);
+    REQUIRE(scene->mRootNode->mNumChildren == 1);
+    CHECK(scene->mRootNode->mChildren[0]->mName.C_Str() == std::string("lid"));
+    std::size_t faces[3] = {}, of_material[3] = {};
+    for (unsigned m = 0; m < scene->mNumMeshes; ++m) {
+        const aiMaterial& material = *scene->mMaterials[scene->mMeshes[m]->mMaterialIndex];
+        aiColor3D color;
+        REQUIRE(material.Get(AI_MATKEY_COLOR_DIFFUSE, color) == aiReturn_SUCCESS);
+        for (const std::size_t k : {0, 2}) {
+            const Vec3 c = notes.colors[k];
+            if (color == aiColor3D(float(c.x), float(c.y), float(c.z))) faces[k] += scene->mMeshes[m]->mNumFaces;
+        }
+    }
+    for (const Triangle& t : mesh.triangles) ++of_material[t.material];
+    CHECK(faces[0] == of_material[0]);
+    CHECK(faces[2] == of_material[2]);
+    CHECK(faces[2] > 4);
+    CHECK(encode_mtl(mesh, notes).find("material_1") == std::string::npos);  // no triangle has it
 }

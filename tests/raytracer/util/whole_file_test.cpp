@@ -85,6 +85,34 @@ TEST_CASE("a write that fails leaves what was there") {
     CHECK(read_file(folder / "old") == "old");
 }
 
+TEST_CASE("files that belong together appear together, or none of them does") {
+    const Folder folder;
+    write_whole_files({{folder / "a", "one"}, {folder / "b", "two"}});
+    CHECK(read_file(folder / "a") == "one");
+    CHECK(read_file(folder / "b") == "two");
+    for (const bool first : {true, false}) {
+        const std::string fine = folder / "a", wrong = first ? folder / "none/b" : std::string("/dev/full");
+        std::vector<FileBytes> files{{fine, "three"}, {wrong, "four"}};
+        if (first) std::swap(files[0], files[1]);
+        CHECK_THROWS_AS(write_whole_files(files), WorkError);
+        CHECK(read_file(folder / "a") == "one");
+        CHECK(folder.names() == Names{"a", "b"});
+    }
+    // The first of them is complete when the second becomes too large.
+    rlimit before{};
+    REQUIRE(getrlimit(RLIMIT_FSIZE, &before) == 0);
+    const auto handler = signal(SIGXFSZ, SIG_IGN);
+    rlimit small = before;
+    small.rlim_cur = 1000;
+    REQUIRE(setrlimit(RLIMIT_FSIZE, &small) == 0);
+    CHECK_THROWS_AS(write_whole_files({{folder / "a", "three"}, {folder / "b", std::string(5000, 'x')}}), WorkError);
+    setrlimit(RLIMIT_FSIZE, &before);
+    signal(SIGXFSZ, handler);
+    CHECK(read_file(folder / "a") == "one");
+    CHECK(read_file(folder / "b") == "two");
+    CHECK(folder.names() == Names{"a", "b"});
+}
+
 TEST_CASE("a full device is an error") {
     check_writable("/dev/full");
     CHECK_THROWS_AS(write_whole_file("/dev/full", "text"), WorkError);
