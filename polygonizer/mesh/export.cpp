@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cstdint>
 #include <cstring>
 #include <limits>
@@ -48,7 +49,22 @@ std::uint32_t count_of(std::size_t n) {
     return std::uint32_t(n);
 }
 
-std::string ply(const Mesh& mesh) {
+// Of each vertex, for readers that know no colours of faces: that of the largest triangle around it.
+std::vector<int> vertex_materials(const Mesh& mesh) {
+    std::vector<int> materials(mesh.positions.size(), 0);
+    std::vector<double> largest(mesh.positions.size(), -1);
+    for (const Triangle& t : mesh.triangles) {
+        const double size = glm::length(mesh.area_vector(t));
+        for (const int v : t.vertex) {
+            if (size <= largest[std::size_t(v)]) continue;
+            largest[std::size_t(v)] = size;
+            materials[std::size_t(v)] = t.material;
+        }
+    }
+    return materials;
+}
+
+std::string ply(const Mesh& mesh, const MeshNotes& notes) {
     std::vector<Vec3> normals(mesh.positions.size(), Vec3(0.0));
     for (const Triangle& t : mesh.triangles) {
         const Vec3 area = mesh.area_vector(t);
@@ -56,23 +72,33 @@ std::string ply(const Mesh& mesh) {
         for (std::size_t k = 0; k < 3; ++k)
             normals[std::size_t(t.vertex[k])] += mesh.normals[std::size_t(t.normal[k])] * size;
     }
+    const std::string color = "property uchar red\nproperty uchar green\nproperty uchar blue\n";
     std::string out = fmt::format(
-        "ply\nformat binary_little_endian 1.0\ncomment Deburr\nelement vertex {}\n"
+        "ply\nformat binary_little_endian 1.0\ncomment Deburr\nelement vertex {0}\n"
         "property double x\nproperty double y\nproperty double z\n"
-        "property double nx\nproperty double ny\nproperty double nz\n"
-        "element face {}\nproperty list uchar int vertex_indices\nend_header\n",
-        mesh.positions.size(), mesh.triangles.size());
+        "property double nx\nproperty double ny\nproperty double nz\n{2}"
+        "element face {1}\nproperty list uchar int vertex_indices\n{2}end_header\n",
+        mesh.positions.size(), mesh.triangles.size(), color);
     if (mesh.positions.size() > std::size_t(std::numeric_limits<std::int32_t>::max()))
         throw std::length_error("a mesh of more than 2 147 483 647 vertices does not fit PLY");
+    const std::vector<int> materials = vertex_materials(mesh);
+    std::map<int, std::array<std::uint8_t, 3>> colors;
+    const auto put_color = [&](int material) {
+        const auto [it, is_new] = colors.try_emplace(material);
+        if (is_new) it->second = display_color(notes, material);
+        for (const std::uint8_t c : it->second) out += char(c);
+    };
     for (std::size_t v = 0; v < mesh.positions.size(); ++v) {
         const double length = glm::length(normals[v]);
         const Vec3 n = length > 0 ? normals[v] / length : Vec3(0, 0, 1);
         for (int k = 0; k < 3; ++k) put(out, mesh.positions[v][k]);
         for (int k = 0; k < 3; ++k) put(out, n[k]);
+        put_color(materials[v]);
     }
     for (const Triangle& t : mesh.triangles) {
         out += char(3);
         for (const int v : t.vertex) put_word(out, std::uint32_t(v));
+        put_color(t.material);
     }
     return out;
 }
@@ -241,7 +267,7 @@ std::string known_mesh_extensions() {
 
 std::string encode(const Mesh& mesh, MeshFormat format, const MeshNotes& notes) {
     if (format == MeshFormat::obj) return encode_obj(mesh, notes);
-    if (format == MeshFormat::ply) return ply(mesh);
+    if (format == MeshFormat::ply) return ply(mesh, notes);
     if (format == MeshFormat::ase) return encode_ase(mesh, notes);
     if (format == MeshFormat::three_mf) return encode_3mf(mesh, notes);
     Mesh apart = mesh;  // in single precision too

@@ -3,7 +3,8 @@
 //
 //   OBJ   text, the shortest digits that read back as the same double; positions shared, normals
 //         apart, one object per solid; its materials are a file of their own (export_obj.hpp)
-//   PLY   binary, doubles, shared vertices. It has one normal per vertex: on a sharp seam the mean
+//   PLY   binary, doubles, shared vertices. It has one normal per vertex: on a sharp seam the mean. Faces have the
+//         colours of their materials, and vertices that of the largest triangle around them
 //   STL   binary: single precision and no sharing is all that it can hold; normals are those of its own corners
 //   GLB   glTF 2.0: single precision; a vertex on a sharp seam is there once for each normal; one
 //         primitive per solid and material

@@ -139,3 +139,16 @@ TEST_CASE("Assimp reads the colours and names of an OBJ with its MTL") {
     CHECK(faces[2] > 4);
     CHECK(encode_mtl(mesh, notes).find("material_1") == std::string::npos);  // no triangle has it
 }
+
+TEST_CASE("Assimp reads the colours of a PLY") {
+    const SolidTree tree = flatten(Solid::rounded(0.1, Density::box(Vec3(0.0), Vec3(1.0))).material(0));
+    const Mesh mesh = triage(tree, polygonization_box(tree));
+    const std::string bytes = encode(mesh, MeshFormat::ply, {{}, {Vec3(1, 0, 0.21586)}});
+    Assimp::Importer importer;
+    const aiScene* scene = importer.ReadFileFromMemory(bytes.data(), bytes.size(), 0, "ply");
+    REQUIRE(scene != nullptr);
+    REQUIRE(scene->mNumMeshes == 1);
+    REQUIRE(scene->mMeshes[0]->HasVertexColors(0));
+    for (unsigned v = 0; v < scene->mMeshes[0]->mNumVertices; ++v)
+        CHECK(scene->mMeshes[0]->mColors[0][v] == aiColor4D(1, 0, 128 / 255.0f, 1));
+}

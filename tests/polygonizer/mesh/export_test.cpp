@@ -73,9 +73,29 @@ TEST_CASE("Binary files have the size that they say") {
     CHECK(stl.size() == 84 + 50 * m.triangles.size());
     CHECK(read<std::uint32_t>(stl, 80) == m.triangles.size());
     const std::size_t header = ply.find("end_header\n") + 11;
-    CHECK(ply.size() == header + 48 * m.positions.size() + 13 * m.triangles.size());
+    CHECK(ply.size() == header + 51 * m.positions.size() + 16 * m.triangles.size());
     CHECK(read<double>(ply, header + 8) == m.positions[0].y);
     CHECK(read<std::uint32_t>(glb, 8) == glb.size());
+}
+
+TEST_CASE("A PLY's faces have the colours of their materials, and its vertices one of those around them") {
+    const SolidTree tree = flatten(Solid::rounded(0.1, Density::box(Vec3(0.0), Vec3(1.0, 1.0 / 3, 0.7))).material(1) -
+                                   Solid::sharp(Density::box({0.5, -1, 0.3}, {2, 2, 2})).material(2));
+    const Mesh m = triage(tree, polygonization_box(tree));
+    const std::string ply = encode(m, MeshFormat::ply, {{}, {Vec3(1.0), Vec3(1, 0, 0.21586), Vec3(0, 1, 0.0031308)}});
+    using Color = std::array<std::uint8_t, 3>;
+    const Color expected[3] = {{255, 255, 255}, {255, 0, 128}, {0, 255, 10}};
+    const std::size_t vertices = ply.find("end_header\n") + 11, faces = vertices + 51 * m.positions.size();
+    std::vector<std::set<Color>> around(m.positions.size());
+    std::set<Color> seen;
+    for (std::size_t t = 0; t < m.triangles.size(); ++t) {
+        const Color color = read<Color>(ply, faces + 16 * t + 13);
+        CHECK(color == expected[m.triangles[t].material]);
+        seen.insert(color);
+        for (const int v : m.triangles[t].vertex) around[std::size_t(v)].insert(color);
+    }
+    CHECK(seen.size() == 2);
+    for (std::size_t v = 0; v < around.size(); ++v) CHECK(around[v].count(read<Color>(ply, vertices + 51 * v + 48)));
 }
 
 TEST_CASE("A GLB's accessors lie within its buffer") {
