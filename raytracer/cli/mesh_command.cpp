@@ -27,7 +27,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 struct MeshCommandOptions : Options {
-    std::string method, tolerance, grid, edge, level, hard_angle, faces, unit;
+    std::string method, tolerance, grid, edge, level, hard_angle, faces, unit, up;
     bool no_check = false, force = false, recentre = false;
 };
 
@@ -212,6 +212,7 @@ int run_mesh(const MeshCommandOptions& o) {
     const MeshSettings method = settings(o);
     MeshNotes notes;
     notes.unit = unit(o, outputs);
+    const UpAxis up = parse_up(o.up);
     const auto faces = o.faces.empty() ? 0 : std::size_t(parse_whole("--faces", o.faces, 4, 100'000'000));
     const int threads = o.threads.value_or(tbb::info::default_concurrency());
     const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, std::size_t(threads));
@@ -252,7 +253,7 @@ int run_mesh(const MeshCommandOptions& o) {
     notes.names = scene.names;
     for (const Material& m : scene.materials) notes.colors.push_back(m.color.a);
     for (const MeshOutput& output : outputs)
-        if (written) write_mesh(output, mesh.mesh, notes);
+        if (written) write_mesh(output, mesh.mesh, notes, up);
     clock.end();
 
     if (o.stats || !o.stats_json.empty()) {
@@ -317,6 +318,10 @@ Command add_mesh_command(CLI::App& program) {
         ->add_option("--unit", options->unit,
                      ".3mf: what the scene's lengths are: " + known_units() + "; default: millimeter")
         ->type_name("NAME");
+    command
+        ->add_option("--up", options->up,
+                     "what the scene's y axis is in the files, but for .glb, which is y-up; default: y")
+        ->type_name("y|z");
     command->add_flag("--recentre", options->recentre, "move the middle of the solids to the origin");
     command->add_flag("--no-check", options->no_check, "do not check the mesh against the solids");
     command->add_flag("--force", options->force, "write the mesh even if the check fails");

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <filesystem>
+#include <optional>
 
 #include "polygonizer/mesh/export_obj.hpp"
 #include "raytracer/util/errors.hpp"
@@ -19,6 +20,13 @@ std::string material_path(const fs::path& obj) {
     for (char& c : name)
         if (static_cast<unsigned char>(c) < ' ') c = '_';
     return (obj.parent_path() / name).string();
+}
+
+// A quarter of a turn about the x axis.
+Mesh z_up(Mesh mesh) {
+    for (std::vector<Vec3>* vectors : {&mesh.positions, &mesh.normals})
+        for (Vec3& v : *vectors) v = Vec3(v.x, 0.0 - v.z, v.y);  // no −0
+    return mesh;
 }
 
 }  // namespace
@@ -44,7 +52,16 @@ std::vector<std::string> files_of(const std::vector<MeshOutput>& outputs) {
     return files;
 }
 
-void write_mesh(const MeshOutput& output, const Mesh& mesh, MeshNotes notes) {
+UpAxis parse_up(const std::string& text) {
+    if (text.empty() || text == "y") return UpAxis::y;
+    if (text == "z") return UpAxis::z;
+    throw UsageError(fmt::format("--up: expected y or z, got '{}'", text));
+}
+
+void write_mesh(const MeshOutput& output, const Mesh& y_up, MeshNotes notes, UpAxis up) {
+    std::optional<Mesh> turned;
+    if (up == UpAxis::z && output.format != MeshFormat::glb) turned = z_up(y_up);
+    const Mesh& mesh = turned ? *turned : y_up;
     std::vector<FileBytes> files;
     if (!output.material_path.empty()) {
         notes.material_file = fs::path(output.material_path).filename().string();

@@ -20,7 +20,13 @@ std::vector<MeshOutput> mesh_outputs(const std::vector<std::string>& paths);
 /// The names of all of them.
 std::vector<std::string> files_of(const std::vector<MeshOutput>& outputs);
 
-/// Throws WorkError; the files of one output appear together or not at all.
-void write_mesh(const MeshOutput& output, const Mesh& mesh, MeshNotes notes);
+/// Which way is up in the files. Scenes are y-up.
+enum class UpAxis { y, z };
+
+/// --up. Throws UsageError.
+UpAxis parse_up(const std::string& text);
+
+/// Throws WorkError; the files of one output appear together or not at all. GLB is y-up whatever is asked, for glTF is.
+void write_mesh(const MeshOutput& output, const Mesh& mesh, MeshNotes notes, UpAxis up);
 
 }  // namespace deburr

@@ -125,6 +125,7 @@ TEST_CASE("mesh refuses what it does not know, and writes nothing") {
                                                   {"-o", "a.obj", "--method", "octree", "--hard-edges", "200"},
                                                   {"-o", "a.obj", "--faces", "0"},
                                                   {"-o", "a.3mf", "--unit", "parsec"},
+                                                  {"-o", "a.obj", "--up", "x"},
                                                   {"-o", "a.obj", "--unit", "inch"},
                                                   {}}) {
         std::vector<std::string> all{"mesh", folder / "s.lua"};
