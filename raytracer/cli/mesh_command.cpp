@@ -13,6 +13,7 @@
 #include "raytracer/cli/commands.hpp"
 #include "raytracer/cli/mesh_outputs.hpp"
 #include "raytracer/cli/options.hpp"
+#include "raytracer/cli/solid_choice.hpp"
 #include "raytracer/cli/statistics.hpp"
 #include "raytracer/mesh/scene_mesh.hpp"
 #include "raytracer/util/errors.hpp"
@@ -28,6 +29,7 @@ using Json = nlohmann::ordered_json;
 
 struct MeshCommandOptions : Options {
     std::string method, tolerance, grid, edge, level, hard_angle, faces, unit, up;
+    std::vector<std::string> only;
     bool no_check = false, force = false, recentre = false;
 };
 
@@ -63,12 +65,12 @@ MeshSettings settings(const MeshCommandOptions& o) {
     return s;
 }
 
-LengthUnit unit(const MeshCommandOptions& o, const std::vector<MeshOutput>& outputs) {
+LengthUnit unit(const MeshCommandOptions& o) {
     if (o.unit.empty()) return LengthUnit::millimeter;
     const auto unit = find_unit(o.unit);
     if (!unit) throw UsageError(fmt::format("--unit: expected one of {}, got '{}'", known_units(), o.unit));
-    if (std::none_of(outputs.begin(), outputs.end(),
-                     [](const MeshOutput& out) { return out.format == MeshFormat::three_mf; }))
+    if (std::none_of(o.outputs.begin(), o.outputs.end(),
+                     [](const std::string& path) { return mesh_format(path) == MeshFormat::three_mf; }))
         throw UsageError("--unit: expected an output that ends in .3mf, for the other formats have no units");
     return *unit;
 }
@@ -139,6 +141,29 @@ Json json_of(const std::vector<MeshCheck>& checks, std::size_t made_again) {
             {"pairs", sum.pairs},       {"points", sum.points},     {"solids", solids}};
 }
 
+// What the run did and made, but for the times.
+Json statistics(const Scene& scene, const SceneMesh& mesh) {
+    Json j;
+    j["scene"] = scene.file;
+    j["method"] = mesh.method_names();
+    j["parameters"] = scene.parameters;
+    j["mesh"] = json_of(combined(measure_parts(mesh)));
+    if (mesh.triage.cells)
+        j["triage"] = {
+            {"cells", mesh.triage.cells}, {"open_cells", mesh.triage.open_cells}, {"rounds", mesh.triage.rounds}};
+    if (const OctreeStatistics& t = mesh.octree; t.cells)
+        j["octree"] = {{"level", t.level},
+                       {"edge", t.edge},
+                       {"range_tests", t.range_tests},
+                       {"cells", t.cells},
+                       {"open_cells", t.open_cells},
+                       {"hard_points", t.hard_points},
+                       {"partitions", t.partitions},
+                       {"rounds", t.rounds}};
+    if (!mesh.checks.empty()) j["check"] = json_of(mesh.checks, mesh.made_again);
+    return j;
+}
+
 // A line for each kind of fault in each solid.
 std::vector<std::string> failures(const Scene& scene, const std::vector<MeshCheck>& checks) {
     std::vector<std::string> lines;
@@ -171,11 +196,13 @@ bool passes(const MeshCommandOptions& o, const Scene& scene, const SceneMesh& me
     return o.force;
 }
 
-// The finite solids go to the origin, by their middle; returns the way.
-Vec3 recentre(Scene& scene) {
+// The finite ones of these solids, or of all, go to the origin, by their middle; returns the way.
+Vec3 recentre(Scene& scene, const std::vector<std::size_t>& only) {
     Box all;
-    for (const Solid& solid : scene.solids)
-        if (const Box box = bounding_box(flatten(solid)); !box.empty() && box.finite()) all = hull(all, box);
+    for (std::size_t i = 0; i < scene.solids.size(); ++i) {
+        if (!only.empty() && !std::binary_search(only.begin(), only.end(), i)) continue;
+        if (const Box box = bounding_box(flatten(scene.solids[i])); !box.empty() && box.finite()) all = hull(all, box);
+    }
     if (all.empty()) return Vec3(0.0);
     Affine move;
     move.shift = -0.5 * (all.lo + all.hi);
@@ -184,20 +211,21 @@ Vec3 recentre(Scene& scene) {
 }
 
 // Says what files of single precision lose, if that is to be seen.
-void warn_of_single_precision(const std::vector<MeshOutput>& outputs, const SceneMesh& mesh) {
+void warn_of_single_precision(const MeshCommandOptions& o, const SceneMesh& mesh) {
     const SinglePrecisionLoss loss = single_precision_loss(mesh.mesh);
     double radius = infinity;
     for (const SolidTree& tree : mesh.trees)
         if (const double r = tree.least_radius(); r > 0) radius = std::min(radius, r);
     constexpr double visible = 0.02;  // of a radius
     if (loss.spoiled == 0 && loss.step <= visible * radius) return;
-    for (const MeshOutput& output : outputs) {
-        if (output.format != MeshFormat::stl && output.format != MeshFormat::glb) continue;
+    for (const std::string& path : o.outputs) {
+        const MeshFormat format = *mesh_format(path);
+        if (format != MeshFormat::stl && format != MeshFormat::glb) continue;
         fmt::print(
             stderr,
             "deburr: {}: single precision has steps of {:.2g} at coordinates up to {:.6g}, and the mesh edges of "
             "{:.2g}: {} facets are flattened or turned over; PLY, OBJ and 3MF hold them, --recentre may help\n",
-            output.path, loss.step, loss.coordinate, loss.least_edge, loss.spoiled);
+            path, loss.step, loss.coordinate, loss.least_edge, loss.spoiled);
     }
 }
 
@@ -205,13 +233,10 @@ int run_mesh(const MeshCommandOptions& o) {
     if (o.scene.empty()) throw UsageError("mesh: expected a scene file");
     if (o.outputs.empty() && !o.stats && o.stats_json.empty())
         throw UsageError("mesh: expected an output file, -o FILE");
-    const std::vector<MeshOutput> outputs = mesh_outputs(o.outputs);
-    std::vector<std::string> files = files_of(outputs);
-    check_outputs(files, {o.stats_json}, {o.scene});
-    if (!o.stats_json.empty()) files.push_back(o.stats_json);
-    const MeshSettings method = settings(o);
+    check_mesh_names(o.outputs);
+    MeshSettings method = settings(o);
     MeshNotes notes;
-    notes.unit = unit(o, outputs);
+    notes.unit = unit(o);
     const UpAxis up = parse_up(o.up);
     const auto faces = o.faces.empty() ? 0 : std::size_t(parse_whole("--faces", o.faces, 4, 100'000'000));
     const int threads = o.threads.value_or(tbb::info::default_concurrency());
@@ -220,9 +245,15 @@ int run_mesh(const MeshCommandOptions& o) {
     PhaseClock clock;
     clock.begin("read");
     Scene scene = load_scene(o);
+    method.only = chosen_solids(scene, o.only);
+    method.leave_out_unbounded = o.only.empty();
+    const std::vector<MeshOutput> outputs = mesh_outputs(o.outputs, scene, method.only);
+    std::vector<std::string> files = files_of(outputs);
+    check_outputs(files, {o.stats_json}, {o.scene});
+    if (!o.stats_json.empty()) files.push_back(o.stats_json);
     for (const std::string& path : files) check_writable(path);
     if (o.recentre)
-        if (const Vec3 shift = recentre(scene); shift != Vec3(0.0) && !o.quiet)
+        if (const Vec3 shift = recentre(scene, method.only); shift != Vec3(0.0) && !o.quiet)
             fmt::print(stderr, "deburr: --recentre: moved by ({:.17g}, {:.17g}, {:.17g})\n", shift.x, shift.y, shift.z);
     clock.begin("polygonize");
     // How many meshes --faces takes is not known before.
@@ -248,36 +279,18 @@ int run_mesh(const MeshCommandOptions& o) {
                    mesh.mesh.positions.size(), clock.wall("polygonize"));
 
     const bool written = passes(o, scene, mesh);
-    if (written && !o.quiet) warn_of_single_precision(outputs, mesh);
+    if (written && !o.quiet) warn_of_single_precision(o, mesh);
     clock.begin("write");
     notes.names = scene.names;
     for (const Material& m : scene.materials) notes.colors.push_back(m.color.a);
     for (const MeshOutput& output : outputs)
-        if (written) write_mesh(output, mesh.mesh, notes, up);
+        if (written) write_mesh(output, mesh, notes, up);
     clock.end();
 
     if (o.stats || !o.stats_json.empty()) {
         clock.begin("measure");
-        const MeshMetrics metrics = combined(measure_parts(mesh));
+        Json j = statistics(scene, mesh);
         clock.end();
-        Json j;
-        j["scene"] = scene.file;
-        j["method"] = mesh.method_names();
-        j["parameters"] = scene.parameters;
-        j["mesh"] = json_of(metrics);
-        if (mesh.triage.cells)
-            j["triage"] = {
-                {"cells", mesh.triage.cells}, {"open_cells", mesh.triage.open_cells}, {"rounds", mesh.triage.rounds}};
-        if (const OctreeStatistics& t = mesh.octree; t.cells)
-            j["octree"] = {{"level", t.level},
-                           {"edge", t.edge},
-                           {"range_tests", t.range_tests},
-                           {"cells", t.cells},
-                           {"open_cells", t.open_cells},
-                           {"hard_points", t.hard_points},
-                           {"partitions", t.partitions},
-                           {"rounds", t.rounds}};
-        if (!mesh.checks.empty()) j["check"] = json_of(mesh.checks, mesh.made_again);
         for (const PhaseTime& t : clock.times()) j["seconds"][t.name] = t.wall;
         if (o.stats) print_table(j);
         if (!o.stats_json.empty())
@@ -292,7 +305,11 @@ Command add_mesh_command(CLI::App& program) {
     CLI::App* command = program.add_subcommand("mesh", "write a scene's solids as a closed mesh");
     const auto options = std::make_shared<MeshCommandOptions>();
     add_scene_options(*command, *options);
-    add_output_option(*command, *options, known_mesh_extensions());
+    add_output_option(*command, *options, known_mesh_extensions(),
+                      "; %n in its name: one for each solid, by its name or number");
+    command->add_option("--only", options->only, "this solid, by its name or number; repeatable")
+        ->type_name("NAME|ID")
+        ->allow_extra_args(false);
     command
         ->add_option("--method", options->method,
                      mesh_method_names() + "; default: triage, and octree for solids with free forms")

@@ -2,10 +2,12 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <filesystem>
-#include <optional>
+#include <string_view>
 
 #include "polygonizer/mesh/export_obj.hpp"
+#include "raytracer/cli/solid_choice.hpp"
 #include "raytracer/util/errors.hpp"
 #include "raytracer/util/whole_file.hpp"
 
@@ -13,6 +15,8 @@ namespace deburr {
 namespace {
 
 namespace fs = std::filesystem;
+
+constexpr std::string_view solid_mark = "%n";
 
 // In the OBJ's folder, of the same name; what would end the line that names it is replaced.
 std::string material_path(const fs::path& obj) {
@@ -22,23 +26,44 @@ std::string material_path(const fs::path& obj) {
     return (obj.parent_path() / name).string();
 }
 
+// The pattern with the name in every place of the mark.
+std::string with_name(std::string pattern, const std::string& name) {
+    for (std::size_t at = pattern.find(solid_mark); at != std::string::npos;
+         at = pattern.find(solid_mark, at + name.size()))
+        pattern.replace(at, solid_mark.size(), name);
+    return pattern;
+}
+
 // A quarter of a turn about the x axis.
-Mesh z_up(Mesh mesh) {
+void turn_z_up(Mesh& mesh) {
     for (std::vector<Vec3>* vectors : {&mesh.positions, &mesh.normals})
         for (Vec3& v : *vectors) v = Vec3(v.x, 0.0 - v.z, v.y);  // no −0
-    return mesh;
 }
 
 }  // namespace
 
-std::vector<MeshOutput> mesh_outputs(const std::vector<std::string>& paths) {
-    std::vector<MeshOutput> outputs;
-    for (const std::string& path : paths) {
-        const auto format = mesh_format(path);
-        if (!format)
+void check_mesh_names(const std::vector<std::string>& paths) {
+    for (const std::string& path : paths)
+        if (!mesh_format(path))
             throw UsageError(
                 fmt::format("-o: expected a name that ends in one of {}, got '{}'", known_mesh_extensions(), path));
-        outputs.push_back({path, *format, *format == MeshFormat::obj ? material_path(path) : ""});
+}
+
+std::vector<MeshOutput> mesh_outputs(const std::vector<std::string>& paths, const Scene& scene,
+                                     const std::vector<std::size_t>& solids) {
+    std::vector<MeshOutput> outputs;
+    const auto add = [&](const std::string& path, MeshFormat format, std::optional<std::size_t> solid) {
+        outputs.push_back({path, format, format == MeshFormat::obj ? material_path(path) : "", solid});
+    };
+    const std::vector<std::string> names = file_names(scene);
+    for (const std::string& path : paths) {
+        if (path.find(solid_mark) == std::string::npos) {
+            add(path, *mesh_format(path), std::nullopt);
+            continue;
+        }
+        for (std::size_t i = 0; i < scene.solids.size(); ++i)
+            if (solids.empty() || std::binary_search(solids.begin(), solids.end(), i))
+                add(with_name(path, names[i]), *mesh_format(path), i);
     }
     return outputs;
 }
@@ -58,10 +83,14 @@ UpAxis parse_up(const std::string& text) {
     throw UsageError(fmt::format("--up: expected y or z, got '{}'", text));
 }
 
-void write_mesh(const MeshOutput& output, const Mesh& y_up, MeshNotes notes, UpAxis up) {
-    std::optional<Mesh> turned;
-    if (up == UpAxis::z && output.format != MeshFormat::glb) turned = z_up(y_up);
-    const Mesh& mesh = turned ? *turned : y_up;
+void write_mesh(const MeshOutput& output, const SceneMesh& all, MeshNotes notes, UpAxis up) {
+    Mesh mesh;
+    if (output.solid)
+        mesh.append(all.parts[*output.solid], int(*output.solid));
+    else
+        mesh = all.mesh;
+    if (output.solid && mesh.triangles.empty()) return;
+    if (up == UpAxis::z && output.format != MeshFormat::glb) turn_z_up(mesh);
     std::vector<FileBytes> files;
     if (!output.material_path.empty()) {
         notes.material_file = fs::path(output.material_path).filename().string();

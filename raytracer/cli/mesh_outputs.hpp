@@ -1,9 +1,12 @@
-// The files that `deburr mesh` writes.
+// The files that `deburr mesh` writes. "%n" in a name stands for a solid's name or number, and asks for a file for each
+// solid.
 #pragma once
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "polygonizer/mesh/export.hpp"
+#include "raytracer/mesh/scene_mesh.hpp"
 
 namespace deburr {
 
@@ -11,11 +14,16 @@ namespace deburr {
 struct MeshOutput {
     std::string path;
     MeshFormat format;
-    std::string material_path = {};  // the MTL beside an OBJ; "": none
+    std::string material_path = {};         // the MTL beside an OBJ; "": none
+    std::optional<std::size_t> solid = {};  // of the scene, from 0; none: all
 };
 
-/// The files that `paths` (-o) ask for. Throws UsageError for a name whose ending is no format.
-std::vector<MeshOutput> mesh_outputs(const std::vector<std::string>& paths);
+/// Throws UsageError if one of `paths` (-o) has an ending that is no format.
+void check_mesh_names(const std::vector<std::string>& paths);
+
+/// The files that `paths` ask for, of these solids of the scene, in order; no solids: of all.
+std::vector<MeshOutput> mesh_outputs(const std::vector<std::string>& paths, const Scene& scene,
+                                     const std::vector<std::size_t>& solids);
 
 /// The names of all of them.
 std::vector<std::string> files_of(const std::vector<MeshOutput>& outputs);
@@ -26,7 +34,8 @@ enum class UpAxis { y, z };
 /// --up. Throws UsageError.
 UpAxis parse_up(const std::string& text);
 
-/// Throws WorkError; the files of one output appear together or not at all. GLB is y-up whatever is asked, for glTF is.
-void write_mesh(const MeshOutput& output, const Mesh& mesh, MeshNotes notes, UpAxis up);
+/// Throws WorkError; the files of one output appear together or not at all, and none for a solid that has no mesh. GLB
+/// is y-up whatever is asked, for glTF is.
+void write_mesh(const MeshOutput& output, const SceneMesh& mesh, MeshNotes notes, UpAxis up);
 
 }  // namespace deburr

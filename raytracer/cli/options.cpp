@@ -37,8 +37,8 @@ void add_scene_options(CLI::App& command, Options& o) {
         ->allow_extra_args(false);
 }
 
-void add_output_option(CLI::App& command, Options& o, const std::string& formats) {
-    command.add_option("-o,--output", o.outputs, "write this file (" + formats + "); repeatable")
+void add_output_option(CLI::App& command, Options& o, const std::string& formats, const std::string& more) {
+    command.add_option("-o,--output", o.outputs, "write this file (" + formats + ")" + more + "; repeatable")
         ->type_name("FILE")
         ->allow_extra_args(false);
 }

@@ -35,9 +35,10 @@ struct Options {
 };
 
 /// Each adds a group of options to a command and keeps a reference to `options`.
-void add_scene_options(CLI::App& command, Options& options);                              // SCENE -D
-void add_output_option(CLI::App& command, Options& options, const std::string& formats);  // -o
-void add_size_option(CLI::App& command, Options& options);                                // --size
+void add_scene_options(CLI::App& command, Options& options);  // SCENE -D
+/// -o. `more` is what its help says besides the formats.
+void add_output_option(CLI::App& command, Options& options, const std::string& formats, const std::string& more = "");
+void add_size_option(CLI::App& command, Options& options);         // --size
 void add_picture_options(CLI::App& command, Options& options);     // --size --spp --crop --seed …
 void add_run_options(CLI::App& command, Options& options);         // --threads -q -v
 void add_statistics_options(CLI::App& command, Options& options);  // --stats --stats-json

@@ -2,6 +2,7 @@
 #pragma once
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "polygonizer/octree/octree.hpp"
 
@@ -38,6 +39,8 @@ struct MeshSettings {
     double coarseness = 1;                           // multiplies each solid's grid, edge or tolerance
     bool check = false;                              // what was made (mesh_check.hpp); what fails is made once more
     double reach = 8;                                // infinite solids end this many sizes of the finite ones away
+    bool leave_out_unbounded = false;                // infinite solids have no mesh then
+    std::vector<std::size_t> only = {};              // of the scene's solids, that have a mesh; empty: all
 };
 
 /// The settings for pictures of meshes: finer than a mesh that is asked for, with floors that reach the horizon.

@@ -155,6 +155,40 @@ SolidMesh polygonize_checked(const SolidTree& tree, bool cut_off, const MeshSett
     return first;
 }
 
+// "solid 3 (floor) is", "solids 3 (floor), 5 are"
+std::string listed(const Scene& scene, const std::vector<std::size_t>& solids) {
+    constexpr std::size_t most = 10;
+    std::string all = solids.size() == 1 ? "solid" : "solids";
+    for (std::size_t k = 0; k < std::min(most, solids.size()); ++k) {
+        const std::string name = solids[k] < scene.names.size() ? scene.names[solids[k]] : "";
+        all += fmt::format("{} {}{}", k == 0 ? "" : ",", solids[k] + 1, name.empty() ? "" : " (" + name + ")");
+    }
+    if (solids.size() > most) all += fmt::format(" and {} more", solids.size() - most);
+    return all + (solids.size() == 1 ? " is" : " are");
+}
+
+// Which of the solids get a mesh.
+std::vector<char> wanted_solids(const Scene& scene, const std::vector<Box>& boxes, const MeshSettings& settings,
+                                std::vector<std::string>& warnings) {
+    std::vector<char> wanted(scene.solids.size(), settings.only.empty());
+    for (const std::size_t i : settings.only) wanted.at(i) = true;
+    if (!settings.leave_out_unbounded) return wanted;
+    std::vector<std::size_t> left_out;
+    for (std::size_t i = 0; i < wanted.size(); ++i)
+        if (wanted[i] && !finite(boxes[i])) {
+            left_out.push_back(i);
+            wanted[i] = false;
+        }
+    if (left_out.empty()) return wanted;
+    const std::string what =
+        fmt::format("{} unbounded and left out; --only {} cuts {} off and writes {}", listed(scene, left_out),
+                    left_out.size() == 1 ? fmt::format("{}", left_out[0] + 1) : "NAME or ID",
+                    left_out.size() == 1 ? "it" : "one", "it");
+    if (std::none_of(wanted.begin(), wanted.end(), [](char w) { return w; })) throw UnsupportedError(what);
+    warnings.push_back(what);
+    return wanted;
+}
+
 void add_statistics(SceneMesh& to, const SolidMesh& from) {
     if (from.method && std::find(to.methods.begin(), to.methods.end(), *from.method) == to.methods.end())
         to.methods.push_back(*from.method);
@@ -195,8 +229,9 @@ SceneMesh mesh_scene(const Scene& scene, const MeshSettings& settings, const Mes
     const Vec3 size = result.near.hi - result.near.lo;
     const Box limit = inflated(result.near, settings.reach * std::max(largest(size), 1e-6));
     const std::size_t count = scene.solids.size();
+    const std::vector<char> wanted = wanted_solids(scene, boxes, settings, result.warnings);
     for (std::size_t i = 0; i < count; ++i) {
-        if (finite(boxes[i])) continue;
+        if (finite(boxes[i]) || !wanted[i]) continue;
         // Cut off on infinite sides only; the others keep their margin.
         Box margin = inflated(boxes[i], 0.05 * largest(size));
         for (int k = 0; k < 3; ++k) {
@@ -207,21 +242,23 @@ SceneMesh mesh_scene(const Scene& scene, const MeshSettings& settings, const Mes
         result.warnings.push_back(fmt::format("solid {} is unbounded: its mesh is cut off", i + 1));
     }
     double work = 0;
-    for (const SolidTree& tree : result.trees) work += work_of(tree);
+    for (std::size_t i = 0; i < count; ++i)
+        if (wanted[i]) work += work_of(result.trees[i]);
     std::vector<SolidMesh> parts(count);
     in_parallel(count, [&](std::size_t i) {
         throw_if_stopped(watch.stop);
+        if (!wanted[i]) return;
         parts[i] = polygonize_checked(result.trees[i], !finite(boxes[i]), settings, i + 1, watch.stop);
         if (watch.done) watch.done(work_of(result.trees[i]) / work);
     });
     for (std::size_t i = 0; i < count; ++i) {
         add_statistics(result, parts[i]);
-        if (parts[i].mesh.triangles.empty())
+        if (wanted[i] && parts[i].mesh.triangles.empty())
             result.warnings.push_back(fmt::format("solid {} is not in the mesh: it is empty{}", i + 1,
                                                   parts[i].method ? ", or thinner than the mesh is fine" : ""));
         result.check_options.push_back(parts[i].check_options);
         result.made_again += parts[i].made_again;
-        if (parts[i].check) result.checks.push_back(*parts[i].check);
+        if (settings.check) result.checks.push_back(parts[i].check.value_or(MeshCheck{}));
         result.mesh.append(parts[i].mesh, int(i));
         result.parts.push_back(std::move(parts[i].mesh));
     }

@@ -34,9 +34,9 @@ struct MeshWatch {
     std::function<void(double)> done = {};  // the share of the work that is done since the last call; any thread
 };
 
-/// Solids are polygonized in parallel; the mesh does not depend on that. Those that reach to infinity are
-/// cut off, at a distance that leaves the others in sight, and a warning says so. Throws UnsupportedError
-/// if a grid would be too fine.
+/// Solids are polygonized in parallel; the mesh does not depend on that. Those that reach to infinity are left out, if
+/// the settings say so, or cut off, at a distance that leaves the others in sight; a warning says so. Throws
+/// UnsupportedError if a grid would be too fine, or if all solids are left out.
 SceneMesh mesh_scene(const Scene& scene, const MeshSettings& settings, const MeshWatch& watch = {});
 
 /// As near to `faces` triangles as the method comes, found by search over its coarseness; a warning

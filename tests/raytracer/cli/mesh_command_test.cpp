@@ -126,6 +126,8 @@ TEST_CASE("mesh refuses what it does not know, and writes nothing") {
                                                   {"-o", "a.obj", "--faces", "0"},
                                                   {"-o", "a.3mf", "--unit", "parsec"},
                                                   {"-o", "a.obj", "--up", "x"},
+                                                  {"-o", "a.obj", "--only", "2"},
+                                                  {"-o", "a-%n"},
                                                   {"-o", "a.obj", "--unit", "inch"},
                                                   {}}) {
         std::vector<std::string> all{"mesh", folder / "s.lua"};
@@ -243,7 +245,8 @@ TEST_CASE("a mesh does not depend on the number of threads", "[threads]") {
         const Outcome outcome =
             run({"mesh", folder / "s.lua", "-o", folder / (std::string(threads) + ".ply"), "--threads", threads});
         REQUIRE(outcome.code == 0);
-        CHECK(without_progress(outcome.err) == "deburr: solid 13 is unbounded: its mesh is cut off\n");
+        CHECK(without_progress(outcome.err) ==
+              "deburr: solid 13 is unbounded and left out; --only 13 cuts it off and writes it\n");
     }
     CHECK(read_file(folder / "1.ply") == read_file(folder / "4.ply"));
 }

@@ -90,3 +90,97 @@ TEST_CASE("an MTL is neither another output nor the scene") {
     CHECK(folder.names() == Names{"s.mtl"});
     CHECK(read_file(folder / "s.mtl") == scene);
 }
+
+namespace {
+
+// Triangles of an STL.
+std::size_t triangles(const std::string& path) { return (fs::file_size(path) - 84) / 50; }
+
+const char* const several = R"(return { solids = {
+  sharp(box({0,0,0},{1,1,1})):name("plate"),
+  sharp(box({2,0,0},{3,1,1}) | box({2.5,0.5,0.5},{4,2,2})),
+  sharp(box({5,0,0},{6,1,1})):name("Plate"),
+  sharp(halfspace({0,1,0},-1)):name("floor"),
+  sharp(box({7,0,0},{8,1,1})):name("../etc/a b\n"),
+  sharp(box({9,0,0},{10,1,1})):name("plate"),
+  sharp(box({11,0,0},{12,1,1}) & box({13,0,0},{14,1,1})):name("nothing"),
+} })";
+
+}  // namespace
+
+TEST_CASE("%n in an output's name stands for each solid's name or number, made harmless and unique") {
+    const Folder folder;
+    write_file(folder / "s.lua", several);
+    const Outcome outcome = run({"mesh", folder / "s.lua", "-o", folder / "%n.stl", "-o", folder / "p-%n-%n.obj"});
+    REQUIRE(outcome.code == 0);
+    CHECK(outcome.err ==
+          "deburr: solid 4 (floor) is unbounded and left out; --only 4 cuts it off and writes it\n"
+          "deburr: solid 7 is not in the mesh: it is empty\n");
+    CHECK(folder.names() == Names{"2.stl", "Plate-2.stl", "_._etc_a_b_n.stl", "p-2-2.mtl", "p-2-2.obj",
+                                  "p-Plate-2-Plate-2.mtl", "p-Plate-2-Plate-2.obj", "p-_._etc_a_b_n-_._etc_a_b_n.mtl",
+                                  "p-_._etc_a_b_n-_._etc_a_b_n.obj", "p-plate-3-plate-3.mtl", "p-plate-3-plate-3.obj",
+                                  "p-plate-plate.mtl", "p-plate-plate.obj", "plate-3.stl", "plate.stl", "s.lua"});
+    CHECK(triangles(folder / "plate.stl") == 12);
+    CHECK(triangles(folder / "2.stl") > 12);
+    CHECK(read_file(folder / "p-plate-3-plate-3.obj").find("\no plate\n") != std::string::npos);
+
+    // A solid has the same file when it is alone.
+    const Folder alone;
+    REQUIRE(run({"mesh", folder / "s.lua", "--only", "6", "-o", alone / "%n.stl"}).code == 0);
+    CHECK(alone.names() == Names{"plate-3.stl"});
+    CHECK(read_file(alone / "plate-3.stl") == read_file(folder / "plate-3.stl"));
+
+    const Outcome twice = run({"mesh", folder / "s.lua", "-o", folder / "%n.obj", "-o", folder / "plate.obj"});
+    CHECK(twice.code == 2);
+    CHECK(twice.err.find("expected different files") != std::string::npos);
+    // Nothing is written if one of them cannot be.
+    fs::create_directory(alone / "b-plate-3.obj");
+    CHECK(run({"mesh", folder / "s.lua", "-o", alone / "b-%n.obj"}).code == 1);
+    CHECK(alone.names() == Names{"b-plate-3.obj", "plate-3.stl"});
+}
+
+TEST_CASE("--only takes solids by name or number, and says which there are") {
+    const Folder folder;
+    write_file(folder / "s.lua", several);
+    const auto mesh = [&](std::vector<std::string> only) {
+        std::vector<std::string> words{"mesh", folder / "s.lua", "-o", folder / "a.stl"};
+        for (const std::string& which : only) words.insert(words.end(), {"--only", which});
+        return run(words);
+    };
+    const Outcome plates = mesh({"plate"});
+    CHECK(plates.code == 0);
+    CHECK(plates.err == "");
+    CHECK(triangles(folder / "a.stl") == 24);
+    CHECK(mesh({"Plate", "1", "plate"}).code == 0);
+    CHECK(triangles(folder / "a.stl") == 36);
+    const Outcome floor = mesh({"floor"});
+    CHECK(floor.code == 0);
+    CHECK(floor.err == "deburr: solid 4 is unbounded: its mesh is cut off\n");
+    CHECK(triangles(folder / "a.stl") == 12);
+    for (const char* wrong : {"flor", "0", "8", "", "1.5", "-1"}) {
+        CAPTURE(wrong);
+        const Outcome outcome = mesh({"plate", wrong});
+        CHECK(outcome.code == 2);
+        CHECK(outcome.err.find("--only: expected a solid's name or number (1 plate, 2, 3 Plate, 4 floor, 5 ../etc/a "
+                               "b\\n, 6 plate, 7 nothing), got '" +
+                               std::string(wrong) + "'") != std::string::npos);
+    }
+    CHECK(mesh({"flor"}).err.find("did you mean floor?") != std::string::npos);
+}
+
+TEST_CASE("solids that are all unbounded are refused, and cut off when they are asked for") {
+    const Folder folder;
+    write_file(folder / "s.lua", "return { solids = { sharp(halfspace({0,1,0},-1)), sharp(halfspace({1,0,0},-1)) } }");
+    const Outcome outcome = run({"mesh", folder / "s.lua", "-o", folder / "a.stl"});
+    CHECK(outcome.code == 3);
+    CHECK(outcome.err ==
+          "deburr: solids 1, 2 are unbounded and left out; --only NAME or ID cuts one off and writes it\n");
+    CHECK(run({"mesh", folder / "s.lua", "-o", folder / "a.stl", "--only", "2"}).code == 0);
+}
+
+TEST_CASE("--recentre takes the middle of the solids that are written") {
+    const Folder folder;
+    write_file(folder / "s.lua", several);
+    const Outcome outcome = run({"mesh", folder / "s.lua", "-o", folder / "a.stl", "--only", "1", "--recentre"});
+    CHECK(outcome.err.find("deburr: --recentre: moved by (-0.50000000") == 0);
+}
