@@ -68,25 +68,42 @@ std::vector<Around> surroundings(const Mesh& mesh, const std::vector<int>& verti
     return around;
 }
 
-}  // namespace
-
-double single_precision_step(const Mesh& mesh) {
+// Of single precision, at the largest coordinate: what is moved so far in any direction has another position.
+double few_steps(const Mesh& mesh) {
     double largest = 0;
     for (const Vec3& x : mesh.positions)
         for (int k = 0; k < 3; ++k) largest = std::max(largest, std::abs(x[k]));
-    constexpr double steps = 3;  // of single precision: a step in any direction moves one coordinate by more than one
-    return std::max(hair, steps * largest * double(std::numeric_limits<float>::epsilon()));
+    constexpr double steps = 3;  // a step in any direction moves one coordinate by more than one
+    return steps * largest * double(std::numeric_limits<float>::epsilon());
 }
+
+// Whether every facet that comes faces as its corners' normals do.
+bool keeps_facing(const Facets& facets, const Change& change) {
+    return std::all_of(change.in.begin(), change.in.end(), [&](const Facet& f) {
+        const Vec3 area = facets.area_vector(f.triangle);
+        return std::all_of(f.triangle.normal.begin(), f.triangle.normal.end(),
+                           [&](int n) { return glm::dot(area, facets.normal(n)) > 0; });
+    });
+}
+
+}  // namespace
+
+double single_precision_step(const Mesh& mesh) { return std::max(hair, few_steps(mesh)); }
 
 std::size_t merge_close(Mesh& mesh) {
     const auto coincide = [&](int u, int v) {
         return key_of(mesh.positions[std::size_t(u)]) == key_of(mesh.positions[std::size_t(v)]);
     };
+    // Facets of a few steps of single precision face anywhere once they are rounded.
+    const double least = few_steps(mesh);
+    const auto are_near = [&](int u, int v) {
+        return glm::distance(mesh.positions[std::size_t(u)], mesh.positions[std::size_t(v)]) < least;
+    };
     std::vector<std::pair<int, int>> edges;
     for (const Triangle& t : mesh.triangles)
         for (std::size_t k = 0; k < 3; ++k) {
             const int u = t.vertex[k], v = t.vertex[(k + 1) % 3];
-            if (u < v && coincide(u, v)) edges.push_back({u, v});
+            if (u < v && (are_near(u, v) || coincide(u, v))) edges.push_back({u, v});
         }
     if (edges.empty()) return 0;
     std::vector<Origin> origins(mesh.triangles.size());
@@ -94,9 +111,10 @@ std::size_t merge_close(Mesh& mesh) {
     std::size_t gone = 0;
     for (const auto& [u, v] : edges) {
         if (facets.around(u).empty() || facets.around(v).empty() || !facets.joined(u, v)) continue;
+        const bool may_turn = coincide(u, v);
         auto change = facets.collapse(u, v);
-        if (!change) change = facets.collapse(v, u);
-        if (!change) continue;
+        if (!change || !(may_turn || keeps_facing(facets, *change))) change = facets.collapse(v, u);
+        if (!change || !(may_turn || keeps_facing(facets, *change))) continue;
         facets.apply(*change);
         ++gone;
     }

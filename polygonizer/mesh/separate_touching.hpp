@@ -13,7 +13,8 @@ constexpr double hair = 4e-7;
 /// A step that single precision still tells apart at this mesh's coordinates; at least a hair.
 double single_precision_step(const Mesh& mesh);
 
-/// Collapses edges whose ends have one position in single precision, where that leaves a 2-manifold.
+/// Collapses edges whose ends have one position in single precision, where that leaves a 2-manifold, and those of a few
+/// of its steps where all facets go on to face as their corners' normals do.
 /// Returns how many went.
 std::size_t merge_close(Mesh& mesh);
 

@@ -1,5 +1,7 @@
 #include "polygonizer/mesh/separate_touching.hpp"
 
+#include <algorithm>
+
 #include "catch.hpp"
 #include "polygonizer/random_solid.hpp"
 #include "polygonizer/triage/triage.hpp"
@@ -54,4 +56,29 @@ TEST_CASE("A mesh without touching parts is left as it is") {
     const Mesh before = mesh;
     CHECK(separate_touching(mesh) == 0);
     CHECK(mesh.positions == before.positions);
+}
+
+TEST_CASE("Facets of a few steps of single precision are no facets") {
+    Mesh mesh = mesh_of(Solid::sharp(Density::box(Vec3(1.0), Vec3(2.0))));
+    REQUIRE(merge_close(mesh) == 0);
+    const Mesh before = mesh;
+    // An edge of the cube is cut near its end.
+    const int a = mesh.triangles[0].vertex[0], b = mesh.triangles[0].vertex[1], middle = int(mesh.positions.size());
+    mesh.positions.push_back(glm::mix(mesh.positions[std::size_t(a)], mesh.positions[std::size_t(b)], 5e-7));
+    for (std::size_t i = 0; i < before.triangles.size(); ++i)
+        for (std::size_t k = 0; k < 3; ++k) {
+            const std::size_t l = (k + 1) % 3;
+            Triangle& t = mesh.triangles[i];
+            if (std::minmax(t.vertex[k], t.vertex[l]) != std::minmax(a, b)) continue;
+            Triangle rest = t;
+            t.vertex[l] = rest.vertex[k] = middle;
+            mesh.triangles.push_back(rest);
+            break;
+        }
+    REQUIRE(mesh.triangles.size() == before.triangles.size() + 2);
+    REQUIRE(topology(mesh).manifold());
+    CHECK(merge_close(mesh) == 1);
+    CHECK(topology(mesh).manifold());
+    CHECK(mesh.triangles.size() == before.triangles.size());
+    CHECK(volume(mesh) == Approx(1));
 }
