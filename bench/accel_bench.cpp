@@ -10,18 +10,18 @@ namespace deburr::bench {
 namespace {
 
 ImplicitTracer by_embree(const std::vector<Solid>& solids) {
-    return ImplicitTracer(solids, Criterion::exact, Search::where_needed, Accel::embree);
+    return ImplicitTracer(solids, Criterion::exact, RootMethod::where_needed, Accel::embree);
 }
 
 // Knows nothing of rays that are asked for together.
 class RaysAlone final : public RayTracer {
 public:
     explicit RaysAlone(const RayTracer& tracer) : tracer_(tracer) {}
-    Hit first_hit(const Ray& ray, double t_max, TraceCounters& counters) const override {
-        return tracer_.first_hit(ray, t_max, counters);
+    Hit closest_hit(const Ray& ray, double t_max, TraceCounters& counters) const override {
+        return tracer_.closest_hit(ray, t_max, counters);
     }
-    bool occluded(const Ray& ray, double t_max, TraceCounters& counters) const override {
-        return tracer_.occluded(ray, t_max, counters);
+    bool any_hit(const Ray& ray, double t_max, TraceCounters& counters) const override {
+        return tracer_.any_hit(ray, t_max, counters);
     }
 
 private:
@@ -48,7 +48,7 @@ void embree_against_boxes(Report& report) {
     const std::vector<Ray> all = rays_through(std::cbrt(count), rays);
     const ImplicitTracer boxes(solids), embree = by_embree(solids);
     const auto ask = [&](const RayTracer& tracer) {
-        for (const Ray& ray : all) keep(tracer.first_hit(ray, infinity, counters));
+        for (const Ray& ray : all) keep(tracer.closest_hit(ray, infinity, counters));
     };
     report.ratio("10,000 blocks: rays one by one, by Embree's BVH / by boxes",
                  ratio_of([&] { ask(embree); }, [&] { ask(boxes); }));

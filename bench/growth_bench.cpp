@@ -51,7 +51,7 @@ double seconds_a_ray(const RayTracer& tracer, const std::vector<Ray>& all) {
     TraceCounters counters;
     return seconds_of(
                [&] {
-                   for (const Ray& ray : all) keep(tracer.first_hit(ray, infinity, counters));
+                   for (const Ray& ray : all) keep(tracer.closest_hit(ray, infinity, counters));
                },
                5) /
            double(all.size());

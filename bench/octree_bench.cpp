@@ -20,14 +20,14 @@ SolidTree obj4() {
 
 // Step by step, every voxel is asked whether the surface passes: the way that the paper compares with.
 std::size_t every_voxel(const SolidTree& solid, const Box& box, double edge) {
-    const SurfaceOffset whole(solid);
+    const SignedDistance whole(solid);
     std::size_t open = 0;
     const Vec3 size = (box.hi - box.lo) / edge;
     for (int z = 0; z < size.z; ++z)
         for (int y = 0; y < size.y; ++y)
             for (int x = 0; x < size.x; ++x) {
                 const Vec3 lo = box.lo + edge * Vec3(x, y, z);
-                open += whole.decided({lo, lo + Vec3(edge)}) == 0;
+                open += whole.constant_side({lo, lo + Vec3(edge)}) == 0;
             }
     return open;
 }

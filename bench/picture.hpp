@@ -32,22 +32,22 @@ inline void render_picture(const Scene& scene, const RayTracer& tracer, TraceCou
 class Recording final : public RayTracer {
 public:
     explicit Recording(const RayTracer& tracer) : tracer_(tracer) {}
-    Hit first_hit(const Ray& ray, double t_max, TraceCounters& counters) const override {
+    Hit closest_hit(const Ray& ray, double t_max, TraceCounters& counters) const override {
         questions_.push_back({{ray}, {t_max}, false, true});
-        return tracer_.first_hit(ray, t_max, counters);
+        return tracer_.closest_hit(ray, t_max, counters);
     }
-    bool occluded(const Ray& ray, double t_max, TraceCounters& counters) const override {
+    bool any_hit(const Ray& ray, double t_max, TraceCounters& counters) const override {
         questions_.push_back({{ray}, {t_max}, true, true});
-        return tracer_.occluded(ray, t_max, counters);
+        return tracer_.any_hit(ray, t_max, counters);
     }
-    void first_hits(std::span<const Ray> rays, Hit* hits, TraceCounters& counters) const override {
+    void closest_hits(std::span<const Ray> rays, Hit* hits, TraceCounters& counters) const override {
         questions_.push_back({{rays.begin(), rays.end()}, {}, false, false});
-        tracer_.first_hits(rays, hits, counters);
+        tracer_.closest_hits(rays, hits, counters);
     }
-    void occlusions(std::span<const Ray> rays, std::span<const double> t_max, bool* occluded,
-                    TraceCounters& counters) const override {
+    void any_hits(std::span<const Ray> rays, std::span<const double> t_max, bool* occluded,
+                  TraceCounters& counters) const override {
         questions_.push_back({{rays.begin(), rays.end()}, {t_max.begin(), t_max.end()}, true, false});
-        tracer_.occlusions(rays, t_max, occluded, counters);
+        tracer_.any_hits(rays, t_max, occluded, counters);
     }
     std::size_t rays() const {
         std::size_t sum = 0;
@@ -56,16 +56,16 @@ public:
     }
     void ask(const RayTracer& tracer, TraceCounters& counters) const {
         std::vector<Hit> hits(most());
-        const std::unique_ptr<bool[]> occluded(new bool[most()]);
+        const std::unique_ptr<bool[]> any_hit(new bool[most()]);
         for (const Question& q : questions_) {
             if (q.alone && q.any)
-                keep(tracer.occluded(q.rays[0], q.t_max[0], counters));
+                keep(tracer.any_hit(q.rays[0], q.t_max[0], counters));
             else if (q.alone)
-                keep(tracer.first_hit(q.rays[0], q.t_max[0], counters));
+                keep(tracer.closest_hit(q.rays[0], q.t_max[0], counters));
             else if (q.any)
-                tracer.occlusions(q.rays, q.t_max, occluded.get(), counters);
+                tracer.any_hits(q.rays, q.t_max, occluded.get(), counters);
             else
-                tracer.first_hits(q.rays, hits.data(), counters);
+                tracer.closest_hits(q.rays, hits.data(), counters);
         }
         keep(hits);
         keep(occluded);

@@ -28,18 +28,18 @@ void primary_hits(Report& report) {
         for (int x = 0; x < scene.width; x += patch)
             for (int k = 0; k < patch * patch; ++k) {
                 const Ray ray = camera.ray(x + k % patch + 0.5, y + k / patch + 0.5);
-                if (tracer.first_hit(ray, infinity, counters)) rays.push_back(ray);
+                if (tracer.closest_hit(ray, infinity, counters)) rays.push_back(ray);
             }
     std::vector<Hit> hits(rays.size());
     const double together = seconds_of(
         [&] {
-            tracer.first_hits(rays, hits.data(), counters);
+            tracer.closest_hits(rays, hits.data(), counters);
             keep(hits);
         },
         rounds_of_hits);
     const double alone = seconds_of(
         [&] {
-            for (const Ray& ray : rays) keep(tracer.first_hit(ray, infinity, counters));
+            for (const Ray& ray : rays) keep(tracer.closest_hit(ray, infinity, counters));
         },
         rounds_of_hits);
     report.figure("obj4: exact primary hits", 1e-6 * double(rays.size()) / together, "million/s", at_least(8));

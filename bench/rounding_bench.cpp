@@ -38,8 +38,8 @@ void rounded_against_sharp(Report& report) {
                      at_most(1.25));
     }
     const Scene scene = scene_of("variable_rounding");
-    const ImplicitTracer exact(scene.solids, Criterion::exact, Search::always),
-        printed(scene.solids, Criterion::lobb, Search::always);
+    const ImplicitTracer exact(scene.solids, Criterion::exact, RootMethod::always),
+        printed(scene.solids, Criterion::lobb, RootMethod::always);
     TraceCounters of_exact, of_printed;
     render_picture(scene, exact, of_exact);
     render_picture(scene, printed, of_printed);

@@ -34,11 +34,11 @@ constexpr double pi = std::numbers::pi;
 
 // Where the pole may be: the antipole should keep clear of every plane, for ψ turns fast near it.
 constexpr double clear_enough = 0.1;
-constexpr int most_poles = 24;
+constexpr int max_poles = 24;
 
 // Points that are spread evenly and lie on nobody's grid: a Fibonacci lattice.
 Vec3 pole(int k) {
-    const double z = 1 - (2 * k + 1.0) / most_poles, phi = 0.4142 + 2.399963229728653 * (7 * k % most_poles);
+    const double z = 1 - (2 * k + 1.0) / max_poles, phi = 0.4142 + 2.399963229728653 * (7 * k % max_poles);
     const double s = std::sqrt(1 - z * z);
     return {s * std::cos(phi), s * std::sin(phi), z};
 }
@@ -46,19 +46,20 @@ Vec3 pole(int k) {
 }  // namespace
 
 // Chooses the pole and gives every circle its axes; what the antipole adds comes later.
-void BallArrangement::place(const std::vector<BallPlane>& planes, Truth& truth) {
+void BallArrangement::arrange(const std::vector<BallPlane>& planes, TruthTable& table) {
     static const std::vector<Vec3> poles = [] {
         std::vector<Vec3> all;
-        for (int k = 0; k < most_poles; ++k) all.push_back(pole(k));
+        for (int k = 0; k < max_poles; ++k) all.push_back(pole(k));
         return all;
     }();
     Vec3 a{0, 0, 1};
     double best = -1;
     for (const Vec3& candidate : poles) {
-        double clear = 2;
-        for (const BallPlane& p : planes) clear = std::min(clear, std::abs(p.t + glm::dot(p.normal, candidate)));
-        if (clear <= best) continue;
-        best = clear;
+        double clearance = 2;
+        for (const BallPlane& p : planes)
+            clearance = std::min(clearance, std::abs(p.t + glm::dot(p.normal, candidate)));
+        if (clearance <= best) continue;
+        best = clearance;
         a = candidate;
         if (best >= clear_enough) break;
     }
@@ -83,7 +84,7 @@ void BallArrangement::place(const std::vector<BallPlane>& planes, Truth& truth) 
         c.far = 1 + t * up + c.radius * sigma;
         c.side = t + up >= 0 ? 1 : -1;
         circles_.push_back(c);
-        truth.put(int(p), t + up >= 0);
+        table.put(int(p), t + up >= 0);
     }
 }
 
@@ -117,22 +118,22 @@ void BallArrangement::join(const std::vector<BallPlane>& planes) {
         }
 }
 
-int BallArrangement::weight(std::size_t p, Truth& truth) const {
-    truth.put(int(p), true);
-    const int in = truth.value();
-    truth.flip(int(p));
-    return in - int(truth.value());
+int BallArrangement::weight(std::size_t p, TruthTable& table) const {
+    table.put(int(p), true);
+    const int in = table.value();
+    table.flip(int(p));
+    return in - int(table.value());
 }
 
 // Around p's circle: returns Θₚ and adds p's part of S.
-double BallArrangement::arcs(const std::vector<BallPlane>& planes, std::size_t p, Truth& truth, double& sphere) {
+double BallArrangement::arcs(const std::vector<BallPlane>& planes, std::size_t p, TruthTable& table, double& sphere) {
     const Circle& c = circles_[p];
     events_.clear();
     for (std::size_t q = 0; q < count_; ++q) {
         if (q == p) continue;
         const Chord& ch = chord(p, q);
         if (ch.half == 0) {
-            truth.put(int(q), ch.d >= 0);
+            table.put(int(q), ch.d >= 0);
             continue;
         }
         // Outside q from phi − beta to phi + beta.
@@ -147,13 +148,13 @@ double BallArrangement::arcs(const std::vector<BallPlane>& planes, std::size_t p
             to -= 2 * pi;
             inside = false;
         }
-        truth.put(int(q), inside);
+        table.put(int(q), inside);
         events_.push_back({from, int(q)});
         events_.push_back({to, int(q)});
     }
     std::sort(events_.begin(), events_.end());
     // Σ w (x_end − x_start) over the arcs is Σ x (w_before − w_after) over their ends.
-    int before = weight(p, truth);
+    int before = weight(p, table);
     double theta = 0, psi = 0;
     const auto end = [&](double at, double of_psi, int change) {
         theta += at * change;
@@ -161,8 +162,8 @@ double BallArrangement::arcs(const std::vector<BallPlane>& planes, std::size_t p
     };
     end(-pi, -pi, -before);
     for (const Event& e : events_) {
-        truth.flip(e.variable);
-        const int after = weight(p, truth);
+        table.flip(e.variable);
+        const int after = weight(p, table);
         if (after == before) continue;
         const double half = 0.5 * e.at;
         end(e.at, 2 * std::atan2(c.near * std::sin(half), c.far * std::cos(half)), before - after);
@@ -174,7 +175,7 @@ double BallArrangement::arcs(const std::vector<BallPlane>& planes, std::size_t p
 }
 
 // Over the chords in p's disc: Σ d · ∫ wₚq. Chords that lie on one line are crossed as one.
-double BallArrangement::chords(std::size_t p, Truth& truth) {
+double BallArrangement::chords(std::size_t p, TruthTable& table) {
     double sum = 0;
     done_.assign(count_, false);
     done_[p] = true;
@@ -187,7 +188,7 @@ double BallArrangement::chords(std::size_t p, Truth& truth) {
             if (r == p) continue;
             const Chord& other = chord(p, r);
             if (other.half == 0) {
-                truth.put(int(r), other.d >= 0);
+                table.put(int(r), other.d >= 0);
                 continue;
             }
             const double along = other.my * ch.mx - other.mx * ch.my;  // m of r along the chord
@@ -195,30 +196,30 @@ double BallArrangement::chords(std::size_t p, Truth& truth) {
             const double room = other.d - ch.d * across;
             if (r == q || (!done_[r] && std::abs(along) <= one_plane && std::abs(room) <= one_plane)) {
                 line_.push_back(r);
-                truth.put(int(r), across > 0);
+                table.put(int(r), across > 0);
                 continue;
             }
             // Inside where along · y ≤ room.
             if (std::abs(room) >= std::abs(along) * ch.half) {
-                truth.put(int(r), room >= 0);
+                table.put(int(r), room >= 0);
                 continue;
             }
-            truth.put(int(r), along > 0);
+            table.put(int(r), along > 0);
             events_.push_back({room / along, int(r)});
         }
         for (const std::size_t r : line_) done_[r] = true;
         std::sort(events_.begin(), events_.end());
         const auto step = [&] {  // wₚ on the inner side of the line, less that on its outer side
-            const int in = weight(p, truth);
-            for (const std::size_t r : line_) truth.flip(int(r));
-            const int out = weight(p, truth);
-            for (const std::size_t r : line_) truth.flip(int(r));
+            const int in = weight(p, table);
+            for (const std::size_t r : line_) table.flip(int(r));
+            const int out = weight(p, table);
+            for (const std::size_t r : line_) table.flip(int(r));
             return in - out;
         };
         int before = step();
         double length = -ch.half * -before;
         for (const Event& e : events_) {
-            truth.flip(e.variable);
+            table.flip(e.variable);
             const int after = step();
             length += e.at * (before - after);
             before = after;
@@ -229,16 +230,16 @@ double BallArrangement::chords(std::size_t p, Truth& truth) {
     return sum;
 }
 
-double BallArrangement::measure(const std::vector<BallPlane>& planes, Truth& truth, std::vector<double>& areas) {
-    place(planes, truth);
-    double sphere = truth.value() ? 4 * pi : 0;
+double BallArrangement::measure(const std::vector<BallPlane>& planes, TruthTable& table, std::vector<double>& areas) {
+    arrange(planes, table);
+    double sphere = table.value() ? 4 * pi : 0;
     join(planes);
     areas.assign(count_, 0);
     double sum = 0;
     for (std::size_t p = 0; p < count_; ++p) {
-        const double theta = arcs(planes, p, truth, sphere);
+        const double theta = arcs(planes, p, table, sphere);
         const double radius = circles_[p].radius;
-        areas[p] = 0.5 * (radius * radius * theta + chords(p, truth));
+        areas[p] = 0.5 * (radius * radius * theta + chords(p, table));
         sum += planes[p].t * areas[p];
     }
     return std::clamp((sum + sphere) / (4 * pi), 0.0, 1.0);

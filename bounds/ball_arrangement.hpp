@@ -15,10 +15,10 @@ struct BallPlane {
 /// Memory that is used again and again.
 class BallArrangement {
 public:
-    /// Planes that are distinct and meet the ball, variable by variable of `truth`.
+    /// Planes that are distinct and meet the ball, variable by variable of `table`.
     /// Returns the volume's share, and for each plane the area of its part of the surface: positive
     /// where what is cut out lies on its inner side.
-    double measure(const std::vector<BallPlane>& planes, Truth& truth, std::vector<double>& areas);
+    double measure(const std::vector<BallPlane>& planes, TruthTable& table, std::vector<double>& areas);
 
 private:
     struct Circle {
@@ -39,11 +39,11 @@ private:
         bool operator<(const Event& o) const { return at < o.at; }
     };
 
-    void place(const std::vector<BallPlane>& planes, Truth& truth);
+    void arrange(const std::vector<BallPlane>& planes, TruthTable& table);
     void join(const std::vector<BallPlane>& planes);
-    double arcs(const std::vector<BallPlane>& planes, std::size_t p, Truth& truth, double& sphere);
-    double chords(std::size_t p, Truth& truth);
-    int weight(std::size_t p, Truth& truth) const;
+    double arcs(const std::vector<BallPlane>& planes, std::size_t p, TruthTable& table, double& sphere);
+    double chords(std::size_t p, TruthTable& table);
+    int weight(std::size_t p, TruthTable& table) const;
     Chord& chord(std::size_t p, std::size_t q) { return chords_[p * count_ + q]; }
 
     std::size_t count_ = 0;

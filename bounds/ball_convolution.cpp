@@ -11,7 +11,7 @@ namespace {
 constexpr double pi = std::numbers::pi;
 
 // Planes are gone through for equal ones in densities that are as small as those of cells are.
-constexpr std::size_t most_compared = 64;
+constexpr std::size_t max_compared = 64;
 // One plane that a scene placed by two ways.
 constexpr double equal_normals = 1e-13, equal_offsets = 1e-13;
 
@@ -24,11 +24,11 @@ constexpr double error = 2e-8;
 
 }  // namespace
 
-BallShare::BallShare(const DensityTree& tree) {
-    assert(tree.nodes.back().op == Op::ball_share);
+BallConvolution::BallConvolution(const DensityTree& tree) {
+    assert(tree.nodes.back().op == Op::convolution);
     to_ball_ = glm::inverse(tree.ball);
     find_equal(tree);
-    if (half_spaces_.size() <= std::size_t(Truth::most_tabulated)) drop_idle();
+    if (half_spaces_.size() <= std::size_t(TruthTable::max_tabulated)) drop_idle();
 
     // From the root down: whether a node is used as it is, complemented, or both.
     const auto& nodes = function_.nodes;
@@ -50,9 +50,9 @@ BallShare::BallShare(const DensityTree& tree) {
     }
 }
 
-void BallShare::find_equal(const DensityTree& tree) {
+void BallConvolution::find_equal(const DensityTree& tree) {
     const Mat3 carry = glm::transpose(tree.ball);
-    const bool compare = tree.half_spaces.size() <= most_compared;
+    const bool compare = tree.half_spaces.size() <= max_compared;
     for (std::size_t i = 0; i + 1 < tree.nodes.size(); ++i) {
         const TreeNode& n = tree.nodes[i];
         if (n.op == Op::constant) {
@@ -86,45 +86,45 @@ void BallShare::find_equal(const DensityTree& tree) {
 }
 
 // Half-spaces that make no difference, as where one box's face is inside another box.
-void BallShare::drop_idle() {
+void BallConvolution::drop_idle() {
     std::vector<Literal> literals;
     for (std::size_t i = 0; i < half_spaces_.size(); ++i) literals.push_back({int(i), true});
-    Truth truth;
-    truth.set(function_, literals, int(literals.size()));
-    std::vector<int> place;
+    TruthTable table;
+    table.set(function_, literals, int(literals.size()));
+    std::vector<int> new_index;
     std::size_t kept = 0;
     for (std::size_t i = 0; i < literals.size(); ++i) {
-        if (!truth.depends_on(int(i))) {
-            place.push_back(-1);
+        if (!table.depends_on(int(i))) {
+            new_index.push_back(-1);
             continue;
         }
         half_spaces_[kept] = half_spaces_[i];
         normals_[kept] = normals_[i];
-        place.push_back(int(kept++));
+        new_index.push_back(int(kept++));
     }
     half_spaces_.resize(kept);
     normals_.resize(kept);
     for (BooleanFunction::Node& n : function_.nodes) {
         if (n.op != Op::half_space) continue;
-        n.a = place[std::size_t(n.a)];
+        n.a = new_index[std::size_t(n.a)];
         if (n.a < 0) n = {Op::constant, n.negated};
     }
 }
 
-double BallShare::at(const std::vector<double>& alpha, std::vector<double>& slope) const {
+double BallConvolution::at(const std::vector<double>& alpha, std::vector<double>& slope) const {
     thread_local std::vector<char> known, open;
     thread_local std::vector<Literal> literals;
     thread_local std::vector<BallPlane> planes;
     thread_local std::vector<std::size_t> whose;
     thread_local std::vector<double> areas;
-    thread_local Truth truth;
+    thread_local TruthTable table;
     thread_local BallArrangement arrangement;
 
     const std::size_t count = half_spaces_.size();
     slope.assign(count, 0);
     known.resize(count);
     for (std::size_t i = 0; i < count; ++i) known[i] = alpha[i] >= 1 ? 0 : alpha[i] <= -1 ? 1 : unknown;
-    if (count > std::size_t(Truth::most_tabulated))
+    if (count > std::size_t(TruthTable::max_tabulated))
         mark_open(function_, known, open);
     else
         open.assign(count, true);
@@ -147,35 +147,35 @@ double BallShare::at(const std::vector<double>& alpha, std::vector<double>& slop
         planes.push_back({normals_[i], -alpha[i]});
         whose.push_back(i);
     }
-    truth.set(function_, literals, int(planes.size()));
-    if (planes.size() <= std::size_t(Truth::most_tabulated)) {
-        int place[Truth::most_tabulated];
+    table.set(function_, literals, int(planes.size()));
+    if (planes.size() <= std::size_t(TruthTable::max_tabulated)) {
+        int new_index[TruthTable::max_tabulated];
         std::size_t kept = 0;
         for (std::size_t p = 0; p < planes.size(); ++p) {
-            place[p] = truth.depends_on(int(p)) ? int(kept) : -1;
-            if (place[p] < 0) continue;
+            new_index[p] = table.depends_on(int(p)) ? int(kept) : -1;
+            if (new_index[p] < 0) continue;
             planes[kept] = planes[p];
             whose[kept++] = whose[p];
         }
         if (kept < planes.size()) {
             planes.resize(kept);
             for (Literal& l : literals)
-                if (l.variable >= 0) l.variable = place[l.variable];
-            truth.set(function_, literals, int(kept));
+                if (l.variable >= 0) l.variable = new_index[l.variable];
+            table.set(function_, literals, int(kept));
         }
-        if (kept == 0) return truth.value();
+        if (kept == 0) return table.value();
         if (kept == 1) {  // a half-space's cubic, or its complement's
-            const double side = truth.value() ? -1 : 1, a = side * -planes[0].t;
+            const double side = table.value() ? -1 : 1, a = side * -planes[0].t;
             slope[whose[0]] = side * profile_slope(a);
             return profile(a);
         }
     }
-    const double share = arrangement.measure(planes, truth, areas);
+    const double share = arrangement.measure(planes, table, areas);
     for (std::size_t p = 0; p < planes.size(); ++p) slope[whose[p]] = -3 / (4 * pi) * areas[p];
     return share;
 }
 
-Range BallShare::range(const std::vector<Range>& half_spaces) const {
+Range BallConvolution::range(const std::vector<Range>& half_spaces) const {
     thread_local std::vector<Range> done;
     done.clear();
     for (const BooleanFunction::Node& n : function_.nodes) {
@@ -192,7 +192,7 @@ Range BallShare::range(const std::vector<Range>& half_spaces) const {
     return done.back();
 }
 
-Range BallShare::range(const Box& box) const {
+Range BallConvolution::range(const Box& box) const {
     thread_local std::vector<Range> leaves;
     thread_local std::vector<double> alpha, slope;
     leaves.clear();
@@ -200,12 +200,12 @@ Range BallShare::range(const Box& box) const {
     Range all = range(leaves);
     if (!box.finite() || half_spaces_.size() < 2 || all.lo == all.hi) return all;
     // No slope is more than ¾ per radius.
-    const Vec3 centre = 0.5 * (box.lo + box.hi), half = 0.5 * (box.hi - box.lo);
+    const Vec3 center = 0.5 * (box.lo + box.hi), half = 0.5 * (box.hi - box.lo);
     double farthest = 0;
     for (const double y : {-half.y, half.y})
         for (const double z : {-half.z, half.z}) farthest = std::max(farthest, glm::length(in_ball({half.x, y, z})));
     alpha.clear();
-    for (const HalfSpace& h : half_spaces_) alpha.push_back(h.alpha(centre));
+    for (const HalfSpace& h : half_spaces_) alpha.push_back(h.alpha(center));
     const double reach = 0.75 * farthest * (1 + 8 * epsilon) + error, middle = at(alpha, slope);
     return {std::max(all.lo, middle - reach), std::min(all.hi, middle + reach)};
 }
@@ -222,8 +222,8 @@ Range BallShare::range(const Box& box) const {
 //
 // For the share itself: its slope is an integral of v·ν over a part of the sphere, at most π|v|; and
 // term by term, no disc is larger than where its plane comes nearest.
-RayBounds BallShare::bounds(const std::vector<double>& a0, const std::vector<double>& a1,
-                            const std::vector<double>& rate, double speed) const {
+RayBounds BallConvolution::bounds(const std::vector<double>& a0, const std::vector<double>& a1,
+                                  const std::vector<double>& rate, double speed) const {
     thread_local std::vector<char> known, open;
     const std::size_t count = half_spaces_.size();
     known.resize(count);

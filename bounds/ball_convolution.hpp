@@ -16,10 +16,10 @@
 
 namespace deburr {
 
-class BallShare {
+class BallConvolution {
 public:
-    /// The tree's root is an Op::ball_share. Its half-spaces are gone through for equal ones.
-    explicit BallShare(const DensityTree& tree);
+    /// The tree's root is an Op::convolution. Its half-spaces are gone through for equal ones.
+    explicit BallConvolution(const DensityTree& tree);
 
     /// In the tree's world, no two of them on one plane.
     const std::vector<HalfSpace>& half_spaces() const { return half_spaces_; }

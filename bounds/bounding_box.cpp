@@ -33,8 +33,8 @@ Box bounding_box(const BoundCsg& csg) {
                 all[i].planes.push_back(not_ ? BoundPlane{-p.normal, -p.offset} : p);
                 break;
             }
-            case Kind::both: all[i] = not_ ? either(take(n.a), take(n.b)) : both(take(n.a), take(n.b)); break;
-            case Kind::either: all[i] = not_ ? both(take(n.a), take(n.b)) : either(take(n.a), take(n.b)); break;
+            case Kind::intersect: all[i] = not_ ? unite(take(n.a), take(n.b)) : intersect(take(n.a), take(n.b)); break;
+            case Kind::unite: all[i] = not_ ? intersect(take(n.a), take(n.b)) : unite(take(n.a), take(n.b)); break;
             case Kind::complement: all[i] = take(n.a); break;
         }
     }

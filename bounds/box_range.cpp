@@ -15,7 +15,7 @@ struct NodeRange : Range {
 bool is_constant(Op op, const Range& range, const NodeRange& a, const NodeRange& b) {
     const auto zero = [&] { return range.lo == 0 && range.hi == 0; };
     const auto one = [&] { return range.lo == 1 && range.hi == 1; };
-    if (op == Op::complement || op == Op::ball_share) return a.constant;
+    if (op == Op::complement || op == Op::convolution) return a.constant;
     if (a.constant && b.constant) return true;
     if (op == Op::product || op == Op::conjunction) return (a.constant || b.constant) && zero();
     if (op == Op::disjunction) return (a.constant || b.constant) && one();
@@ -60,7 +60,7 @@ const std::vector<NodeRange>& ranges(const DensityTree& tree, const std::vector<
 class Folding {
 public:
     Folding(const DensityTree& from, const std::vector<NodeRange>& ranges)
-        : from_(from), ranges_(ranges), needed_(memory().needed), place_(memory().place) {
+        : from_(from), ranges_(ranges), needed_(memory().needed), new_index_(memory().new_index) {
         mark();
     }
 
@@ -72,12 +72,12 @@ public:
     }
 
     DensityTree run() {
-        place_.assign(from_.nodes.size(), -1);
+        new_index_.assign(from_.nodes.size(), -1);
         to_.nodes.reserve(std::size_t(std::count(needed_.begin(), needed_.end(), true)));
         to_.half_spaces.reserve(std::size_t(size()));
         for (std::size_t i = 0; i < from_.nodes.size(); ++i)
-            if (needed_[i]) place_[i] = copy(int(i));
-        const int root = place_.back();
+            if (needed_[i]) new_index_[i] = copy(int(i));
+        const int root = new_index_.back();
         to_.ball = from_.ball;
         if (root + 1 < int(to_.nodes.size())) to_.nodes.resize(std::size_t(root) + 1);
         return std::move(to_);
@@ -126,15 +126,16 @@ private:
     int copy(int i) {
         TreeNode n = from_.nodes[std::size_t(i)];
         if (constant(i)) return add({Op::constant, -1, -1, ranges_[std::size_t(i)].lo, n.line});
-        if (const int same = same_as(i); same >= 0) return place_[std::size_t(same)];
+        if (const int same = same_as(i); same >= 0) return new_index_[std::size_t(same)];
         if (n.op == Op::half_space) {
             to_.half_spaces.push_back(from_.half_spaces[std::size_t(n.a)]);
             n.a = int(to_.half_spaces.size()) - 1;
             return add(n);
         }
-        if (n.op == Op::difference && is(n.a, 1)) return add({Op::complement, place_[std::size_t(n.b)], -1, 0, n.line});
-        n.a = place_[std::size_t(n.a)];
-        if (n.b >= 0) n.b = place_[std::size_t(n.b)];
+        if (n.op == Op::difference && is(n.a, 1))
+            return add({Op::complement, new_index_[std::size_t(n.b)], -1, 0, n.line});
+        n.a = new_index_[std::size_t(n.a)];
+        if (n.b >= 0) n.b = new_index_[std::size_t(n.b)];
         if (n.support >= 0) {
             to_.supports.push_back(from_.supports[std::size_t(n.support)]);
             n.support = int(to_.supports.size()) - 1;
@@ -150,7 +151,7 @@ private:
     // Kept from one to the next of a thread.
     struct Memory {
         std::vector<char> needed;
-        std::vector<int> place;
+        std::vector<int> new_index;
     };
     static Memory& memory() {
         thread_local Memory own;
@@ -160,7 +161,7 @@ private:
     const DensityTree& from_;
     const std::vector<NodeRange>& ranges_;
     std::vector<char>& needed_;
-    std::vector<int>& place_;
+    std::vector<int>& new_index_;
     DensityTree to_;
 };
 
@@ -193,9 +194,9 @@ LocalSize local_size(const DensityTree& tree, const Box& box) {
     return {all.back(), Folding(tree, all).size()};
 }
 
-Pruned prune_further(const DensityTree& tree, const std::vector<Range>& half_spaces, bool (&is_decided)(Range)) {
+Pruned prune_further(const DensityTree& tree, const std::vector<Range>& half_spaces, bool (&is_classified)(Range)) {
     const std::vector<NodeRange>& all = ranges(tree, half_spaces);
-    if (is_decided(all.back())) return {{}, all.back()};
+    if (is_classified(all.back())) return {{}, all.back()};
     Folding folding(tree, all);
     if (std::size_t(folding.size()) == tree.half_spaces.size()) return {{}, all.back()};
     return {folding.run(), all.back()};

@@ -75,7 +75,7 @@ Pruned prune(const DensityTree& tree, const std::vector<Range>& half_spaces);
 
 /// The same, with a tree only where that has fewer half-spaces than before and is not decided, as the caller
 /// sees it: nodes are empty else.
-Pruned prune_further(const DensityTree& tree, const std::vector<Range>& half_spaces, bool (&is_decided)(Range));
+Pruned prune_further(const DensityTree& tree, const std::vector<Range>& half_spaces, bool (&is_classified)(Range));
 
 struct LocalSize {
     Range range;

@@ -15,8 +15,8 @@ void append(std::string& key, const Values&... values) {
 }
 
 // Most parts of long unions are not placed: what they are placed by is left out.
-void append_placed(std::string& key, const PlacedForm& part) {
-    append(key, part.form, part.material);
+void append_placed(std::string& key, const CanonicalPlacement& part) {
+    append(key, part.canonical, part.material);
     const bool placed = std::memcmp(&part.map, &identity, sizeof identity) != 0;
     key.push_back(char(placed));
     if (placed) append(key, part.map);
@@ -31,7 +31,7 @@ bool is_rigid(const Mat3& m) {
     return worst <= 64 * epsilon;
 }
 
-const Solid& peel(const Solid& solid, PlacedForm& to) {
+const Solid& peel(const Solid& solid, CanonicalPlacement& to) {
     const Solid* at = &solid;
     for (;;) {
         const SolidNode& node = at->node();
@@ -45,7 +45,7 @@ const Solid& peel(const Solid& solid, PlacedForm& to) {
     }
 }
 
-const Density& peel_rigid(const Density& density, PlacedForm& to) {
+const Density& peel_rigid(const Density& density, CanonicalPlacement& to) {
     const Density* at = &density;
     while (at->node().kind == DensityNode::Kind::transform && is_rigid(at->node().map().linear)) {
         to.map = compose(to.map, at->node().map());
@@ -77,7 +77,7 @@ int number_bottom_up(std::unordered_map<const void*, int>& known, const Handle& 
 
 }  // namespace
 
-int SolidForms::Numbering::number_of_appended() {
+int CanonicalSolids::Numbering::number_of_appended() {
     const std::size_t start = ends_.empty() ? 0 : ends_.back();
     ends_.push_back(bytes_.size());
     const auto [at, is_new] = known_.insert(int(ends_.size()) - 1);
@@ -88,7 +88,7 @@ int SolidForms::Numbering::number_of_appended() {
     return *at;
 }
 
-int SolidForms::density(const Density& root) {
+int CanonicalSolids::density(const Density& root) {
     return number_bottom_up(
         known_densities_, root,
         [](const Density& d, auto visit) {
@@ -118,45 +118,45 @@ int SolidForms::density(const Density& root) {
         });
 }
 
-int SolidForms::rounded(const SolidNode& node, const Density& of) {
+int CanonicalSolids::rounded(const SolidNode& node, const Density& of) {
     append(solid_keys_.bytes(), node.kind, node.radius(), node.convolved(), density(of));
-    const int form = solid_keys_.number_of_appended();
-    if (std::size_t(form) == solids_.size())
+    const int canonical = solid_keys_.number_of_appended();
+    if (std::size_t(canonical) == solids_.size())
         solids_.push_back(node.convolved() ? Solid::convolved(node.radius(), of, node.line)
                                            : Solid::rounded(node.radius(), of, node.line));
-    return form;
+    return canonical;
 }
 
-int SolidForms::base(const Solid& root) {
+int CanonicalSolids::base(const Solid& root) {
     return number_bottom_up(
         known_solids_, root,
         [](const Solid& s, auto visit) {
-            PlacedForm ignored;
+            CanonicalPlacement ignored;
             for (const Solid& child : s.node().children()) {
                 const Solid& part = peel(child, ignored);
                 if (part.node().kind != SolidNode::Kind::rounded) visit(part);
             }
         },
         [&](const Solid& s) {
-            std::vector<PlacedForm> parts;  // before the key is begun: a part may have to be numbered
+            std::vector<CanonicalPlacement> parts;  // before the key is begun: a part may have to be numbered
             for (const Solid& child : s.node().children()) parts.push_back(of(child));
             append(solid_keys_.bytes(), s.node().kind, s.node().field().get());
-            for (const PlacedForm& part : parts) append_placed(solid_keys_.bytes(), part);
-            const int form = solid_keys_.number_of_appended();
-            if (std::size_t(form) == solids_.size()) solids_.push_back(s);
-            return form;
+            for (const CanonicalPlacement& part : parts) append_placed(solid_keys_.bytes(), part);
+            const int canonical = solid_keys_.number_of_appended();
+            if (std::size_t(canonical) == solids_.size()) solids_.push_back(s);
+            return canonical;
         });
 }
 
-PlacedForm SolidForms::of(const Solid& solid) {
-    PlacedForm to;
+CanonicalPlacement CanonicalSolids::of(const Solid& solid) {
+    CanonicalPlacement to;
     const Solid& at = peel(solid, to);
     const SolidNode& node = at.node();
     if (node.kind == SolidNode::Kind::rounded) {
         const Density& inner = peel_rigid(node.density(), to);
-        to.form = rounded(node, inner);
+        to.canonical = rounded(node, inner);
     } else {
-        to.form = base(at);  // at once, where base() is under way: it has numbered the parts
+        to.canonical = base(at);  // at once, where base() is under way: it has numbered the parts
     }
     return to;
 }

@@ -17,21 +17,21 @@
 namespace deburr {
 
 /// A form, in the space that it is placed into.
-struct PlacedForm {
-    int form = -1;
+struct CanonicalPlacement {
+    int canonical = -1;
     Affine map;
     int material = -1;  // of what has none in the form; −1: none was named
 };
 
-class SolidForms {
+class CanonicalSolids {
 public:
-    SolidForms() = default;
-    SolidForms(const SolidForms&) = delete;  // hashes look into it
-    SolidForms& operator=(const SolidForms&) = delete;
+    CanonicalSolids() = default;
+    CanonicalSolids(const CanonicalSolids&) = delete;  // hashes look into it
+    CanonicalSolids& operator=(const CanonicalSolids&) = delete;
     /// The solid must live as long as this does.
-    PlacedForm of(const Solid& solid);
+    CanonicalPlacement of(const Solid& solid);
     /// The first solid that had this form.
-    const Solid& solid(int form) const { return solids_[std::size_t(form)]; }
+    const Solid& solid(int canonical) const { return solids_[std::size_t(canonical)]; }
     std::size_t size() const { return solids_.size(); }
 
 private:

@@ -34,36 +34,36 @@ public:
         }
     }
 
-    [[gnu::always_inline]] ConvexCrossing first(double lo, double hi, double negligible) const {
+    [[gnu::always_inline]] ConvexCrossing first(double lo, double hi, double t_tolerance) const {
         hi = end_of_change(lo, hi);
-        if (misses(lo, hi, negligible)) return {};
-        if (in_ > lo) return enter(in_, hi, negligible);
+        if (misses(lo, hi, t_tolerance)) return {};
+        if (in_ > lo) return enter(in_, hi, t_tolerance);
         const Point p = at(lo);
-        if (p.P > level_) return leave(hi, negligible);
-        return approach(lo, p, hi, negligible);
+        if (p.P > level_) return leave(hi, t_tolerance);
+        return approach(lo, p, hi, t_tolerance);
     }
 
-    bool any(double lo, double hi, double negligible) const {
+    bool any(double lo, double hi, double t_tolerance) const {
         hi = end_of_change(lo, hi);
-        if (misses(lo, hi, negligible)) return false;
+        if (misses(lo, hi, t_tolerance)) return false;
         const double from = std::max(lo, in_), to = std::min(hi, out_);
         if (at(0.5 * (from + to)).P > level_) return in_ > lo || out_ <= hi || at(lo).P <= level_ || at(hi).P <= level_;
-        return first(lo, hi, negligible).t < infinity;
+        return first(lo, hi, t_tolerance).t < infinity;
     }
 
-    ConvexCrossings all(double lo, double hi, double negligible) const {
+    ConvexCrossings all(double lo, double hi, double t_tolerance) const {
         ConvexCrossings found;
         found.start_inside = density_.complement;
         hi = end_of_change(lo, hi);
-        if (misses(lo, hi, negligible)) return found;
+        if (misses(lo, hi, t_tolerance)) return found;
         const bool within = in_ <= lo && at(lo).P > level_;
         found.start_inside = within != density_.complement;
         if (!within) {
-            const ConvexCrossing c = first(lo, hi, negligible);
+            const ConvexCrossing c = first(lo, hi, t_tolerance);
             if (!(c.t < infinity)) return found;
             found.at[found.count++] = c;
         }
-        const ConvexCrossing c = leave(hi, negligible);
+        const ConvexCrossing c = leave(hi, t_tolerance);
         if (c.t < infinity) {
             found.at[found.count++] = c;
             if (found.count == 2) found.at[1].t = std::max(found.at[1].t, found.at[0].t);
@@ -75,8 +75,8 @@ private:
     int soft() const { return N > 0 ? N : density_.soft; }
 
     // C ends where it begins, as on a sharp edge, or is elsewhere.
-    bool misses(double lo, double hi, double negligible) const {
-        return !(out_ - in_ > negligible) || in_ > hi || out_ < lo;
+    bool misses(double lo, double hi, double t_tolerance) const {
+        return !(out_ - in_ > t_tolerance) || in_ > hi || out_ < lo;
     }
 
     // hi, or, instead of infinity, where the last factor has ceased to vary.
@@ -134,33 +134,33 @@ private:
     }
 
     // Into C, which begins at t or later.
-    ConvexCrossing enter(double t, double hi, double negligible) const {
+    ConvexCrossing enter(double t, double hi, double t_tolerance) const {
         if (is_alone(plane_in_, t)) return found(t, true, plane_in_);
         const Point p = at(t);
         if (p.P > level_) return found(t, true, if_sharp(plane_in_));
-        return approach(t, p, hi, negligible);
+        return approach(t, p, hi, t_tolerance);
     }
 
     // From p outside of C, at t, into C.
-    ConvexCrossing approach(double t, Point p, double hi, double negligible) const {
-        const double root = newton(t, p, std::min(hi, out_), negligible);
+    ConvexCrossing approach(double t, Point p, double hi, double t_tolerance) const {
+        const double root = newton(t, p, std::min(hi, out_), t_tolerance);
         return root < infinity ? found(root, true, -1) : ConvexCrossing{};
     }
 
     // Out of C, if it ends before hi.
-    ConvexCrossing leave(double hi, double negligible) const {
+    ConvexCrossing leave(double hi, double t_tolerance) const {
         const double t = std::min(hi, out_);
         if (out_ <= hi && is_alone(plane_out_, t)) return found(t, false, plane_out_);
         Point p = at(t);
         if (p.P > level_) return out_ <= hi ? found(t, false, if_sharp(plane_out_)) : ConvexCrossing{};
         p.slope = -p.slope;  // mirrored: backwards from t
-        const double way = newton(0, p, infinity, negligible, t, -1);
-        return found(way < infinity ? t - way : t, false, -1);
+        const double distance = newton(0, p, infinity, t_tolerance, t, -1);
+        return found(distance < infinity ? t - distance : t, false, -1);
     }
 
     // Distance s ≥ from of C's beginning, if it is not beyond `to`; the ray's parameter is base + sign·s.
-    double newton(double s, Point p, double to, double negligible, double base = 0, double sign = 1) const {
-        for (int k = 0; k < most_newton_steps; ++k) {
+    double newton(double s, Point p, double to, double t_tolerance, double base = 0, double sign = 1) const {
+        for (int k = 0; k < max_newton_steps; ++k) {
             if (p.P >= 0.5 - rounding) return p.slope > 0 ? s : infinity;
             if (!(p.slope > 0)) return infinity;
             // log 1/x from below: a Padé approximant, exact to (1 − x)⁵. So the step is no longer than
@@ -171,7 +171,7 @@ private:
             if (s > to) return infinity;
             // Newton's error is squared: ½ |(log P)″|/(log P)′ times, and (log P)″ ≥ −(2 + ¼) Σ b²
             // where all α ≤ 0.
-            if (step <= negligible || 2.25 * rates_ * p.P * step * step <= negligible * p.slope) return s;
+            if (step <= t_tolerance || 2.25 * rates_ * p.P * step * step <= t_tolerance * p.slope) return s;
             p = at(base + sign * s);
             p.slope *= sign;
         }
@@ -183,7 +183,7 @@ private:
     double level_;  // inside C is where P exceeds it
     double in_ = -infinity, out_ = infinity, rates_ = 0;
     int plane_in_ = -1, plane_out_ = -1;
-    double a_[N > 0 ? N : most_factors], b_[N > 0 ? N : most_factors];
+    double a_[N > 0 ? N : max_factors], b_[N > 0 ? N : max_factors];
 };
 
 template <class Ask>
@@ -200,21 +200,21 @@ auto with_ray(const ConvexView& density, const Vec3& origin, const Vec3& directi
 }  // namespace
 
 ConvexCrossing first_crossing(const ConvexView& density, const Vec3& origin, const Vec3& direction, double t0,
-                              double t1, double negligible, std::uint64_t& evaluations) {
+                              double t1, double t_tolerance, std::uint64_t& evaluations) {
     return with_ray(density, origin, direction, evaluations,
-                    [&](const auto& ray) { return ray.first(t0, t1, negligible); });
+                    [&](const auto& ray) { return ray.first(t0, t1, t_tolerance); });
 }
 
 bool any_crossing(const ConvexView& density, const Vec3& origin, const Vec3& direction, double t0, double t1,
-                  double negligible, std::uint64_t& evaluations) {
+                  double t_tolerance, std::uint64_t& evaluations) {
     return with_ray(density, origin, direction, evaluations,
-                    [&](const auto& ray) { return ray.any(t0, t1, negligible); });
+                    [&](const auto& ray) { return ray.any(t0, t1, t_tolerance); });
 }
 
 ConvexCrossings all_crossings(const ConvexView& density, const Vec3& origin, const Vec3& direction, double t0,
-                              double t1, double negligible, std::uint64_t& evaluations) {
+                              double t1, double t_tolerance, std::uint64_t& evaluations) {
     return with_ray(density, origin, direction, evaluations,
-                    [&](const auto& ray) { return ray.all(t0, t1, negligible); });
+                    [&](const auto& ray) { return ray.all(t0, t1, t_tolerance); });
 }
 
 Vec3 surface_normal(const ConvexView& density, const ConvexCrossing& crossing, const Vec3& x) {

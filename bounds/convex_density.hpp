@@ -48,10 +48,10 @@ struct ConvexView {
 };
 
 /// More factors than this are not promised to be handled: convex_density() gives none.
-constexpr int most_factors = 255;
+constexpr int max_factors = 255;
 
 /// Steps shrink quadratically, or by half where the ray touches C: then to the root of ε.
-constexpr int most_newton_steps = 100;
+constexpr int max_newton_steps = 100;
 
 struct ConvexCrossing {
     double t = infinity;
@@ -59,13 +59,13 @@ struct ConvexCrossing {
     int plane = -1;         // the factor that is crossed alone: sharp, or all others are 1; −1: none
 };
 
-/// First crossing of ρ = ½ in [t0, t1] (not infinite), to within `negligible`.
+/// First crossing of ρ = ½ in [t0, t1] (not infinite), to within `t_tolerance`.
 ConvexCrossing first_crossing(const ConvexView& density, const Vec3& origin, const Vec3& direction, double t0,
-                              double t1, double negligible, std::uint64_t& evaluations);
+                              double t1, double t_tolerance, std::uint64_t& evaluations);
 
 /// Whether there is a crossing in [t0, t1].
 bool any_crossing(const ConvexView& density, const Vec3& origin, const Vec3& direction, double t0, double t1,
-                  double negligible, std::uint64_t& evaluations);
+                  double t_tolerance, std::uint64_t& evaluations);
 
 struct ConvexCrossings {
     bool start_inside = false;  // ρ > ½ at t0
@@ -75,7 +75,7 @@ struct ConvexCrossings {
 
 /// All crossings in [t0, t1], in order.
 ConvexCrossings all_crossings(const ConvexView& density, const Vec3& origin, const Vec3& direction, double t0,
-                              double t1, double negligible, std::uint64_t& evaluations);
+                              double t1, double t_tolerance, std::uint64_t& evaluations);
 
 /// Unit normal of the surface at x, either way round; 0 where ρ is flat.
 Vec3 surface_normal(const ConvexView& density, const ConvexCrossing& crossing, const Vec3& x);

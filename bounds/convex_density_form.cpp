@@ -39,13 +39,13 @@ std::vector<Occurrence> occurrences(const std::vector<HalfSpace>& planes, double
 }
 
 // Above this many variables the corners are not counted out.
-constexpr int most_variables = 6;
+constexpr int max_variables = 6;
 
 }  // namespace
 
 std::optional<ConvexDensity> convex_density(const LocalDensity& density, double scale) {
     const std::vector<HalfSpace>& planes = density.half_spaces();
-    if (planes.size() > std::size_t(most_factors)) return std::nullopt;
+    if (planes.size() > std::size_t(max_factors)) return std::nullopt;
     ConvexDensity result;
     std::vector<Occurrence> factors;
     if (const auto product = density.as_product()) {
@@ -62,7 +62,7 @@ std::optional<ConvexDensity> convex_density(const LocalDensity& density, double 
             if (of[i].variable == int(i)) variables.push_back(int(i));
         }
         const int n = int(variables.size());
-        if (n > most_variables || !density.is_affine_in_each(variable_of)) return std::nullopt;
+        if (n > max_variables || !density.is_affine_in_each(variable_of)) return std::nullopt;
         std::vector<char> value;
         std::vector<Range> at(planes.size());
         for (int corner = 0; corner < 1 << n; ++corner) {

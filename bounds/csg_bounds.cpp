@@ -37,7 +37,7 @@ std::vector<Demand> demands(const DensityTree& tree, Demand root) {
                 outer ? ask({true, t}, {false, 1 - t}) : ask({false, t}, {true, 0});
                 break;
             case Op::complement: ask({!outer, 1 - t}, {}); break;
-            case Op::ball_share: ask({outer, t}, {}); break;
+            case Op::convolution: ask({outer, t}, {}); break;
             default: break;
         }
     }
@@ -46,30 +46,30 @@ std::vector<Demand> demands(const DensityTree& tree, Demand root) {
 
 class BoundBuilder {
 public:
-    explicit BoundBuilder(double clear) : clear_(clear) {}
+    explicit BoundBuilder(double clearance) : clear_(clearance) {}
 
     BoundCsg run(const DensityTree& tree, Demand root) {
         const std::vector<Demand> asked = demands(tree, root);
-        std::vector<int> place(tree.nodes.size());
+        std::vector<int> new_index(tree.nodes.size());
         for (std::size_t i = 0; i < tree.nodes.size(); ++i) {
             const TreeNode& n = tree.nodes[i];
-            const auto at = [&](int child) { return place[std::size_t(child)]; };
+            const auto at = [&](int child) { return new_index[std::size_t(child)]; };
             const auto [outer, t] = asked[i];
             switch (n.op) {
-                case Op::constant: place[i] = constant(outer ? n.value > t : n.value >= t); break;
-                case Op::half_space: place[i] = plane(tree.half_spaces[std::size_t(n.a)], asked[i]); break;
+                case Op::constant: new_index[i] = constant(outer ? n.value > t : n.value >= t); break;
+                case Op::half_space: new_index[i] = plane(tree.half_spaces[std::size_t(n.a)], asked[i]); break;
                 case Op::product:
-                case Op::conjunction: place[i] = both(at(n.a), at(n.b)); break;
+                case Op::conjunction: new_index[i] = intersect(at(n.a), at(n.b)); break;
                 case Op::sum:
-                case Op::disjunction: place[i] = either(at(n.a), at(n.b)); break;
-                case Op::difference: place[i] = both(at(n.a), complement(at(n.b))); break;
-                case Op::complement: place[i] = complement(at(n.a)); break;
-                case Op::ball_share: place[i] = again(at(n.a)); break;
+                case Op::disjunction: new_index[i] = unite(at(n.a), at(n.b)); break;
+                case Op::difference: new_index[i] = intersect(at(n.a), complement(at(n.b))); break;
+                case Op::complement: new_index[i] = complement(at(n.a)); break;
+                case Op::convolution: new_index[i] = again(at(n.a)); break;
             }
         }
-        csg_.nodes.resize(std::size_t(place.back()) + 1);
+        csg_.nodes.resize(std::size_t(new_index.back()) + 1);
         csg_.convex = true;
-        for (const BoundCsg::Node& n : csg_.nodes) csg_.convex &= n.kind == Kind::plane || n.kind == Kind::both;
+        for (const BoundCsg::Node& n : csg_.nodes) csg_.convex &= n.kind == Kind::plane || n.kind == Kind::intersect;
         return std::move(csg_);
     }
 
@@ -86,24 +86,24 @@ private:
         if (outer ? t < 0 : t <= 0) return constant(true);
         if (outer ? t >= 1 : t > 1) return constant(false);
         // Besides the cubic's slack in ρ, the plane keeps clear by what its distance is rounded by.
-        const double clear = clear_ + 4 * epsilon * (std::abs(h.offset) + h.radius);
-        double offset = h.offset + (outer ? clear : -clear);
+        const double clearance = clear_ + 4 * epsilon * (std::abs(h.offset) + h.radius);
+        double offset = h.offset + (outer ? clearance : -clearance);
         if (h.radius > 0) offset += h.radius * displacement(outer ? t - inverse_slack : t + inverse_slack);
         csg_.planes.push_back({h.normal, offset});
         return add({Kind::plane, int(csg_.planes.size()) - 1});
     }
 
-    int both(int a, int b) {
+    int intersect(int a, int b) {
         if (kind(a) == Kind::nothing || kind(b) == Kind::nothing) return constant(false);
         if (kind(a) == Kind::everything) return again(b);
         if (kind(b) == Kind::everything) return again(a);
-        return add({Kind::both, a, b});
+        return add({Kind::intersect, a, b});
     }
-    int either(int a, int b) {
+    int unite(int a, int b) {
         if (kind(a) == Kind::everything || kind(b) == Kind::everything) return constant(true);
         if (kind(a) == Kind::nothing) return again(b);
         if (kind(b) == Kind::nothing) return again(a);
-        return add({Kind::either, a, b});
+        return add({Kind::unite, a, b});
     }
     int complement(int a) {
         if (kind(a) == Kind::nothing || kind(a) == Kind::everything) return constant(kind(a) == Kind::nothing);
@@ -130,19 +130,19 @@ bool BoundCsg::contains(Vec3 x) const {
                 in.push_back(glm::dot(p.normal, x) <= p.offset);
                 break;
             }
-            case Kind::both: in.push_back(at(n.a) && at(n.b)); break;
-            case Kind::either: in.push_back(at(n.a) || at(n.b)); break;
+            case Kind::intersect: in.push_back(at(n.a) && at(n.b)); break;
+            case Kind::unite: in.push_back(at(n.a) || at(n.b)); break;
             case Kind::complement: in.push_back(!at(n.a)); break;
         }
     }
     return in.back();
 }
 
-BoundCsg outer_bound(const DensityTree& tree, double t, double clear) {
-    return BoundBuilder(clear).run(tree, {true, t});
+BoundCsg outer_bound(const DensityTree& tree, double t, double clearance) {
+    return BoundBuilder(clearance).run(tree, {true, t});
 }
-BoundCsg inner_bound(const DensityTree& tree, double t, double clear) {
-    return BoundBuilder(clear).run(tree, {false, t});
+BoundCsg inner_bound(const DensityTree& tree, double t, double clearance) {
+    return BoundBuilder(clearance).run(tree, {false, t});
 }
 
 bool bounds_hold(const DensityTree& tree, const Box& box) {
@@ -207,7 +207,7 @@ void SearchSpans::general(const BoundCsg& csg, Vec3 origin, Vec3 direction) {
                 if (s.lo <= s.hi) pool_.push_back(s);
                 break;
             }
-            case Kind::both:
+            case Kind::intersect:
                 for (std::size_t i = 0, j = 0; i < a().count && j < b().count;) {
                     const Span x = pool_[a().first + i], y = pool_[b().first + j];
                     const Span s = intersection(x, y);
@@ -215,7 +215,7 @@ void SearchSpans::general(const BoundCsg& csg, Vec3 origin, Vec3 direction) {
                     x.hi < y.hi ? ++i : ++j;
                 }
                 break;
-            case Kind::either:
+            case Kind::unite:
                 for (std::size_t i = 0, j = 0; i < a().count || j < b().count;) {
                     const bool from_a =
                         j >= b().count || (i < a().count && pool_[a().first + i].lo <= pool_[b().first + j].lo);

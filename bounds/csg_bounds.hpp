@@ -23,7 +23,7 @@ struct BoundPlane {
 
 /// A plain CSG object over half-spaces.
 struct BoundCsg {
-    enum class Kind : unsigned char { nothing, everything, plane, both, either, complement };
+    enum class Kind : unsigned char { nothing, everything, plane, intersect, unite, complement };
     struct Node {
         Kind kind = Kind::nothing;
         int a = -1, b = -1;  // children; plane: a is its index
@@ -36,9 +36,9 @@ struct BoundCsg {
 };
 
 /// The theorems ask for operands in [0, 1] (bounds_hold). Every plane keeps clear by the distance
-/// `clear` besides, outward of an outer bound, inward of an inner one.
-BoundCsg outer_bound(const DensityTree& tree, double t, double clear = 0);
-BoundCsg inner_bound(const DensityTree& tree, double t, double clear = 0);
+/// `clearance` besides, outward of an outer bound, inward of an inner one.
+BoundCsg outer_bound(const DensityTree& tree, double t, double clearance = 0);
+BoundCsg inner_bound(const DensityTree& tree, double t, double clearance = 0);
 
 /// True if every operand of the papers' arithmetic is provably in [0, 1] over the box; false says
 /// nothing.

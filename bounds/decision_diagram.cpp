@@ -12,7 +12,7 @@ namespace {
 constexpr double same_direction = 1e-9, same_radius = 1e-9;
 // Thresholds: relative to the largest offset, as that is what their rounding is relative to.
 constexpr double same_threshold = 1e-12;
-constexpr std::size_t most_nodes = 100'000;
+constexpr std::size_t max_nodes = 100'000;
 
 // Where a half-space stands in its family.
 struct Literal {
@@ -110,12 +110,12 @@ private:
         }
         if (least.thresholds.empty()) return least.children[0];
         const auto key = std::make_tuple(least.family, least.thresholds, least.children);
-        const auto [place, is_new] = unique_.try_emplace(key, int(diagram_.nodes.size()));
+        const auto [entry, is_new] = unique_.try_emplace(key, int(diagram_.nodes.size()));
         if (is_new) {
-            if (diagram_.nodes.size() >= most_nodes) throw TooEntangled();
+            if (diagram_.nodes.size() >= max_nodes) throw TooEntangled();
             diagram_.nodes.push_back(std::move(least));
         }
-        return place->second;
+        return entry->second;
     }
 
     int apply(Op op, int a, int b) {
@@ -166,6 +166,6 @@ private:
 
 }  // namespace
 
-DecisionDiagram decide(const DensityTree& tree, int root) { return Construction(tree, root).take(); }
+DecisionDiagram build_diagram(const DensityTree& tree, int root) { return Construction(tree, root).take(); }
 
 }  // namespace deburr

@@ -51,6 +51,6 @@ struct DecisionDiagram {
 /// half-space, a constant 0 or 1, a complement, conjunction or disjunction. Planes count as
 /// parallel, as of one radius, and as the same plane within a relative 10⁻⁹, 10⁻⁹ and 10⁻¹².
 /// Throws TooEntangled.
-DecisionDiagram decide(const DensityTree& tree, int root);
+DecisionDiagram build_diagram(const DensityTree& tree, int root);
 
 }  // namespace deburr

@@ -20,7 +20,7 @@ struct Placement {
 // A subexpression that is still to be flattened, or an operator whose operands are done.
 struct Task {
     const DensityNode* node = nullptr;  // null: combine
-    Placement place{};
+    Placement placement{};
     bool boolean = false;
     Op op = Op::constant;  // combine
     int count = 0, line = 0;
@@ -49,8 +49,8 @@ bool associative(Op op) { return op != Op::difference && op != Op::complement &&
 // Every loop here keeps its own stack: scenes write chains as long as their loops.
 class Flattening {
 public:
-    DensityTree run(const DensityNode& root, Placement place, bool boolean) {
-        tasks_.push_back({&root, place, boolean});
+    DensityTree run(const DensityNode& root, Placement placement, bool boolean) {
+        tasks_.push_back({&root, placement, boolean});
         while (!tasks_.empty()) {
             const Task task = tasks_.back();
             tasks_.pop_back();
@@ -63,23 +63,23 @@ public:
     }
 
 private:
-    static const DensityNode& through_placements(const DensityNode* node, Placement& place) {
+    static const DensityNode& through_placements(const DensityNode* node, Placement& placement) {
         while (node->kind == Kind::radius || node->kind == Kind::transform) {
             if (node->kind == Kind::radius)
-                place.radius = node->radius();
+                placement.radius = node->radius();
             else
-                place.map = compose(place.map, node->map());
+                placement.map = compose(placement.map, node->map());
             node = &node->children()[0].node();
         }
         return *node;
     }
 
     void open(Task task) {
-        const DensityNode& node = through_placements(task.node, task.place);
+        const DensityNode& node = through_placements(task.node, task.placement);
         if (node.kind == Kind::half_space) {
-            const HalfSpace unplaced{node.normal(), node.offset(), task.place.radius};
+            const HalfSpace unplaced{node.normal(), node.offset(), task.placement.radius};
             done_.push_back(add({Op::half_space, int(tree_.half_spaces.size())}));
-            tree_.half_spaces.push_back(transformed(unplaced, task.place.map, false));
+            tree_.half_spaces.push_back(transformed(unplaced, task.placement.map, false));
             return;
         }
         Op op = arithmetic(node.kind);
@@ -88,31 +88,31 @@ private:
         if (boolean && op == Op::difference) {  // a ∧ ¬b
             tasks_.push_back({nullptr, {}, true, Op::conjunction, 2, node.line});
             tasks_.push_back({nullptr, {}, true, Op::complement, 1, node.line});
-            tasks_.push_back({&node.children()[1].node(), task.place, true});
-            tasks_.push_back({&node.children()[0].node(), task.place, true});
+            tasks_.push_back({&node.children()[1].node(), task.placement, true});
+            tasks_.push_back({&node.children()[0].node(), task.placement, true});
             return;
         }
-        const std::vector<Task> operands = chain(node, task.place, boolean, op);
+        const std::vector<Task> operands = chain(node, task.placement, boolean, op);
         tasks_.push_back({nullptr, {}, boolean, op, int(operands.size()), node.line});
         tasks_.insert(tasks_.end(), operands.rbegin(), operands.rend());
     }
 
     // The operands of a chain of one associative operator that the scene wrote in one place.
-    std::vector<Task> chain(const DensityNode& node, Placement place, bool boolean, Op op) const {
+    std::vector<Task> chain(const DensityNode& node, Placement placement, bool boolean, Op op) const {
         std::vector<Task> operands, open;
         const auto expand = [&](const DensityNode& parent, const Placement& at) {
             const auto children = parent.children();
             for (auto child = children.rbegin(); child != children.rend(); ++child)
                 open.push_back({&child->node(), at, boolean});
         };
-        expand(node, place);
+        expand(node, placement);
         while (!open.empty()) {
             Task task = open.back();
             open.pop_back();
-            const DensityNode& inner = through_placements(task.node, task.place);
-            const Op its = boolean ? boolean_reading(arithmetic(inner.kind)) : arithmetic(inner.kind);
-            if (its == op && associative(op) && (boolean || inner.line == node.line)) {
-                expand(inner, task.place);
+            const DensityNode& inner = through_placements(task.node, task.placement);
+            const Op inner_op = boolean ? boolean_reading(arithmetic(inner.kind)) : arithmetic(inner.kind);
+            if (inner_op == op && associative(op) && (boolean || inner.line == node.line)) {
+                expand(inner, task.placement);
             } else {
                 task.node = &inner;
                 operands.push_back(task);
@@ -145,7 +145,7 @@ private:
 TooManyHalfSpaces::TooManyHalfSpaces(double got)
     : std::length_error([&] {
           std::ostringstream text;
-          text << "expected a solid of at most " << std::int64_t(most_half_spaces)
+          text << "expected a solid of at most " << std::int64_t(max_half_spaces)
                << " half-spaces, those of shared parts counted once per use, got " << std::setprecision(7) << got;
           return text.str();
       }()) {}
@@ -158,11 +158,11 @@ HalfSpace transformed(const HalfSpace& h, const Affine& map, bool carry_radius) 
 }
 
 static DensityTree without_supports(const Density& density, double radius, const Affine& to_world, bool convolved) {
-    if (density.node().leaves > most_half_spaces) throw TooManyHalfSpaces(density.node().leaves);
+    if (density.node().leaves > max_half_spaces) throw TooManyHalfSpaces(density.node().leaves);
     DensityTree tree = Flattening().run(density.node(), {radius, Affine{}}, convolved);
     if (convolved) {
         for (HalfSpace& h : tree.half_spaces) h.radius = radius;
-        tree.nodes.push_back({Op::ball_share, tree.root()});
+        tree.nodes.push_back({Op::convolution, tree.root()});
         tree.ball = to_world.linear * radius;
     }
     for (HalfSpace& h : tree.half_spaces) h = transformed(h, to_world, true);

@@ -39,7 +39,7 @@ enum class Op : unsigned char {
     complement,  // 1 − a, whether arithmetic or Boolean
     conjunction,
     disjunction,
-    ball_share  // of a Boolean function: the share of a ball where it is true; only ever the root
+    convolution  // of a Boolean function: the share of a ball where it is true; only ever the root
 };
 
 struct TreeNode {
@@ -59,7 +59,7 @@ struct DensityTree {
     std::vector<HalfSpace> half_spaces;
     std::vector<TreeNode> nodes;  // children before parents, the root last; never empty
     std::vector<Box> supports = {};
-    Mat3 ball{1.0};  // ball_share: makes the unit ball the filter
+    Mat3 ball{1.0};  // convolution: makes the unit ball the filter
 
     static DensityTree constant(double value) { return {{}, {{Op::constant, -1, -1, value}}, {}}; }
 
@@ -70,7 +70,7 @@ struct DensityTree {
 };
 
 /// More half-spaces than this are not laid out at once.
-constexpr double most_half_spaces = 4e6;
+constexpr double max_half_spaces = 4e6;
 
 struct TooManyHalfSpaces : std::length_error {
     explicit TooManyHalfSpaces(double got);

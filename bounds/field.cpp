@@ -31,18 +31,18 @@ public:
     }
     int size() const override { return inner_->size(); }
     LocalSize local_size(const Box& box) const override { return inner_->local_size(image(inverse_, box)); }
-    FieldPtr carried(const Affine& map) const override { return transformed(inner_, compose(map, map_)); }
+    FieldPtr transformed_by(const Affine& map) const override { return transformed(inner_, compose(map, map_)); }
 
-    double settled(Vec3 origin, Vec3 direction) const override {
-        return inner_->settled(inverse_(origin), inverse_.linear * direction);
+    double last_sign_change_bound(Vec3 origin, Vec3 direction) const override {
+        return inner_->last_sign_change_bound(inverse_(origin), inverse_.linear * direction);
     }
-    void prepare(FieldRay& ray) const override {  // from here on the ray is the inner field's
+    void begin_ray(FieldRay& ray) const override {  // from here on the ray is the inner field's
         ray.origin = inverse_(ray.origin);
         ray.direction = inverse_.linear * ray.direction;
         ray.field = inner_.get();
-        inner_->prepare(ray);
+        inner_->begin_ray(ray);
     }
-    double greatest_unit(const Box& box) const override { return inner_->greatest_unit(image(inverse_, box)); }
+    double max_noise_scale(const Box& box) const override { return inner_->max_noise_scale(image(inverse_, box)); }
     ValueSlope at(const FieldRay& ray, double t) const override { return ray.field->at(ray, t); }
     RayBounds bounds(const FieldRay& ray, double t0, double t1) const override {
         return ray.field->bounds(ray, t0, t1);
@@ -66,7 +66,7 @@ FieldPtr transformed(const FieldPtr& field, const Affine& map) {
     const Affine back = inverse(map);
     if (!finite(map) || !finite(back)) return nullptr;
     if (map.linear == Mat3(1.0) && map.shift == Vec3(0.0)) return field;
-    if (FieldPtr own = field->carried(map)) return own;
+    if (FieldPtr own = field->transformed_by(map)) return own;
     return std::make_shared<PlacedField>(field, map, back);
 }
 

@@ -5,7 +5,7 @@
 // matters in a box. The ray tracer, the BSP and the polygonizers need to know no more.
 //
 // f and f′ must be continuous, and f″ bounded. f may have any unit; along a ray a field sets its own
-// (prepare), so that rounding stays below what the root finder allows for.
+// (begin_ray), so that rounding stays below what the root finder allows for.
 #pragma once
 #include <memory>
 #include <vector>
@@ -42,17 +42,17 @@ public:
     /// range(box), and size() of what `prune` would leave.
     virtual LocalSize local_size(const Box& box) const { return {range(box), size()}; }
     /// x ↦ f(A⁻¹x) as a field of its own kind, if it has one that is better than a wrapper; or null.
-    virtual FieldPtr carried(const Affine&) const { return nullptr; }
+    virtual FieldPtr transformed_by(const Affine&) const { return nullptr; }
 
     /// A ray parameter ≥ 0 beyond which f keeps its sign along the ray; asked for rays that do not
     /// end.
-    virtual double settled(Vec3 origin, Vec3 direction) const = 0;
-    /// Sets up ray.numbers, if the field uses them, and ray.unit, for the ray that the others name.
-    virtual void prepare(FieldRay&) const {}
+    virtual double last_sign_change_bound(Vec3 origin, Vec3 direction) const = 0;
+    /// Sets up ray.numbers, if the field uses them, and ray.noise_scale, for the ray that the others name.
+    virtual void begin_ray(FieldRay&) const {}
     /// No ray within the finite box has a greater unit: what f may be off by anywhere in it, and for whatever ray,
     /// is RootFinder::rounding of it.
-    virtual double greatest_unit(const Box&) const { return 1; }
-    /// f and df/dt in ray.unit: there f must be off by less than RootFinder::rounding.
+    virtual double max_noise_scale(const Box&) const { return 1; }
+    /// f and df/dt in ray.noise_scale: there f must be off by less than RootFinder::rounding.
     virtual ValueSlope at(const FieldRay& ray, double t) const = 0;
     /// M, L and G of the same over [t0, t1].
     virtual RayBounds bounds(const FieldRay& ray, double t0, double t1) const = 0;
@@ -71,8 +71,8 @@ public:
         direction = d;
         t0 = from;
         t1 = to;
-        unit = 1;
-        f.prepare(*this);
+        noise_scale = 1;
+        f.begin_ray(*this);
     }
     ValueSlope at(double t) const { return field->at(*this, t); }
     /// A little wider than the field says: where f″ is constant, two roots lie exactly at the limit
@@ -86,7 +86,7 @@ public:
     const Field* field = nullptr;
     Vec3 origin{0.0}, direction{0.0};
     double t0 = 0, t1 = 0;
-    double unit = 1;              // of f here, in f's own
+    double noise_scale = 1;       // of f here, in f's own
     std::vector<double> numbers;  // the field's own
 };
 
@@ -94,7 +94,7 @@ public:
 FieldPtr transformed(const FieldPtr& field, const Affine& map);
 
 /// A ray parameter ≥ 0 beyond which the ray is outside of the box for good; `infinity` if it never
-/// is. For fields that are bounded, what `settled` may return.
+/// is. For fields that are bounded, what `last_sign_change_bound` may return.
 double leaves_box(const Box& box, Vec3 origin, Vec3 direction);
 
 }  // namespace deburr

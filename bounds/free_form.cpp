@@ -128,7 +128,7 @@ Range FreeForm::range(const Box& box) const {
         return sum.lo <= sum.hi ? sum : Range{-infinity, infinity};
     }
     const Vec3 half = 0.5 * (box.hi - box.lo), middle = box.lo + half;
-    const auto reach = [&](const Quadric& q) { return glm::abs(middle - q.centre) + half; };
+    const auto reach = [&](const Quadric& q) { return glm::abs(middle - q.center) + half; };
     Taylor sum;
     add_base(sum, base_, middle, half);
     double off = base_.magnitude(reach(base_));
@@ -169,7 +169,7 @@ LocalSize FreeForm::local_size(const Box& box) const {
     return {range(box), cost_base + cost_perturbation * int(count)};
 }
 
-FieldPtr FreeForm::carried(const Affine& map) const {
+FieldPtr FreeForm::transformed_by(const Affine& map) const {
     std::vector<Perturbation> to;
     for (const Perturbation& p : perturbations_) to.push_back({p.factor, transformed(p.quadric, map)});
     return std::make_shared<FreeForm>(transformed(base_, map), std::move(to));

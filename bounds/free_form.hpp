@@ -37,10 +37,10 @@ public:
     FieldPtr prune(const Box& box) const override;
     int size() const override;
     LocalSize local_size(const Box& box) const override;
-    FieldPtr carried(const Affine& map) const override;
-    double settled(Vec3 origin, Vec3 direction) const override;
-    void prepare(FieldRay& ray) const override;
-    double greatest_unit(const Box& box) const override;
+    FieldPtr transformed_by(const Affine& map) const override;
+    double last_sign_change_bound(Vec3 origin, Vec3 direction) const override;
+    void begin_ray(FieldRay& ray) const override;
+    double max_noise_scale(const Box& box) const override;
     ValueSlope at(const FieldRay& ray, double t) const override;
     RayBounds bounds(const FieldRay& ray, double t0, double t1) const override;
 

@@ -22,7 +22,7 @@ struct Quadratic {
 
 Quadratic along(const Quadric& q, Vec3 x, Vec3 d) {
     const Vec3 Ad = q.A * d;
-    return {q.at(x), glm::dot(d, q.b) + 2 * glm::dot(Ad, x - q.centre), glm::dot(d, Ad)};
+    return {q.at(x), glm::dot(d, q.b) + 2 * glm::dot(Ad, x - q.center), glm::dot(d, Ad)};
 }
 
 // ray.numbers: middle; the base's a, b, c; then f, a, b, c of each perturbation.
@@ -56,7 +56,7 @@ double bernstein_bound(const std::array<double, count>& c) {
 }
 
 // What a perturbation adds to the unit, where its Q is at most `most` and its terms add up to `magnitude`.
-double unit_of(const Perturbation& p, double most, double magnitude) {
+double noise_scale_of(const Perturbation& p, double most, double magnitude) {
     return 3 * std::abs(p.factor) * most * most * magnitude;
 }
 
@@ -72,7 +72,7 @@ double last_root(const Quadratic& q) {
 
 }  // namespace
 
-double FreeForm::settled(Vec3 origin, Vec3 direction) const {
+double FreeForm::last_sign_change_bound(Vec3 origin, Vec3 direction) const {
     if (box_.finite()) return leaves_box(box_, origin, direction);
     // Beyond the last root of every quadric F is one polynomial, whose roots have Cauchy's bound.
     const Quadratic base = along(base_, origin, direction);
@@ -97,39 +97,39 @@ double FreeForm::settled(Vec3 origin, Vec3 direction) const {
     return std::max(last, 2 * bound);
 }
 
-void FreeForm::prepare(FieldRay& ray) const {
+void FreeForm::begin_ray(FieldRay& ray) const {
     const double middle = 0.5 * (ray.t0 + ray.t1), half = 0.5 * (ray.t1 - ray.t0);
     const Vec3 x = ray.origin + ray.direction * middle, reach = glm::abs(ray.direction) * half;
-    const auto magnitude = [&](const Quadric& q) { return q.magnitude(glm::abs(x - q.centre) + reach); };
+    const auto magnitude = [&](const Quadric& q) { return q.magnitude(glm::abs(x - q.center) + reach); };
     auto& n = ray.numbers;
     n.clear();
     const Quadratic base = along(base_, x, ray.direction);
     n.insert(n.end(), {middle, base.a, base.b, base.c});
-    double unit = magnitude(base_);
+    double noise_scale = magnitude(base_);
     for (const Perturbation& p : perturbations_) {
         const Quadratic q = along(p.quadric, x, ray.direction);
         double most = std::max(q.at(-half), q.at(half));
         if (q.c < 0 && std::abs(q.b) < -2 * q.c * half) most = q.a - q.b * q.b / (4 * q.c);
         if (!(most > 0)) continue;
         n.insert(n.end(), {p.factor, q.a, q.b, q.c});
-        unit += unit_of(p, most, magnitude(p.quadric));
+        noise_scale += noise_scale_of(p, most, magnitude(p.quadric));
     }
-    if (unit > 0) ray.unit = unit;
-    const double scale = 1 / ray.unit;
+    if (noise_scale > 0) ray.noise_scale = noise_scale;
+    const double scale = 1 / ray.noise_scale;
     for (std::size_t i = 1; i < first_perturbation; ++i) n[i] *= scale;
     for (std::size_t i = first_perturbation; i < n.size(); i += stride) n[i] *= scale;
 }
 
-double FreeForm::greatest_unit(const Box& box) const {
+double FreeForm::max_noise_scale(const Box& box) const {
     const auto magnitude = [&](const Quadric& q) {
-        return q.magnitude(glm::max(glm::abs(box.lo - q.centre), glm::abs(box.hi - q.centre)));
+        return q.magnitude(glm::max(glm::abs(box.lo - q.center), glm::abs(box.hi - q.center)));
     };
-    double unit = magnitude(base_);
+    double noise_scale = magnitude(base_);
     for (const Perturbation& p : perturbations_) {
         const double most = p.quadric.range(box).hi;
-        if (most > 0) unit += unit_of(p, most, magnitude(p.quadric));
+        if (most > 0) noise_scale += noise_scale_of(p, most, magnitude(p.quadric));
     }
-    return unit > 0 ? unit : 1;
+    return noise_scale > 0 ? noise_scale : 1;
 }
 
 ValueSlope FreeForm::at(const FieldRay& ray, double t) const {

@@ -69,7 +69,7 @@ IllegalDensity search(const DensityTree& tree, const Box& start, int boxes, std:
     IllegalDensity worst;
     double most = tolerance;
     std::deque<Candidate> open;
-    const auto look = [&](const DensityTree& from, const Box& box) {
+    const auto examine = [&](const DensityTree& from, const Box& box) {
         nodes -= std::int64_t(from.nodes.size());
         Pruned here = prune(from, box);
         if (excess(here.range.lo) <= most && excess(here.range.hi) <= most) return;
@@ -87,7 +87,7 @@ IllegalDensity search(const DensityTree& tree, const Box& start, int boxes, std:
         }
         open.push_back({std::move(here.tree), box});
     };
-    look(tree, start);
+    examine(tree, start);
     for (int n = 0; n < boxes && !open.empty() && nodes > 0; n += 2) {
         const bool widest = n < boxes / 2;
         const Candidate now = widest ? std::move(open.front()) : std::move(open.back());
@@ -98,8 +98,8 @@ IllegalDensity search(const DensityTree& tree, const Box& start, int boxes, std:
         Box low = now.box, high = now.box;
         low.hi[axis] = high.lo[axis] = 0.5 * (now.box.lo[axis] + now.box.hi[axis]);
         if (now.box.hi[axis] - now.box.lo[axis] < thinnest * glm::length(start.hi - start.lo)) continue;
-        look(now.tree, low);
-        look(now.tree, high);
+        examine(now.tree, low);
+        examine(now.tree, high);
         if (most > 0.5) break;  // bad enough to be told
     }
     return worst;

@@ -49,23 +49,23 @@ void roots_of_boolean_parts(const DensityTree& tree, const std::vector<char>& bo
 }  // namespace
 
 LocalDensity::LocalDensity(const DensityTree& tree) {
-    if (tree.nodes.back().op == Op::ball_share) {
-        share_ = std::make_shared<BallShare>(tree);
-        half_spaces_ = share_->half_spaces();
+    if (tree.nodes.back().op == Op::convolution) {
+        convolution_ = std::make_shared<BallConvolution>(tree);
+        half_spaces_ = convolution_->half_spaces();
         return;
     }
     nodes_.reserve(tree.nodes.size());
     half_spaces_.reserve(tree.half_spaces.size());
     // Kept from one to the next of a thread.
     thread_local std::vector<char> boolean, is_root, positive;  // never below 0, as far as the ops can tell
-    thread_local std::vector<int> place;
+    thread_local std::vector<int> new_index;
     boolean_nodes(tree, boolean);
     roots_of_boolean_parts(tree, boolean, is_root);
-    place.assign(tree.nodes.size(), -1);
+    new_index.assign(tree.nodes.size(), -1);
     positive.assign(tree.nodes.size(), true);
     for (std::size_t i = 0; i < tree.nodes.size(); ++i) {
         const TreeNode& n = tree.nodes[i];
-        const auto at = [&](int child) { return child < 0 ? -1 : place[std::size_t(child)]; };
+        const auto at = [&](int child) { return child < 0 ? -1 : new_index[std::size_t(child)]; };
         bool operands = true;
         if (n.op != Op::half_space)
             for (const int child : {n.a, n.b}) operands &= child < 0 || positive[std::size_t(child)];
@@ -76,15 +76,15 @@ LocalDensity::LocalDensity(const DensityTree& tree) {
         else
             positive[i] = boolean[i];
         if (boolean[i]) {
-            if (is_root[i]) place[i] = add_boolean(tree, int(i));
+            if (is_root[i]) new_index[i] = add_boolean(tree, int(i));
             continue;
         }
         switch (n.op) {
-            case Op::constant: place[i] = add({Step::constant, -1, -1, n.value}); break;
-            case Op::sum: place[i] = add({Step::sum, at(n.a), at(n.b)}); break;
-            case Op::product: place[i] = add({Step::product, at(n.a), at(n.b)}); break;
-            case Op::difference: place[i] = add({Step::difference, at(n.a), at(n.b), double(operands)}); break;
-            case Op::complement: place[i] = add({Step::complement, at(n.a), -1, double(operands)}); break;
+            case Op::constant: new_index[i] = add({Step::constant, -1, -1, n.value}); break;
+            case Op::sum: new_index[i] = add({Step::sum, at(n.a), at(n.b)}); break;
+            case Op::product: new_index[i] = add({Step::product, at(n.a), at(n.b)}); break;
+            case Op::difference: new_index[i] = add({Step::difference, at(n.a), at(n.b), double(operands)}); break;
+            case Op::complement: new_index[i] = add({Step::complement, at(n.a), -1, double(operands)}); break;
             default: break;
         }
     }
@@ -104,7 +104,7 @@ int LocalDensity::add_boolean(const DensityTree& tree, int root) {
         return add({Step::half_space, int(half_spaces_.size()) - 1});
     }
     const std::size_t first = half_spaces_.size();
-    const DecisionDiagram diagram = decide(tree, root);
+    const DecisionDiagram diagram = build_diagram(tree, root);
     // Of the diagram, what its root reaches.
     std::vector<char> reached(diagram.nodes.size(), false);
     reached[std::size_t(diagram.root)] = true;
@@ -124,26 +124,26 @@ int LocalDensity::add_boolean(const DensityTree& tree, int root) {
         return index;
     };
 
-    std::vector<int> place(diagram.nodes.size(), -1);
+    std::vector<int> new_index(diagram.nodes.size(), -1);
     for (std::size_t i = 0; i < diagram.nodes.size(); ++i) {
         if (!reached[i]) continue;
         if (i < 2) {
-            place[i] = add({Step::constant, -1, -1, double(i)});
+            new_index[i] = add({Step::constant, -1, -1, double(i)});
             continue;
         }
         const Decision& d = diagram.nodes[i];
         if (d.thresholds.size() == 1 && d.children[0] < 2 && d.children[1] < 2) {
             const int h = add({Step::half_space, plane_of(d.family, d.thresholds[0])});
-            place[i] = d.children[0] == 1 ? h : add({Step::complement, h, -1, 1.0});
+            new_index[i] = d.children[0] == 1 ? h : add({Step::complement, h, -1, 1.0});
             continue;
         }
-        const Node node{Step::decide, int(kids_.size()), int(d.thresholds.size())};
-        for (const int t : d.thresholds) kids_.push_back(plane_of(d.family, t));
-        for (const int c : d.children) kids_.push_back(place[std::size_t(c)]);
-        place[i] = add(node);
+        const Node node{Step::decision, int(children_.size()), int(d.thresholds.size())};
+        for (const int t : d.thresholds) children_.push_back(plane_of(d.family, t));
+        for (const int c : d.children) children_.push_back(new_index[std::size_t(c)]);
+        new_index[i] = add(node);
     }
     find_polarities(tree, root, first);
-    return place[std::size_t(diagram.root)];
+    return new_index[std::size_t(diagram.root)];
 }
 
 // Of the half-spaces from `first` on, which came from the Boolean function at `root`.
@@ -212,7 +212,7 @@ static T* memory_for(std::size_t count) {
 
 // One pass over the steps in any arithmetic: values alone, with gradients, or with slopes.
 template <class T, class Node, class Leaf>
-static T run(const std::vector<Node>& nodes, const std::vector<int>& kids, Leaf leaf) {
+static T run(const std::vector<Node>& nodes, const std::vector<int>& children, Leaf leaf) {
     using Step = decltype(Node::step);
     T* const done = memory_for<T>(nodes.size());
     for (std::size_t i = 0; i < nodes.size(); ++i) {
@@ -225,8 +225,8 @@ static T run(const std::vector<Node>& nodes, const std::vector<int>& kids, Leaf 
             case Step::product: done[i] = at(n.a) * at(n.b); break;
             case Step::difference: done[i] = at(n.a) - at(n.b); break;
             case Step::complement: done[i] = T{1.0} - at(n.a); break;
-            case Step::decide: {
-                const int* thresholds = &kids[std::size_t(n.a)];
+            case Step::decision: {
+                const int* thresholds = &children[std::size_t(n.a)];
                 const int* children = thresholds + n.b;
                 T sum = at(children[n.b]);
                 for (int j = 0; j < n.b; ++j)
@@ -245,21 +245,21 @@ ValueGradient DensityTree::gradient_at(Vec3 x) const {
 }
 
 double LocalDensity::at(Vec3 x) const {
-    if (share_) return gradient_at(x).value;
-    return run<double>(nodes_, kids_, [&](std::size_t i) { return half_spaces_[i].density(x); });
+    if (convolution_) return gradient_at(x).value;
+    return run<double>(nodes_, children_, [&](std::size_t i) { return half_spaces_[i].density(x); });
 }
 
 ValueGradient LocalDensity::gradient_at(Vec3 x) const {
-    if (share_) {
+    if (convolution_) {
         thread_local std::vector<double> alpha, slope;
         alpha.clear();
         for (const HalfSpace& h : half_spaces_) alpha.push_back(h.alpha(x));
-        ValueGradient v{share_->at(alpha, slope)};
+        ValueGradient v{convolution_->at(alpha, slope)};
         for (std::size_t i = 0; i < alpha.size(); ++i)
             v.gradient += half_spaces_[i].normal * (slope[i] / half_spaces_[i].radius);
         return v;
     }
-    return run<ValueGradient>(nodes_, kids_, [&](std::size_t i) -> ValueGradient {
+    return run<ValueGradient>(nodes_, children_, [&](std::size_t i) -> ValueGradient {
         const HalfSpace& h = half_spaces_[i];
         const double alpha = h.alpha(x);
         if (h.radius == 0) return {profile(alpha), Vec3(0.0)};
@@ -268,12 +268,12 @@ ValueGradient LocalDensity::gradient_at(Vec3 x) const {
 }
 
 Range LocalDensity::range(const Box& box) const {
-    if (share_) return share_->range(box);
+    if (convolution_) return convolution_->range(box);
     return range_from([&](int i) { return density_range(half_spaces_[std::size_t(i)], box); });
 }
 
 Range LocalDensity::range(std::span<const Range> half_spaces) const {
-    if (share_) return share_->range({half_spaces.begin(), half_spaces.end()});
+    if (convolution_) return convolution_->range({half_spaces.begin(), half_spaces.end()});
     return range_from([&](int i) { return half_spaces[std::size_t(i)]; });
 }
 
@@ -290,8 +290,8 @@ Range LocalDensity::range_from(OfHalfSpace leaf) const {
             case Step::difference: done[i] = combine(Op::difference, at(n.a), at(n.b)); break;
             case Step::complement: done[i] = combine(Op::complement, at(n.a), {}); break;
             case Step::product: done[i] = combine(Op::product, at(n.a), at(n.b)); break;
-            case Step::decide: {
-                const int* thresholds = &kids_[std::size_t(n.a)];
+            case Step::decision: {
+                const int* thresholds = &children_[std::size_t(n.a)];
                 const int* children = thresholds + n.b;
                 Range all = at(children[n.b]), least = all;  // the sum; the hull of the children
                 for (int j = 0; j < n.b; ++j) {
@@ -328,10 +328,10 @@ struct RangeRate {
 }  // namespace
 
 Range LocalDensity::rate_range(std::span<const Range> half_spaces, std::span<const Range> rates) const {
-    if (share_) {
+    if (convolution_) {
         Range all;
         for (std::size_t i = 0; i < rates.size(); ++i) {
-            const int polarity = share_->polarity(i);
+            const int polarity = convolution_->polarity(i);
             if ((polarity >= 0 && rates[i].hi > 0) || (polarity <= 0 && rates[i].lo < 0)) all.hi = infinity;
             if ((polarity >= 0 && rates[i].lo < 0) || (polarity <= 0 && rates[i].hi > 0)) all.lo = -infinity;
         }
@@ -355,8 +355,8 @@ Range LocalDensity::rate_range(std::span<const Range> half_spaces, std::span<con
                 done[i] = {product(at(n.a).value, at(n.b).value),
                            sum(product(at(n.a).rate, at(n.b).value), product(at(n.a).value, at(n.b).rate))};
                 break;
-            case Step::decide: {
-                const int* thresholds = &kids_[std::size_t(n.a)];
+            case Step::decision: {
+                const int* thresholds = &children_[std::size_t(n.a)];
                 const int* children = thresholds + n.b;
                 // V and V' as the head of this file has them. Averages of the children's values and rates lie within
                 // the children's, too.
@@ -396,8 +396,8 @@ void RayDensity::set(const LocalDensity& density, Vec3 origin, Vec3 direction) {
     }
     leaf_.resize(lines_.size());
     leaf_bounds_.resize(lines_.size());
-    if (!density.share_) return;
-    speed_ = glm::length(density.share_->in_ball(direction));
+    if (!density.convolution_) return;
+    speed_ = glm::length(density.convolution_->in_ball(direction));
     rates_.clear();
     for (const Line& line : lines_) rates_.push_back(std::abs(line.b));
 }
@@ -414,9 +414,9 @@ void RayDensity::fix_sharp(double t) {
 }
 
 ValueSlope RayDensity::at(double t) const {
-    if (density_->share_) {
+    if (density_->convolution_) {
         alphas(t, alphas_);
-        ValueSlope v{density_->share_->at(alphas_, slopes_)};
+        ValueSlope v{density_->convolution_->at(alphas_, slopes_)};
         for (std::size_t i = 0; i < lines_.size(); ++i) v.slope += slopes_[i] * lines_[i].b;
         return v;
     }
@@ -424,19 +424,19 @@ ValueSlope RayDensity::at(double t) const {
         const double alpha = lines_[i].a + lines_[i].b * t;
         leaf_[i] = {profile(alpha), profile_slope(alpha) * lines_[i].b};
     }
-    return run<ValueSlope>(density_->nodes_, density_->kids_, [&](std::size_t i) { return leaf_[i]; });
+    return run<ValueSlope>(density_->nodes_, density_->children_, [&](std::size_t i) { return leaf_[i]; });
 }
 
 Vec3 RayDensity::gradient(double t) const {
-    if (density_->share_) {
+    if (density_->convolution_) {
         alphas(t, alphas_);
-        density_->share_->at(alphas_, slopes_);
+        density_->convolution_->at(alphas_, slopes_);
         Vec3 gradient(0.0);
         for (std::size_t i = 0; i < lines_.size(); ++i)
             gradient += density_->half_spaces_[i].normal * (slopes_[i] / density_->half_spaces_[i].radius);
         return gradient;
     }
-    return run<ValueGradient>(density_->nodes_, density_->kids_,
+    return run<ValueGradient>(density_->nodes_, density_->children_,
                               [&](std::size_t i) -> ValueGradient {
                                   const double alpha = lines_[i].a + lines_[i].b * t;
                                   const HalfSpace& h = density_->half_spaces_[i];
@@ -447,10 +447,10 @@ Vec3 RayDensity::gradient(double t) const {
 }
 
 RayBounds RayDensity::bounds(double t0, double t1) const {
-    if (density_->share_) {
+    if (density_->convolution_) {
         alphas(t0, alphas_);
         alphas(t1, alphas_at_end_);
-        return density_->share_->bounds(alphas_, alphas_at_end_, rates_, speed_);
+        return density_->convolution_->bounds(alphas_, alphas_at_end_, rates_, speed_);
     }
     using Step = LocalDensity::Step;
     for (std::size_t i = 0; i < lines_.size(); ++i)
@@ -467,8 +467,8 @@ RayBounds RayDensity::bounds(double t0, double t1) const {
             case Step::product: bounds_[i] = product_bounds(at(n.a), at(n.b)); break;
             case Step::difference: bounds_[i] = difference_bounds(at(n.a), at(n.b), n.value != 0); break;
             case Step::complement: bounds_[i] = complement_bounds(at(n.a), n.value != 0); break;
-            case Step::decide: {
-                const int* thresholds = &density_->kids_[std::size_t(n.a)];
+            case Step::decision: {
+                const int* thresholds = &density_->children_[std::size_t(n.a)];
                 const int* children = thresholds + n.b;
                 RayBounds sum = at(children[n.b]);
                 for (int j = 0; j < n.b; ++j) {

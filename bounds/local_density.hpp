@@ -43,8 +43,8 @@ public:
         std::vector<Term> terms;
     };
     /// The density multiplied out: a constant and weighted products of half-spaces, if the products are no
-    /// more than `most_terms`; of few half-spaces only.
-    std::optional<Sum> as_sum(std::size_t most_terms) const;
+    /// more than `max_terms`; of few half-spaces only.
+    std::optional<Sum> as_sum(std::size_t max_terms) const;
     /// Whether ρ is a polynomial of degree 1 in each of several variables, of which variable_of[i] is
     /// the one that half-space i is a linear function of.
     bool is_affine_in_each(const std::vector<int>& variable_of) const;
@@ -64,11 +64,11 @@ public:
 private:
     friend class RayDensity;
 
-    enum class Step : unsigned char { constant, half_space, sum, product, difference, complement, decide };
+    enum class Step : unsigned char { constant, half_space, sum, product, difference, complement, decision };
     struct Node {
         Step step = Step::constant;
         int a = -1, b = -1;  // operands; half_space: a is its index;
-                             // decide: kids_[a …] are b thresholds (half-spaces), then b + 1 children
+                             // decision: children_[a …] are b thresholds (half-spaces), then b + 1 children
         double value = 0;    // constant; difference, complement: 1 if no operand is ever negative
     };
 
@@ -78,10 +78,10 @@ private:
     int add_boolean(const DensityTree& tree, int root);
     void find_polarities(const DensityTree& tree, int root, std::size_t first);
 
-    std::shared_ptr<const BallShare> share_;  // of a true convolution, which needs no nodes
+    std::shared_ptr<const BallConvolution> convolution_;  // of a true convolution, which needs no nodes
     std::vector<HalfSpace> half_spaces_;
     std::vector<Node> nodes_;  // operands first, the root last
-    std::vector<int> kids_;
+    std::vector<int> children_;
     // What more of a half-space does to the Boolean function that it is part of: 1, it is true in more places; −1, in
     // fewer; 0, either.
     std::vector<signed char> polarity_;

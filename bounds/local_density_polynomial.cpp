@@ -6,8 +6,8 @@
 namespace deburr {
 
 std::optional<LocalDensity::Product> LocalDensity::as_product() const {
-    if (share_) return std::nullopt;
-    std::vector<std::optional<Product>> form;
+    if (convolution_) return std::nullopt;
+    std::vector<std::optional<Product>> expanded;
     const auto complement = [](std::optional<Product> p) {
         if (!p) return p;
         if (p->factors.size() == 1)
@@ -26,16 +26,16 @@ std::optional<LocalDensity::Product> LocalDensity::as_product() const {
         return n.step == Step::constant && n.value == value;
     };
     for (const Node& n : nodes_) {
-        const auto at = [&](int child) { return form[std::size_t(child)]; };
+        const auto at = [&](int child) { return expanded[std::size_t(child)]; };
         std::optional<Product> p;
         switch (n.step) {
             case Step::half_space: p = Product{{{n.a, false}}}; break;
             case Step::product: p = times(at(n.a), at(n.b)); break;
             case Step::complement: p = complement(at(n.a)); break;
-            case Step::decide: {
+            case Step::decision: {
                 if (n.b != 1) break;
-                const int below = kids_[std::size_t(n.a) + 1], above = kids_[std::size_t(n.a) + 2];
-                const Product F{{{kids_[std::size_t(n.a)], false}}}, G{{{kids_[std::size_t(n.a)], true}}};
+                const int below = children_[std::size_t(n.a) + 1], above = children_[std::size_t(n.a) + 2];
+                const Product F{{{children_[std::size_t(n.a)], false}}}, G{{{children_[std::size_t(n.a)], true}}};
                 if (is(above, 0))
                     p = times(F, at(below));
                 else if (is(below, 0))
@@ -48,13 +48,13 @@ std::optional<LocalDensity::Product> LocalDensity::as_product() const {
             }
             default: break;
         }
-        form.push_back(std::move(p));
+        expanded.push_back(std::move(p));
     }
-    return form.back();
+    return expanded.back();
 }
 
 bool LocalDensity::is_affine_in_each(const std::vector<int>& variable_of) const {
-    if (share_) return false;
+    if (convolution_) return false;
     // Degrees, node by node, variable by variable.
     std::vector<std::vector<int>> degree;
     for (const Node& n : nodes_) {
@@ -68,8 +68,8 @@ bool LocalDensity::is_affine_in_each(const std::vector<int>& variable_of) const 
                 case Step::difference: d[v] = std::max(at(n.a, v), at(n.b, v)); break;
                 case Step::product: d[v] = at(n.a, v) + at(n.b, v); break;
                 case Step::complement: d[v] = at(n.a, v); break;
-                case Step::decide: {
-                    const int* thresholds = &kids_[std::size_t(n.a)];
+                case Step::decision: {
+                    const int* thresholds = &children_[std::size_t(n.a)];
                     const int* children = thresholds + n.b;
                     for (int j = 0; j <= n.b; ++j) d[v] = std::max(d[v], at(children[j], v));
                     for (int j = 0; j < n.b; ++j)
@@ -214,14 +214,14 @@ private:
 
 }  // namespace
 
-std::optional<LocalDensity::Sum> LocalDensity::as_sum(std::size_t most_terms) const {
-    constexpr std::size_t most_half_spaces = 64;  // all pairs of them are compared
-    if (share_ || half_spaces_.size() > most_half_spaces) return std::nullopt;
+std::optional<LocalDensity::Sum> LocalDensity::as_sum(std::size_t max_terms) const {
+    constexpr std::size_t max_half_spaces = 64;  // all pairs of them are compared
+    if (convolution_ || half_spaces_.size() > max_half_spaces) return std::nullopt;
     const Multiplier multiplier(half_spaces_);
     const Polynomial one{{1, {}}};
-    std::vector<Polynomial> form;
+    std::vector<Polynomial> expanded;
     for (const Node& n : nodes_) {
-        const auto at = [&](int child) -> const Polynomial& { return form[std::size_t(child)]; };
+        const auto at = [&](int child) -> const Polynomial& { return expanded[std::size_t(child)]; };
         Polynomial p;
         switch (n.step) {
             case Step::constant:
@@ -232,8 +232,8 @@ std::optional<LocalDensity::Sum> LocalDensity::as_sum(std::size_t most_terms) co
             case Step::difference: p = multiplier.plus(at(n.a), at(n.b), -1); break;
             case Step::product: p = multiplier.times(at(n.a), at(n.b)); break;
             case Step::complement: p = multiplier.plus(one, at(n.a), -1); break;
-            case Step::decide: {
-                const int* thresholds = &kids_[std::size_t(n.a)];
+            case Step::decision: {
+                const int* thresholds = &children_[std::size_t(n.a)];
                 const int* children = thresholds + n.b;
                 p = at(children[n.b]);
                 for (int j = 0; j < n.b; ++j) {
@@ -243,12 +243,12 @@ std::optional<LocalDensity::Sum> LocalDensity::as_sum(std::size_t most_terms) co
                 break;
             }
         }
-        if (p.size() > 2 * most_terms) return std::nullopt;  // it would hardly become fewer
-        form.push_back(std::move(p));
+        if (p.size() > 2 * max_terms) return std::nullopt;  // it would hardly become fewer
+        expanded.push_back(std::move(p));
     }
-    if (form.back().size() > most_terms + 1) return std::nullopt;
+    if (expanded.back().size() > max_terms + 1) return std::nullopt;
     Sum sum;
-    for (const Monomial& m : form.back()) {
+    for (const Monomial& m : expanded.back()) {
         if (m.factors.empty()) {
             sum.constant = m.weight;
             continue;
@@ -257,7 +257,7 @@ std::optional<LocalDensity::Sum> LocalDensity::as_sum(std::size_t most_terms) co
         for (const int f : m.factors) term.factors.push_back({f / 2, f % 2 == 1});
         sum.terms.push_back(std::move(term));
     }
-    if (sum.terms.size() > most_terms) return std::nullopt;
+    if (sum.terms.size() > max_terms) return std::nullopt;
     return sum;
 }
 

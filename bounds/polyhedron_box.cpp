@@ -144,13 +144,13 @@ Box polyhedron_box(const std::vector<BoundPlane>& planes) {
     return box;
 }
 
-GatheredBox both(GatheredBox a, GatheredBox b) {
+GatheredBox intersect(GatheredBox a, GatheredBox b) {
     if (a.planes.size() < b.planes.size()) std::swap(a, b);
     a.planes.insert(a.planes.end(), b.planes.begin(), b.planes.end());
     a.rest = intersection(a.rest, b.rest);
     return a;
 }
 
-GatheredBox either(const GatheredBox& a, const GatheredBox& b) { return {hull(a.box(), b.box()), {}}; }
+GatheredBox unite(const GatheredBox& a, const GatheredBox& b) { return {hull(a.box(), b.box()), {}}; }
 
 }  // namespace deburr

@@ -18,8 +18,8 @@ struct GatheredBox {
     Box box() const { return planes.empty() || rest.empty() ? rest : intersection(rest, polyhedron_box(planes)); }
 };
 
-GatheredBox both(GatheredBox a, GatheredBox b);
+GatheredBox intersect(GatheredBox a, GatheredBox b);
 /// The hull; planes end here.
-GatheredBox either(const GatheredBox& a, const GatheredBox& b);
+GatheredBox unite(const GatheredBox& a, const GatheredBox& b);
 
 }  // namespace deburr

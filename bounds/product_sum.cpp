@@ -6,19 +6,19 @@
 
 namespace deburr {
 
-std::optional<ProductSum> ProductSum::of(const LocalDensity& density, double clear) {
+std::optional<ProductSum> ProductSum::of(const LocalDensity& density, double clearance) {
     if (density.has_sharp()) return std::nullopt;
-    const auto form = density.as_sum(std::size_t(most_terms));
-    if (!form || form->terms.empty()) return std::nullopt;
+    const auto expanded = density.as_sum(std::size_t(max_terms));
+    if (!expanded || expanded->terms.empty()) return std::nullopt;
     ProductSum sum;
-    sum.constant_ = form->constant;
+    sum.constant_ = expanded->constant;
     std::vector<AlphaPlane> planes;
-    std::vector<int> place(2 * density.half_spaces().size(), -1);
+    std::vector<int> new_index(2 * density.half_spaces().size(), -1);
     double steepest = 0;
-    for (const auto& [weight, factors] : form->terms) {
+    for (const auto& [weight, factors] : expanded->terms) {
         Term term{weight, {}, infinity};
         for (const auto& [i, flipped] : factors) {
-            int& at = place[2 * std::size_t(i) + flipped];
+            int& at = new_index[2 * std::size_t(i) + flipped];
             if (at < 0) {
                 const HalfSpace& h = density.half_spaces()[std::size_t(i)];
                 at = int(planes.size());
@@ -27,7 +27,7 @@ std::optional<ProductSum> ProductSum::of(const LocalDensity& density, double cle
             }
             term.factors.push_back(std::uint8_t(at));
         }
-        if (planes.size() > std::size_t(most_planes) || term.factors.size() > std::size_t(most_planes))
+        if (planes.size() > std::size_t(max_planes) || term.factors.size() > std::size_t(max_planes))
             return std::nullopt;
         sum.terms_.push_back(std::move(term));
     }
@@ -46,7 +46,7 @@ std::optional<ProductSum> ProductSum::of(const LocalDensity& density, double cle
     const auto helpers = double(std::count_if(sum.terms_.begin(), sum.terms_.end(), helps));
     for (Term& term : sum.terms_)
         if (helps(term))
-            term.reach = displacement(missing / (helpers * term.weight) - inverse_slack) + clear * steepest;
+            term.reach = displacement(missing / (helpers * term.weight) - inverse_slack) + clearance * steepest;
     return sum;
 }
 

@@ -21,8 +21,8 @@ namespace deburr {
 
 class ProductSum {
 public:
-    static constexpr int most_terms = 6;
-    static constexpr int most_planes = 32;
+    static constexpr int max_terms = 6;
+    static constexpr int max_planes = 32;
 
     struct Term {
         double weight;
@@ -30,9 +30,9 @@ public:
         double reach;                       // the surface is where some term with a finite one has no α beyond it
     };
 
-    /// The density in that form, if it has it: no half-space is sharp, and terms are few. `clear`: as
+    /// The density in that form, if it has it: no half-space is sharp, and terms are few. `clearance`: as
     /// bound planes keep clear (csg_bounds.hpp).
-    static std::optional<ProductSum> of(const LocalDensity& density, double clear);
+    static std::optional<ProductSum> of(const LocalDensity& density, double clearance);
 
     int planes() const { return planes_; }
     const std::vector<Term>& terms() const { return terms_; }
@@ -57,17 +57,17 @@ public:
 
     /// ρ > ½?
     bool inside(double t) const;
-    /// All crossings of ρ = ½ in [t0, t1], in order, to within `negligible`; `coarse`: no matter where
+    /// All crossings of ρ = ½ in [t0, t1], in order, to within `t_tolerance`; `coarse`: no matter where
     /// exactly. visit(RootCrossing) says whether to go on.
     template <class Visit>
-    void crossings(double t0, double t1, double negligible, bool coarse, RootCounters& counters, Visit visit);
+    void crossings(double t0, double t1, double t_tolerance, bool coarse, RootCounters& counters, Visit visit);
 
     Vec3 gradient(double t) const;
 
     /// What is known at a point of the ray.
     struct Point {
         double t, f, slope;
-        double value[ProductSum::most_terms], rate[ProductSum::most_terms];  // of every Pₖ that varies
+        double value[ProductSum::max_terms], rate[ProductSum::max_terms];  // of every Pₖ that varies
     };
     struct SlopeRange {
         double lo, hi;
@@ -83,43 +83,43 @@ public:
 
 private:
     SlopeRange slopes_near_zero(int term, const Point& a, const Point& b) const;
-    double root(Point a, Point b, double negligible, RootCounters& counters) const;
+    double root(Point a, Point b, double t_tolerance, RootCounters& counters) const;
 
-    static constexpr int most_planes = ProductSum::most_planes;
+    static constexpr int max_planes = ProductSum::max_planes;
     struct Term {
         double weight;
         int count;
-        std::uint8_t factors[most_planes];
+        std::uint8_t factors[max_planes];
     };
 
     const ProductSum* sum_ = nullptr;
-    alignas(16) double a_[most_planes], b_[most_planes];  // every α = a + b·t
+    alignas(16) double a_[max_planes], b_[max_planes];  // every α = a + b·t
     // Of those that vary.
-    alignas(16) double varying_a_[most_planes + 1], varying_b_[most_planes + 1];
+    alignas(16) double varying_a_[max_planes + 1], varying_b_[max_planes + 1];
     int varying_ = 0, terms_ = 0;
-    Term term_[ProductSum::most_terms];
+    Term term_[ProductSum::max_terms];
     double constant_ = 0;   // the rest of f
     double curvature_ = 0;  // |f″| at most
     std::vector<Point> stack_;
 };
 
 /// Whether a function with the signs and slopes of these ends, and with slopes between them in the
-/// range, has at most one root between them; as far as |f| > 2 · `faint`.
+/// range, has at most one root between them; as far as |f| > 2 · `f_tolerance`.
 bool at_most_one_root(const ProductSumRay::Point& a, const ProductSumRay::Point& b, ProductSumRay::SlopeRange slopes,
-                      double faint);
+                      double f_tolerance);
 
 template <class Visit>
-void ProductSumRay::crossings(double t0, double t1, double negligible, bool coarse, RootCounters& counters,
+void ProductSumRay::crossings(double t0, double t1, double t_tolerance, bool coarse, RootCounters& counters,
                               Visit visit) {
     if (!narrow(t0, t1)) return;
-    constexpr double faint = RootSettings{}.faint;
+    constexpr double f_tolerance = RootSettings{}.f_tolerance;
     stack_.clear();
     Point a = evaluate(t0, counters);
     stack_.push_back(evaluate(t1, counters));
     while (!stack_.empty()) {
         const Point& b = stack_.back();
         ++counters.segments;
-        if (b.t - a.t > negligible && !at_most_one_root(a, b, slopes(a, b), faint)) {
+        if (b.t - a.t > t_tolerance && !at_most_one_root(a, b, slopes(a, b), f_tolerance)) {
             const double middle = a.t + 0.5 * (b.t - a.t);
             if (middle > a.t && middle < b.t) {
                 ++counters.splits;
@@ -127,7 +127,7 @@ void ProductSumRay::crossings(double t0, double t1, double negligible, bool coar
                 continue;
             }
         }
-        if ((a.f > 0) != (b.f > 0) && !visit(RootCrossing{coarse ? b.t : root(a, b, negligible, counters), b.f > 0}))
+        if ((a.f > 0) != (b.f > 0) && !visit(RootCrossing{coarse ? b.t : root(a, b, t_tolerance, counters), b.f > 0}))
             return;
         a = b;
         stack_.pop_back();

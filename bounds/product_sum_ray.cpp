@@ -27,9 +27,9 @@ bool ProductSumRay::inside(double t) const {
 }
 
 Vec3 ProductSumRay::gradient(double t) const {
-    double share[most_planes] = {};  // of every plane's: dρ/dα
+    double share[max_planes] = {};  // of every plane's: dρ/dα
     for (const ProductSum::Term& term : sum_->terms()) {
-        double before[most_planes];  // the product of the factors before
+        double before[max_planes];  // the product of the factors before
         double P = term.weight;
         for (std::size_t k = 0; k < term.factors.size(); ++k) {
             const int i = term.factors[k];
@@ -80,18 +80,18 @@ bool ProductSumRay::narrow(double& t0, double& t1) {
     }
 
     constexpr int one = -1, zero = -2;
-    int place[most_planes];
+    int new_index[max_planes];
     varying_ = 0;
     for (int i = 0; i < sum_->planes(); ++i) {
         const double from = a_[i] + b_[i] * t0, to = a_[i] + b_[i] * t1;
         if (from <= -1 && to <= -1) {
-            place[i] = one;
+            new_index[i] = one;
         } else if (from >= 1 && to >= 1) {
-            place[i] = zero;
+            new_index[i] = zero;
         } else {
             varying_a_[varying_] = a_[i];
             varying_b_[varying_] = b_[i];
-            place[i] = varying_++;
+            new_index[i] = varying_++;
         }
     }
     varying_a_[varying_] = varying_b_[varying_] = 0;  // evaluated with the last, if their number is odd
@@ -105,9 +105,9 @@ bool ProductSumRay::narrow(double& t0, double& t1) {
         bool vanishes = false;
         double rates = 0, squares = 0;
         for (const int i : term.factors) {
-            vanishes |= place[i] == zero;
-            if (place[i] < 0) continue;
-            to.factors[to.count++] = std::uint8_t(place[i]);
+            vanishes |= new_index[i] == zero;
+            if (new_index[i] < 0) continue;
+            to.factors[to.count++] = std::uint8_t(new_index[i]);
             rates += std::abs(b_[i]);
             squares += b_[i] * b_[i];
         }
@@ -125,7 +125,7 @@ bool ProductSumRay::narrow(double& t0, double& t1) {
 
 ProductSumRay::Point ProductSumRay::evaluate(double t, RootCounters& counters) const {
     ++counters.evaluations;
-    alignas(16) double F[most_planes + 1], slope[most_planes + 1];
+    alignas(16) double F[max_planes + 1], slope[max_planes + 1];
     const int even = varying_ + (varying_ & 1);
     for (int i = 0; i < even; ++i) {
         const double alpha = varying_a_[i] + varying_b_[i] * t;
@@ -157,7 +157,7 @@ ProductSumRay::Point ProductSumRay::evaluate(double t, RootCounters& counters) c
 namespace {
 
 // Below this a product counts as 0: its logarithm's slope may overflow.
-constexpr double least_product = 1e-200;
+constexpr double min_product = 1e-200;
 
 // From above: eˣ for x ≥ 0, log x; exact to the square at 0 and 1. The library's need not be the same
 // everywhere.
@@ -172,7 +172,7 @@ ProductSumRay::SlopeRange ProductSumRay::slopes(const Point& a, const Point& b) 
     for (int k = 0; k < terms_; ++k) {
         const double Pa = a.value[k], Pb = b.value[k];
         SlopeRange r;
-        if (Pa > least_product && Pb > least_product) {
+        if (Pa > min_product && Pb > min_product) {
             // Its logarithm's slope falls.
             const double la = a.rate[k] / Pa, lb = b.rate[k] / Pb;
             const double least = std::min(Pa, Pb);
@@ -207,33 +207,33 @@ ProductSumRay::SlopeRange ProductSumRay::slopes_near_zero(int k, const Point& a,
 }
 
 bool at_most_one_root(const ProductSumRay::Point& a, const ProductSumRay::Point& b, ProductSumRay::SlopeRange slopes,
-                      double faint) {
+                      double f_tolerance) {
     if (slopes.lo >= 0 || slopes.hi <= 0) return true;
     const double length = b.t - a.t;
-    const bool faint_ends = std::abs(a.f) <= faint && std::abs(b.f) <= faint;
-    if (faint_ends && std::max(slopes.hi, -slopes.lo) * length <= faint) return true;
+    const bool near_zero_ends = std::abs(a.f) <= f_tolerance && std::abs(b.f) <= f_tolerance;
+    if (near_zero_ends && std::max(slopes.hi, -slopes.lo) * length <= f_tolerance) return true;
     if ((a.f > 0) != (b.f > 0)) return false;
     // Least |f|: falling from either end as fast as can be.
     const double sign = a.f > 0 ? 1 : -1;
     const double falling = a.f > 0 ? slopes.lo : -slopes.hi, rising = a.f > 0 ? slopes.hi : -slopes.lo;
     const double fa = sign * a.f, fb = sign * b.f;
     const double least = fa + falling * ((fa - fb + rising * length) / (rising - falling));
-    return least > 0 || (faint_ends && least > -2 * faint);
+    return least > 0 || (near_zero_ends && least > -2 * f_tolerance);
 }
 
 // Newton's method within the bracket. With |f″| ≤ G and step = f/f′, h = G |step/f′| ≤ ½ leaves an error of
 // 2h |step| at most [Kantorovich].
-double ProductSumRay::root(Point a, Point b, double negligible, RootCounters& counters) const {
+double ProductSumRay::root(Point a, Point b, double t_tolerance, RootCounters& counters) const {
     const double sign = b.f > 0 ? 1 : -1;  // f·sign rises through 0 from a to b
     Point p = std::abs(a.f) < std::abs(b.f) ? a : b;
-    double last = b.t - a.t;          // step
-    constexpr int most_steps = 2000;  // halving doubles ends before
-    for (int k = 0; k < most_steps && b.t - a.t > negligible; ++k) {
+    double last = b.t - a.t;         // step
+    constexpr int max_steps = 2000;  // halving doubles ends before
+    for (int k = 0; k < max_steps && b.t - a.t > t_tolerance; ++k) {
         if (p.f == 0) return p.t;
         const double step = -p.f / p.slope;
         double t = p.t + step;
         const double speed = std::abs(p.slope), h = curvature_ * std::abs(step);
-        if (2 * h <= speed && 2 * h * std::abs(step) <= speed * negligible) return std::clamp(t, a.t, b.t);
+        if (2 * h <= speed && 2 * h * std::abs(step) <= speed * t_tolerance) return std::clamp(t, a.t, b.t);
         if (k == 0 || !(t > a.t && t < b.t) || std::abs(step) > 0.5 * last) {
             const double length = b.t - a.t;
             if (k == 0) {

@@ -55,7 +55,7 @@ double Quadric::magnitude(Vec3 reach) const {
 
 Range Quadric::range(const Box& box) const {
     if (!box.finite()) {  // about the centre, axis by axis
-        const Vec3 lo = box.lo - centre, hi = box.hi - centre;
+        const Vec3 lo = box.lo - center, hi = box.hi - center;
         Range sum{k, k};
         double reach = std::abs(k);
         for (int i = 0; i < 3; ++i) {
@@ -73,7 +73,7 @@ Range Quadric::range(const Box& box) const {
         if (!(sum.lo <= sum.hi)) return {-infinity, infinity};  // ∞ − ∞
         return {sum.lo - slack * reach, sum.hi + slack * reach};
     }
-    const Vec3 half = 0.5 * (box.hi - box.lo), y = box.lo + half - centre;
+    const Vec3 half = 0.5 * (box.hi - box.lo), y = box.lo + half - center;
     const Vec3 slope = 2.0 * (A * y) + b;
     const double middle = value(y);
     Range sum{middle, middle};
@@ -137,8 +137,8 @@ Box Quadric::bounding_box() const {
     const Vec3 middle = 0.5 * (inverse * linear);
     const double top = k + 0.5 * glm::dot(linear, middle);  // of Q
     if (straight >= 0) {
-        const double end = centre[straight] - top / b[straight];
-        (b[straight] > 0 ? box.lo : box.hi)[straight] = end - slack * (std::abs(end) + std::abs(centre[straight]));
+        const double end = center[straight] - top / b[straight];
+        (b[straight] > 0 ? box.lo : box.hi)[straight] = end - slack * (std::abs(end) + std::abs(center[straight]));
         return box;
     }
     const double off = slack * (std::abs(k) + glm::dot(glm::abs(linear), glm::abs(middle)));
@@ -147,9 +147,9 @@ Box Quadric::bounding_box() const {
     for (int i = 0; i < 3; ++i) {
         if (!solid[i]) continue;
         const double half = std::sqrt((std::max(0.0, top) + off) * inverse[i][i]) * wider;
-        const double rounding = slack * (std::abs(centre[i]) + std::abs(middle[i])) * wider;
-        box.lo[i] = centre[i] + middle[i] - half - rounding;
-        box.hi[i] = centre[i] + middle[i] + half + rounding;
+        const double rounding = slack * (std::abs(center[i]) + std::abs(middle[i])) * wider;
+        box.lo[i] = center[i] + middle[i] - half - rounding;
+        box.hi[i] = center[i] + middle[i] + half + rounding;
     }
     return box;
 }
@@ -164,14 +164,14 @@ Box Quadric::extent() const {
                   : linear > 0 ? std::abs(k) / linear
                                : 0;
     if (!(size > 0)) size = 1;  // a cone, or a plane through the centre: every size is the same
-    return inflated({centre, centre}, 2 * size);
+    return inflated({center, center}, 2 * size);
 }
 
 Quadric transformed(const Quadric& q, const Affine& map) {
     const Mat3 back = glm::inverse(map.linear), forward = glm::transpose(back);
     Mat3 A = forward * q.A * back;
     A = 0.5 * (A + glm::transpose(A));
-    return {map(q.centre), A, forward * q.b, q.k};
+    return {map(q.center), A, forward * q.b, q.k};
 }
 
 Quadric quadric_from(const double (&c)[10]) {
@@ -179,11 +179,12 @@ Quadric quadric_from(const double (&c)[10]) {
     return {Vec3(0.0), Mat3(Vec3(c[0], xy, xz), Vec3(xy, c[1], yz), Vec3(xz, yz, c[2])), {c[6], c[7], c[8]}, c[9]};
 }
 
-Quadric revolved(const Revolution& form, Vec3 centre, Vec3 axis, double radius, double height) {
+Quadric revolved(const Revolution& revolution, Vec3 center, Vec3 axis, double radius, double height) {
     const Mat3 along = glm::outerProduct(axis, axis), across = Mat3(1.0) - along;
-    return {centre,
-            (form.along_squared / (height * height)) * along + (form.across_squared / (radius * radius)) * across,
-            (form.along / height) * axis, form.constant};
+    return {center,
+            (revolution.along_squared / (height * height)) * along +
+                (revolution.across_squared / (radius * radius)) * across,
+            (revolution.along / height) * axis, revolution.constant};
 }
 
 }  // namespace deburr

@@ -5,17 +5,17 @@
 
 namespace deburr {
 
-/// Q(x) = yᵀAy + b·y + k, where y = x − centre and A is symmetric; inside where Q > 0.
+/// Q(x) = yᵀAy + b·y + k, where y = x − center and A is symmetric; inside where Q > 0.
 /// Printed differently: eq. 1 has no centre. It lets a quadric be moved without the rounding that
 /// expanded coefficients suffer far from the origin.
 struct Quadric {
-    Vec3 centre{0.0};
+    Vec3 center{0.0};
     Mat3 A{0.0};
     Vec3 b{0.0};
     double k = 0;
 
-    double at(Vec3 x) const { return value(x - centre); }
-    Vec3 gradient(Vec3 x) const { return 2.0 * (A * (x - centre)) + b; }
+    double at(Vec3 x) const { return value(x - center); }
+    Vec3 gradient(Vec3 x) const { return 2.0 * (A * (x - center)) + b; }
     /// Largest absolute value of a coefficient.
     double largest() const;
     /// Whether Q is the same everywhere: there is no surface.
@@ -35,7 +35,7 @@ struct Quadric {
     /// its shape is to be seen.
     Box extent() const;
 
-    Quadric scaled(double by) const { return {centre, by * A, by * b, by * k}; }
+    Quadric scaled(double by) const { return {center, by * A, by * b, by * k}; }
 
 private:
     double value(Vec3 y) const { return glm::dot(y, A * y + b) + k; }
@@ -52,7 +52,7 @@ Quadric quadric_from(const double (&coefficients)[10]);
 struct Revolution {
     double constant = 0, along = 0, along_squared = 0, across_squared = -1;
 };
-Quadric revolved(const Revolution& form, Vec3 centre, Vec3 axis, double radius, double height);
+Quadric revolved(const Revolution& revolution, Vec3 center, Vec3 axis, double radius, double height);
 
 /// a·t + b·t² for t in [lo, hi], whose ends may be infinite.
 Range parabola_range(double a, double b, double lo, double hi);

@@ -16,7 +16,7 @@
 
 namespace deburr {
 
-double least_turning_distance(SegmentEnd end, RayBounds bounds) {
+double min_turning_distance(SegmentEnd end, RayBounds bounds) {
     const auto [M, L, G] = bounds;
     const double f = std::abs(end.f);
     // At f = 0 the root is there already: any slope leads beyond it.
@@ -38,7 +38,7 @@ double lobb_turning_distance(SegmentEnd end, RayBounds bounds) {
 }
 
 bool at_most_one_root(SegmentEnd start, SegmentEnd end, RayBounds bounds, double length, Criterion criterion) {
-    const auto distance = criterion == Criterion::exact ? least_turning_distance : lobb_turning_distance;
+    const auto distance = criterion == Criterion::exact ? min_turning_distance : lobb_turning_distance;
     return distance(start, bounds) + distance(end, bounds) > length;
 }
 
@@ -46,12 +46,12 @@ bool at_most_one_root(SegmentEnd start, SegmentEnd end, RayBounds bounds, double
 template <class OnRay>
 double RootFinder::root(const OnRay& function, Point a, Point b) {
     const double sign = b.f > 0 ? 1 : -1;  // f·sign rises through 0 from a to b
-    while (b.t - a.t > settings_.negligible) {
+    while (b.t - a.t > settings_.t_tolerance) {
         const double length = b.t - a.t;
         double t = a.t - a.f * (length / (b.f - a.f));
         for (int step = 0; step < 2; ++step) {
             // Off the ends by a little, so that a root beside one of them is soon bracketed.
-            t = std::clamp(t, a.t + 0.5 * settings_.negligible, b.t - 0.5 * settings_.negligible);
+            t = std::clamp(t, a.t + 0.5 * settings_.t_tolerance, b.t - 0.5 * settings_.t_tolerance);
             if (!(t > a.t && t < b.t)) return b.t;
             const Point p = evaluate(function, t);
             if (p.f == 0) return p.t;

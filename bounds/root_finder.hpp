@@ -30,7 +30,7 @@ struct SegmentEnd {
 /// |f″| ≤ G; infinity where there can be none.
 /// Printed differently: for f = 0⁺ and slope > 0 eq. 6 claims 3|ρ′|/G where (1 + √2)|ρ′|/G is
 /// enough, and so accepts segments that hold two roots.
-double least_turning_distance(SegmentEnd end, RayBounds bounds);
+double min_turning_distance(SegmentEnd end, RayBounds bounds);
 
 /// The same as eq. 6 has it, turn-around distance included.
 double lobb_turning_distance(SegmentEnd end, RayBounds bounds);
@@ -45,17 +45,18 @@ struct RootCounters {
 
 struct RootSettings {
     Criterion criterion = Criterion::exact;
-    double negligible = 1e-14;  // a segment no longer than this is not cut again, and roots are
-                                // found to within it
-    double faint = 1e-9;        // where |f| provably stays below twice this, f need not be told from 0
+    double t_tolerance = 1e-14;  // a segment no longer than this is not cut again, and roots are
+                                 // found to within it
+    double f_tolerance = 1e-9;   // where |f| provably stays below twice this, f need not be told from 0
 };
 
-/// Exact: whether |f| stays below 2 · `faint` throughout. In the plane of a flush face f is 0 but for
+/// Exact: whether |f| stays below 2 · `f_tolerance` throughout. In the plane of a flush face f is 0 but for
 /// rounding while the half-spaces beside it vary, so nothing else would end the search there. Chosen:
 /// what is passed over is a ray's dip of 10⁻⁹ r, some 3·10⁻⁵ r long.
-inline bool is_faint(SegmentEnd start, SegmentEnd end, RayBounds bounds, double length, double faint) {
+inline bool is_near_zero(SegmentEnd start, SegmentEnd end, RayBounds bounds, double length, double f_tolerance) {
     // Off the chord by G·length²/8 at most.
-    return std::abs(start.f) <= faint && std::abs(end.f) <= faint && bounds.G * length * length <= 8 * faint;
+    return std::abs(start.f) <= f_tolerance && std::abs(end.f) <= f_tolerance &&
+           bounds.G * length * length <= 8 * f_tolerance;
 }
 
 struct RootCrossing {
@@ -106,12 +107,12 @@ bool RootFinder::crossings(const OnRay& function, double t0, double t1, Visit&& 
         const Point b = stack[top - 1];
         const double length = b.t - a.t;
         ++counters_.segments;
-        bool done = length <= settings_.negligible || top >= 1099;
+        bool done = length <= settings_.t_tolerance || top >= 1099;
         if (!done) {
             const SegmentEnd start{a.f, a.slope}, end{b.f, -b.slope};
             const RayBounds bounds = function.bounds(a.t, b.t);
             done = at_most_one_root(start, end, bounds, length, settings_.criterion) ||
-                   is_faint(start, end, bounds, length, settings_.faint);
+                   is_near_zero(start, end, bounds, length, settings_.f_tolerance);
         }
         if (!done) {
             const double middle = a.t + 0.5 * length;

@@ -31,7 +31,7 @@ double one_way(const std::vector<Vec2>& from, const std::vector<Vec2>& to, doubl
 }  // namespace
 
 RoundedEdge::RoundedEdge(double angle)
-    : angle_(angle), quasi_(flatten(wedge(angle), 1)), truth_(flatten_convolved(wedge(angle), 1)) {}
+    : angle_(angle), quasi_(flatten(wedge(angle), 1)), exact_(flatten_convolved(wedge(angle), 1)) {}
 
 double RoundedEdge::plane(double x) const { return -std::abs(x) / std::tan(angle_ / 2); }
 
@@ -47,12 +47,12 @@ double RoundedEdge::depth(const LocalDensity& density, double x) const {
 }
 
 double RoundedEdge::quasi(double x) const { return depth(quasi_, x); }
-double RoundedEdge::truth(double x) const { return depth(truth_, x); }
+double RoundedEdge::exact(double x) const { return depth(exact_, x); }
 
 double RoundedEdge::fillet(double x) const {
-    if (std::abs(x) >= truth_reach() * std::sin(angle_ / 2)) return plane(x);
+    if (std::abs(x) >= exact_reach() * std::sin(angle_ / 2)) return plane(x);
     const double r = fillet_radius();
-    return std::sqrt(r * r - x * x) - truth_reach() / std::cos(angle_ / 2);
+    return std::sqrt(r * r - x * x) - exact_reach() / std::cos(angle_ / 2);
 }
 
 double distance_between(const SectionCurve& a, const SectionCurve& b, double width, int steps) {
@@ -67,10 +67,10 @@ double distance_between(const SectionCurve& a, const SectionCurve& b, double wid
 
 EdgeDistances distances(const RoundedEdge& edge, int steps) {
     const SectionCurve quasi = [&](double x) { return edge.quasi(x); };
-    const SectionCurve truth = [&](double x) { return edge.truth(x); };
+    const SectionCurve exact = [&](double x) { return edge.exact(x); };
     const SectionCurve fillet = [&](double x) { return edge.fillet(x); };
     const double w = edge.width();
-    return {distance_between(quasi, truth, w, steps), distance_between(truth, fillet, w, steps),
+    return {distance_between(quasi, exact, w, steps), distance_between(exact, fillet, w, steps),
             distance_between(quasi, fillet, w, steps)};
 }
 

@@ -21,15 +21,15 @@ public:
     /// The product of the two smoothed half-spaces.
     double quasi(double x) const;
     /// The share of a ball.
-    double truth(double x) const;
-    /// The arc that meets the planes where `truth` does.
+    double exact(double x) const;
+    /// The arc that meets the planes where `exact` does.
     double fillet(double x) const;
 
     /// How far from the edge the curves leave the planes, measured along these: where a ball that is
     /// centred on one plane begins to meet the other plane, and the other face.
     double quasi_reach() const { return 1 / std::sin(angle_); }
-    double truth_reach() const { return angle_ < half_pi ? 1 / std::sin(angle_) : 1; }
-    double fillet_radius() const { return truth_reach() * std::tan(angle_ / 2); }
+    double exact_reach() const { return angle_ < half_pi ? 1 / std::sin(angle_) : 1; }
+    double fillet_radius() const { return exact_reach() * std::tan(angle_ / 2); }
     /// Beyond this |x| all curves are the planes.
     double width() const { return quasi_reach() * std::sin(angle_ / 2); }
 
@@ -38,7 +38,7 @@ private:
     double depth(const LocalDensity& density, double x) const;
 
     double angle_;
-    LocalDensity quasi_, truth_;
+    LocalDensity quasi_, exact_;
 };
 
 /// The greatest distance of a point of either curve from the other curve, for |x| ≤ width, where the
@@ -46,7 +46,7 @@ private:
 double distance_between(const SectionCurve& a, const SectionCurve& b, double width, int steps);
 
 struct EdgeDistances {
-    double quasi_truth, truth_fillet, quasi_fillet;
+    double quasi_exact, exact_fillet, quasi_fillet;
 };
 EdgeDistances distances(const RoundedEdge& edge, int steps = 400);
 

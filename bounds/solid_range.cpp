@@ -56,7 +56,7 @@ SolidTree prune(const SolidTree& tree, const Box& box) {
     mark_needed(tree, sides, needed);
 
     SolidTree to;
-    std::vector<int> place(tree.nodes.size(), -1), leaf_place(tree.leaves.size(), -1);
+    std::vector<int> new_index(tree.nodes.size(), -1), new_leaf_index(tree.leaves.size(), -1);
     const auto add = [&](SolidTreeNode node) {
         to.nodes.push_back(node);
         return int(to.nodes.size()) - 1;
@@ -66,12 +66,12 @@ SolidTree prune(const SolidTree& tree, const Box& box) {
         SolidTreeNode n = tree.nodes[i];
         const auto side = [&](int child) { return sides[std::size_t(child)]; };
         if (sides[i] == Side::outside) {
-            place[i] = add({SolidOp::nothing});
+            new_index[i] = add({SolidOp::nothing});
         } else if (sides[i] == Side::inside) {
-            place[i] = add({SolidOp::everything});
+            new_index[i] = add({SolidOp::everything});
         } else if (n.op == SolidOp::leaf) {
             const SolidLeaf& leaf = tree.leaves[std::size_t(n.a)];
-            int& to_leaf = leaf_place[std::size_t(n.a)];
+            int& to_leaf = new_leaf_index[std::size_t(n.a)];
             if (to_leaf < 0) {
                 to_leaf = int(to.leaves.size());
                 if (leaf.field) {
@@ -81,16 +81,16 @@ SolidTree prune(const SolidTree& tree, const Box& box) {
                     to.leaves.push_back({std::move(local[std::size_t(n.a)].tree), leaf.material, leaf.line});
                 }
             }
-            place[i] = add({SolidOp::leaf, to_leaf});
+            new_index[i] = add({SolidOp::leaf, to_leaf});
         } else if (side(n.b) != Side::straddling) {  // and does not decide it: a is left
-            place[i] = place[std::size_t(n.a)];
+            new_index[i] = new_index[std::size_t(n.a)];
         } else if (side(n.a) != Side::straddling && n.op != SolidOp::subtract) {
-            place[i] = place[std::size_t(n.b)];
+            new_index[i] = new_index[std::size_t(n.b)];
         } else {
-            place[i] = add({n.op, place[std::size_t(n.a)], place[std::size_t(n.b)]});
+            new_index[i] = add({n.op, new_index[std::size_t(n.a)], new_index[std::size_t(n.b)]});
         }
     }
-    to.nodes.resize(std::size_t(place.back()) + 1);
+    to.nodes.resize(std::size_t(new_index.back()) + 1);
     return to;
 }
 

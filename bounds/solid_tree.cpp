@@ -119,7 +119,7 @@ SingularPlacement::SingularPlacement(int of_line)
     : std::domain_error("expected placements that leave a volume, got scales that multiply to 0 or infinity"),
       line(of_line) {}
 
-double SolidTree::least_radius() const {
+double SolidTree::min_radius() const {
     double least = infinity;
     for (const SolidLeaf& leaf : leaves)
         for (const HalfSpace& h : leaf.density.half_spaces)
@@ -152,7 +152,7 @@ bool SolidTree::contains(Vec3 x) const {
 }
 
 SolidTree flatten(const Solid& solid) {
-    if (solid.node().leaves > most_half_spaces) throw TooManyHalfSpaces(solid.node().leaves);
+    if (solid.node().leaves > max_half_spaces) throw TooManyHalfSpaces(solid.node().leaves);
     return Flattening().run(solid.node());
 }
 

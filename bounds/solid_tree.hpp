@@ -29,7 +29,7 @@ struct SolidTree {
 
     int root() const { return int(nodes.size()) - 1; }
     /// The least radius > 0; 0 if all is sharp.
-    double least_radius() const;
+    double min_radius() const;
     /// Is there a leaf that is no density?
     bool has_field() const;
     /// The definition: [Lobb figure 4, PointInObject].

@@ -6,7 +6,7 @@ namespace deburr {
 namespace {
 
 // Of parts with fewer half-spaces the planes themselves are as quick to look at.
-constexpr int fewest_half_spaces = 4;
+constexpr int min_half_spaces = 4;
 
 bool is_intersection(Op op) { return op == Op::product || op == Op::conjunction; }
 
@@ -49,14 +49,14 @@ void find_supports(DensityTree& tree) {
                 half_spaces[i] = half_spaces[std::size_t(n.a)];
                 continue;
             }
-            case Op::ball_share: all[i] = take(n.a); continue;
+            case Op::convolution: all[i] = take(n.a); continue;
             case Op::product:
-            case Op::conjunction: all[i] = both(take(n.a), take(n.b)); break;
-            default: all[i] = either(take(n.a), take(n.b)); break;  // a − b may be negative where b is
+            case Op::conjunction: all[i] = intersect(take(n.a), take(n.b)); break;
+            default: all[i] = unite(take(n.a), take(n.b)); break;  // a − b may be negative where b is
         }
         if (n.op == Op::constant) continue;
         half_spaces[i] = half_spaces[std::size_t(n.a)] + half_spaces[std::size_t(n.b)];
-        if (!whole[i] || half_spaces[i] < fewest_half_spaces) continue;
+        if (!whole[i] || half_spaces[i] < min_half_spaces) continue;
         const Box box = all[i].box();
         all[i] = {box, {}};
         if (!bounded_somewhere(box)) continue;

@@ -12,11 +12,11 @@ std::uint64_t all(bool value) { return value ? ~std::uint64_t(0) : 0; }
 
 }  // namespace
 
-void Truth::set(const BooleanFunction& function, const std::vector<Literal>& half_spaces, int count) {
+void TruthTable::set(const BooleanFunction& function, const std::vector<Literal>& half_spaces, int count) {
     const auto& nodes = function.nodes;
     count_ = count;
     state_ = 0;
-    if (count <= most_tabulated) {
+    if (count <= max_tabulated) {
         const std::size_t many = std::size_t(1) << std::max(0, count - in_a_word);
         words_.resize(nodes.size() * many);
         for (std::size_t i = 0; i < nodes.size(); ++i) {
@@ -68,7 +68,7 @@ void Truth::set(const BooleanFunction& function, const std::vector<Literal>& hal
     }
 }
 
-bool Truth::of_operands(std::size_t node) const {
+bool TruthTable::of_operands(std::size_t node) const {
     const auto& n = nodes_[node];
     const auto at = [&](int child) -> bool { return truth_[std::size_t(child)]; };
     switch (n.op) {
@@ -79,8 +79,8 @@ bool Truth::of_operands(std::size_t node) const {
     }
 }
 
-void Truth::flip(int variable) {
-    if (count_ <= most_tabulated) {
+void TruthTable::flip(int variable) {
+    if (count_ <= max_tabulated) {
         state_ ^= std::uint64_t(1) << variable;
         return;
     }
@@ -95,8 +95,8 @@ void Truth::flip(int variable) {
     }
 }
 
-bool Truth::depends_on(int variable) const {
-    if (count_ > most_tabulated) return true;
+bool TruthTable::depends_on(int variable) const {
+    if (count_ > max_tabulated) return true;
     const std::size_t many = words_.size() - table_;
     for (std::size_t w = 0; w < many; ++w) {
         const std::uint64_t here = words_[table_ + w];

@@ -26,18 +26,18 @@ struct Literal {
     bool same = false;
 };
 
-class Truth {
+class TruthTable {
 public:
-    static constexpr int most_tabulated = 10;
+    static constexpr int max_tabulated = 10;
 
     /// Variables 0 … count − 1, all false.
     void set(const BooleanFunction& function, const std::vector<Literal>& half_spaces, int count);
 
     bool value() const {
-        return count_ <= most_tabulated ? words_[table_ + (state_ >> 6)] >> (state_ & 63) & 1 : bool(truth_.back());
+        return count_ <= max_tabulated ? words_[table_ + (state_ >> 6)] >> (state_ & 63) & 1 : bool(truth_.back());
     }
     bool operator[](int variable) const {
-        return count_ <= most_tabulated ? state_ >> variable & 1 : bool(bits_[std::size_t(variable)]);
+        return count_ <= max_tabulated ? state_ >> variable & 1 : bool(bits_[std::size_t(variable)]);
     }
     void flip(int variable);
     void put(int variable, bool value) {

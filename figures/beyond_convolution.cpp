@@ -21,7 +21,7 @@ std::vector<Vec3> palette() {
     return all;
 }
 
-double distance_between(const OffsetField& other, Vec3 x, double reach) {
+double distance_between(const DistanceField& other, Vec3 x, double reach) {
     const double d = std::abs(other.distance_along_normal(x, reach));
     return std::isfinite(d) ? d : std::abs(other.at(x).distance);
 }
@@ -36,25 +36,25 @@ void make(FigureContext& context) {
         const Box box = bounding_box(flatten(solid));
         return 0.5 * (box.lo + box.hi);
     };
-    const SolidTree truth = flatten(second),
+    const SolidTree exact = flatten(second),
                     quasi = flatten(first.transformed({Mat3(1.0), middle(second) - middle(first)}));
-    const Box box = polygonization_box(truth);
-    const double r = truth.leaves.at(0).density.half_spaces.at(0).radius;
-    Mesh mesh = triage(truth, box, {.tolerance = 0.02 * r});
+    const Box box = polygonization_box(exact);
+    const double r = exact.leaves.at(0).density.half_spaces.at(0).radius;
+    Mesh mesh = triage(exact, box, {.tolerance = 0.02 * r});
     const Topology shape = topology(mesh);
 
-    const OffsetField at_quasi(quasi, box, 2 * r), at_truth(truth, box, 2 * r);
+    const DistanceField at_quasi(quasi, box, 2 * r), at_exact(exact, box, 2 * r);
     double worst = 0, mean = 0, area = 0, off = 0;
     std::vector<double> distances;
     for (const Triangle& t : mesh.triangles) {
         const auto corner = [&](int k) { return mesh.positions[std::size_t(t.vertex[std::size_t(k)])]; };
-        const Vec3 centre = (corner(0) + corner(1) + corner(2)) / 3.0;
-        const double size = 0.5 * glm::length(mesh.area_vector(t)), d = distance_between(at_quasi, centre, 2 * r);
+        const Vec3 center = (corner(0) + corner(1) + corner(2)) / 3.0;
+        const double size = 0.5 * glm::length(mesh.area_vector(t)), d = distance_between(at_quasi, center, 2 * r);
         distances.push_back(d);
         worst = std::max(worst, d);
         mean += size * d;
         area += size;
-        off = std::max(off, std::abs(at_truth.at(centre).distance));
+        off = std::max(off, std::abs(at_exact.at(center).distance));
     }
     for (std::size_t i = 0; i < mesh.triangles.size(); ++i)
         mesh.triangles[i].material = std::min(shades - 1, int(shades * distances[i] / worst));

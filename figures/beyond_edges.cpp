@@ -8,7 +8,7 @@ namespace {
 
 struct Summary {
     double towards_180 = 0;             // quasi – truth
-    double most_fillet = 0;             // truth – fillet, from 60° on
+    double max_fillet = 0;              // truth – fillet, from 60° on
     double nearest = infinity, at = 0;  // quasi – truth, and the angle in degrees
 };
 
@@ -27,13 +27,13 @@ Plot over_angles(Summary& summary) {
     Curve qf{.title = "quasi-convolution – fillet", .color = house::grey, .dash = "."};
     for (double degrees = 12; degrees < 180; degrees += degrees < 172 ? 2 : 0.5) {
         const EdgeDistances a = distances(RoundedEdge(glm::radians(degrees)));
-        qt.points.push_back({degrees, a.quasi_truth});
-        tf.points.push_back({degrees, a.truth_fillet});
+        qt.points.push_back({degrees, a.quasi_exact});
+        tf.points.push_back({degrees, a.exact_fillet});
         qf.points.push_back({degrees, a.quasi_fillet});
-        summary.towards_180 = a.quasi_truth;
-        if (degrees >= 60) summary.most_fillet = std::max(summary.most_fillet, a.truth_fillet);
-        if (a.quasi_truth < summary.nearest) {
-            summary.nearest = a.quasi_truth;
+        summary.towards_180 = a.quasi_exact;
+        if (degrees >= 60) summary.max_fillet = std::max(summary.max_fillet, a.exact_fillet);
+        if (a.quasi_exact < summary.nearest) {
+            summary.nearest = a.quasi_exact;
             summary.at = degrees;
         }
     }
@@ -48,7 +48,7 @@ void make(FigureContext& context) {
         fmt::format("Quasi-convolution is nearest to the truth at about {:g}°: {:.3f} r. Towards 180° it lies {:.2f} r "
                     "inside. The true "
                     "convolution is never more than {:.3f} r from the fillet from 60° on.",
-                    found.at, found.nearest, found.towards_180, found.most_fillet));
+                    found.at, found.nearest, found.towards_180, found.max_fillet));
 }
 
 const RegisteredFigure registered{{

@@ -70,7 +70,7 @@ void make(FigureContext& context) {
     // (a) The slope points to the root already.
     {
         const SegmentEnd end{0.45, -0.5};
-        const double printed = lobb_turning_distance(end, bounds), exact = least_turning_distance(end, bounds);
+        const double printed = lobb_turning_distance(end, bounds), exact = min_turning_distance(end, bounds);
         const Vec2 y{-0.15, 0.6};
         Plot plot = panel("(a) towards the root", {0, 2.2}, y);
         Motion m = quickest(end.f, end.slope, bounds.G);
@@ -87,7 +87,7 @@ void make(FigureContext& context) {
     // (b) The slope points away: the turn-around.
     {
         const SegmentEnd end{0.12, 0.7};
-        const double printed = lobb_turning_distance(end, bounds), exact = least_turning_distance(end, bounds);
+        const double printed = lobb_turning_distance(end, bounds), exact = min_turning_distance(end, bounds);
         const Vec2 y{-0.15, 0.6};
         Plot plot = panel("(b) away from the root", {0, 3}, y);
         // Eq. 6 takes the density to come back to its value with the slope negated.
@@ -99,7 +99,7 @@ void make(FigureContext& context) {
             {.points = {{0, end.f}, {turn_around, end.f}}, .color = house::grey, .width = 1.2, .dash = "."});
         plot.labels.push_back({.at = {0.5 * turn_around, end.f - 0.035},
                                .text = "turn-around",
-                               .align = Label::Align::centre,
+                               .align = Label::Align::center,
                                .color = house::grey});
         plot.curves.push_back({.points = m.points, .color = house::blue, .width = 2.6});
         plot.curves.push_back({.points = back.points, .color = house::ink, .width = 1.4, .dash = "-"});
@@ -115,7 +115,7 @@ void make(FigureContext& context) {
     const SegmentEnd end{1e-12, 1};
     const bool printed_accepts = at_most_one_root(end, end, bounds, length, Criterion::lobb);
     const bool exact_accepts = at_most_one_root(end, end, bounds, length, Criterion::exact);
-    const double printed = 2 * lobb_turning_distance(end, bounds), exact = 2 * least_turning_distance(end, bounds);
+    const double printed = 2 * lobb_turning_distance(end, bounds), exact = 2 * min_turning_distance(end, bounds);
     int roots = 0;
     {
         const double w = (length / 2 - 1) / 2;

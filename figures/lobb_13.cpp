@@ -12,7 +12,7 @@ void make(FigureContext& context) {
     std::string volumes;
     for (std::size_t i = 1; i < scene.solids.size(); ++i) {
         const SolidTree tree = flatten(scene.solids[i]);
-        const double radius = tree.least_radius();
+        const double radius = tree.min_radius();
         const double v = volume(triage(tree, polygonization_box(tree), {.tolerance = 0.01 * radius}));
         volumes += fmt::format("{}{:.3f} (r = {:g})", i > 1 ? ", " : "", v, radius);
     }

@@ -23,19 +23,19 @@ Plot section(double degrees) {
     const double along = 1.25 * edge.quasi_reach(), width = along * s, bottom = edge.plane(width);
     Plot plot = drawing(400, 430);
     // Square, and the section in its middle.
-    const double centre_y = -edge.truth_reach() / std::cos(half);
-    const double lowest = std::min(bottom, centre_y), size = std::max(2 * width, 0.12 - lowest) * 1.06;
+    const double center_y = -edge.exact_reach() / std::cos(half);
+    const double lowest = std::min(bottom, center_y), size = std::max(2 * width, 0.12 - lowest) * 1.06;
     plot.x_range = Vec2(-size / 2, size / 2);
     plot.y_range = Vec2(0.5 * (lowest + 0.1) - size / 2, 0.5 * (lowest + 0.1) + size / 2);
 
     // The fillet's shaded region ends where it touches the planes.
-    const double touch = edge.truth_reach() * s;
-    const Vec2 centre{0, centre_y}, left{-touch, edge.plane(touch)}, right{touch, edge.plane(touch)};
+    const double touch = edge.exact_reach() * s;
+    const Vec2 center{0, center_y}, left{-touch, edge.plane(touch)}, right{touch, edge.plane(touch)};
     std::vector<Vec2> sector = curve([&](double x) { return edge.fillet(x); }, touch);
-    sector.push_back(centre);
+    sector.push_back(center);
     sector.push_back(sector.front());
     plot.curves.push_back({.points = sector, .color = house::shade, .kind = Curve::Kind::fill, .width = 0});
-    plot.curves.push_back({.points = {left, centre, right}, .color = house::grey, .width = 1.1, .dash = "."});
+    plot.curves.push_back({.points = {left, center, right}, .color = house::grey, .width = 1.1, .dash = "."});
     plot.curves.push_back({.points = {{-width, bottom}, {0, 0}, {width, bottom}}, .color = house::ink, .width = 1.1});
     plot.curves.push_back(
         {.points = curve([&](double x) { return edge.quasi(x); }, width), .color = house::blue, .width = 3.2});
@@ -43,7 +43,7 @@ Plot section(double degrees) {
                            .color = house::ink,
                            .width = 1.8,
                            .dash = "."});
-    plot.curves.push_back({.points = curve([&](double x) { return edge.truth(x); }, width),
+    plot.curves.push_back({.points = curve([&](double x) { return edge.exact(x); }, width),
                            .color = house::red,
                            .width = 2,
                            .dash = "-"});
@@ -59,12 +59,12 @@ Plot section(double degrees) {
         const auto name = [&](double y, const char* text, const char* color) {
             plot.labels.push_back({.at = {0, y - 0.035 * size},
                                    .text = text,
-                                   .align = Label::Align::centre,
+                                   .align = Label::Align::center,
                                    .color = color,
                                    .size = 9.5});
         };
         name(edge.quasi(0), "quasi", house::blue);
-        name(edge.truth(0), "truth", house::red);
+        name(edge.exact(0), "truth", house::red);
         name(edge.fillet(0), "fillet", house::ink);
     }
     return plot;
@@ -81,11 +81,11 @@ void make(FigureContext& context) {
         const EdgeDistances a = distances(edge);
         found.push_back(a);
         context.plot(section(degrees),
-                     fmt::format("{:g}°: quasi-convolution and truth {:.3f} r apart", degrees, a.quasi_truth));
+                     fmt::format("{:g}°: quasi-convolution and truth {:.3f} r apart", degrees, a.quasi_exact));
         const auto r = [](double length) { return fmt::format("{:.4f} r", length); };
-        table.rows.push_back({fmt::format("{:g}°", degrees), r(a.quasi_truth), r(a.truth_fillet), r(a.quasi_fillet),
-                              r(-edge.quasi(0)), r(-edge.truth(0)), r(-edge.fillet(0)), r(edge.quasi_reach()),
-                              r(edge.truth_reach())});
+        table.rows.push_back({fmt::format("{:g}°", degrees), r(a.quasi_exact), r(a.exact_fillet), r(a.quasi_fillet),
+                              r(-edge.quasi(0)), r(-edge.exact(0)), r(-edge.fillet(0)), r(edge.quasi_reach()),
+                              r(edge.exact_reach())});
     }
     context.table(table);
     context.measured(
@@ -95,9 +95,9 @@ void make(FigureContext& context) {
                     "then the fillet. At 135° "
                     "quasi-convolution leaves the planes {:.2f} r from the edge, the others at 1 r; at 179.9° it is "
                     "{:.3f} r inside.",
-                    std::max({found[0].quasi_truth, found[0].truth_fillet, found[0].quasi_fillet}),
-                    found[0].truth_fillet, found[2].truth_fillet, found[1].truth_fillet,
-                    RoundedEdge(radians(135)).quasi_reach(), distances(RoundedEdge(radians(179.9))).quasi_truth));
+                    std::max({found[0].quasi_exact, found[0].exact_fillet, found[0].quasi_fillet}),
+                    found[0].exact_fillet, found[2].exact_fillet, found[1].exact_fillet,
+                    RoundedEdge(radians(135)).quasi_reach(), distances(RoundedEdge(radians(179.9))).quasi_exact));
 }
 
 const RegisteredFigure registered{{

@@ -35,10 +35,10 @@ double triangle_in_disc(Vec2 a, Vec2 b, double r) {
 
 }  // namespace
 
-double disc_share(const std::vector<Vec2>& polygon, Vec2 centre, double radius) {
+double disc_share(const std::vector<Vec2>& polygon, Vec2 center, double radius) {
     double area = 0;
     for (std::size_t i = 0; i < polygon.size(); ++i)
-        area += triangle_in_disc(polygon[i] - centre, polygon[(i + 1) % polygon.size()] - centre, radius);
+        area += triangle_in_disc(polygon[i] - center, polygon[(i + 1) % polygon.size()] - center, radius);
     return area / (std::numbers::pi * radius * radius);
 }
 

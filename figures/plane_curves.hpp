@@ -18,7 +18,7 @@ std::vector<std::vector<Vec2>> level_lines(const std::function<double(Vec2)>& f,
 
 /// The share, 0 to 1, of the disc's area that lies in a simple polygon (counter-clockwise): in the
 /// plane the true convolution of the polygon with a disc. Exact but for rounding.
-double disc_share(const std::vector<Vec2>& polygon, Vec2 centre, double radius);
+double disc_share(const std::vector<Vec2>& polygon, Vec2 center, double radius);
 
 /// The function over the rectangle as a field for Plot.
 PlotField sampled(const std::function<double(Vec2)>& f, Vec2 lo, Vec2 hi, int columns, int rows);

@@ -97,11 +97,11 @@ const char* word_of(Label::Align align) {
 
 }  // namespace
 
-std::vector<Vec2> circle(Vec2 centre, double radius, int steps) {
+std::vector<Vec2> circle(Vec2 center, double radius, int steps) {
     std::vector<Vec2> points;
     for (int i = 0; i <= steps; ++i) {
         const double angle = 2 * std::numbers::pi * (i % steps) / steps;
-        points.push_back(centre + radius * Vec2(std::cos(angle), std::sin(angle)));
+        points.push_back(center + radius * Vec2(std::cos(angle), std::sin(angle)));
     }
     return points;
 }

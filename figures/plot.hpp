@@ -38,10 +38,10 @@ struct Curve {
 };
 
 /// Points around a circle, closed.
-std::vector<Vec2> circle(Vec2 centre, double radius, int steps = 128);
+std::vector<Vec2> circle(Vec2 center, double radius, int steps = 128);
 
 struct Label {
-    enum class Align { left, centre, right };
+    enum class Align { left, center, right };
     Vec2 at{0.0};
     std::string text = {};
     Align align = Align::left;

@@ -20,17 +20,17 @@ Scene bounded_part(Scene scene) {
     return scene;
 }
 
-Film wire_picture(const FigureContext& context, const Scene& scene, const Mesh& mesh, const WirePicture& look) {
+Film wire_picture(const FigureContext& context, const Scene& scene, const Mesh& mesh, const WirePicture& appearance) {
     const int shrink = context.draft() ? 2 : 1;
-    const int width = (look.width ? look.width : scene.width) / shrink,
-              height = (look.height ? look.height : scene.height) / shrink;
+    const int width = (appearance.width ? appearance.width : scene.width) / shrink,
+              height = (appearance.height ? appearance.height : scene.height) / shrink;
     Film film(width, height, {0, 0, width, height});
     for (Pixel& p : film.pixels) p.color = Vec3(1.0);
     const MeshTracer tracer(mesh);
     draw_strokes(film,
-                 wire_frame(mesh, mesh_edges(mesh, look.edges), tracer, PinholeCamera(scene.camera, width, height),
-                            film.window, look.mode),
-                 Vec3(0.02), look.line_width);
+                 wire_frame(mesh, mesh_edges(mesh, appearance.edges), tracer,
+                            PinholeCamera(scene.camera, width, height), film.window, appearance.mode),
+                 Vec3(0.02), appearance.line_width);
     return film;
 }
 

@@ -17,7 +17,8 @@ struct WirePicture {
 };
 
 /// Black lines on white paper. `mesh` is that of a scene, or of some of its solids.
-Film wire_picture(const FigureContext& context, const Scene& scene, const Mesh& mesh, const WirePicture& look = {});
+Film wire_picture(const FigureContext& context, const Scene& scene, const Mesh& mesh,
+                  const WirePicture& appearance = {});
 
 /// The whole scene's mesh, made with these settings, under the scene's own light.
 Film gouraud_picture(const FigureContext& context, const Scene& scene, MeshSettings settings,

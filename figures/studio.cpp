@@ -77,25 +77,26 @@ Camera framing(const Box& box, Vec3 direction, int width, int height, double fov
 }
 
 Film mesh_picture(const FigureContext& context, const Mesh& mesh, const std::vector<Vec3>& colors, const Camera& camera,
-                  const MeshLook& look) {
+                  const MeshAppearance& appearance) {
     const int shrink = context.draft() ? 2 : 1;
-    const int width = look.width / shrink, height = look.height / shrink;
-    const MeshTracer tracer(look.shading == Shading::smooth ? mesh : flat_shaded(mesh));
+    const int width = appearance.width / shrink, height = appearance.height / shrink;
+    const MeshTracer tracer(appearance.shading == Shading::smooth ? mesh : flat_shaded(mesh));
     Film film;
-    if (look.shading == Shading::none) {
+    if (appearance.shading == Shading::none) {
         film = Film(width, height, {0, 0, width, height});
         for (Pixel& p : film.pixels) p.color = Vec3(1.0);
     } else {
-        const Scene scene = studio_scene(colors, camera, look.gloss);
-        film = context.render(scene, tracer, {.width = look.width, .height = look.height, .spp = look.spp});
+        const Scene scene = studio_scene(colors, camera, appearance.gloss);
+        film = context.render(scene, tracer,
+                              {.width = appearance.width, .height = appearance.height, .spp = appearance.spp});
         // The room is dimmer than paper.
         for (Pixel& p : film.pixels) p.color += (1 - p.alpha) * (Vec3(1.0) - scene.background.color);
     }
-    if (look.lines)
+    if (appearance.lines)
         draw_strokes(film,
-                     wire_frame(mesh, mesh_edges(mesh, look.edges), tracer, PinholeCamera(camera, width, height),
-                                film.window, look.mode),
-                     look.line_color, look.line_width);
+                     wire_frame(mesh, mesh_edges(mesh, appearance.edges), tracer, PinholeCamera(camera, width, height),
+                                film.window, appearance.mode),
+                     appearance.line_color, appearance.line_width);
     return film;
 }
 

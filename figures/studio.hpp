@@ -9,7 +9,7 @@ namespace deburr {
 
 enum class Shading { none, flat, smooth };  // none: paper-white
 
-struct MeshLook {
+struct MeshAppearance {
     int width = 380, height = 380;
     Shading shading = Shading::smooth;
     bool lines = false;
@@ -29,7 +29,7 @@ Box box_of(const Mesh& mesh);
 
 /// `colors`: by the triangles' material; linear.
 Film mesh_picture(const FigureContext& context, const Mesh& mesh, const std::vector<Vec3>& colors, const Camera& camera,
-                  const MeshLook& look);
+                  const MeshAppearance& appearance);
 
 /// Linear colours for classes of cells and kinds of polygons.
 namespace studio {

@@ -204,20 +204,20 @@ void two_half_spaces(FigureContext& context) {
     a.curves.push_back(cell.dots(loop, house::red));
 
     // The general method: a fan about the centroid, moved along the gradient onto the isosurface.
-    Vec3 centre(0.0);
-    for (const Vec3& x : loop) centre += x / double(loop.size());
+    Vec3 center(0.0);
+    for (const Vec3& x : loop) center += x / double(loop.size());
     const LocalDensity local(cell.density());
-    const Vec3 way = glm::normalize(local.gradient_at(centre).gradient);
-    const double here = local.at(centre) - 0.5, reach = here > 0 ? -0.5 : 0.5;
-    const Vec3 there = centre + reach * way;
-    centre = root_between(local, centre, here, there, local.at(there) - 0.5);
+    const Vec3 direction = glm::normalize(local.gradient_at(center).gradient);
+    const double here = local.at(center) - 0.5, reach = here > 0 ? -0.5 : 0.5;
+    const Vec3 there = center + reach * direction;
+    center = root_between(local, center, here, there, local.at(there) - 0.5);
     Plot b = cell.plot(width, height);
     for (std::size_t k = 0; k < loop.size(); ++k) {
-        const std::vector<Vec3> triangle = {loop[k], loop[(k + 1) % loop.size()], centre};
+        const std::vector<Vec3> triangle = {loop[k], loop[(k + 1) % loop.size()], center};
         b.curves.push_back(cell.polygon(triangle, k % 2 ? "#c9dcec" : "#b3cde3", 0.9));
         b.curves.push_back(cell.line(closed(triangle), house::blue, 1.6));
     }
-    b.curves.push_back(cell.dots({centre}, house::green));
+    b.curves.push_back(cell.dots({center}, house::green));
     Plot c = cell.plot(width, height);
     add_faces(c, cell, cell.faces());
     context.plot(a, "(a) the cell and the isosurface's outline");

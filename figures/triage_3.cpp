@@ -19,10 +19,10 @@ double smooth(Vec2 x) { return profile(x.x / radius) * profile(x.y / radius); }
 Film picture(const FigureContext& context, const std::function<double(Vec2)>& f,
              const std::vector<std::vector<Vec2>>& level) {
     const Mesh mesh = height_field(f, lo, hi, 360, 360, height);
-    MeshLook look{.width = 440, .height = 360, .gloss = 1};
+    MeshAppearance appearance{.width = 440, .height = 360, .gloss = 1};
     const Box box{{lo.x, 0, -hi.y}, {hi.x, height, -lo.y}};
-    const Camera camera = framing(box, {1.05, 1.0, 0.62}, look.width, look.height);
-    Film film = mesh_picture(context, mesh, {{0.55, 0.66, 0.80}, {0.30, 0.38, 0.50}}, camera, look);
+    const Camera camera = framing(box, {1.05, 1.0, 0.62}, appearance.width, appearance.height);
+    Film film = mesh_picture(context, mesh, {{0.55, 0.66, 0.80}, {0.30, 0.38, 0.50}}, camera, appearance);
     const MeshTracer tracer(mesh);
     const int width = film.width, tall = film.height;
     const PinholeCamera pinhole(camera, width, tall);

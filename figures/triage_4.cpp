@@ -53,7 +53,7 @@ void make(FigureContext& context) {
 
     const Camera camera = framing(bounding_box(solid), {0.55, 0.75, 1}, 380, 380);
     const Camera far = framing(inflated(support_of(solid), 0.12), {0.55, 0.75, 1}, 380, 380);
-    MeshLook cells{.shading = Shading::flat, .lines = true, .gloss = 1};
+    MeshAppearance cells{.shading = Shading::flat, .lines = true, .gloss = 1};
     std::size_t low, high, unclassified;
     const Mesh low_cells = cells_of(subdivision, density, {DensityClass::low}, 0.3, low);
     const Mesh high_cells = cells_of(subdivision, density, {DensityClass::high, DensityClass::one}, 0.3, high);
@@ -70,20 +70,21 @@ void make(FigureContext& context) {
     const Mesh mesh = surface(subspace, solid, &origins);
     const Mesh tree = part_of(mesh, origins, true), curved = part_of(mesh, origins, false);
     const auto all = [](const Scene& s, Vec3 color) { return std::vector<Vec3>(s.materials.size(), color); };
-    MeshLook look;
-    look.shading = Shading::flat;
-    look.lines = true;
-    context.picture(mesh_picture(context, tree, all(scene, studio::tree), camera, look), "(d) tree polygons");
-    context.picture(mesh_picture(context, curved, all(scene, studio::subspace), camera, look), "(e) subspace polygons");
-    look.lines = false;
-    context.picture(mesh_picture(context, mesh, all(scene, studio::high), camera, look), "(f) flat shaded");
-    look.shading = Shading::none;
-    look.lines = true;
-    look.mode = WireMode::front;
-    context.picture(mesh_picture(context, mesh, all(scene, studio::high), camera, look), "(g) wire frame");
-    look.shading = Shading::smooth;
-    look.lines = false;
-    context.picture(mesh_picture(context, mesh, all(scene, studio::high), camera, look), "(h) Gouraud shaded");
+    MeshAppearance appearance;
+    appearance.shading = Shading::flat;
+    appearance.lines = true;
+    context.picture(mesh_picture(context, tree, all(scene, studio::tree), camera, appearance), "(d) tree polygons");
+    context.picture(mesh_picture(context, curved, all(scene, studio::subspace), camera, appearance),
+                    "(e) subspace polygons");
+    appearance.lines = false;
+    context.picture(mesh_picture(context, mesh, all(scene, studio::high), camera, appearance), "(f) flat shaded");
+    appearance.shading = Shading::none;
+    appearance.lines = true;
+    appearance.mode = WireMode::front;
+    context.picture(mesh_picture(context, mesh, all(scene, studio::high), camera, appearance), "(g) wire frame");
+    appearance.shading = Shading::smooth;
+    appearance.lines = false;
+    context.picture(mesh_picture(context, mesh, all(scene, studio::high), camera, appearance), "(h) Gouraud shaded");
     context.measured(
         fmt::format("{} low, {} high and {} unclassified cells; {} triangles on planes, {} in unclassified cells.", low,
                     high, unclassified, tree.triangles.size(), curved.triangles.size()));

@@ -18,15 +18,15 @@ void make(FigureContext& context) {
     plot.field = field;
     const auto plane = [&](double x, const char* name, const char* dash) {
         plot.curves.push_back({.points = {{x, -0.8}, {x, 0.8}}, .color = house::ink, .dash = dash});
-        plot.labels.push_back({.at = {x, 0.92}, .text = name, .align = Label::Align::centre, .size = 13});
+        plot.labels.push_back({.at = {x, 0.92}, .text = name, .align = Label::Align::center, .size = 13});
     };
     plane(-r, "{/:Italic h}_{−{/:Italic r}}", "-");
     plane(0, "{/:Italic h}", "");
     plane(r, "{/:Italic h}_{/:Italic r}", "-");
     const auto region = [&](double x, const std::string& name, const std::string& range, const char* color) {
         plot.labels.push_back(
-            {.at = {x, 0.1}, .text = name, .align = Label::Align::centre, .color = color, .size = 13});
-        plot.labels.push_back({.at = {x, -0.15}, .text = range, .align = Label::Align::centre, .color = color});
+            {.at = {x, 0.1}, .text = name, .align = Label::Align::center, .color = color, .size = 13});
+        plot.labels.push_back({.at = {x, -0.15}, .text = range, .align = Label::Align::center, .color = color});
     };
     region(-1.6, "one", fmt::format("{:g}", profile(-1.6)), "#ffffff");
     region(-0.5, "high", fmt::format("[{:g}, {:g}]", profile(0), profile(-1)), "#ffffff");

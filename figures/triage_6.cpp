@@ -80,10 +80,10 @@ void make(FigureContext& context) {
             if (inside == 0) continue;
             Vec2 at = middle / double(inside);
             if (c == DensityClass::unclassified) at -= Vec2(0.14, 0.1);  // off the curve
-            plot.labels.push_back({.at = at, .text = name_of(c), .align = Label::Align::centre, .size = 9.5});
+            plot.labels.push_back({.at = at, .text = name_of(c), .align = Label::Align::center, .size = 9.5});
             if (i == 2 && j == 1)
                 plot.labels.push_back(
-                    {.at = at + Vec2(0, 0.2), .text = "{/:Italic R}_1", .align = Label::Align::centre, .size = 12});
+                    {.at = at + Vec2(0, 0.2), .text = "{/:Italic R}_1", .align = Label::Align::center, .size = 12});
         }
     for (std::size_t i = 1; i < 4; ++i) {
         const char* dash = i == 2 ? "" : "-";

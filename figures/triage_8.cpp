@@ -78,17 +78,17 @@ std::vector<Vec2> front_of(const CellComplex& complex, int cell) {
 
 // The tree, leaves from left to right, in class colours.
 Plot tree_of(const Subdivision& s, const std::vector<DensityClass>& classes) {
-    std::vector<std::vector<int>> children(s.places.size());
-    for (std::size_t p = 1; p < s.places.size(); ++p) children[std::size_t(s.places[p].parent)].push_back(int(p));
-    std::vector<int> cell_of(s.places.size(), -1);
-    for (std::size_t c = 0; c < s.place_of.size(); ++c) cell_of[std::size_t(s.place_of[c])] = int(c);
+    std::vector<std::vector<int>> children(s.nodes.size());
+    for (std::size_t p = 1; p < s.nodes.size(); ++p) children[std::size_t(s.nodes[p].parent)].push_back(int(p));
+    std::vector<int> cell_of(s.nodes.size(), -1);
+    for (std::size_t c = 0; c < s.node_of.size(); ++c) cell_of[std::size_t(s.node_of[c])] = int(c);
     Plot plot = panel();
     plot.equal_units = false;
-    double column = 0, deepest = 0;
+    double column = 0, max_depth = 0;
     std::vector<Vec2> leaves;
     std::vector<DensityClass> of_leaf;
     const std::function<Vec2(int, double)> place = [&](int p, double depth) -> Vec2 {
-        deepest = std::max(deepest, depth);
+        max_depth = std::max(max_depth, depth);
         if (children[std::size_t(p)].empty()) {
             leaves.push_back({column++, -depth});
             of_leaf.push_back(classes[std::size_t(cell_of[std::size_t(p)])]);
@@ -106,11 +106,11 @@ Plot tree_of(const Subdivision& s, const std::vector<DensityClass>& classes) {
     for (std::size_t k = 0; k < leaves.size(); ++k) {
         Curve dot{.points = {}, .color = color_of(of_leaf[k]), .kind = Curve::Kind::fill, .width = 0.7};
         for (const Vec2 p : circle({0, 0}, 1, 24))
-            dot.points.push_back(leaves[k] + p * Vec2(0.42, 0.42 * deepest / double(leaves.size()) * 1.2));
+            dot.points.push_back(leaves[k] + p * Vec2(0.42, 0.42 * max_depth / double(leaves.size()) * 1.2));
         plot.curves.push_back(dot);
     }
     plot.x_range = Vec2(-1, column);
-    plot.y_range = Vec2(-deepest - 0.7, 0.5);
+    plot.y_range = Vec2(-max_depth - 0.7, 0.5);
     return plot;
 }
 
@@ -137,9 +137,9 @@ void make(FigureContext& context) {
     Plot b = panel();
     outline(b, whole, house::ink, 2);
     outline(b, hole, house::ink, 2, "-");
-    b.labels.push_back({.at = {2, 2.55}, .text = "A", .align = Label::Align::centre, .size = 14});
-    b.labels.push_back({.at = {2.05, 1.55}, .text = "B", .align = Label::Align::centre, .size = 14});
-    b.labels.push_back({.at = {2, -0.5}, .text = fmt::format("A − B, r = {:g}", r), .align = Label::Align::centre});
+    b.labels.push_back({.at = {2, 2.55}, .text = "A", .align = Label::Align::center, .size = 14});
+    b.labels.push_back({.at = {2.05, 1.55}, .text = "B", .align = Label::Align::center, .size = 14});
+    b.labels.push_back({.at = {2, -0.5}, .text = fmt::format("A − B, r = {:g}", r), .align = Label::Align::center});
     const auto field = [&](const Block& block) {
         Plot plot = panel();
         const SolidTree one = flatten(Solid::rounded(r, block.density()));

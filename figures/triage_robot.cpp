@@ -11,13 +11,13 @@ namespace {
 void make(FigureContext& context) {
     // Each frame's radius is this many times the last one's.
     constexpr double first = 0.02, factor = 1.15;
-    constexpr int most_frames = 60;
+    constexpr int max_frames = 60;
     const FigurePictureSettings size{.width = 240, .height = 300, .spp = 16};
     std::vector<Film> frames;
     std::vector<double> radii;
     std::size_t triangles = 0, most = 0, open = 0;
     double vanished = 0;
-    for (int i = 0; i < most_frames && vanished == 0; ++i) {
+    for (int i = 0; i < max_frames && vanished == 0; ++i) {
         const double r = first * std::pow(factor, i);
         const Scene scene = context.scene("melting_robot.lua", {{"r", fmt::format("{:.6f}", r)}});
         const SceneMesh mesh = mesh_scene(scene, {.reach = rendering_reach});

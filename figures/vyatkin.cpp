@@ -53,7 +53,7 @@ Film cloud(const FigureContext& context, const Scene& scene, const Mesh& mesh, i
         const Vec3 start =
             x + 1e-3 * glm::length(eye - x) * glm::normalize(glm::normalize(normal[v]) + glm::normalize(eye - x));
         TraceCounters unused;
-        if (tracer.occluded({start, glm::normalize(eye - start)}, glm::length(eye - start), unused)) continue;
+        if (tracer.any_hit({start, glm::normalize(eye - start)}, glm::length(eye - start), unused)) continue;
         const Vec2 p(camera.project(x));
         dots.push_back({p, p});
     }

@@ -17,14 +17,16 @@ public:
         return {1 - farthest, 1 - nearest};
     }
     Box bounding_box() const override { return {Vec3(-1), Vec3(1)}; }
-    double settled(Vec3 origin, Vec3 direction) const override { return leaves_box(bounding_box(), origin, direction); }
-    void prepare(FieldRay& ray) const override {
+    double last_sign_change_bound(Vec3 origin, Vec3 direction) const override {
+        return leaves_box(bounding_box(), origin, direction);
+    }
+    void begin_ray(FieldRay& ray) const override {
         // f = a + bu + cu² around the middle, divided by what it may add up to
         const double middle = 0.5 * (ray.t0 + ray.t1), half = 0.5 * (ray.t1 - ray.t0);
         const Vec3 x = ray.origin + ray.direction * middle;
         const double xx = glm::dot(x, x), dx = glm::dot(ray.direction, x), dd = glm::dot(ray.direction, ray.direction);
         const double sum = 1 + xx + 2 * std::abs(dx) * half + dd * half * half;
-        ray.unit = sum;
+        ray.noise_scale = sum;
         ray.numbers = {middle, (1 - xx) / sum, -2 * dx / sum, -dd / sum};
     }
     ValueSlope at(const FieldRay& ray, double t) const override {

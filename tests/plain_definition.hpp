@@ -32,13 +32,13 @@ inline bool is_boolean(const DensityTree& tree, int i) {
 }
 
 /// The Boolean function at node i, with the truth of every half-space given.
-inline bool truth(const DensityTree& tree, int i, const std::vector<char>& is_true) {
+inline bool boolean_value(const DensityTree& tree, int i, const std::vector<char>& is_true) {
     const TreeNode& n = tree.nodes[std::size_t(i)];
     switch (n.op) {
         case Op::half_space: return is_true[std::size_t(n.a)];
-        case Op::complement: return !truth(tree, n.a, is_true);
-        case Op::conjunction: return truth(tree, n.a, is_true) && truth(tree, n.b, is_true);
-        case Op::disjunction: return truth(tree, n.a, is_true) || truth(tree, n.b, is_true);
+        case Op::complement: return !boolean_value(tree, n.a, is_true);
+        case Op::conjunction: return boolean_value(tree, n.a, is_true) && boolean_value(tree, n.b, is_true);
+        case Op::disjunction: return boolean_value(tree, n.a, is_true) || boolean_value(tree, n.b, is_true);
         default: return n.value > 0.5;
     }
 }
@@ -65,7 +65,7 @@ inline double boolean(const DensityTree& tree, int root, Vec3 x) {
         if (rho > 0 && rho < 1) varying.push_back(i);
     }
     const auto sum = [&](auto&& self, std::vector<int> rest) -> double {
-        if (rest.empty()) return truth(tree, root, is_true);
+        if (rest.empty()) return boolean_value(tree, root, is_true);
         const HalfSpace& lead = tree.half_spaces[std::size_t(rest[0])];
         std::vector<int> others;
         struct Member {
@@ -116,8 +116,8 @@ inline double density(const DensityTree& tree, Vec3 x) { return density(tree, tr
 
 /// Vyatkin eq. 1.
 inline long double quadric(const Quadric& q, Vec3 x) {
-    const long double y[3] = {(long double)x.x - q.centre.x, (long double)x.y - q.centre.y,
-                              (long double)x.z - q.centre.z};
+    const long double y[3] = {(long double)x.x - q.center.x, (long double)x.y - q.center.y,
+                              (long double)x.z - q.center.z};
     long double sum = q.k;
     for (int i = 0; i < 3; ++i) {
         sum += q.b[i] * y[i];

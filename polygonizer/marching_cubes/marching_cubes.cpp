@@ -16,7 +16,7 @@ constexpr int face_corners[6][4] = {{0, 4, 6, 2}, {1, 3, 7, 5}, {0, 1, 5, 4}, {2
 // matters there.
 class Grid {
 public:
-    Grid(const SurfaceOffset& solid, const Box& box, double side, StopFlag stop) : side_(side) {
+    Grid(const SignedDistance& solid, const Box& box, double side, CancelFlag cancel) : side_(side) {
         for (int k = 0; k < 3; ++k) {
             // The outermost corners are outside: they lie beyond the box.
             n_[k] = std::max(1, int(std::ceil((box.hi[k] - box.lo[k]) / side))) + 3;
@@ -29,7 +29,7 @@ public:
         for (int z = 0; z < blocks_z_; ++z)
             for (int y = 0; y < blocks_y_; ++y)
                 for (int x = 0; x < blocks_x_; ++x) {
-                    throw_if_stopped(stop);
+                    throw_if_cancelled(cancel);
                     sample(solid, x, y, z);
                 }
     }
@@ -70,13 +70,13 @@ private:
     }
     const Block& block_at(int x, int y, int z) const { return blocks_[index(x / block, y / block, z / block)]; }
 
-    void sample(const SurfaceOffset& solid, int bx, int by, int bz) {
+    void sample(const SignedDistance& solid, int bx, int by, int bz) {
         Block& b = blocks_[index(bx, by, bz)];
         const Box box{corner(bx * block, by * block, bz * block),
                       corner(bx * block + block - 1, by * block + block - 1, bz * block + block - 1)};
-        b.all = solid.decided(box);
+        b.all = solid.constant_side(box);
         if (b.all != 0) return;
-        const SurfaceOffset local = solid.within(box);
+        const SignedDistance local = solid.within(box);
         for (int z = 0; z < block; ++z)
             for (int y = 0; y < block; ++y)
                 for (int x = 0; x < block; ++x)
@@ -92,19 +92,19 @@ private:
 
 class March {
 public:
-    March(const SolidTree& solid, const Box& box, double side, StopFlag stop)
+    March(const SolidTree& solid, const Box& box, double side, CancelFlag cancel)
         : field_(solid, inflated(box, 2 * side)),
           box_(box),
-          grid_(SurfaceOffset(solid), box, side, stop),
+          grid_(SignedDistance(solid), box, side, cancel),
           side_(side),
-          stop_(stop) {}
+          cancel_(cancel) {}
 
     Mesh run() {
         constexpr int n = Grid::block;
         for (int bz = 0; bz < grid_.blocks(2); ++bz)
             for (int by = 0; by < grid_.blocks(1); ++by)
                 for (int bx = 0; bx < grid_.blocks(0); ++bx) {
-                    throw_if_stopped(stop_);
+                    throw_if_cancelled(cancel_);
                     if (!grid_.is_open(bx, by, bz)) continue;
                     for (int z = bz * n; z < std::min((bz + 1) * n, grid_.size(2) - 1); ++z)
                         for (int y = by * n; y < std::min((by + 1) * n, grid_.size(1) - 1); ++y)
@@ -148,8 +148,8 @@ private:
         Vec3 p = lo;
         p[axis] += side_ * t;
         mesh_.positions.push_back(p);
-        const SurfaceOffset& there = field_.near(p);
-        const Offset o = there.at(p);
+        const SignedDistance& there = field_.near(p);
+        const SurfaceSample o = there.at(p);
         Vec3 normal = o.normal;
         if (normal == Vec3(0.0)) normal[axis] = low_in ? 1 : -1;
         mesh_.normals.push_back(normal);
@@ -235,14 +235,14 @@ private:
                 triangle(loop[best], loop[(best + k) % n], loop[(best + k + 1) % n]);
             return;
         }
-        Vec3 centre(0.0);
-        for (const int v : loop) centre += mesh_.positions[std::size_t(v)] / double(n);
+        Vec3 center(0.0);
+        for (const int v : loop) center += mesh_.positions[std::size_t(v)] / double(n);
         const double reach = side_;
-        const double distance = field_.distance_along_normal(centre, reach);
-        const Offset o = field_.at(centre);
-        if (distance < reach) centre += o.normal * (o.distance > 0 ? distance : -distance);
+        const double distance = field_.distance_along_normal(center, reach);
+        const SurfaceSample o = field_.at(center);
+        if (distance < reach) center += o.normal * (o.distance > 0 ? distance : -distance);
         const int middle = int(mesh_.positions.size());
-        mesh_.positions.push_back(centre);
+        mesh_.positions.push_back(center);
         mesh_.normals.push_back(o.normal == Vec3(0.0) ? mesh_.normals[std::size_t(loop[0])] : o.normal);
         materials_.push_back(materials_[std::size_t(loop[0])]);
         for (std::size_t k = 0; k < n; ++k) triangle(middle, loop[k], loop[(k + 1) % n]);
@@ -261,11 +261,11 @@ private:
         mesh_.triangles.push_back({{a, b, c}, {a, b, c}, materials_[std::size_t(a)], 0});
     }
 
-    OffsetField field_;
+    DistanceField field_;
     Box box_;
     Grid grid_;
     double side_;
-    StopFlag stop_;
+    CancelFlag cancel_;
     Mesh mesh_;
     std::vector<int> materials_;
     std::unordered_map<std::size_t, int> on_edge_;
@@ -274,7 +274,7 @@ private:
 }  // namespace
 
 double marching_cubes_grid(const SolidTree& solid, const Box& box) {
-    const double radius = solid.least_radius();
+    const double radius = solid.min_radius();
     return radius > 0 ? 0.5 * radius : 0.01 * largest(box.hi - box.lo);
 }
 
@@ -284,9 +284,9 @@ double marching_cubes_count(const Box& box, double grid) {
     return count;
 }
 
-Mesh marching_cubes(const SolidTree& solid, const Box& box, double grid, StopFlag stop) {
+Mesh marching_cubes(const SolidTree& solid, const Box& box, double grid, CancelFlag cancel) {
     if (box.empty()) return {};
-    Mesh mesh = March(solid, box, grid, stop).run();
+    Mesh mesh = March(solid, box, grid, cancel).run();
     merge_close(mesh);
     return mesh;
 }

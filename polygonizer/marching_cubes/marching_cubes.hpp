@@ -18,7 +18,7 @@ double marching_cubes_grid(const SolidTree& solid, const Box& box);
 /// How many cubes that makes.
 double marching_cubes_count(const Box& box, double grid);
 
-/// A closed mesh. What leaves `box` is cut off by it. Vertices are roots, not interpolated. Throws Stopped.
-Mesh marching_cubes(const SolidTree& solid, const Box& box, double grid, StopFlag stop = nullptr);
+/// A closed mesh. What leaves `box` is cut off by it. Vertices are roots, not interpolated. Throws Cancelled.
+Mesh marching_cubes(const SolidTree& solid, const Box& box, double grid, CancelFlag cancel = nullptr);
 
 }  // namespace deburr

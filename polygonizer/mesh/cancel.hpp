@@ -5,13 +5,13 @@
 namespace deburr {
 
 /// Null: nobody asks for an end.
-using StopFlag = const std::atomic<bool>*;
+using CancelFlag = const std::atomic<bool>*;
 
 /// Thrown where the flag asks for an end.
-struct Stopped {};
+struct Cancelled {};
 
-inline void throw_if_stopped(StopFlag stop) {
-    if (stop && stop->load(std::memory_order_relaxed)) throw Stopped();
+inline void throw_if_cancelled(CancelFlag cancel) {
+    if (cancel && cancel->load(std::memory_order_relaxed)) throw Cancelled();
 }
 
 }  // namespace deburr

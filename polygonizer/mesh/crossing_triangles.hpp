@@ -9,8 +9,8 @@ namespace deburr {
 
 /// Pairs of triangles whose insides meet, the lesser number first, in order. Those that reach into each other by no
 /// more than rounding, where parts touch, do not count. `tree` is the mesh's; `looked_at`, if given, becomes the number
-/// of pairs whose boxes meet. Throws Stopped.
-std::vector<std::pair<int, int>> crossing_triangles(const Mesh& mesh, const TriangleTree& tree, StopFlag stop = nullptr,
-                                                    std::size_t* looked_at = nullptr);
+/// of pairs whose boxes meet. Throws Cancelled.
+std::vector<std::pair<int, int>> crossing_triangles(const Mesh& mesh, const TriangleTree& tree,
+                                                    CancelFlag cancel = nullptr, std::size_t* looked_at = nullptr);
 
 }  // namespace deburr

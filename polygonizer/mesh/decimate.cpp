@@ -31,8 +31,8 @@ double distance_to_triangle(Vec3 x, const Vec3 (&corner)[3]) {
 class Decimation {
 public:
     Decimation(Mesh& mesh, std::vector<Origin>& origins, const FacetJudge& judge, double tolerance,
-               const std::vector<Box>& dense, StopFlag stop)
-        : facets_(mesh, origins), judge_(judge), tolerance_(tolerance), dense_(dense), stop_(stop) {
+               const std::vector<Box>& dense, CancelFlag cancel)
+        : facets_(mesh, origins), judge_(judge), tolerance_(tolerance), dense_(dense), cancel_(cancel) {
         for (std::size_t f = 0; f < facets_.size(); ++f) flat_normals_.push_back(flat_normal(facets_.at(int(f))));
     }
 
@@ -69,7 +69,7 @@ private:
     std::size_t pass(double tolerance) {
         std::size_t gone = 0;
         for (int v = 0; v < facets_.vertices(); ++v) {
-            if (v % 1024 == 0) throw_if_stopped(stop_);
+            if (v % 1024 == 0) throw_if_cancelled(cancel_);
             if (!changed_[std::size_t(v)] || facets_.around(v).empty()) continue;
             changed_[std::size_t(v)] = false;
             if (find_candidates(v, tolerance)) gone += collapse(v, tolerance);
@@ -87,7 +87,7 @@ private:
     }
 
     Vec3 normal_at(int f, int v) const {
-        return facets_.normal(facets_.at(f).triangle.normal[std::size_t(facets_.place(f, v))]);
+        return facets_.normal(facets_.at(f).triangle.normal[std::size_t(facets_.corner_index(f, v))]);
     }
 
     // Whether the edge from v to u, of facets f and g, must stay a line of edges: a crease, a border of materials, the
@@ -111,7 +111,7 @@ private:
                 kind.planes.push_back(n);
         }
         for (const int f : fan) {
-            const int u = facets_.at(f).triangle.vertex[std::size_t((facets_.place(f, v) + 1) % 3)];
+            const int u = facets_.at(f).triangle.vertex[std::size_t((facets_.corner_index(f, v) + 1) % 3)];
             const int g = facets_.across(v, u) == f ? facets_.across(u, v) : facets_.across(v, u);
             if (g < 0)
                 kind.fixed = true;
@@ -130,7 +130,7 @@ private:
         planes_ = kind.planes.size();
         const Vec3 x = facets_.position(v);
         for (const int f : facets_.around(v)) {
-            const int to = facets_.at(f).triangle.vertex[std::size_t((facets_.place(f, v) + 1) % 3)];
+            const int to = facets_.at(f).triangle.vertex[std::size_t((facets_.corner_index(f, v) + 1) % 3)];
             if (!kind.line_ends.empty() && to != kind.line_ends[0] && to != kind.line_ends[1]) continue;
             const Vec3 d = facets_.position(to) - x;
             const auto leaves = [&](Vec3 plane) { return std::abs(glm::dot(plane, d)) > 1e-9 * judge_.size(); };
@@ -156,7 +156,7 @@ private:
         if (other.fixed || other.planes.size() != kind.planes.size() || other.line_ends.size() != kind.line_ends.size())
             return;
         if (!other.line_ends.empty() && other.line_ends[0] != v && other.line_ends[1] != v) return;
-        std::vector<SurfacePiece> pieces;
+        std::vector<LeafSurface> pieces;
         add_surface(pieces, surface_of(facets_, facets_.at(f)));
         const int g = facets_.across(v, to) == f ? facets_.across(to, v) : facets_.across(v, to);
         add_surface(pieces, surface_of(facets_, facets_.at(g)));
@@ -176,7 +176,7 @@ private:
             if (std::find(vertex.begin(), vertex.end(), to) != vertex.end()) continue;
             Vec3 corner[3] = {facets_.position(vertex[0]), facets_.position(vertex[1]), facets_.position(vertex[2])};
             const Vec3 before = glm::cross(corner[1] - corner[0], corner[2] - corner[0]);
-            corner[facets_.place(f, v)] = y ? *y : facets_.position(to);
+            corner[facets_.corner_index(f, v)] = y ? *y : facets_.position(to);
             const Vec3 after = glm::cross(corner[1] - corner[0], corner[2] - corner[0]);
             if (glm::dot(before, after) <= 0.2 * glm::length(before) * glm::length(after)) return infinity;
             least = std::min(least, distance_to_triangle(x, corner));
@@ -279,7 +279,7 @@ private:
     const FacetJudge& judge_;
     double tolerance_;
     const std::vector<Box>& dense_;
-    StopFlag stop_;
+    CancelFlag cancel_;
     std::vector<Vec3> flat_normals_;  // of facets; 0: curved
     // Of the vertex that is looked at.
     std::vector<Candidate> candidates_;
@@ -291,9 +291,9 @@ private:
 }  // namespace
 
 std::size_t decimate(Mesh& mesh, std::vector<Origin>& origins, const FacetJudge& judge, double tolerance,
-                     const std::vector<Box>& dense, StopFlag stop) {
+                     const std::vector<Box>& dense, CancelFlag cancel) {
     if (mesh.triangles.empty()) return 0;
-    return Decimation(mesh, origins, judge, tolerance, dense, stop).run();
+    return Decimation(mesh, origins, judge, tolerance, dense, cancel).run();
 }
 
 }  // namespace deburr

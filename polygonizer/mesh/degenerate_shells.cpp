@@ -41,7 +41,7 @@ private:
 };
 
 // Whether there is solid beside the middle of the triangle, no farther than its surface may be.
-bool holds_solid(const Mesh& mesh, const Triangle& t, const OffsetField& solid) {
+bool holds_solid(const Mesh& mesh, const Triangle& t, const DistanceField& solid) {
     const Vec3 area = mesh.area_vector(t);
     const double size = glm::length(area);
     if (!(size > 0)) return false;
@@ -58,26 +58,26 @@ bool holds_solid(const Mesh& mesh, const Triangle& t, const OffsetField& solid) 
 
 // Numbers in `wrong` go along.
 std::size_t drop(Shells& shells, Mesh& mesh, std::vector<Origin>& origins, std::vector<int>& wrong) {
-    std::vector<int> place;
+    std::vector<int> new_index;
     std::size_t kept = 0;
     const std::size_t before = mesh.triangles.size();
     for (std::size_t t = 0; t < before; ++t) {
         const bool goes = shells.of(mesh.triangles[t]).goes;
-        place.push_back(goes ? -1 : int(kept));
+        new_index.push_back(goes ? -1 : int(kept));
         if (goes) continue;
         mesh.triangles[kept] = mesh.triangles[t];
         origins[kept++] = origins[t];
     }
     mesh.triangles.resize(kept);
     origins.resize(kept);
-    for (int& t : wrong) t = place[std::size_t(t)];
+    for (int& t : wrong) t = new_index[std::size_t(t)];
     std::erase(wrong, -1);
     return before - kept;
 }
 
 }  // namespace
 
-std::size_t drop_sheets(Mesh& mesh, std::vector<Origin>& origins, double thickness, const OffsetField& solid) {
+std::size_t drop_flat_shells(Mesh& mesh, std::vector<Origin>& origins, double thickness, const DistanceField& solid) {
     Shells shells(mesh);
     bool any_thin = false, any = false;
     for (Shell& s : shells.all()) {
@@ -95,7 +95,7 @@ std::size_t drop_sheets(Mesh& mesh, std::vector<Origin>& origins, double thickne
     return any ? drop(shells, mesh, origins, none) : 0;
 }
 
-std::size_t drop_wrong_sheets(Mesh& mesh, std::vector<Origin>& origins, std::vector<int>& wrong) {
+std::size_t drop_wrong_shells(Mesh& mesh, std::vector<Origin>& origins, std::vector<int>& wrong) {
     if (wrong.empty()) return 0;
     Shells shells(mesh);
     for (const int t : wrong) ++shells.of(mesh.triangles[std::size_t(t)]).wrong;

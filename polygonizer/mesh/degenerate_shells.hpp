@@ -8,10 +8,10 @@ namespace deburr {
 
 /// Drops shells that enclose less than `thickness` times their area, and thin ones without anything of the
 /// solid within. `origins`, one for each triangle, goes along. Returns how many triangles went.
-std::size_t drop_sheets(Mesh& mesh, std::vector<Origin>& origins, double thickness, const OffsetField& solid);
+std::size_t drop_flat_shells(Mesh& mesh, std::vector<Origin>& origins, double thickness, const DistanceField& solid);
 
 /// Drops thin shells that consist by half or more of triangles that are `wrong`, which are numbered anew: no
 /// part of the solid's surface is like that, but chords of surfaces that coincide are, each time they cross.
-std::size_t drop_wrong_sheets(Mesh& mesh, std::vector<Origin>& origins, std::vector<int>& wrong);
+std::size_t drop_wrong_shells(Mesh& mesh, std::vector<Origin>& origins, std::vector<int>& wrong);
 
 }  // namespace deburr

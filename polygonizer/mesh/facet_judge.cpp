@@ -6,7 +6,7 @@
 
 namespace deburr {
 
-OffsetField field_around(const Mesh& mesh, const SolidTree& solid) {
+DistanceField field_around(const Mesh& mesh, const SolidTree& solid) {
     // A facet is nearer to its surface than this: rounding moves a surface by less than the radius, and
     // facets of free forms are small against their distance.
     double margin = 0;
@@ -14,7 +14,7 @@ OffsetField field_around(const Mesh& mesh, const SolidTree& solid) {
         for (const HalfSpace& h : leaf.density.half_spaces) margin = std::max(margin, h.radius);
         if (leaf.field) margin = std::max(margin, mean_edge(mesh));
     }
-    return OffsetField(solid, field_box(mesh), margin);
+    return DistanceField(solid, field_box(mesh), margin);
 }
 
 FacetJudge::FacetJudge(const SolidTree& solid, const Mesh& mesh)
@@ -46,13 +46,13 @@ FacetShape FacetJudge::shape(const Facets& facets, const Facet& f, double least)
     const double single_twice = glm::length(single);
     if (single_twice == 0) return {-1, -1, 0};
     const auto cosine = [&](Vec3 n) { return std::min(glm::dot(area, n) / twice, glm::dot(single, n) / single_twice); };
-    const Offset o = solid_.at(middle);
+    const SurfaceSample o = solid_.at(middle);
     FacetShape s;
     s.distance = std::isfinite(o.distance) ? std::abs(o.distance) : 0;
     if (f.origin.leaf < 0) {
         s.own = cosine(facets.normal(t.normal[0]));
     } else {
-        const Offset leaf = one_leaf_ ? o : surfaces_.at({f.origin.leaf}, middle);
+        const SurfaceSample leaf = one_leaf_ ? o : surfaces_.at({f.origin.leaf}, middle);
         Vec3 own = leaf.normal;
         if (own == Vec3(0.0)) own = glm::length(normals) > 0 ? glm::normalize(normals) : normals;
         if (glm::dot(own, normals) < 0) own = -own;  // a leaf that is subtracted

@@ -13,7 +13,7 @@ struct FacetShape {
 
 /// The solid as it is seen from the facets of a mesh: from the middle of each the surface that it stands
 /// for, and all that are nearer.
-OffsetField field_around(const Mesh& mesh, const SolidTree& solid);
+DistanceField field_around(const Mesh& mesh, const SolidTree& solid);
 
 /// For all meshes of one solid. Not for several threads at once.
 class FacetJudge {
@@ -29,13 +29,13 @@ public:
     /// that, and three on each edge, but for edges that do not end at corner `only` where that is not −1.
     bool is_near(const Vec3 (&corners)[3], double tolerance, int only = -1) const;
     bool on_surface(Vec3 x) const { return std::abs(solid_.at(x).distance) <= 10 * surfaces_.slack(); }
-    const OffsetField& solid() const { return solid_; }
+    const DistanceField& solid() const { return solid_; }
     const LeafSurfaces& surfaces() const { return surfaces_; }
     /// Of the box around the mesh.
     double size() const { return size_; }
 
 private:
-    OffsetField solid_;
+    DistanceField solid_;
     bool one_leaf_;
     LeafSurfaces surfaces_;
     double size_;

@@ -10,7 +10,8 @@ constexpr double on_surface = 1e-9;
 
 }  // namespace
 
-bool faces_outward(const OffsetField& solid, Vec3 x, const Offset& here, Vec3 normal, Vec3 otherwise, double reach) {
+bool faces_outward(const DistanceField& solid, Vec3 x, const SurfaceSample& here, Vec3 normal, Vec3 otherwise,
+                   double reach) {
     if (std::abs(here.distance) > on_surface * reach && glm::dot(normal, here.normal) > 0) return true;
     for (double step = first_step * reach; step <= reach; step *= growth) {
         const bool before = solid.inside(x + normal * step), behind = solid.inside(x - normal * step);

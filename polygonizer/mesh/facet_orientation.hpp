@@ -9,6 +9,7 @@ namespace deburr {
 /// is first met on the line through x along the normal. Where that meets none within `reach`, on the
 /// overhang of a chord over a hollow edge say, `otherwise`, the outward normals of the corners decide.
 /// `here` is the solid at x.
-bool faces_outward(const OffsetField& solid, Vec3 x, const Offset& here, Vec3 normal, Vec3 otherwise, double reach);
+bool faces_outward(const DistanceField& solid, Vec3 x, const SurfaceSample& here, Vec3 normal, Vec3 otherwise,
+                   double reach);
 
 }  // namespace deburr

@@ -35,7 +35,7 @@ bool Facets::joined(int a, int b) const {
     return false;
 }
 
-int Facets::place(int f, int vertex) const {
+int Facets::corner_index(int f, int vertex) const {
     const auto& v = at(f).triangle.vertex;
     return v[0] == vertex ? 0 : v[1] == vertex ? 1 : 2;
 }
@@ -90,7 +90,7 @@ std::optional<Change> Facets::collapse(int u, int v) const {
         Facet moved = at(f);
         auto& vertex = moved.triangle.vertex;
         if (std::find(vertex.begin(), vertex.end(), v) != vertex.end()) continue;
-        const std::size_t k = std::size_t(place(f, u));
+        const std::size_t k = std::size_t(corner_index(f, u));
         vertex[k] = v;
         // In a plane the normal is its own.
         if (moved.origin.leaf >= 0) moved.triangle.normal[k] = nearest_normal(v, moved);
@@ -172,8 +172,9 @@ void Facets::finish() {
     std::vector<Vec3> positions, normals;
     mesh_.triangles.clear();
     origins_.clear();
-    const auto keep = [](int& index, std::vector<int>& place, std::vector<Vec3>& to, const std::vector<Vec3>& from) {
-        int& p = place[std::size_t(index)];
+    const auto keep = [](int& index, std::vector<int>& new_index, std::vector<Vec3>& to,
+                         const std::vector<Vec3>& from) {
+        int& p = new_index[std::size_t(index)];
         if (p < 0) {
             p = int(to.size());
             to.push_back(from[std::size_t(index)]);
@@ -197,7 +198,7 @@ void Facets::finish() {
 // Each follows v in one of the facets around it.
 Facets::Fan Facets::neighbours(int v) const {
     Fan out;
-    for (const int f : around(v)) out.push_back(at(f).triangle.vertex[std::size_t((place(f, v) + 1) % 3)]);
+    for (const int f : around(v)) out.push_back(at(f).triangle.vertex[std::size_t((corner_index(f, v) + 1) % 3)]);
     return out;
 }
 
@@ -208,7 +209,7 @@ int Facets::nearest_normal(int v, const Facet& f) const {
     int best = -1;
     double best_dot = -infinity;
     for (const int other : around(v)) {
-        const int n = at(other).triangle.normal[std::size_t(place(other, v))];
+        const int n = at(other).triangle.normal[std::size_t(corner_index(other, v))];
         constexpr double own = 10;  // more than any two normals differ by
         const double d = glm::dot(normal(n), wanted) + (at(other).origin.leaf == f.origin.leaf ? own : 0);
         if (d > best_dot) {

@@ -45,7 +45,7 @@ public:
     /// The facet that runs from b to a, or −1.
     int across(int a, int b) const;
     bool joined(int a, int b) const;
-    int place(int f, int vertex) const;  // of the vertex in the facet
+    int corner_index(int f, int vertex) const;  // of the vertex in the facet
     /// Whether both stand for one surface, as far as their edge from a to b can tell.
     bool same_surface(const Facet& f, const Facet& g) const;
     /// Of a polygon without area: any neighbour's surface will do.

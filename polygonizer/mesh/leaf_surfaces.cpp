@@ -2,15 +2,15 @@
 
 namespace deburr {
 
-LeafSurfaces::LeafSurfaces(const SolidTree& solid, const Box& box, const OffsetField* only)
+LeafSurfaces::LeafSurfaces(const SolidTree& solid, const Box& box, const DistanceField* only)
     : solid_(solid), box_(box), slack_(1e-10 * glm::length(box.hi - box.lo)), only_(only) {
     fields_.resize(solid.leaves.size());
 }
 
-Offset LeafSurfaces::at(const SurfacePiece& piece, Vec3 x) const {
+SurfaceSample LeafSurfaces::at(const LeafSurface& piece, Vec3 x) const {
     if (piece.leaf < 0) return {piece.offset - glm::dot(piece.normal, x), piece.normal, -1};
     if (only_) {
-        Offset o = only_->at(x);
+        SurfaceSample o = only_->at(x);
         o.leaf = piece.leaf;
         return o;
     }
@@ -19,14 +19,14 @@ Offset LeafSurfaces::at(const SurfacePiece& piece, Vec3 x) const {
         SolidTree alone;
         alone.leaves.push_back(solid_.leaves[std::size_t(piece.leaf)]);
         alone.nodes.push_back({SolidOp::leaf, 0, -1});
-        field = std::make_unique<OffsetField>(alone, box_);
+        field = std::make_unique<DistanceField>(alone, box_);
     }
-    Offset o = field->at(x);
+    SurfaceSample o = field->at(x);
     o.leaf = piece.leaf;
     return o;
 }
 
-bool LeafSurfaces::project(Vec3& x, const std::vector<SurfacePiece>& pieces, double reach) const {
+bool LeafSurfaces::project(Vec3& x, const std::vector<LeafSurface>& pieces, double reach) const {
     constexpr int steps = 30;         // of Newton's method, which takes 4
     constexpr double tangent = 1e-4;  // sine of an angle between surfaces that count as touching
     Vec3 at_x = x;
@@ -35,8 +35,8 @@ bool LeafSurfaces::project(Vec3& x, const std::vector<SurfacePiece>& pieces, dou
         Vec3 basis[3], move(0.0);
         std::size_t count = 0;
         double worst = 0;
-        for (const SurfacePiece& piece : pieces) {
-            const Offset o = at(piece, at_x);
+        for (const LeafSurface& piece : pieces) {
+            const SurfaceSample o = at(piece, at_x);
             if (!std::isfinite(o.distance) || o.normal == Vec3(0.0)) return false;
             worst = std::max(worst, std::abs(o.distance));
             Vec3 rest = o.normal;

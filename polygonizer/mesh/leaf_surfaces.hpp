@@ -9,7 +9,7 @@
 namespace deburr {
 
 /// The isosurface of a leaf, or where leaf is −1 the plane n·x = offset.
-struct SurfacePiece {
+struct LeafSurface {
     int leaf = -1;
     Vec3 normal{0.0};
     double offset = 0;
@@ -19,14 +19,14 @@ struct SurfacePiece {
 class LeafSurfaces {
 public:
     /// `only`: the field of the whole solid, if that is one leaf; it must outlive this.
-    LeafSurfaces(const SolidTree& solid, const Box& box, const OffsetField* only = nullptr);
+    LeafSurfaces(const SolidTree& solid, const Box& box, const DistanceField* only = nullptr);
 
-    /// To first order, as SurfaceOffset: > 0 inside the leaf, or behind the plane.
-    Offset at(const SurfacePiece& piece, Vec3 x) const;
+    /// To first order, as SignedDistance: > 0 inside the leaf, or behind the plane.
+    SurfaceSample at(const LeafSurface& piece, Vec3 x) const;
     /// Moves x to where all pieces meet, by Newton's method with the shortest steps; no farther than
     /// `reach`. False, and x stays, if that does not lead onto all of them. Pieces that touch each
     /// other there count as one.
-    bool project(Vec3& x, const std::vector<SurfacePiece>& pieces, double reach) const;
+    bool project(Vec3& x, const std::vector<LeafSurface>& pieces, double reach) const;
     /// Distance below which a point is on a surface, for this purpose.
     double slack() const { return slack_; }
 
@@ -34,8 +34,8 @@ private:
     const SolidTree& solid_;
     Box box_;
     double slack_;
-    const OffsetField* only_;
-    mutable std::vector<std::unique_ptr<OffsetField>> fields_;
+    const DistanceField* only_;
+    mutable std::vector<std::unique_ptr<DistanceField>> fields_;
 };
 
 }  // namespace deburr

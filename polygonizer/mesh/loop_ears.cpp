@@ -21,9 +21,9 @@ double shape(Vec2 a, Vec2 b, Vec2 c) {
     return longest > 0 && middle > 0 ? cross(b - a, c - a) / (longest * middle) : 0;
 }
 
-std::vector<Corner> corners_of(const std::vector<int>& loop, const std::vector<Vec2>& places) {
+std::vector<Corner> corners_of(const std::vector<int>& loop, const std::vector<Vec2>& plane_points) {
     std::vector<Corner> corners;
-    for (std::size_t k = 0; k < loop.size(); ++k) corners.push_back({places[k], loop[k]});
+    for (std::size_t k = 0; k < loop.size(); ++k) corners.push_back({plane_points[k], loop[k]});
     return corners;
 }
 
@@ -47,9 +47,9 @@ void join(std::vector<Corner>& ring, const std::vector<Corner>& loop) {
 }  // namespace
 
 std::vector<std::array<int, 3>> loop_ears(const std::vector<std::vector<int>>& loops,
-                                          const std::vector<std::vector<Vec2>>& places) {
-    std::vector<Corner> ring = corners_of(loops[0], places[0]);
-    for (std::size_t k = 1; k < loops.size(); ++k) join(ring, corners_of(loops[k], places[k]));
+                                          const std::vector<std::vector<Vec2>>& plane_points) {
+    std::vector<Corner> ring = corners_of(loops[0], plane_points[0]);
+    for (std::size_t k = 1; k < loops.size(); ++k) join(ring, corners_of(loops[k], plane_points[k]));
     const std::size_t n = ring.size();
     std::vector<std::size_t> next(n), before(n), version(n, 0);
     for (std::size_t k = 0; k < n; ++k) {

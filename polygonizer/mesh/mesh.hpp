@@ -50,7 +50,7 @@ Topology topology(const Mesh& mesh);
 Box bounding_box(const Mesh& mesh);
 /// Length of an edge of the closed mesh; 0 if it is empty.
 double mean_edge(const Mesh& mesh);
-/// A box around the mesh in which to look for the surfaces near it (OffsetField).
+/// A box around the mesh in which to look for the surfaces near it (DistanceField).
 Box field_box(const Mesh& mesh);
 
 /// Volume enclosed; positive where triangles face outward.

@@ -12,7 +12,7 @@ namespace deburr {
 namespace {
 
 // Facets between two looks at the flag that ends the work.
-constexpr std::size_t stop_every = 4096;
+constexpr std::size_t check_interval = 4096;
 
 class Check {
 public:
@@ -24,7 +24,7 @@ public:
         // A surface without a radius is met by its mesh to rounding.
         constexpr double of_size = 1e-6, of_radius = 0.5;
         const double wanted = std::isfinite(options.tolerance) ? options.tolerance : of_radius * radius_;
-        tolerance_ = std::max({wanted, options.least_tolerance, of_size * size_});
+        tolerance_ = std::max({wanted, options.min_tolerance, of_size * size_});
     }
 
     MeshCheck run() {
@@ -33,25 +33,25 @@ public:
         facets();
         parts();
         for (MeshFault* fault : {&result_.open, &result_.inward, &result_.crossing, &result_.missing, &result_.added})
-            if (fault->count > 0) fault->line = line_at(fault->place);
+            if (fault->count > 0) fault->line = line_at(fault->location);
         return result_;
     }
 
 private:
-    static OffsetField around(const Mesh& mesh, const SolidTree& solid, const Box& box) {
+    static DistanceField around(const Mesh& mesh, const SolidTree& solid, const Box& box) {
         double margin = 0;
         for (const SolidLeaf& leaf : solid.leaves) {
             for (const HalfSpace& h : leaf.density.half_spaces) margin = std::max(margin, h.radius);
             if (leaf.field) margin = std::max(margin, mean_edge(mesh));
         }
-        return OffsetField(solid, mesh.positions.empty() ? box : hull(box, field_box(mesh)), margin);
+        return DistanceField(solid, mesh.positions.empty() ? box : hull(box, field_box(mesh)), margin);
     }
 
     Vec3 at(int v) const { return mesh_.positions[std::size_t(v)]; }
     Vec3 middle(const Triangle& t) const { return (at(t.vertex[0]) + at(t.vertex[1]) + at(t.vertex[2])) / 3.0; }
 
     int line_at(Vec3 x) const {
-        const SurfaceOffset& near = field_.near(x);
+        const SignedDistance& near = field_.near(x);
         const int leaf = near.at(x).leaf;
         return leaf >= 0 ? near.line(leaf) : solid_.leaves.empty() ? 0 : solid_.leaves[0].line;
     }
@@ -73,7 +73,7 @@ private:
     }
 
     void crossings() {
-        for (const auto& [s, t] : crossing_triangles(mesh_, tree_, options_.stop, &result_.pairs))
+        for (const auto& [s, t] : crossing_triangles(mesh_, tree_, options_.cancel, &result_.pairs))
             result_.crossing.add(0.5 *
                                  (middle(mesh_.triangles[std::size_t(s)]) + middle(mesh_.triangles[std::size_t(t)])));
     }
@@ -83,9 +83,9 @@ private:
         constexpr double flat = 1e-9;
         double area_sum = 0;
         for (const Triangle& t : mesh_.triangles) area_sum += glm::length(mesh_.area_vector(t));
-        const double area_each = area_sum / double(least_points + mesh_.triangles.size() / 4);
+        const double area_each = area_sum / double(min_points + mesh_.triangles.size() / 4);
         for (const Triangle& t : mesh_.triangles) {
-            if (result_.facets++ % stop_every == 0) throw_if_stopped(options_.stop);
+            if (result_.facets++ % check_interval == 0) throw_if_cancelled(options_.cancel);
             const Vec3 area = mesh_.area_vector(t), x = middle(t);
             double longest = 0;
             Vec3 normals(0.0);
@@ -96,7 +96,7 @@ private:
             const double twice = glm::length(area);
             if (twice <= flat * longest * longest) continue;
             const Vec3 normal = area / twice;
-            const Offset here = field_.at(x);
+            const SurfaceSample here = field_.at(x);
             const bool near = beside_surface(here, normal, x);
             if (!near && !options_.may_lean && !faces_outward(field_, x, here, normal, normals, longest))
                 result_.inward.add(x);
@@ -123,7 +123,7 @@ private:
     }
 
     // Whether the surface is near and faces as the facet does; else the mesh is looked at on both sides of x.
-    bool beside_surface(const Offset& here, Vec3 normal, Vec3 x) {
+    bool beside_surface(const SurfaceSample& here, Vec3 normal, Vec3 x) {
         if (std::abs(here.distance) <= tolerance_) return glm::dot(normal, here.normal) > 0;
         judge(x - tolerance_ * normal, true);
         judge(x + tolerance_ * normal, false);
@@ -154,18 +154,18 @@ private:
     // A part of the box, the solid that matters there, and the facets that may pass it.
     struct Cell {
         Box box;
-        std::shared_ptr<const SurfaceOffset> solid;
+        std::shared_ptr<const SignedDistance> solid;
         int depth;
     };
 
     // Cells without facets lie on one side of the mesh, and have to of the solid. What may be on both sides is cut,
     // and so are cells with facets: first of all those that the surface does not pass.
     void parts() {
-        const std::size_t most_cells = least_cells + mesh_.triangles.size() / 8;
+        const std::size_t max_cells = min_cells + mesh_.triangles.size() / 8;
         std::queue<Cell> cells, doubtful;
-        doubtful.push({box_, std::make_shared<const SurfaceOffset>(solid_), 0});
-        for (std::size_t taken = 0; taken < most_cells && !(cells.empty() && doubtful.empty()); ++taken) {
-            if (taken % 256 == 0) throw_if_stopped(options_.stop);
+        doubtful.push({box_, std::make_shared<const SignedDistance>(solid_), 0});
+        for (std::size_t taken = 0; taken < max_cells && !(cells.empty() && doubtful.empty()); ++taken) {
+            if (taken % 256 == 0) throw_if_cancelled(options_.cancel);
             std::queue<Cell>& from = doubtful.empty() ? cells : doubtful;
             const Cell cell = std::move(from.front());
             from.pop();
@@ -175,18 +175,18 @@ private:
                 const Vec3 size = cell.box.hi - cell.box.lo;
                 const int axis = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
                 (upper ? half.box.lo : half.box.hi)[axis] = middle[axis];
-                look_at(std::move(half), cells, doubtful);
+                visit(std::move(half), cells, doubtful);
             }
         }
     }
 
-    void look_at(Cell cell, std::queue<Cell>& cells, std::queue<Cell>& doubtful) {
+    void visit(Cell cell, std::queue<Cell>& cells, std::queue<Cell>& doubtful) {
         const bool passed = !tree_.visit(cell.box, [](int) { return false; });
-        const bool decided = cell.solid->decided(cell.box) != 0;
+        const bool decided = cell.solid->constant_side(cell.box) != 0;
         if (!passed) judge_part(0.5 * (cell.box.lo + cell.box.hi));
-        if ((decided && !passed) || cell.depth >= most_depth) return;
+        if ((decided && !passed) || cell.depth >= max_depth) return;
         if (!decided && cell.depth % 3 == 0)
-            cell.solid = std::make_shared<const SurfaceOffset>(cell.solid->within(cell.box));
+            cell.solid = std::make_shared<const SignedDistance>(cell.solid->within(cell.box));
         (decided == passed ? doubtful : cells).push(std::move(cell));
     }
 
@@ -201,15 +201,15 @@ private:
         if (missed || far_from_surface(x, inside)) (inside ? result_.missing : result_.added).add(x);
     }
 
-    static constexpr int most_depth = 24;  // halvings of the box
-    static constexpr std::size_t least_cells = 2000, least_points = 500;
+    static constexpr int max_depth = 24;  // halvings of the box
+    static constexpr std::size_t min_cells = 2000, min_points = 500;
 
     const Mesh& mesh_;
     const SolidTree& solid_;
     const Box box_;
     const MeshCheckOptions options_;
     const TriangleTree tree_;
-    const OffsetField field_;
+    const DistanceField field_;
     double radius_ = 0, size_ = 0, tolerance_ = 0;
     MeshCheck result_;
 };

@@ -16,21 +16,21 @@ struct MeshCheckOptions {
     /// Points nearer to the solid's surface may be on either side of the mesh. Infinity: half of the filter radius
     /// there, and parts that have no facet within a radius are missed.
     double tolerance = infinity;
-    double least_tolerance = 0;  // for what the mesh cannot be finer than
+    double min_tolerance = 0;  // for what the mesh cannot be finer than
     /// Facets may face inward where the tolerance cannot tell: those of marching cubes do, in cubes that a thin wall
     /// passes.
     bool may_lean = false;
-    StopFlag stop = nullptr;
+    CancelFlag cancel = nullptr;
 };
 
 /// Of one kind: how many, and the first of them.
 struct MeshFault {
     std::size_t count = 0;
-    Vec3 place{0.0};
+    Vec3 location{0.0};
     int line = 0;  // of the scene, which wrote the part of the solid that is near; 0 unknown
 
     void add(Vec3 x) {
-        if (count++ == 0) place = x;
+        if (count++ == 0) location = x;
     }
 };
 
@@ -45,7 +45,7 @@ struct MeshCheck {
     std::size_t faults() const { return open.count + inward.count + crossing.count + missing.count + added.count; }
 };
 
-/// `box`: around all that there is of the solid, or as far as it is wanted. Throws Stopped.
+/// `box`: around all that there is of the solid, or as far as it is wanted. Throws Cancelled.
 MeshCheck check_mesh(const Mesh& mesh, const SolidTree& solid, const Box& box, const MeshCheckOptions& options = {});
 
 }  // namespace deburr

@@ -41,7 +41,7 @@ void measure_edges(const Mesh& mesh, MeshMetrics& m) {
     m.edge_spread = std::sqrt(std::max(0.0, squares / double(count) - m.edge_mean * m.edge_mean)) / m.edge_mean;
 }
 
-void measure_vertices(const Mesh& mesh, const OffsetField& field, MeshMetrics& m) {
+void measure_vertices(const Mesh& mesh, const DistanceField& field, MeshMetrics& m) {
     Sum distance, angle;
     std::vector<char> used(mesh.positions.size(), false);
     std::vector<Vec3> around(mesh.normals.size(), Vec3(0.0));
@@ -71,7 +71,7 @@ MeshMetrics measure(const Mesh& mesh, const SolidTree& solid) {
     m.volume = volume(mesh);
     m.box = bounding_box(mesh);
     measure_edges(mesh, m);
-    const OffsetField field = field_around(mesh, solid);
+    const DistanceField field = field_around(mesh, solid);
     const double reach = m.box.empty() ? 0 : glm::length(m.box.hi - m.box.lo);
     measure_vertices(mesh, field, m);
     Sum first, far, angle;
@@ -91,7 +91,7 @@ MeshMetrics measure(const Mesh& mesh, const SolidTree& solid) {
             ++m.degenerate;
             continue;
         }
-        const Offset here = field.at(middle);
+        const SurfaceSample here = field.at(middle);
         m.inverted += !faces_outward(field, middle, here, area / twice, normals, longest);
         if (here.normal == Vec3(0.0)) continue;
         first.add(std::abs(here.distance));

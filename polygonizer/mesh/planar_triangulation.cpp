@@ -11,10 +11,10 @@ namespace {
 // Place of a cell on the Hilbert curve through a grid of 2¹⁶ × 2¹⁶.
 std::uint64_t hilbert(std::uint32_t x, std::uint32_t y) {
     constexpr std::uint32_t half = 1u << 15;
-    std::uint64_t place = 0;
+    std::uint64_t hilbert_index = 0;
     for (std::uint32_t s = half; s > 0; s >>= 1) {
         const bool right = x & s, up = y & s;
-        place = 4 * place + (right ? (up ? 2 : 3) : (up ? 1 : 0));
+        hilbert_index = 4 * hilbert_index + (right ? (up ? 2 : 3) : (up ? 1 : 0));
         if (up) continue;
         if (right) {
             x = ~x;
@@ -22,14 +22,14 @@ std::uint64_t hilbert(std::uint32_t x, std::uint32_t y) {
         }
         std::swap(x, y);
     }
-    return place;
+    return hilbert_index;
 }
 
 }  // namespace
 
 double PlanarTriangulation::orient(int a, int b, int c) const { return orientation(point(a), point(b), point(c)); }
 
-std::size_t PlanarTriangulation::place(int t, int vertex) const {
+std::size_t PlanarTriangulation::corner_index(int t, int vertex) const {
     const auto& v = at(t).vertex;
     return v[0] == vertex ? 0 : v[1] == vertex ? 1 : 2;
 }
@@ -37,14 +37,14 @@ std::size_t PlanarTriangulation::place(int t, int vertex) const {
 PlanarTriangulation::Side PlanarTriangulation::twin(Side s) const {
     const int n = at(s.triangle).neighbour[std::size_t(s.k)];
     if (n < 0) return {};
-    return {n, int(place(n, at(s.triangle).vertex[next(std::size_t(s.k))]))};
+    return {n, int(corner_index(n, at(s.triangle).vertex[next(std::size_t(s.k))]))};
 }
 
 void PlanarTriangulation::set_side(int t, std::size_t k, int neighbour, int mark) {
     at(t).neighbour[k] = neighbour;
     at(t).mark[k] = mark;
     if (neighbour < 0) return;
-    const std::size_t j = place(neighbour, at(t).vertex[next(k)]);
+    const std::size_t j = corner_index(neighbour, at(t).vertex[next(k)]);
     at(neighbour).neighbour[j] = t;
     at(neighbour).mark[j] = mark;
 }
@@ -85,7 +85,7 @@ void PlanarTriangulation::start(const std::vector<Vec2>& points) {
         order_.push_back({n > 8 ? hilbert(std::uint32_t(x.x), std::uint32_t(x.y)) : 0, v});
     }
     std::sort(order_.begin(), order_.end());
-    for (const auto& [place, v] : order_) insert(v);
+    for (const auto& [hilbert_index, v] : order_) insert(v);
 }
 
 // A triangle that holds x. The walk ends in a Delaunay triangulation; this one is that up to rounding.
@@ -207,7 +207,7 @@ PlanarTriangulation::Side PlanarTriangulation::side(int a, int b) const {
     const int first = around(a);
     int t = first;
     do {
-        const std::size_t k = place(t, a);
+        const std::size_t k = corner_index(t, a);
         if (at(t).vertex[next(k)] == b) return {t, int(k)};
         t = at(t).neighbour[before(k)];
     } while (t != first && t >= 0);
@@ -217,17 +217,18 @@ PlanarTriangulation::Side PlanarTriangulation::side(int a, int b) const {
     return back.triangle < 0 ? back : twin(back);
 }
 
-PlanarTriangulation::Way PlanarTriangulation::connect(int a, int b) {
+PlanarTriangulation::ConnectResult PlanarTriangulation::connect(int a, int b) {
     // The triangle at a that the way leads into.
     const int first = around(a);
     int t = first;
     Side s;
     do {
-        const std::size_t k = place(t, a);
+        const std::size_t k = corner_index(t, a);
         const int c = at(t).vertex[next(k)], d = at(t).vertex[before(k)];
-        if (c == b) return {Way::End::there, b, {}};
+        if (c == b) return {ConnectResult::End::there, b, {}};
         const double side_of_c = orient(a, b, c);
-        if (side_of_c == 0 && glm::dot(point(c) - point(a), point(b) - point(a)) > 0) return {Way::End::vertex, c, {}};
+        if (side_of_c == 0 && glm::dot(point(c) - point(a), point(b) - point(a)) > 0)
+            return {ConnectResult::End::vertex, c, {}};
         if (side_of_c < 0 && orient(a, b, d) > 0) {
             s = {t, int(next(k))};
             break;
@@ -239,7 +240,7 @@ PlanarTriangulation::Way PlanarTriangulation::connect(int a, int b) {
     int end = b;
     while (true) {
         const int right = at(s.triangle).vertex[std::size_t(s.k)], left = at(s.triangle).vertex[next(std::size_t(s.k))];
-        if (mark(s) >= 0) return {Way::End::marked, -1, s};
+        if (mark(s) >= 0) return {ConnectResult::End::marked, -1, s};
         crossed_.push_back({right, left});
         const Side o = twin(s);
         const int c = apex(o);
@@ -264,7 +265,7 @@ PlanarTriangulation::Way PlanarTriangulation::connect(int a, int b) {
         const double side_of_c = orient(a, end, c), side_of_d = orient(a, end, d);
         if ((side_of_c > 0) != (side_of_d > 0)) crossed_.push_back(side_of_c < 0 ? std::pair{c, d} : std::pair{d, c});
     }
-    return {end == b ? Way::End::there : Way::End::vertex, end, {}};
+    return {end == b ? ConnectResult::End::there : ConnectResult::End::vertex, end, {}};
 }
 
 void PlanarTriangulation::improve(const std::vector<char>& wanted) {

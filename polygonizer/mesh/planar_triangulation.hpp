@@ -22,7 +22,7 @@ public:
         int triangle = -1, k = 0;
     };
     /// What is first met on the way from a point to another.
-    struct Way {
+    struct ConnectResult {
         enum class End { there, vertex, marked } end = End::there;
         int vertex = -1;  // up to where the way now is an edge; marked: none
         Side crossed;     // marked: the side that is in the way
@@ -33,7 +33,7 @@ public:
 
     /// Makes an edge of the way from a toward b, up to b, or to the first point on it. Changes nothing where a
     /// marked edge crosses it before.
-    Way connect(int a, int b);
+    ConnectResult connect(int a, int b);
     /// The side that runs from a to b; its triangle is −1 if there is none.
     Side side(int a, int b) const;
     int mark(Side s) const { return at(s.triangle).mark[std::size_t(s.k)]; }
@@ -53,7 +53,7 @@ private:
     const Triangle& at(int t) const { return triangles_[std::size_t(t)]; }
     Triangle& at(int t) { return triangles_[std::size_t(t)]; }
     double orient(int a, int b, int c) const;
-    std::size_t place(int t, int vertex) const;
+    std::size_t corner_index(int t, int vertex) const;
     int apex(Side s) const { return at(s.triangle).vertex[before(std::size_t(s.k))]; }
     Side twin(Side s) const;
     void set_side(int t, std::size_t k, int neighbour, int mark);

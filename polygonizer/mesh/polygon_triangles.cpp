@@ -10,8 +10,8 @@
 namespace deburr {
 namespace {
 
-using Corners = std::array<int, 3>;
-using Way = PlanarTriangulation::Way;
+using TriangleVertices = std::array<int, 3>;
+using ConnectResult = PlanarTriangulation::ConnectResult;
 using Side = PlanarTriangulation::Side;
 
 // The plane of two coordinates that is nearest to being at right angles to the normal.
@@ -38,7 +38,7 @@ public:
         gather(loops, positions, View(normal));
         if (corners_ == 0) return;
         plane_.start(points_);
-        for (const Edge& side : sides_) ways_.push_back({side.a, side.b, side.first, side.last});
+        for (const Edge& side : sides_) constraints_.push_back({side.a, side.b, side.first, side.last});
         bool connected = connect_all();
         if (connected) {
             wind();
@@ -50,10 +50,10 @@ public:
         if (plain || (connected && covers(loops))) return;
         out.crosses_itself = true;
         const View view(normal);
-        std::vector<std::vector<Vec2>> places(loops.size());
+        std::vector<std::vector<Vec2>> plane_points(loops.size());
         for (std::size_t k = 0; k < loops.size(); ++k)
-            for (const int v : loops[k]) places[k].push_back(view(positions[std::size_t(v)]));
-        out.triangles = loop_ears(loops, places);
+            for (const int v : loops[k]) plane_points[k].push_back(view(positions[std::size_t(v)]));
+        out.triangles = loop_ears(loops, plane_points);
     }
 
 private:
@@ -83,7 +83,7 @@ private:
     void gather(const std::vector<std::vector<int>>& loops, const std::vector<Vec3>& positions, const View& view) {
         points_.clear();
         sides_.clear();
-        ways_.clear();
+        constraints_.clear();
         edges_.clear();
         still_.clear();
         joints_.clear();
@@ -126,19 +126,19 @@ private:
     // Makes edges of all sides; false if they cross so much that there seems to be no end.
     bool connect_all() {
         std::size_t crossings_left = 8 * corners_ + 64;
-        std::reverse(ways_.begin(), ways_.end());
-        while (!ways_.empty()) {
-            const Edge way = ways_.back();
-            ways_.pop_back();
-            const Way found = plane_.connect(way.a, way.b);
-            if (found.end == Way::End::there) {
-                attach(way, found.vertex);
-            } else if (found.end == Way::End::vertex) {
-                lead_through(way, found.vertex);
+        std::reverse(constraints_.begin(), constraints_.end());
+        while (!constraints_.empty()) {
+            const Edge constraint = constraints_.back();
+            constraints_.pop_back();
+            const ConnectResult found = plane_.connect(constraint.a, constraint.b);
+            if (found.end == ConnectResult::End::there) {
+                attach(constraint, found.vertex);
+            } else if (found.end == ConnectResult::End::vertex) {
+                route_through(constraint, found.vertex);
             } else {
                 if (crossings_left-- == 0) return false;
                 out_->crosses_itself = true;
-                cross(way, found.crossed);
+                cross(constraint, found.crossed);
             }
         }
         return true;
@@ -152,29 +152,29 @@ private:
     }
 
     // The side is made of two, and gets a triangle on top.
-    void lead_through(const Edge& way, int point) {
+    void route_through(const Edge& constraint, int point) {
         const int v = touch_code(touches_.size());
         touches_.push_back({point});
         touched_[std::size_t(point)] = true;
-        out_->triangles.push_back({way.first, way.last, v});
-        ways_.push_back({point, way.b, v, way.last});
-        ways_.push_back({way.a, point, way.first, v});
+        out_->triangles.push_back({constraint.first, constraint.last, v});
+        constraints_.push_back({point, constraint.b, v, constraint.last});
+        constraints_.push_back({constraint.a, point, constraint.first, v});
     }
 
-    void cross(const Edge& way, Side crossed) {
+    void cross(const Edge& constraint, Side crossed) {
         const auto& t = plane_.triangles()[std::size_t(crossed.triangle)];
         const int c = t.vertex[std::size_t(crossed.k)], d = t.vertex[PlanarTriangulation::next(std::size_t(crossed.k))];
         const auto off = [&](int point, int from, int to) {
             return distance_to_segment(plane_.point(point), plane_.point(from), plane_.point(to));
         };
-        const double of_c = off(c, way.a, way.b), of_d = off(d, way.a, way.b);
-        const double of_a = off(way.a, c, d), of_b = off(way.b, c, d);
-        if (std::min(of_c, of_d) <= std::min(of_a, of_b)) return lead_through(way, of_c <= of_d ? c : d);
-        ways_.push_back(way);
+        const double of_c = off(c, constraint.a, constraint.b), of_d = off(d, constraint.a, constraint.b);
+        const double of_a = off(constraint.a, c, d), of_b = off(constraint.b, c, d);
+        if (std::min(of_c, of_d) <= std::min(of_a, of_b)) return route_through(constraint, of_c <= of_d ? c : d);
+        constraints_.push_back(constraint);
         int k = plane_.mark(crossed);
         plane_.set_mark(crossed, -1);
         for (; k >= 0; k = edges_[std::size_t(k)].next)
-            lead_through(edges_[std::size_t(k)], of_a <= of_b ? way.a : way.b);
+            route_through(edges_[std::size_t(k)], of_a <= of_b ? constraint.a : constraint.b);
     }
 
     // How often the sides wind around each triangle: 0 far outside, and by one more left of each side.
@@ -212,7 +212,7 @@ private:
         return sum;
     }
 
-    void emit(const Corners& t, int times) {
+    void emit(const TriangleVertices& t, int times) {
         for (; times > 0; --times) out_->triangles.push_back(t);
         for (; times < 0; ++times) out_->triangles.push_back({t[1], t[0], t[2]});
     }
@@ -224,7 +224,7 @@ private:
             for (std::size_t k = 0; k < 3; ++k) vertices_[t][k] = vertex_at_[std::size_t(triangles[t].vertex[k])];
         for (std::size_t p = 0; p < points_.size(); ++p)
             if (several_[p] || touched_[p]) part(int(p));
-        for (Corners& t : out_->triangles)
+        for (TriangleVertices& t : out_->triangles)
             for (int& v : t)
                 if (is_touch(v)) v = touched_vertex(v);
         for (std::size_t t = 0; t < triangles.size(); ++t) emit(vertices_[t], winding_[t]);
@@ -239,16 +239,16 @@ private:
 
     // A touch of its own is no vertex: the triangles around it, of which one has the side, become others without it.
     bool drop_touches(const std::vector<Vec3>& positions, const View& view) {
-        const auto place = [&](int v) {
+        const auto plane_point = [&](int v) {
             return is_touch(v) ? points_[std::size_t(touch(v).point)] : view(positions[std::size_t(v)]);
         };
         for (std::size_t k = 0; k < touches_.size(); ++k) {
             if (touches_[k].vertex != own) continue;
             std::vector<int> ring;
             if (!take_ring(out_->triangles, touch_code(k), ring)) return false;
-            std::vector<Vec2> places;
-            for (const int v : ring) places.push_back(place(v));
-            for (const Corners& t : small_polygon(places))
+            std::vector<Vec2> plane_points;
+            for (const int v : ring) plane_points.push_back(plane_point(v));
+            for (const TriangleVertices& t : small_polygon(plane_points))
                 out_->triangles.push_back({ring[std::size_t(t[0])], ring[std::size_t(t[1])], ring[std::size_t(t[2])]});
         }
         return true;
@@ -332,7 +332,7 @@ private:
     // Whether the triangles' edges cancel but for the sides.
     bool covers(const std::vector<std::vector<int>>& loops) const {
         EdgeChain chain;
-        for (const Corners& t : out_->triangles)
+        for (const TriangleVertices& t : out_->triangles)
             for (std::size_t k = 0; k < 3; ++k) chain.add(t[k], t[PlanarTriangulation::next(k)]);
         for (const auto& loop : loops)
             for (std::size_t k = 0; k < loop.size(); ++k) chain.add(loop[k], loop[(k + 1) % loop.size()], -1);
@@ -344,17 +344,17 @@ private:
     std::size_t corners_ = 0;
     std::vector<std::pair<std::pair<double, double>, int>> found_;  // places and corners
     std::vector<Vec2> points_;
-    std::vector<int> point_of_;                       // a corner
-    std::vector<int> vertex_at_;                      // a point: the first of those
-    std::vector<char> several_;                       // whether there are more
-    std::vector<Edge> sides_, ways_, edges_, still_;  // still: between vertices in one place
+    std::vector<int> point_of_;                              // a corner
+    std::vector<int> vertex_at_;                             // a point: the first of those
+    std::vector<char> several_;                              // whether there are more
+    std::vector<Edge> sides_, constraints_, edges_, still_;  // still: between vertices in one place
     std::vector<Touch> touches_;
     std::vector<char> touched_;  // a point
     bool simple_winding_ = true;
     std::vector<int> winding_, todo_;
     std::vector<char> within_;
     std::vector<Joint> joints_;
-    std::vector<Corners> vertices_;
+    std::vector<TriangleVertices> vertices_;
 };
 
 }  // namespace

@@ -14,8 +14,8 @@ constexpr int max_generation = 24;
 
 class Refinement {
 public:
-    Refinement(Mesh& mesh, std::vector<Origin>& origins, const FacetJudge& judge, double tolerance, StopFlag stop)
-        : facets_(mesh, origins), judge_(judge), tolerance_(tolerance), stop_(stop) {
+    Refinement(Mesh& mesh, std::vector<Origin>& origins, const FacetJudge& judge, double tolerance, CancelFlag cancel)
+        : facets_(mesh, origins), judge_(judge), tolerance_(tolerance), cancel_(cancel) {
         generation_.resize(facets_.size(), 0);
     }
 
@@ -23,7 +23,7 @@ public:
         for (std::size_t f = 0; f < facets_.size(); ++f) open_.push_back(int(f));
         std::size_t looks = 0;
         while (!open_.empty()) {
-            if (++looks % 1024 == 0) throw_if_stopped(stop_);
+            if (++looks % 1024 == 0) throw_if_cancelled(cancel_);
             const int f = open_.front();
             open_.pop_front();
             if (!facets_.alive(f) || facets_.at(f).origin.leaf < 0 || !is_far(f)) continue;
@@ -69,7 +69,7 @@ private:
         // A triangle of the surface's own vertices is nearer to the surface than its edges are long.
         const double longest = std::max({glm::length(x[0] - x[1]), glm::length(x[1] - x[2]), glm::length(x[2] - x[0])});
         if (longest <= 2 * tolerance_) return false;
-        double farthest = 0, most_turn = 0;
+        double farthest = 0, max_turn = 0;
         std::size_t turns_most = 0;
         for (std::size_t k = 0; k < 3; ++k) {
             const std::size_t l = (k + 1) % 3;
@@ -77,8 +77,8 @@ private:
             const double turn = glm::length(n[k] - n[l]) * length;
             farthest = std::max(farthest, d);
             edges_[k] = {d, d / (length * length), k};
-            if (turn <= most_turn) continue;
-            most_turn = turn;
+            if (turn <= max_turn) continue;
+            max_turn = turn;
             turns_most = k;
         }
         if (farthest <= tolerance_) {
@@ -160,7 +160,7 @@ private:
     Facets facets_;
     const FacetJudge& judge_;
     double tolerance_;
-    StopFlag stop_;
+    CancelFlag cancel_;
     std::deque<int> open_;
     std::vector<int> generation_;  // of facets
     std::vector<int> stuck_;
@@ -170,9 +170,9 @@ private:
 }  // namespace
 
 std::vector<int> refine(Mesh& mesh, std::vector<Origin>& origins, const FacetJudge& judge, double tolerance,
-                        StopFlag stop) {
+                        CancelFlag cancel) {
     if (mesh.triangles.empty()) return {};
-    return Refinement(mesh, origins, judge, tolerance, stop).run();
+    return Refinement(mesh, origins, judge, tolerance, cancel).run();
 }
 
 }  // namespace deburr

@@ -13,8 +13,8 @@
 namespace deburr {
 
 /// Splits edges of a closed mesh until points all over its curved triangles are within `tolerance` of the surface.
-/// Returns the triangles, in the order of the refined mesh, for which no split or flip led there. Throws Stopped.
+/// Returns the triangles, in the order of the refined mesh, for which no split or flip led there. Throws Cancelled.
 std::vector<int> refine(Mesh& mesh, std::vector<Origin>& origins, const FacetJudge& judge, double tolerance,
-                        StopFlag stop = nullptr);
+                        CancelFlag cancel = nullptr);
 
 }  // namespace deburr

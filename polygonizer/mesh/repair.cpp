@@ -23,7 +23,7 @@ constexpr Limits gentle{0.2, 0.25, 2, 1e-3, 0, false}, last_resort{0.05, 0.06, 5
 // Where surfaces run closer together than any facet is small, mending one makes two that need it. So
 // there are this many splits, more for every wrong facet, and this many tries for each.
 // Where few facets are wrong, three tries for each are enough.
-constexpr std::size_t most_splits = 80, more_splits = 8, splits_at_all = 4000, most_tries = 16;
+constexpr std::size_t max_splits = 80, more_splits = 8, splits_at_all = 4000, max_tries = 16;
 
 // How good a set of facets is.
 struct Verdict {
@@ -67,13 +67,13 @@ public:
         return v;
     }
 
-    SurfacePiece piece(const Facet& f) const { return surface_of(facets_, f); }
+    LeafSurface piece(const Facet& f) const { return surface_of(facets_, f); }
 
     // Vertex u onto v, if v lies on all surfaces that meet at u, or at the last so near to them that
     // facets may stand for one or the other.
     std::optional<Change> collapse(int u, int v, double near) const {
         for (const int f : facets_.around(u)) {
-            const Offset o = surfaces_.at(piece(facets_.at(f)), facets_.position(v));
+            const SurfaceSample o = surfaces_.at(piece(facets_.at(f)), facets_.position(v));
             if (!(std::abs(o.distance) <= std::max(surfaces_.slack(), near))) return {};
         }
         return facets_.collapse(u, v);
@@ -99,7 +99,7 @@ public:
         const Triangle& t = facets_.at(f).triangle;
         const int other = facets_.across(t.vertex[k], t.vertex[(k + 1) % 3]);
         if (other < 0) return false;
-        const Offset o = surfaces_.at(piece(facets_.at(other)), facets_.position(t.vertex[(k + 2) % 3]));
+        const SurfaceSample o = surfaces_.at(piece(facets_.at(other)), facets_.position(t.vertex[(k + 2) % 3]));
         return std::abs(o.distance) <= std::max(surfaces_.slack(), near);
     }
 
@@ -119,12 +119,12 @@ public:
             if (!change) return;
             const Verdict was = before(*change), is = after(*change);
             // A fold may have to be unrolled step by step. What has no area may not become a fold.
-            constexpr double less = 0.999, least_fold = 0.01;
+            constexpr double less = 0.999, min_fold = 0.01;
             const bool may_add = limits_.unfold && &count == &statistics.collapses;
             const bool unrolls =
                 (is.wrong == was.wrong || may_add) && &count != &statistics.splits && is.inverted < less * was.inverted;
             if (is.wrong >= was.wrong && !unrolls) return;
-            if (is.inverted > was.inverted + least_fold * longest * longest) return;
+            if (is.inverted > was.inverted + min_fold * longest * longest) return;
             if (is.distance > std::max(limits_.farther * was.distance, limits_.of_longest * longest)) return;
             const int gain = was.wrong - is.wrong;
             if (best && (gain < best_gain || (gain == best_gain && is.worst <= best_worst))) return;
@@ -152,7 +152,7 @@ public:
     // A vertex where the facet is farthest from its surface: in the middle of an edge, or its own.
     std::optional<Change> refine(int f, RepairStatistics& statistics) {
         std::optional<Change> best;
-        double most = least_sag();
+        double most = min_sag();
         const auto offer = [&](std::optional<Change> change, Vec3 from) {
             if (!change) return;
             for (const Facet& g : change->in)
@@ -181,15 +181,15 @@ public:
         std::deque<int> todo;
         for (std::size_t f = 0; f < facets_.size(); ++f)
             if (wrong(int(f))) todo.push_back(int(f));
-        if (!splits_left_) splits_left_ = std::min(most_splits + more_splits * todo.size(), splits_at_all);
+        if (!splits_left_) splits_left_ = std::min(max_splits + more_splits * todo.size(), splits_at_all);
         std::size_t& splits_left = *splits_left_;
-        std::size_t tries_left = most_tries * todo.size();
+        std::size_t tries_left = max_tries * todo.size();
         std::unordered_set<int> waiting(todo.begin(), todo.end());
         // Facets that nothing helped are asked again after others have changed.
         std::vector<int> stuck;
-        constexpr int most_rounds = 6;
+        constexpr int max_rounds = 6;
         bool changed = true;
-        for (int round = 0; round < most_rounds && changed; ++round) {
+        for (int round = 0; round < max_rounds && changed; ++round) {
             changed = false;
             while (!todo.empty() && tries_left > 0) {
                 --tries_left;
@@ -223,7 +223,7 @@ public:
         for (const int f : facets_.around(v)) {
             const Facet& facet = facets_.at(f);
             if (facet.origin.leaf < 0) continue;
-            const int k = facet.triangle.normal[std::size_t(facets_.place(f, v))];
+            const int k = facet.triangle.normal[std::size_t(facets_.corner_index(f, v))];
             const Vec3 old = facets_.normal(k), n = surfaces_.at(piece(facet), facets_.position(v)).normal;
             if (n != Vec3(0.0)) facets_.set_normal(k, glm::dot(n, old) < 0 ? -n : n);
         }
@@ -234,7 +234,7 @@ public:
         const Vec3 start = x;
         constexpr int steps = 30;
         for (int k = 0; k < steps; ++k) {
-            const Offset o = solid_.at(x);
+            const SurfaceSample o = solid_.at(x);
             if (!std::isfinite(o.distance)) return false;
             x += o.normal * o.distance;
             if (!(glm::length(x - start) <= reach)) return false;
@@ -249,7 +249,7 @@ public:
         for (int v = 0; v < facets_.vertices(); ++v) {
             if (facets_.around(v).empty()) continue;
             if (on_surface(facets_.position(v))) continue;
-            std::vector<SurfacePiece> pieces;
+            std::vector<LeafSurface> pieces;
             double shortest = infinity;
             for (const int f : facets_.around(v)) {
                 add_surface(pieces, piece(facets_.at(f)));
@@ -299,18 +299,18 @@ private:
 
     double nearly_on_surface() const { return std::min(1e-7 * judge_.size(), 5e-7); }
     double shortest() const { return 1e-5 * judge_.size(); }
-    double least_sag() const { return 1e-7 * judge_.size(); }
+    double min_sag() const { return 1e-7 * judge_.size(); }
     // Not again what was there before: a vertex that was put in to mend stays.
     bool made(int vertex) const { return vertex >= first_made_; }
 
-    static int place(const Facet& f, int vertex) {
+    static int corner_index(const Facet& f, int vertex) {
         const auto& v = f.triangle.vertex;
         return v[0] == vertex ? 0 : v[1] == vertex ? 1 : 2;
     }
 
     Facets facets_;
     const FacetJudge& judge_;
-    const OffsetField& solid_;
+    const DistanceField& solid_;
     const LeafSurfaces& surfaces_;
     std::vector<std::optional<FacetShape>> shapes_;  // of the facets, where known
     std::vector<char> beside_;                       // vertices that nothing brought onto the surface

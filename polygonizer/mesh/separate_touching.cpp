@@ -36,15 +36,15 @@ struct Around {
 
 // Where to move each of the vertices, from the corners of their triangles.
 std::vector<Around> surroundings(const Mesh& mesh, const std::vector<int>& vertices) {
-    std::vector<int> place(mesh.positions.size(), -1);
-    for (std::size_t k = 0; k < vertices.size(); ++k) place[std::size_t(vertices[k])] = int(k);
+    std::vector<int> new_index(mesh.positions.size(), -1);
+    for (std::size_t k = 0; k < vertices.size(); ++k) new_index[std::size_t(vertices[k])] = int(k);
     std::vector<Around> around(vertices.size());
     std::vector<Vec3> middles(vertices.size(), Vec3(0.0));
     for (const Triangle& t : mesh.triangles) {
         const Vec3 area = mesh.area_vector(t);
         const double size = glm::length(area);
         for (std::size_t k = 0; k < 3; ++k) {
-            const int at = place[std::size_t(t.vertex[k])];
+            const int at = new_index[std::size_t(t.vertex[k])];
             if (at < 0) continue;
             const Vec3 x = mesh.positions[std::size_t(t.vertex[k])];
             const Vec3 p = mesh.positions[std::size_t(t.vertex[(k + 1) % 3])] - x;
@@ -88,7 +88,7 @@ bool keeps_facing(const Facets& facets, const Change& change) {
 
 }  // namespace
 
-double single_precision_step(const Mesh& mesh) { return std::max(hair, few_steps(mesh)); }
+double single_precision_step(const Mesh& mesh) { return std::max(min_separation, few_steps(mesh)); }
 
 std::size_t merge_close(Mesh& mesh) {
     const auto coincide = [&](int u, int v) {
@@ -126,7 +126,7 @@ std::size_t separate_touching(Mesh& mesh, double step) {
     std::vector<char> used(mesh.positions.size(), false);
     for (const Triangle& t : mesh.triangles)
         for (const int v : t.vertex) used[std::size_t(v)] = true;
-    constexpr double most_of_an_edge = 0.1;
+    constexpr double max_edge_share = 0.1;
     std::vector<int> touching = shared(mesh, used);
     const std::vector<Around> around = surroundings(mesh, touching);
     const std::vector<Vec3> start = [&] {
@@ -144,7 +144,7 @@ std::size_t separate_touching(Mesh& mesh, double step) {
             if (at == touching.size() || touching[at] != left[k]) continue;  // came to lie on one that does not move
             // From the second time on every other one of those that still coincide.
             if (round > 0 && k % 2 == 0) continue;
-            const double length = std::min(step * shares[round], most_of_an_edge * around[at].shortest);
+            const double length = std::min(step * shares[round], max_edge_share * around[at].shortest);
             mesh.positions[std::size_t(left[k])] = start[at] + around[at].inward * length;
         }
         left = shared(mesh, used);

@@ -8,7 +8,7 @@
 namespace deburr {
 
 /// The hair: the vertices stay within 10⁻⁶ of the surface.
-constexpr double hair = 4e-7;
+constexpr double min_separation = 4e-7;
 
 /// A step that single precision still tells apart at this mesh's coordinates; at least a hair.
 double single_precision_step(const Mesh& mesh);
@@ -20,6 +20,6 @@ std::size_t merge_close(Mesh& mesh);
 
 /// Moves vertices whose positions are the same in single precision inward by `step`, or by less
 /// where their triangles are small, until they differ. Returns how many are left that do not.
-std::size_t separate_touching(Mesh& mesh, double step = hair);
+std::size_t separate_touching(Mesh& mesh, double step = min_separation);
 
 }  // namespace deburr

@@ -7,7 +7,7 @@
 namespace deburr {
 namespace {
 
-constexpr std::size_t most_leaves = 256;  // that one density may turn into
+constexpr std::size_t max_leaves = 256;  // that one density may turn into
 
 DensityTree subtree(const DensityTree& from, int root) {
     std::vector<char> needed(std::size_t(root) + 1, false);
@@ -19,7 +19,7 @@ DensityTree subtree(const DensityTree& from, int root) {
         if (n.b >= 0) needed[std::size_t(n.b)] = true;
     }
     DensityTree to;
-    std::vector<int> place(needed.size(), -1);
+    std::vector<int> new_index(needed.size(), -1);
     for (std::size_t i = 0; i < needed.size(); ++i) {
         if (!needed[i]) continue;
         TreeNode n = from.nodes[i];
@@ -27,14 +27,14 @@ DensityTree subtree(const DensityTree& from, int root) {
             to.half_spaces.push_back(from.half_spaces[std::size_t(n.a)]);
             n.a = int(to.half_spaces.size()) - 1;
         } else if (n.op != Op::constant) {
-            n.a = place[std::size_t(n.a)];
-            if (n.b >= 0) n.b = place[std::size_t(n.b)];
+            n.a = new_index[std::size_t(n.a)];
+            if (n.b >= 0) n.b = new_index[std::size_t(n.b)];
         }
         if (n.support >= 0) {
             to.supports.push_back(from.supports[std::size_t(n.support)]);
             n.support = int(to.supports.size()) - 1;
         }
-        place[i] = int(to.nodes.size());
+        new_index[i] = int(to.nodes.size());
         to.nodes.push_back(n);
     }
     return to;
@@ -68,7 +68,7 @@ public:
     /// Root of the density's set; −1 if it would take too many leaves.
     int run(const SolidLeaf& leaf) {
         const Kinds k = kinds(leaf.density);
-        if (to_.leaves.size() - leaves_before_ > most_leaves) return -1;
+        if (to_.leaves.size() - leaves_before_ > max_leaves) return -1;
         if (leaf.field) return add(leaf);
         if (leaf.density.nodes.back().op == Op::constant)
             return add({leaf.density.nodes.back().value > 0.5 ? SolidOp::everything : SolidOp::nothing});
@@ -144,7 +144,7 @@ private:
 
 SolidTree separate_sharp(const SolidTree& solid) {
     SolidTree to;
-    std::vector<int> place;
+    std::vector<int> new_index;
     for (const SolidTreeNode& n : solid.nodes) {
         SolidTreeNode node = n;
         if (n.op == SolidOp::leaf) {
@@ -152,7 +152,7 @@ SolidTree separate_sharp(const SolidTree& solid) {
             const std::size_t leaves = to.leaves.size(), nodes = to.nodes.size();
             const int root = Separation(to).run(leaf);
             if (root >= 0) {
-                place.push_back(root);
+                new_index.push_back(root);
                 continue;
             }
             to.leaves.resize(leaves);
@@ -160,13 +160,13 @@ SolidTree separate_sharp(const SolidTree& solid) {
             to.leaves.push_back(leaf);
             node.a = int(to.leaves.size()) - 1;
         } else if (n.a >= 0) {
-            node.a = place[std::size_t(n.a)];
-            node.b = place[std::size_t(n.b)];
+            node.a = new_index[std::size_t(n.a)];
+            node.b = new_index[std::size_t(n.b)];
         }
-        place.push_back(int(to.nodes.size()));
+        new_index.push_back(int(to.nodes.size()));
         to.nodes.push_back(node);
     }
-    to.nodes.resize(std::size_t(place.back()) + 1);
+    to.nodes.resize(std::size_t(new_index.back()) + 1);
     return to;
 }
 

@@ -16,7 +16,7 @@
 namespace deburr {
 namespace {
 
-constexpr std::size_t most_nodes = 20'000;
+constexpr std::size_t max_nodes = 20'000;
 constexpr int nothing = -1, everything = -2, too_many = -3;  // in place of a node
 
 class Conversion {
@@ -46,7 +46,7 @@ public:
     /// No nodes if it would take too many.
     DensityTree run() {
         int root = least(from_.root(), 1, false);
-        if (to_.nodes.size() > most_nodes) return {};
+        if (to_.nodes.size() > max_nodes) return {};
         if (root < 0 || root != to_.root()) {
             // The root is last.
             if (root < 0)
@@ -81,15 +81,15 @@ private:
 
     int make(int node, int k) {
         const TreeNode& n = from_.nodes[std::size_t(node)];
-        if (to_.nodes.size() > most_nodes) return too_many;
+        if (to_.nodes.size() > max_nodes) return too_many;
         const int before = node_;
         node_ = node;
         int set = nothing;
         switch (n.op) {
             case Op::half_space: set = add({Op::half_space, n.a, -1, 0, n.line}); break;
             case Op::complement: set = complement(least(n.a, 2 - k, false)); break;
-            case Op::conjunction: set = both(least(n.a, 1, false), least(n.b, 1, false)); break;
-            case Op::disjunction: set = either(least(n.a, 1, false), least(n.b, 1, false)); break;
+            case Op::conjunction: set = intersect(least(n.a, 1, false), least(n.b, 1, false)); break;
+            case Op::disjunction: set = unite(least(n.a, 1, false), least(n.b, 1, false)); break;
             case Op::sum:
             case Op::difference: {
                 const bool minus = n.op == Op::difference;
@@ -97,12 +97,12 @@ private:
                 // With more of a than the first, b could be anything, and with less than the last nothing.
                 const int first = std::clamp(k - b.lo, a.lo, a.hi), last = std::clamp(k - b.hi, a.lo, a.hi);
                 for (int j = first; j >= last; --j)
-                    set = either(set, both(least(n.a, j, false), least(n.b, k - j, minus)));
+                    set = unite(set, intersect(least(n.a, j, false), least(n.b, k - j, minus)));
                 break;
             }
             case Op::product:
                 if (k > 0)
-                    set = either(product(n, k, false), product(n, k, true));
+                    set = unite(product(n, k, false), product(n, k, true));
                 else
                     set = complement(negative_product(n, 1 - k));
                 break;
@@ -116,7 +116,7 @@ private:
     int product(const TreeNode& n, int k, bool negated) {
         int set = nothing;
         for (int i = 1; i <= range(n.a, negated).hi; ++i)
-            set = either(set, both(least(n.a, i, negated), least(n.b, (k + i - 1) / i, negated)));
+            set = unite(set, intersect(least(n.a, i, negated), least(n.b, (k + i - 1) / i, negated)));
         return set;
     }
     // Where the product is at most −k.
@@ -124,18 +124,18 @@ private:
         int set = nothing;
         for (const bool negated : {false, true})
             for (int i = 1; i <= range(n.a, negated).hi; ++i)
-                set = either(set, both(least(n.a, i, negated), least(n.b, (k + i - 1) / i, !negated)));
+                set = unite(set, intersect(least(n.a, i, negated), least(n.b, (k + i - 1) / i, !negated)));
         return set;
     }
 
-    int both(int a, int b) {
+    int intersect(int a, int b) {
         if (a == too_many || b == too_many) return too_many;
         if (a == nothing || b == nothing) return nothing;
         if (a == everything || a == b) return b;
         if (b == everything) return a;
         return add({Op::conjunction, a, b});
     }
-    int either(int a, int b) {
+    int unite(int a, int b) {
         if (a == too_many || b == too_many) return too_many;
         if (a == everything || b == everything) return everything;
         if (a == nothing || a == b) return b;

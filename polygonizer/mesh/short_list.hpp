@@ -58,9 +58,9 @@ public:
         size_ += count;
     }
     void insert(T* at, T value) {
-        const std::ptrdiff_t place = at - begin();
+        const std::ptrdiff_t index = at - begin();
         push_back(value);
-        std::rotate(begin() + place, end() - 1, end());
+        std::rotate(begin() + index, end() - 1, end());
     }
     void erase(T* first, T* last) {
         std::copy(last, end(), first);

@@ -90,7 +90,7 @@ private:
 
 }  // namespace
 
-std::size_t thin_borders(Mesh& mesh, std::vector<Origin>& origins, const FacetJudge& judge, double farthest) {
+std::size_t simplify_borders(Mesh& mesh, std::vector<Origin>& origins, const FacetJudge& judge, double farthest) {
     if (mesh.triangles.empty()) return 0;
     return Thinning(mesh, origins, judge, farthest).run();
 }

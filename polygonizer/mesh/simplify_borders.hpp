@@ -6,6 +6,6 @@
 namespace deburr {
 
 /// Collapses them; no triangle gets farther from the surface than `farthest`. Returns how many went.
-std::size_t thin_borders(Mesh& mesh, std::vector<Origin>& origins, const FacetJudge& judge, double farthest);
+std::size_t simplify_borders(Mesh& mesh, std::vector<Origin>& origins, const FacetJudge& judge, double farthest);
 
 }  // namespace deburr

@@ -20,13 +20,13 @@ Vec3 single_precision_normal(const Mesh& mesh, const Triangle& t) {
 
 SinglePrecisionLoss single_precision_loss(const Mesh& mesh) {
     SinglePrecisionLoss loss;
-    loss.least_edge = mesh.triangles.empty() ? 0 : infinity;
+    loss.min_edge = mesh.triangles.empty() ? 0 : infinity;
     for (const Triangle& t : mesh.triangles) {
         for (std::size_t k = 0; k < 3; ++k) {
             const Vec3 a = mesh.positions[std::size_t(t.vertex[k])],
                        b = mesh.positions[std::size_t(t.vertex[(k + 1) % 3])];
             loss.coordinate = std::max(loss.coordinate, largest(a));
-            loss.least_edge = std::min(loss.least_edge, glm::distance(a, b));
+            loss.min_edge = std::min(loss.min_edge, glm::distance(a, b));
         }
         loss.spoiled += glm::dot(single_precision_normal(mesh, t), mesh.area_vector(t)) <= 0;
     }

@@ -7,7 +7,7 @@ namespace deburr {
 struct SinglePrecisionLoss {
     double step = 0;          // between numbers next to each other, at the largest coordinate
     double coordinate = 0;    // that one
-    double least_edge = 0;    // of the mesh; 0 if it is empty
+    double min_edge = 0;      // of the mesh; 0 if it is empty
     std::size_t spoiled = 0;  // facets that are flattened or turned over
 };
 

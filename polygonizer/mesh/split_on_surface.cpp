@@ -3,21 +3,21 @@
 namespace deburr {
 namespace {
 
-bool same(const SurfacePiece& a, const SurfacePiece& b) {
+bool same(const LeafSurface& a, const LeafSurface& b) {
     constexpr double same_normal = 1e-6;
     return a.leaf == b.leaf && (a.leaf >= 0 || glm::length(a.normal - b.normal) < same_normal);
 }
 
 }  // namespace
 
-SurfacePiece surface_of(const Facets& facets, const Facet& facet) {
+LeafSurface surface_of(const Facets& facets, const Facet& facet) {
     if (facet.origin.leaf >= 0) return {facet.origin.leaf};
     const Vec3 n = facets.normal(facet.triangle.normal[0]);
     return {-1, n, glm::dot(n, facets.position(facet.triangle.vertex[0]))};
 }
 
-void add_surface(std::vector<SurfacePiece>& pieces, const SurfacePiece& piece) {
-    for (const SurfacePiece& known : pieces)
+void add_surface(std::vector<LeafSurface>& pieces, const LeafSurface& piece) {
+    for (const LeafSurface& known : pieces)
         if (same(known, piece)) return;
     pieces.push_back(piece);
 }
@@ -27,7 +27,7 @@ std::optional<Change> split_on_surface(Facets& facets, const FacetJudge& judge, 
     const int a = facet.triangle.vertex[k], b = facet.triangle.vertex[(k + 1) % 3];
     const int other = facets.across(a, b);
     const Facet beyond = facets.at(other);
-    std::vector<SurfacePiece> pieces;
+    std::vector<LeafSurface> pieces;
     add_surface(pieces, surface_of(facets, facet));
     add_surface(pieces, surface_of(facets, beyond));
     const Vec3 xa = facets.position(a), xb = facets.position(b);
@@ -38,8 +38,8 @@ std::optional<Change> split_on_surface(Facets& facets, const FacetJudge& judge, 
         const auto& normals = of_g.triangle.normal;
         if (of_g.origin.leaf < 0) return normals[0];
         const Vec3 n = judge.surfaces().at({of_g.origin.leaf}, x).normal;
-        const Vec3 na = facets.normal(normals[std::size_t(facets.place(g, a))]);
-        const Vec3 nb = facets.normal(normals[std::size_t(facets.place(g, b))]);
+        const Vec3 na = facets.normal(normals[std::size_t(facets.corner_index(g, a))]);
+        const Vec3 nb = facets.normal(normals[std::size_t(facets.corner_index(g, b))]);
         return facets.add_normal(glm::dot(n, na + nb) < 0 ? -n : n);
     };
     const int n = normal_on(f, facet);

@@ -5,10 +5,10 @@
 namespace deburr {
 
 /// The surface that a facet stands for: its leaf's, or its plane.
-SurfacePiece surface_of(const Facets& facets, const Facet& facet);
+LeafSurface surface_of(const Facets& facets, const Facet& facet);
 
 /// Adds a surface unless it is among the pieces.
-void add_surface(std::vector<SurfacePiece>& pieces, const SurfacePiece& piece);
+void add_surface(std::vector<LeafSurface>& pieces, const LeafSurface& piece);
 
 /// The change that puts a vertex on edge k of facet f, at this share of the edge, moved onto the surfaces of both
 /// facets; none where the surfaces do not meet near there, or not on the solid. The vertex and its normals are added

@@ -7,9 +7,9 @@
 namespace deburr {
 namespace {
 
-Offset negated(Offset o) { return {-o.distance, -o.normal, o.leaf, o.plane}; }
-Offset least(const Offset& a, const Offset& b) { return b.distance < a.distance ? b : a; }
-Offset greatest(const Offset& a, const Offset& b) { return b.distance > a.distance ? b : a; }
+SurfaceSample negated(SurfaceSample o) { return {-o.distance, -o.normal, o.leaf, o.plane}; }
+SurfaceSample least(const SurfaceSample& a, const SurfaceSample& b) { return b.distance < a.distance ? b : a; }
+SurfaceSample greatest(const SurfaceSample& a, const SurfaceSample& b) { return b.distance > a.distance ? b : a; }
 
 // ρ − ½, where rounding lets a point be told from the level: where ρ is flat as well, on the ridge between
 // two surfaces that touch, its share in the slope would make it a distance.
@@ -21,12 +21,12 @@ double above_level(double rho) {
 
 // A sharp density is a polyhedron: ∨ is a union, ∧ an intersection; + - * are what is left of legal ones
 // that were too large to be converted.
-Offset sharp_at(const DensityTree& tree, Vec3 x) {
-    thread_local std::vector<Offset> done;
+SurfaceSample sharp_at(const DensityTree& tree, Vec3 x) {
+    thread_local std::vector<SurfaceSample> done;
     done.clear();
     for (const TreeNode& n : tree.nodes) {
-        const auto at = [&](int child) -> const Offset& { return done[std::size_t(child)]; };
-        Offset o;
+        const auto at = [&](int child) -> const SurfaceSample& { return done[std::size_t(child)]; };
+        SurfaceSample o;
         switch (n.op) {
             case Op::constant: o.distance = n.value > 0.5 ? infinity : -infinity; break;
             case Op::half_space: {
@@ -40,7 +40,7 @@ Offset sharp_at(const DensityTree& tree, Vec3 x) {
             case Op::conjunction: o = least(at(n.a), at(n.b)); break;
             case Op::difference: o = least(at(n.a), negated(at(n.b))); break;
             case Op::complement: o = negated(at(n.a)); break;
-            case Op::ball_share: break;  // is never sharp
+            case Op::convolution: break;  // is never sharp
         }
         done.push_back(o);
     }
@@ -49,7 +49,7 @@ Offset sharp_at(const DensityTree& tree, Vec3 x) {
 
 }  // namespace
 
-SurfaceOffset::SurfaceOffset(const SolidTree& solid) : solid_(separate_sharp(solid)) {
+SignedDistance::SignedDistance(const SolidTree& solid) : solid_(separate_sharp(solid)) {
     for (SolidLeaf& leaf : solid_.leaves) {
         bool sharp = !leaf.field;
         for (const HalfSpace& h : leaf.density.half_spaces) sharp &= h.radius == 0;
@@ -59,20 +59,20 @@ SurfaceOffset::SurfaceOffset(const SolidTree& solid) : solid_(separate_sharp(sol
     densities_.resize(solid_.leaves.size());
 }
 
-const LocalDensity& SurfaceOffset::density(std::size_t leaf) const {
+const LocalDensity& SignedDistance::density(std::size_t leaf) const {
     auto& density = densities_[leaf];
     if (!density) density = std::make_unique<LocalDensity>(solid_.leaves[leaf].density);
     return *density;
 }
 
 // Of the sign that leaf_at(x).distance has.
-double SurfaceOffset::leaf_value(std::size_t leaf, Vec3 x) const {
+double SignedDistance::leaf_value(std::size_t leaf, Vec3 x) const {
     if (sharp_[leaf]) return sharp_at(solid_.leaves[leaf].density, x).distance;
     if (const Field* field = solid_.leaves[leaf].field.get()) return field->at(x).value;
     return above_level(density(leaf).at(x));
 }
 
-bool SurfaceOffset::inside(Vec3 x) const {
+bool SignedDistance::inside(Vec3 x) const {
     if (solid_.nodes.size() == 1 && solid_.nodes[0].op == SolidOp::leaf)
         return leaf_value(std::size_t(solid_.nodes[0].a), x) > 0;
     thread_local std::vector<double> done;  // of the sign that at(x).distance has there
@@ -91,8 +91,8 @@ bool SurfaceOffset::inside(Vec3 x) const {
     return done.back() > 0;
 }
 
-Offset SurfaceOffset::leaf_at(std::size_t leaf, Vec3 x) const {
-    Offset o;
+SurfaceSample SignedDistance::leaf_at(std::size_t leaf, Vec3 x) const {
+    SurfaceSample o;
     const Field* field = solid_.leaves[leaf].field.get();
     if (sharp_[leaf]) {
         o = sharp_at(solid_.leaves[leaf].density, x);
@@ -108,7 +108,7 @@ Offset SurfaceOffset::leaf_at(std::size_t leaf, Vec3 x) const {
     return o;
 }
 
-std::vector<SmoothPiece> SurfaceOffset::pieces() const {
+std::vector<SmoothPiece> SignedDistance::pieces() const {
     std::vector<SmoothPiece> all;
     std::vector<double> side(solid_.nodes.size(), 1), side_of_part;
     for (std::size_t i = solid_.nodes.size(); i-- > 0;) {
@@ -137,8 +137,8 @@ std::vector<SmoothPiece> SurfaceOffset::pieces() const {
     return all;
 }
 
-Offset SurfaceOffset::piece_at(const SmoothPiece& piece, Vec3 x) const {
-    Offset o;
+SurfaceSample SignedDistance::piece_at(const SmoothPiece& piece, Vec3 x) const {
+    SurfaceSample o;
     if (piece.plane < 0) {
         o = leaf_at(std::size_t(piece.leaf), x);
     } else {
@@ -148,13 +148,13 @@ Offset SurfaceOffset::piece_at(const SmoothPiece& piece, Vec3 x) const {
     return piece.side < 0 ? negated(o) : o;
 }
 
-Offset SurfaceOffset::at(Vec3 x) const {
+SurfaceSample SignedDistance::at(Vec3 x) const {
     if (solid_.nodes.size() == 1 && solid_.nodes[0].op == SolidOp::leaf)
         return leaf_at(std::size_t(solid_.nodes[0].a), x);
-    thread_local std::vector<Offset> done;
+    thread_local std::vector<SurfaceSample> done;
     done.clear();
     for (const SolidTreeNode& n : solid_.nodes) {
-        Offset o;
+        SurfaceSample o;
         switch (n.op) {
             case SolidOp::nothing: o.distance = -infinity; break;
             case SolidOp::everything: o.distance = infinity; break;
@@ -173,7 +173,7 @@ namespace {
 // Root search on the line along the normal; `field` has at() and inside().
 template <class Field>
 double search_along_normal(const Field& field, Vec3 x, double reach) {
-    const Offset here = field.at(x);
+    const SurfaceSample here = field.at(x);
     if (here.distance == 0) return 0;
     if (here.normal == Vec3(0.0)) return infinity;
     const bool in = here.distance > 0;
@@ -193,9 +193,11 @@ double search_along_normal(const Field& field, Vec3 x, double reach) {
 
 }  // namespace
 
-double SurfaceOffset::distance_along_normal(Vec3 x, double reach) const { return search_along_normal(*this, x, reach); }
+double SignedDistance::distance_along_normal(Vec3 x, double reach) const {
+    return search_along_normal(*this, x, reach);
+}
 
-std::size_t SurfaceOffset::half_spaces() const {
+std::size_t SignedDistance::half_spaces() const {
     std::size_t count = 0;
     for (const SolidLeaf& leaf : solid_.leaves)
         count += leaf.field ? std::size_t(leaf.field->size()) : leaf.density.half_spaces.size();
@@ -203,29 +205,29 @@ std::size_t SurfaceOffset::half_spaces() const {
 }
 
 // A surface in the wall between two boxes must be seen from both.
-OffsetField::OffsetField(const SolidTree& solid, const Box& box, double margin)
-    : root_(std::make_unique<Node>(box, SurfaceOffset(solid), 0)),
+DistanceField::DistanceField(const SolidTree& solid, const Box& box, double margin)
+    : root_(std::make_unique<Node>(box, SignedDistance(solid), 0)),
       margin_(std::max(margin, 1e-6 * glm::length(box.hi - box.lo))) {}
 
-double OffsetField::distance_along_normal(Vec3 x, double reach) const { return search_along_normal(*this, x, reach); }
+double DistanceField::distance_along_normal(Vec3 x, double reach) const { return search_along_normal(*this, x, reach); }
 
-const SurfaceOffset& OffsetField::near(Vec3 x) const {
+const SignedDistance& DistanceField::near(Vec3 x) const {
     // Boxes stop where splitting pays no more, or does not help. Where very many half-spaces vary together, the nearest
     // have to do.
     constexpr std::size_t few = 8, many = 40;
-    constexpr int deepest = 40;
-    constexpr double least_margin = 0.05;  // of the margin
+    constexpr int max_depth = 40;
+    constexpr double min_margin = 0.05;  // of the margin
     if (last_ && last_->box.contains(x)) return last_->solid;
     Node* node = root_.get();
     // What is beyond the box sees what is nearest in it: the whole solid at once may be too much to evaluate.
     const Vec3 y = glm::clamp(x, node->box.lo, node->box.hi);
-    while (node->depth < deepest && node->half_spaces > few) {
+    while (node->depth < max_depth && node->half_spaces > few) {
         const Vec3 size = node->box.hi - node->box.lo;
         const int axis = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
         double margin = margin_;
         if (size[axis] < 2 * margin_) {
             margin = 0.5 * size[axis];
-            if (node->half_spaces <= many || margin < least_margin * margin_) break;
+            if (node->half_spaces <= many || margin < min_margin * margin_) break;
         }
         const double middle = 0.5 * (node->box.lo[axis] + node->box.hi[axis]);
         std::unique_ptr<Node>& child = node->children[y[axis] > middle];
@@ -240,9 +242,9 @@ const SurfaceOffset& OffsetField::near(Vec3 x) const {
     return node->solid;
 }
 
-SurfaceOffset SurfaceOffset::within(const Box& box) const { return SurfaceOffset(prune(solid_, box)); }
+SignedDistance SignedDistance::within(const Box& box) const { return SignedDistance(prune(solid_, box)); }
 
-double SurfaceOffset::decided(const Box& box) const {
+double SignedDistance::constant_side(const Box& box) const {
     const Side side = local_size(solid_, box).side;
     return side == Side::inside ? infinity : side == Side::outside ? -infinity : 0;
 }

@@ -11,7 +11,7 @@
 
 namespace deburr {
 
-struct Offset {
+struct SurfaceSample {
     double distance = 0;  // > 0 inside
     Vec3 normal{0.0};     // unit, outward; 0 where there is none
     int leaf = -1;        // that the surface nearby belongs to
@@ -26,24 +26,24 @@ struct SmoothPiece {
 };
 
 /// Not for several threads at once.
-class SurfaceOffset {
+class SignedDistance {
 public:
-    explicit SurfaceOffset(const SolidTree& solid);
+    explicit SignedDistance(const SolidTree& solid);
 
-    Offset at(Vec3 x) const;
+    SurfaceSample at(Vec3 x) const;
     /// Whether at(x).distance > 0, at less cost.
     bool inside(Vec3 x) const;
     /// All pieces that the surface is made of.
     std::vector<SmoothPiece> pieces() const;
     /// The same of one piece alone, as it would be if the solid ended there.
-    Offset piece_at(const SmoothPiece& piece, Vec3 x) const;
+    SurfaceSample piece_at(const SmoothPiece& piece, Vec3 x) const;
     /// Distance from x to the surface along the normal there, by root search no farther than
     /// `reach`; infinity if there is none.
     double distance_along_normal(Vec3 x, double reach) const;
     /// Only what matters in the box.
-    SurfaceOffset within(const Box& box) const;
+    SignedDistance within(const Box& box) const;
     /// If the box lies on one side: ±infinity; else 0.
-    double decided(const Box& box) const;
+    double constant_side(const Box& box) const;
 
     int material(int leaf) const { return solid_.leaves[std::size_t(leaf)].material; }
     /// The line of the scene that wrote the leaf, or what was put in its place.
@@ -52,7 +52,7 @@ public:
     std::size_t half_spaces() const;
 
 private:
-    Offset leaf_at(std::size_t leaf, Vec3 x) const;
+    SurfaceSample leaf_at(std::size_t leaf, Vec3 x) const;
     double leaf_value(std::size_t leaf, Vec3 x) const;
     const LocalDensity& density(std::size_t leaf) const;
 
@@ -64,26 +64,26 @@ private:
 
 /// The same for many points: a tree of boxes, split as points ask for it, so that each evaluates
 /// only what matters near it. Not for several threads at once.
-class OffsetField {
+class DistanceField {
 public:
     /// Surfaces that are nearer to a point than `margin` matter there, whether or not it is beyond them: farther ones
     /// may be missing. Where dozens of half-spaces vary within it, only those that are much nearer matter. A point
     /// beyond the box is told of the surfaces near that part of the box which is nearest to it.
-    OffsetField(const SolidTree& solid, const Box& box, double margin = 0);
+    DistanceField(const SolidTree& solid, const Box& box, double margin = 0);
 
-    Offset at(Vec3 x) const { return near(x).at(x); }
+    SurfaceSample at(Vec3 x) const { return near(x).at(x); }
     bool inside(Vec3 x) const { return near(x).inside(x); }
-    /// As SurfaceOffset's.
+    /// As SignedDistance's.
     double distance_along_normal(Vec3 x, double reach) const;
     /// What to evaluate at x, and around it as far as its box reaches.
-    const SurfaceOffset& near(Vec3 x) const;
+    const SignedDistance& near(Vec3 x) const;
 
 private:
     struct Node {
-        Node(const Box& box, SurfaceOffset of_it, int depth)
+        Node(const Box& box, SignedDistance of_it, int depth)
             : box(box), solid(std::move(of_it)), half_spaces(solid.half_spaces()), depth(depth) {}
         Box box;
-        SurfaceOffset solid;
+        SignedDistance solid;
         std::size_t half_spaces;
         int depth;
         std::unique_ptr<Node> children[2];

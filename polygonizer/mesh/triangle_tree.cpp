@@ -116,15 +116,15 @@ std::optional<int> TriangleTree::winding(Vec3 x, Vec3 far) const {
 
 namespace {
 
-using Corners = std::array<Vec3, 3>;
+using TrianglePositions = std::array<Vec3, 3>;
 
 // The sign of x, or 0 where x is no more than the slack, by the unit that it is measured in.
 int sign(double x, double slack = 0, double unit = 1) { return std::abs(x) <= slack * unit ? 0 : x > 0 ? 1 : -1; }
 
-double twice_area(const Corners& t) { return glm::length(glm::cross(t[1] - t[0], t[2] - t[0])); }
+double twice_area(const TrianglePositions& t) { return glm::length(glm::cross(t[1] - t[0], t[2] - t[0])); }
 
 // Whether the segment passes through the triangle from one side to the other, within.
-bool pierces(Vec3 p, Vec3 q, const Corners& t, double slack) {
+bool pierces(Vec3 p, Vec3 q, const TrianglePositions& t, double slack) {
     const double area = twice_area(t), length = glm::distance(p, q);
     const int from = sign(orientation(t[0], t[1], t[2], p), slack, area);
     if (from == 0 || from != -sign(orientation(t[0], t[1], t[2], q), slack, area)) return false;
@@ -136,11 +136,11 @@ bool pierces(Vec3 p, Vec3 q, const Corners& t, double slack) {
 }
 
 // Of triangles in one plane: no side of either has the other one beyond it.
-bool overlap(const Corners& s, const Corners& t, double slack) {
+bool overlap(const TrianglePositions& s, const TrianglePositions& t, double slack) {
     const Vec3 normal = glm::abs(glm::cross(s[1] - s[0], s[2] - s[0]));
     const int drop = normal.x >= normal.y && normal.x >= normal.z ? 0 : normal.y >= normal.z ? 1 : 2;
     const auto flat = [&](Vec3 x) { return Vec2(x[(drop + 1) % 3], x[(drop + 2) % 3]); };
-    const auto parts = [&](const Corners& a, const Corners& b) {
+    const auto parts = [&](const TrianglePositions& a, const TrianglePositions& b) {
         const int turn = sign(orientation(flat(a[0]), flat(a[1]), flat(a[2])));
         if (turn == 0) return true;
         for (std::size_t k = 0; k < 3; ++k) {
@@ -158,7 +158,7 @@ bool overlap(const Corners& s, const Corners& t, double slack) {
 }  // namespace
 
 bool triangles_cross(const Mesh& mesh, const Triangle& s, const Triangle& t, double slack) {
-    Corners a, b;
+    TrianglePositions a, b;
     int shared = 0;
     for (std::size_t k = 0; k < 3; ++k) {
         a[k] = mesh.positions[std::size_t(s.vertex[k])];
@@ -166,7 +166,7 @@ bool triangles_cross(const Mesh& mesh, const Triangle& s, const Triangle& t, dou
         for (const int v : t.vertex) shared += v == s.vertex[k];
     }
     // Of two that share an edge, or of which one does not reach through the other's plane, only a plane can be shared.
-    const auto reaches_through = [slack](const Corners& plane, const Corners& of, bool& flat) {
+    const auto reaches_through = [slack](const TrianglePositions& plane, const TrianglePositions& of, bool& flat) {
         const double area = twice_area(plane);
         int least = 1, most = -1;
         for (const Vec3& x : of) {

@@ -20,11 +20,11 @@ namespace {
 constexpr double radians = 0.017453292519943295;
 // How often a cell may be cut further than its level.
 constexpr int spare_levels = 4;
-constexpr int most_rounds = spare_levels;
+constexpr int max_rounds = spare_levels;
 // Where a sheet is thinner than cells, smaller ones spread from where it is seen.
-constexpr int most_thin_rounds = 8;
+constexpr int max_thin_rounds = 8;
 // Cosine between a triangle and the surface below which the cells around it are cut further: 75°.
-constexpr double least_cosine = 0.25;
+constexpr double min_cosine = 0.25;
 // The same for its distance, in lengths of its longest side: such a triangle closes what goes on.
 constexpr double off = 0.45;
 // A sliver leans for other reasons, which cutting does not help: repair.hpp.
@@ -56,7 +56,7 @@ public:
     Polygonization(const SolidTree& solid, const Box& box, const OctreeOptions& options, double edge)
         : options_(options),
           hard_cosine_(std::cos(options.hard_angle * radians)),
-          tree_(solid, box, edge, spare_levels, options.stop),
+          tree_(solid, box, edge, spare_levels, options.cancel),
           has_forms_(solid.has_field()),
           looks_for_thin_(has_forms_) {}
 
@@ -70,9 +70,9 @@ public:
             make_triangles();
             std::vector<int> leaves;
             // After repair, cells are cut further for thin forms only.
-            if ((has_forms_ ? round : int(statistics.rounds)) <= most_rounds) find_leaning(leaves);
+            if ((has_forms_ ? round : int(statistics.rounds)) <= max_rounds) find_leaning(leaves);
             bool changed = split(leaves);
-            if (looks_for_thin_ && round <= most_thin_rounds) changed |= split_unseen(tree_, linking_, mesh_);
+            if (looks_for_thin_ && round <= max_thin_rounds) changed |= split_unseen(tree_, linking_, mesh_);
             if (!changed) break;
         }
         looks_for_thin_ = false;
@@ -121,7 +121,7 @@ private:
         known_crossings_.clear();
         crossings_.clear();
         for (const EdgeCrossing& x : linking_.crossings) {
-            throw_if_stopped(options_.stop);
+            throw_if_cancelled(options_.cancel);
             const std::uint64_t key =
                 (std::uint64_t(x.lo[0]) | std::uint64_t(x.lo[1]) << 20 | std::uint64_t(x.lo[2]) << 40) * 4 +
                 std::uint64_t(x.axis);
@@ -145,7 +145,7 @@ private:
         mesh_ = {};
         std::vector<CrossingPoint> around;
         std::vector<std::size_t> tips;  // that stick out of their cells
-        const auto place = [&](const Loop& loop, bool tip_may_stick_out) {
+        const auto make_point = [&](const Loop& loop, bool tip_may_stick_out) {
             around.clear();
             for (int i = loop.begin; i < loop.end; ++i)
                 around.push_back(crossings_[std::size_t(linking_.around[std::size_t(i)])]);
@@ -153,8 +153,8 @@ private:
             return surface_point(tree_.solid(cell), tree_.box(cell), around, hard_cosine_, tip_may_stick_out);
         };
         for (const Loop& loop : linking_.loops) {
-            throw_if_stopped(options_.stop);
-            mesh_.points.push_back(place(loop, true));
+            throw_if_cancelled(options_.cancel);
+            mesh_.points.push_back(make_point(loop, true));
             if (!tree_.box(tree_.cell(loop.leaf)).contains(mesh_.points.back().position))
                 tips.push_back(mesh_.points.size() - 1);
         }
@@ -165,7 +165,7 @@ private:
                        glm::length(p.position - mesh_.points[i].position) < same_place * tree_.edge();
             };
             if (std::any_of(mesh_.points.begin(), mesh_.points.end(), same))
-                mesh_.points[i] = place(linking_.loops[i], false);
+                mesh_.points[i] = make_point(linking_.loops[i], false);
         }
     }
 
@@ -203,9 +203,9 @@ private:
         for (const DoubleSegment& s : linking_.doubles) {
             const CrossingPoint &a = crossings_[std::size_t(s.crossing_a)], &b = crossings_[std::size_t(s.crossing_b)];
             const Vec3 middle = 0.5 * (a.position + b.position);
-            const SurfaceOffset& solid = tree_.solid(middle);
+            const SignedDistance& solid = tree_.solid(middle);
             const double reach = 0.5 * glm::length(a.position - b.position);
-            const Offset o = solid.at(middle);
+            const SurfaceSample o = solid.at(middle);
             const double distance = solid.distance_along_normal(middle, reach);
             SurfacePoint p{a.position, {}};
             if (std::isfinite(distance)) p.position = middle + o.normal * (o.distance > 0 ? distance : -distance);
@@ -239,16 +239,16 @@ private:
         std::rotate(q.begin(), q.begin() + 1, q.end());
         if (diagonals_.insert(std::minmax(q[0], q[2])).second) return;
         // Neither is free: the crossing itself is a point between them.
-        const SurfaceOffset& solid = tree_.solid(crossings_[std::size_t(crossing)].position);
+        const SignedDistance& solid = tree_.solid(crossings_[std::size_t(crossing)].position);
         const int middle = int(mesh_.points.size());
         const Vec3 x = crossings_[std::size_t(crossing)].position;
         mesh_.points.push_back({x, {face_of(solid, solid.at(x))}});
         q = {middle, q[0], q[1], q[2], q[3], q[0]};
     }
 
-    Standing standing(const Corners& t) const {
+    Standing standing(const TriangleVertices& t) const {
         const Vec3 middle = mesh_.middle(t), area = mesh_.area_vector(t);
-        const Offset o = tree_.solid(middle).at(middle);
+        const SurfaceSample o = tree_.solid(middle).at(middle);
         Standing s;
         const double size = glm::length(area);
         if (size > 0 && o.normal != Vec3(0.0)) s.cosine = glm::dot(area, o.normal) / size;
@@ -259,7 +259,7 @@ private:
 
     // Whether the points of a triangle say all there is to say about how it stands: smooth, and
     // facing as it does.
-    double cosine_to_points(const Corners& t) const {
+    double cosine_to_points(const TriangleVertices& t) const {
         const Vec3 area = mesh_.area_vector(t);
         double least = 1;
         for (const int v : t) {
@@ -272,7 +272,7 @@ private:
 
     // Whether the diagonal from the first point of a quadrilateral is better than the other.
     bool first_diagonal(const std::vector<int>& q) const {
-        const Corners t[4] = {{q[0], q[1], q[2]}, {q[0], q[2], q[3]}, {q[1], q[2], q[3]}, {q[1], q[3], q[0]}};
+        const TriangleVertices t[4] = {{q[0], q[1], q[2]}, {q[0], q[2], q[3]}, {q[1], q[2], q[3]}, {q[1], q[3], q[0]}};
         double cosine[4];
         for (int k = 0; k < 4; ++k) cosine[k] = cosine_to_points(t[k]);
         if (*std::min_element(cosine, cosine + 4) > alike)
@@ -281,7 +281,7 @@ private:
         Standing s[4];
         for (int k = 0; k < 4; ++k) s[k] = standing(t[k]);
         const double first = std::min(s[0].cosine, s[1].cosine), second = std::min(s[2].cosine, s[3].cosine);
-        if (first < least_cosine || second < least_cosine) return first >= second;
+        if (first < min_cosine || second < min_cosine) return first >= second;
         const double one = std::max(s[0].distance, s[1].distance), other = std::max(s[2].distance, s[3].distance);
         if (std::abs(one - other) > 1e-6 * tree_.edge()) return one < other;
         return glm::length(mesh_.position(q[0]) - mesh_.position(q[2])) <=
@@ -298,7 +298,7 @@ private:
                 longest =
                     std::max(longest, glm::length(mesh_.position(triangle[k]) - mesh_.position(triangle[(k + 1) % 3])));
             const bool leans =
-                s.cosine < least_cosine && glm::length(mesh_.area_vector(triangle)) > sliver * longest * longest;
+                s.cosine < min_cosine && glm::length(mesh_.area_vector(triangle)) > sliver * longest * longest;
             if (!leans && s.distance <= std::min(options_.tolerance, has_forms_ ? off * longest : infinity)) continue;
             for (const int leaf : linking_.crossings[std::size_t(crossing_of_[t])].leaves) leaves.push_back(leaf);
         }
@@ -353,7 +353,7 @@ void check(const Mesh& mesh) {
 }  // namespace
 
 double octree_edge(const SolidTree& solid, const Box& box) {
-    const double longest = largest(box.hi - box.lo), radius = solid.least_radius();
+    const double longest = largest(box.hi - box.lo), radius = solid.min_radius();
     return radius > 0 ? std::clamp(0.5 * radius, longest / 512, longest / 64) : longest / 64;
 }
 
@@ -370,19 +370,19 @@ Mesh octree(const SolidTree& mixed, const Box& box, const OctreeOptions& options
     *statistics = {};
     Polygonization polygonization(numbered, box, options, edge);
     Mesh best;
-    std::size_t least_left = std::numeric_limits<std::size_t>::max();
+    std::size_t min_left = std::numeric_limits<std::size_t>::max();
     // What repair cannot help needs smaller cells around it.
-    constexpr int most_mending_rounds = 4;
+    constexpr int max_mending_rounds = 4;
     constexpr double worth_another = 0.8;
-    for (int round = 0; round < most_mending_rounds; ++round) {
+    for (int round = 0; round < max_mending_rounds; ++round) {
         std::vector<Origin> origins;
         Mesh mesh = polygonization.run(*statistics, origins);
         const RepairStatistics repaired = repair(mesh, origins, FacetJudge(solid, mesh));
         // Where surfaces touch, smaller cells leave as many.
-        const bool helped = double(repaired.left.size()) < worth_another * double(least_left);
+        const bool helped = double(repaired.left.size()) < worth_another * double(min_left);
         const bool more = helped && !repaired.left.empty() && polygonization.cut_around(mesh, repaired.left);
-        if (repaired.left.size() < least_left) {
-            least_left = repaired.left.size();
+        if (repaired.left.size() < min_left) {
+            min_left = repaired.left.size();
             best = std::move(mesh);
         }
         if (!more) break;

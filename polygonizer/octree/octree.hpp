@@ -27,7 +27,7 @@ struct OctreeOptions {
     /// edges of an octagon are lost; it costs nothing to keep them.
     double hard_angle = 15;
     double tolerance = infinity;  // largest distance of a triangle's middle from the surface
-    StopFlag stop = nullptr;
+    CancelFlag cancel = nullptr;
 };
 
 struct OctreeStatistics {
@@ -47,7 +47,7 @@ struct OpenMeshError : std::runtime_error {
 double octree_edge(const SolidTree& solid, const Box& box);
 
 /// What leaves `box` is cut off by it. Throws OpenMeshError; std::length_error if `edge` makes too
-/// many cells; and Stopped.
+/// many cells; and Cancelled.
 Mesh octree(const SolidTree& solid, const Box& box, const OctreeOptions& options = {},
             OctreeStatistics* statistics = nullptr);
 

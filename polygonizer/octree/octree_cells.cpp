@@ -22,33 +22,33 @@ constexpr double sight = 0.5;
 constexpr std::size_t few = 2;
 
 // Three coordinates share 64 bits, and two of these say an edge's axis (octree.cpp).
-constexpr int most_levels = 20;
+constexpr int max_levels = 20;
 
-std::uint64_t key_of(const Corner& c) {
+std::uint64_t key_of(const GridPoint& c) {
     return std::uint64_t(c[0]) | std::uint64_t(c[1]) << 21 | std::uint64_t(c[2]) << 42;
 }
 
 }  // namespace
 
-CellTree::CellTree(const SolidTree& solid, const Box& box, double edge, int spare, StopFlag stop)
-    : stop_(stop), edge_(edge) {
+CellTree::CellTree(const SolidTree& solid, const Box& box, double edge, int spare, CancelFlag cancel)
+    : cancel_(cancel), edge_(edge) {
     // One cell more on either side, so that the surface is nowhere near the root's walls.
     const double cells = std::ceil(largest(box.hi - box.lo) / edge) + 3;
     level_ = int(std::min(std::ceil(std::log2(cells)), 1024.0));
-    if (level_ + spare > most_levels) throw std::length_error("too many cells");
+    if (level_ + spare > max_levels) throw std::length_error("too many cells");
     const int across = 1 << (level_ + spare);
     unit_ = edge / double(1 << spare);
     const Vec3 middle = 0.5 * (box.lo + box.hi);
     for (int k = 0; k < 3; ++k) origin_[k] = middle[k] - unit_ * (across / 2) - edge * off_round[k];
-    solids_.push_back(std::make_shared<SurfaceOffset>(solid));
+    solids_.push_back(std::make_shared<SignedDistance>(solid));
     cells_.push_back({{0, 0, 0}, across, -1, 0, true});
     for (std::size_t i = 0; i < cells_.size(); ++i)
         if (cells_[i].open && cells_[i].size > (1 << spare)) add_children(int(i));
 }
 
 void CellTree::add_children(int parent) {
-    throw_if_stopped(stop_);
-    if (cells_.size() + 8 > most_cells) throw std::length_error("too many cells");
+    throw_if_cancelled(cancel_);
+    if (cells_.size() + 8 > max_cells) throw std::length_error("too many cells");
     const OctreeCell p = cell(parent);
     cells_[std::size_t(parent)].children = int(cells_.size());
     const int half = p.size / 2;
@@ -57,9 +57,9 @@ void CellTree::add_children(int parent) {
         c.solid = p.solid;
         const Box wide = inflated(box(c), margin * unit_ * half);
         ++range_tests;
-        c.open = solid(p).decided(wide) == 0;
+        c.open = solid(p).constant_side(wide) == 0;
         if (c.open && solid(p).half_spaces() > few) {
-            auto local = std::make_shared<SurfaceOffset>(solid(p).within(inflated(wide, sight * edge_)));
+            auto local = std::make_shared<SignedDistance>(solid(p).within(inflated(wide, sight * edge_)));
             if (local->half_spaces() < solid(p).half_spaces()) {
                 c.solid = int(solids_.size());
                 solids_.push_back(std::move(local));
@@ -75,7 +75,7 @@ bool CellTree::split(int leaf) {
     return true;
 }
 
-int CellTree::find(const Corner& unit, int size) const {
+int CellTree::find(const GridPoint& unit, int size) const {
     const int across = cells_[0].size;
     for (const int x : unit)
         if (x < 0 || x >= across) return -1;
@@ -90,14 +90,14 @@ int CellTree::find(const Corner& unit, int size) const {
 }
 
 int CellTree::find(Vec3 x) const {
-    Corner unit;
+    GridPoint unit;
     for (int k = 0; k < 3; ++k)
         unit[std::size_t(k)] =
             int(std::clamp(std::floor((x[k] - origin_[k]) / unit_), 0.0, double(cells_[0].size - 1)));
     return find(unit);
 }
 
-std::shared_ptr<const SurfaceOffset> CellTree::solid(const Box& box) const {
+std::shared_ptr<const SignedDistance> CellTree::solid(const Box& box) const {
     const auto holds = [&](const OctreeCell& c) {
         const Box b = this->box(c);
         return b.contains(box.lo) && b.contains(box.hi);
@@ -112,10 +112,10 @@ std::shared_ptr<const SurfaceOffset> CellTree::solid(const Box& box) const {
     }
     const auto& around = solids_[std::size_t(cell(at).solid)];
     if (around->half_spaces() <= few) return around;
-    return std::make_shared<SurfaceOffset>(around->within(inflated(box, sight * edge_)));
+    return std::make_shared<SignedDistance>(around->within(inflated(box, sight * edge_)));
 }
 
-double CellTree::value(const Corner& c, const OctreeCell& by) {
+double CellTree::value(const GridPoint& c, const OctreeCell& by) {
     const auto [it, is_new] = values_.try_emplace(key_of(c));
     if (is_new) it->second = solid(by).at(position(c)).distance;
     return it->second;

@@ -19,10 +19,10 @@
 
 namespace deburr {
 
-using Corner = std::array<int, 3>;
+using GridPoint = std::array<int, 3>;
 
 struct OctreeCell {
-    Corner at;          // lower corner
+    GridPoint at;       // lower corner
     int size;           // in units
     int children = -1;  // the first of eight; −1: a leaf
     int solid = 0;      // what to evaluate in it
@@ -32,10 +32,10 @@ struct OctreeCell {
 class CellTree {
 public:
     /// Cells of side `edge`, where the surface is; they may be split `spare` times more.
-    /// Throws std::length_error past most_cells, and Stopped; so does split().
-    CellTree(const SolidTree& solid, const Box& box, double edge, int spare, StopFlag stop = nullptr);
+    /// Throws std::length_error past max_cells, and Cancelled; so does split().
+    CellTree(const SolidTree& solid, const Box& box, double edge, int spare, CancelFlag cancel = nullptr);
 
-    static constexpr std::size_t most_cells = 100'000'000;
+    static constexpr std::size_t max_cells = 100'000'000;
 
     const std::vector<OctreeCell>& cells() const { return cells_; }
     const OctreeCell& cell(int i) const { return cells_[std::size_t(i)]; }
@@ -43,35 +43,35 @@ public:
     bool split(int leaf);
     /// The cell that holds the unit cube at this corner: the leaf, or one of this size above it; −1
     /// beyond the root.
-    int find(const Corner& unit, int size = 1) const;
+    int find(const GridPoint& unit, int size = 1) const;
     int find(Vec3 x) const;
 
-    Vec3 position(const Corner& c) const { return origin_ + unit_ * Vec3(c[0], c[1], c[2]); }
+    Vec3 position(const GridPoint& c) const { return origin_ + unit_ * Vec3(c[0], c[1], c[2]); }
     Box box(const OctreeCell& c) const {
         return {position(c.at), position({c.at[0] + c.size, c.at[1] + c.size, c.at[2] + c.size})};
     }
     double unit() const { return unit_; }
     double edge() const { return edge_; }
     int level() const { return level_; }
-    const SurfaceOffset& solid(const OctreeCell& c) const { return *solids_[std::size_t(c.solid)]; }
+    const SignedDistance& solid(const OctreeCell& c) const { return *solids_[std::size_t(c.solid)]; }
     /// Of the leaf at x, its neighbours at most.
-    const SurfaceOffset& solid(Vec3 x) const { return solid(cell(find(x))); }
+    const SignedDistance& solid(Vec3 x) const { return solid(cell(find(x))); }
     /// What to evaluate throughout the box.
-    std::shared_ptr<const SurfaceOffset> solid(const Box& box) const;
+    std::shared_ptr<const SignedDistance> solid(const Box& box) const;
     /// > 0 inside; evaluated in the leaf `by` if it is not known.
-    double value(const Corner& c, const OctreeCell& by);
+    double value(const GridPoint& c, const OctreeCell& by);
 
     std::size_t range_tests = 0;
 
 private:
     void add_children(int parent);
 
-    StopFlag stop_;
+    CancelFlag cancel_;
     Vec3 origin_;
     double edge_, unit_;
     int level_;
     std::vector<OctreeCell> cells_;
-    std::vector<std::shared_ptr<const SurfaceOffset>> solids_;
+    std::vector<std::shared_ptr<const SignedDistance>> solids_;
     std::unordered_map<std::uint64_t, double> values_;
 };
 

@@ -8,28 +8,28 @@ namespace {
 // How much a hard edge may turn where it is as fine as the cells: 12°, as a circle of 30 edges.
 constexpr double wanted_turn = 0.21;
 // No s(P) is below this share of a cell.
-constexpr double least_length = 0.25;
+constexpr double min_length = 0.25;
 // Printed differently: "√2·|PQ| > [s(P) + s(Q)]/2" divides edges that are shorter than wanted. With
 // √2 on the other side, halves are as much shorter than wanted as the whole was longer.
 constexpr double too_long = 1.4142135623730951;
 // A point S that has to go farther than this share of the edge to find the hard edge is not on it.
 constexpr double reach = 0.3;
 // A length is brought near to what is wanted in a few halvings, or never.
-constexpr int most_rounds = 8;
+constexpr int max_rounds = 8;
 // An end of an edge that is nearer to the hard edge than this share of it moves there, if it can.
 constexpr double near_end = 1.2;
 // Cosine to what it was that a triangle may turn to where its point moves; chamfers turn by 45°.
-constexpr double least_turn_cosine = 0.3;
+constexpr double min_turn_cosine = 0.3;
 // And to the face that all its points lie on, if there is one.
-constexpr double least_face_cosine = 0.5;
+constexpr double min_face_cosine = 0.5;
 // Height over longest side of a triangle that is not worth making.
-constexpr double least_height = 1e-3;
+constexpr double min_height = 1e-3;
 
 // The triangles around points.
 class Fans {
 public:
     explicit Fans(const PointMesh& mesh) : first_(mesh.points.size() + 1, 0) {
-        for (const Corners& t : mesh.triangles)
+        for (const TriangleVertices& t : mesh.triangles)
             for (const int v : t) ++first_[std::size_t(v) + 1];
         for (std::size_t v = 1; v < first_.size(); ++v) first_[v] += first_[v - 1];
         triangles_.resize(3 * mesh.triangles.size());
@@ -61,7 +61,7 @@ public:
         std::size_t count = 0;
         const std::size_t before = mesh_.triangles.size();
         for (std::size_t t = 0; t < before; ++t) {
-            const Corners corners = mesh_.triangles[t];
+            const TriangleVertices corners = mesh_.triangles[t];
             if (!mesh_.point(corners[0]).hard() || !mesh_.point(corners[1]).hard() || !mesh_.point(corners[2]).hard())
                 continue;
             if (share_face(corners)) continue;
@@ -89,7 +89,7 @@ private:
 
     // Calls `accept` with the normals of the faces that all points of the triangle lie on.
     template <class Accept>
-    bool any_face(const Corners& t, Accept accept) const {
+    bool any_face(const TriangleVertices& t, Accept accept) const {
         for (const Face& f : mesh_.point(t[0]).faces) {
             const auto alike = [&](const Face& g) { return glm::dot(f.normal, g.normal) >= hard_cosine_; };
             const auto &second = mesh_.point(t[1]).faces, &third = mesh_.point(t[2]).faces;
@@ -99,20 +99,20 @@ private:
         }
         return false;
     }
-    bool share_face(const Corners& t) const {
+    bool share_face(const TriangleVertices& t) const {
         return any_face(t, [](Vec3) { return true; });
     }
 
     // Whether a triangle may become this one, given its area vector before.
-    bool may_become(const Corners& t, Vec3 before) const {
+    bool may_become(const TriangleVertices& t, Vec3 before) const {
         const Vec3 now = mesh_.area_vector(t);
         double longest = 0;
         for (std::size_t k = 0; k < 3; ++k)
             longest = std::max(longest, glm::length(mesh_.position(t[k]) - mesh_.position(t[(k + 1) % 3])));
         const double size = glm::length(now);
-        if (size < least_height * longest * longest) return false;
-        if (share_face(t)) return any_face(t, [&](Vec3 n) { return glm::dot(now, n) >= least_face_cosine * size; });
-        return glm::dot(now, before) >= least_turn_cosine * size * glm::length(before);
+        if (size < min_height * longest * longest) return false;
+        if (share_face(t)) return any_face(t, [&](Vec3 n) { return glm::dot(now, n) >= min_face_cosine * size; });
+        return glm::dot(now, before) >= min_turn_cosine * size * glm::length(before);
     }
 
     bool follow(const PointMesh::Edge& e) {
@@ -129,9 +129,9 @@ private:
                 return true;
         const auto point = cut_off_point(*solid, {p, q}, 0.5 * (p + q), hard_cosine_);
         if (!point) return false;
-        std::array<std::pair<Corners, Vec3>, 2> before;
+        std::array<std::pair<TriangleVertices, Vec3>, 2> before;
         for (std::size_t k = 0; k < 2; ++k) {
-            const Corners& t = mesh_.triangles[std::size_t(k ? e.right : e.left)];
+            const TriangleVertices& t = mesh_.triangles[std::size_t(k ? e.right : e.left)];
             before[k] = {t, mesh_.area_vector(t)};
         }
         const std::size_t points = mesh_.points.size(), triangles = mesh_.triangles.size();
@@ -238,7 +238,7 @@ private:
             const Vec3 in = mesh_.position(int(v)) - mesh_.position(other[v][0]);
             const Vec3 out = mesh_.position(other[v][1]) - mesh_.position(int(v));
             const double turn = std::atan2(glm::length(glm::cross(in, out)), glm::dot(in, out));
-            if (turn > wanted_turn) wanted_[v] *= std::max(least_length, wanted_turn / turn);
+            if (turn > wanted_turn) wanted_[v] *= std::max(min_length, wanted_turn / turn);
         }
     }
 
@@ -246,7 +246,8 @@ private:
         const Vec3 p = mesh_.position(e.p), q = mesh_.position(e.q);
         const double sp = wanted_[std::size_t(e.p)], sq = wanted_[std::size_t(e.q)], length = glm::length(p - q);
         if (length <= too_long * 0.5 * (sp + sq)) return false;
-        const Corners &left = mesh_.triangles[std::size_t(e.left)], &right = mesh_.triangles[std::size_t(e.right)];
+        const TriangleVertices &left = mesh_.triangles[std::size_t(e.left)],
+                               &right = mesh_.triangles[std::size_t(e.right)];
         const Vec3 s = (sp * q + sq * p) / (sp + sq);
         const auto solid = tree_.solid(inflated(hull(mesh_.box(left), mesh_.box(right)), length));
         const auto point = hard_edge_point(*solid, s, p, q, reach * length, hard_cosine_);
@@ -265,7 +266,7 @@ private:
 
 std::size_t follow_hard_edges(PointMesh& mesh, const CellTree& tree, double hard_cosine) {
     std::size_t all = 0;
-    for (int round = 0; round < most_rounds; ++round) {
+    for (int round = 0; round < max_rounds; ++round) {
         const std::size_t now = Following(mesh, tree, hard_cosine).edges();
         all += now;
         if (now == 0) break;
@@ -276,7 +277,7 @@ std::size_t follow_hard_edges(PointMesh& mesh, const CellTree& tree, double hard
 std::size_t divide_hard_edges(PointMesh& mesh, const CellTree& tree, double hard_cosine) {
     Division division(mesh, tree, hard_cosine);
     std::size_t all = 0;
-    for (int round = 0; round < most_rounds; ++round) {
+    for (int round = 0; round < max_rounds; ++round) {
         const std::size_t now = division.round();
         all += now;
         if (now == 0) break;

@@ -54,7 +54,7 @@ private:
         constexpr int side_u[4] = {-1, 0, 0, -1}, side_v[4] = {-1, -1, 0, 0};
         bool owner = true;
         for (std::size_t q = 0; q < 4; ++q) {
-            Corner unit = x.lo;
+            GridPoint unit = x.lo;
             unit[u] += side_u[q];
             unit[v] += side_v[q];
             const int there = tree_.find(unit, x.length);
@@ -107,7 +107,7 @@ private:
         std::size_t axis = 0;
         while (small.at[axis] + small.size != other.at[axis] && other.at[axis] + other.size != small.at[axis]) ++axis;
         const std::size_t u = (axis + 1) % 3, v = (axis + 2) % 3;
-        Corner corner = small.at;
+        GridPoint corner = small.at;
         if (small.at[axis] + small.size == other.at[axis]) corner[axis] += small.size;
         // Place along the border, from the lower corner along u; and whether it enters the solid.
         struct On {

@@ -21,14 +21,14 @@
 namespace deburr {
 
 struct EdgeCrossing {
-    Corner lo;         // of the edge's ends
+    GridPoint lo;      // of the edge's ends
     int axis, length;  // in units
     bool low_inside;
     std::array<int, 4> leaves;  // around it, counter-clockwise seen from where the axis points to
     std::array<int, 4> loops;   // of these leaves, that pass this crossing
 
-    Corner hi() const {
-        Corner c = lo;
+    GridPoint hi() const {
+        GridPoint c = lo;
         c[std::size_t(axis)] += length;
         return c;
     }

@@ -12,7 +12,7 @@ struct TangentPlane {
 
 // The shortest x with the least sum of (n·x − offset)²; directions in which the planes say less than
 // this share of what they say in the clearest are left alone.
-Vec3 nearest_to_all(const std::vector<TangentPlane>& planes, double least_share) {
+Vec3 nearest_to_all(const std::vector<TangentPlane>& planes, double min_share) {
     Mat3 a(0.0);
     Vec3 b(0.0);
     for (const TangentPlane& p : planes) {
@@ -23,7 +23,7 @@ Vec3 nearest_to_all(const std::vector<TangentPlane>& planes, double least_share)
     const double largest = std::max({value[0], value[1], value[2]});
     Vec3 x(0.0);
     for (int k = 0; k < 3; ++k)
-        if (value[k] > least_share * largest) x += v[k] * (glm::dot(v[k], b) / value[k]);
+        if (value[k] > min_share * largest) x += v[k] * (glm::dot(v[k], b) / value[k]);
     return x;
 }
 
@@ -31,7 +31,7 @@ Vec3 nearest_to_all(const std::vector<TangentPlane>& planes, double least_share)
 constexpr double on_surface = 1e-13;
 // As good as on the surface, where rounding stops Newton's method.
 constexpr double nearly_on_surface = 1e-9;
-constexpr int most_steps = 30;
+constexpr int max_steps = 30;
 
 double size_of(const Box& cell) { return glm::length(cell.hi - cell.lo); }
 
@@ -42,23 +42,23 @@ Vec3 clamped(Vec3 x, const Box& cell) {
 }
 
 // Where all pieces are 0, by Gauss and Newton's method.
-std::optional<Vec3> meeting_point(const SurfaceOffset& solid, const std::vector<SmoothPiece>& pieces, Vec3 x,
+std::optional<Vec3> meeting_point(const SignedDistance& solid, const std::vector<SmoothPiece>& pieces, Vec3 x,
                                   const Box& within) {
     // Two tangent planes that bend by 1° share all but this much of what they say.
-    constexpr double least_share = 1e-5;
+    constexpr double min_share = 1e-5;
     const double size = size_of(within);
     std::vector<TangentPlane> planes(pieces.size());
-    for (int step = 0; step < most_steps; ++step) {
+    for (int step = 0; step < max_steps; ++step) {
         double farthest = 0;
         for (std::size_t k = 0; k < pieces.size(); ++k) {
-            const Offset o = solid.piece_at(pieces[k], x);
+            const SurfaceSample o = solid.piece_at(pieces[k], x);
             if (!std::isfinite(o.distance) || o.normal == Vec3(0.0)) return std::nullopt;
             planes[k] = {o.normal, o.distance};
             farthest = std::max(farthest, std::abs(o.distance));
         }
         if (farthest < on_surface * size) break;
-        if (step + 1 == most_steps && farthest > nearly_on_surface * size) return std::nullopt;
-        x += nearest_to_all(planes, least_share);
+        if (step + 1 == max_steps && farthest > nearly_on_surface * size) return std::nullopt;
+        x += nearest_to_all(planes, min_share);
         if (!inflated(within, size).contains(x)) return std::nullopt;
     }
     if (!within.contains(x) || !(std::abs(solid.at(x).distance) < nearly_on_surface * size)) return std::nullopt;
@@ -72,7 +72,7 @@ bool is_hard(const std::vector<Face>& faces, double hard_cosine) {
     return false;
 }
 
-std::optional<SurfacePoint> hard_point(const SurfaceOffset& solid, const std::vector<SmoothPiece>& pieces, Vec3 from,
+std::optional<SurfacePoint> hard_point(const SignedDistance& solid, const std::vector<SmoothPiece>& pieces, Vec3 from,
                                        const Box& within, double hard_cosine) {
     const auto x = meeting_point(solid, pieces, from, within);
     if (!x) return std::nullopt;
@@ -89,8 +89,8 @@ struct Seen {
     std::vector<TangentPlane> planes;
 };
 
-void see(const SurfaceOffset& solid, Vec3 x, Vec3 origin, Seen& seen) {
-    const Offset o = solid.at(x);
+void see(const SignedDistance& solid, Vec3 x, Vec3 origin, Seen& seen) {
+    const SurfaceSample o = solid.at(x);
     if (o.leaf < 0 || o.normal == Vec3(0.0)) return;
     SmoothPiece piece{o.leaf, o.plane, 1};
     if (glm::dot(solid.piece_at(piece, x).normal, o.normal) < 0) piece.side = -1;
@@ -101,7 +101,7 @@ void see(const SurfaceOffset& solid, Vec3 x, Vec3 origin, Seen& seen) {
 
 // The tip of a cone, where its tangent planes meet. It may stick out of the cell that the cone's last
 // crossings are in, into one that it crosses no edge of.
-std::optional<SurfacePoint> tip_point(const SurfaceOffset& solid, const Box& cell, Vec3 mean, const Seen& seen) {
+std::optional<SurfacePoint> tip_point(const SignedDistance& solid, const Box& cell, Vec3 mean, const Seen& seen) {
     const Vec3 x = mean + nearest_to_all(seen.planes, 0);
     const double size = size_of(cell);
     for (const TangentPlane& p : seen.planes)
@@ -114,12 +114,12 @@ std::optional<SurfacePoint> tip_point(const SurfaceOffset& solid, const Box& cel
 
 // From x in the cell to the surface, by Newton's method; if that leads out of the cell, straight to
 // the nearest end of a crossing on the other side.
-Vec3 taken_to_surface(const SurfaceOffset& solid, const Box& cell, const std::vector<CrossingPoint>& crossings,
+Vec3 taken_to_surface(const SignedDistance& solid, const Box& cell, const std::vector<CrossingPoint>& crossings,
                       Vec3 start) {
     const double size = size_of(cell);
     Vec3 x = start;
-    for (int step = 0; step < most_steps && cell.contains(x); ++step) {
-        const Offset o = solid.at(x);
+    for (int step = 0; step < max_steps && cell.contains(x); ++step) {
+        const SurfaceSample o = solid.at(x);
         if (std::abs(o.distance) < on_surface * size) return x;
         if (!std::isfinite(o.distance) || o.normal == Vec3(0.0)) break;
         x += o.normal * o.distance;
@@ -136,12 +136,12 @@ Vec3 taken_to_surface(const SurfaceOffset& solid, const Box& cell, const std::ve
 
 }  // namespace
 
-Face face_of(const SurfaceOffset& solid, const Offset& there) {
+Face face_of(const SignedDistance& solid, const SurfaceSample& there) {
     if (there.leaf < 0) return {there.normal};
     return {there.normal, solid.material(there.leaf), solid.sharp(there.leaf) ? -1 : solid.line(there.leaf)};
 }
 
-Vec3 surface_root(const SurfaceOffset& solid, Vec3 inside, Vec3 outside) {
+Vec3 surface_root(const SignedDistance& solid, Vec3 inside, Vec3 outside) {
     // Illinois's method, which keeps the root between its points; halving where it dawdles or a
     // density is saturated.
     const Vec3 d = outside - inside;
@@ -172,7 +172,7 @@ Vec3 surface_root(const SurfaceOffset& solid, Vec3 inside, Vec3 outside) {
     return inside + d * (0.5 * (t0 + t1));
 }
 
-SurfacePoint surface_point(const SurfaceOffset& solid, const Box& cell, const std::vector<CrossingPoint>& crossings,
+SurfacePoint surface_point(const SignedDistance& solid, const Box& cell, const std::vector<CrossingPoint>& crossings,
                            double hard_cosine, bool tip_may_stick_out) {
     Vec3 mean(0.0), normal(0.0);
     for (const CrossingPoint& c : crossings) mean += c.position / double(crossings.size());
@@ -186,8 +186,8 @@ SurfacePoint surface_point(const SurfaceOffset& solid, const Box& cell, const st
             return *tip;
     if (bent) {
         // Below this share of the planes' agreement lies what a hard edge of some 10° leaves open.
-        constexpr double least_share = 0.01;
-        start = clamped(mean + nearest_to_all(seen.planes, least_share), cell);
+        constexpr double min_share = 0.01;
+        start = clamped(mean + nearest_to_all(seen.planes, min_share), cell);
         if (seen.pieces.size() > 1) {
             if (auto corner = hard_point(solid, seen.pieces, start, cell, hard_cosine)) return *corner;
             std::optional<SurfacePoint> best;
@@ -199,7 +199,7 @@ SurfacePoint surface_point(const SurfaceOffset& solid, const Box& cell, const st
         }
     }
     SurfacePoint point{taken_to_surface(solid, cell, crossings, start), {}};
-    const Offset o = solid.at(point.position);
+    const SurfaceSample o = solid.at(point.position);
     for (const Face& f : seen.faces) normal += f.normal;
     point.faces.push_back(face_of(solid, o));
     Vec3& first = point.faces[0].normal;
@@ -209,7 +209,7 @@ SurfacePoint surface_point(const SurfaceOffset& solid, const Box& cell, const st
 
 namespace {
 
-std::vector<SmoothPiece> pieces_through(const SurfaceOffset& solid, const std::vector<SmoothPiece>& all, Vec3 x,
+std::vector<SmoothPiece> pieces_through(const SignedDistance& solid, const std::vector<SmoothPiece>& all, Vec3 x,
                                         double tolerance) {
     std::vector<SmoothPiece> through;
     for (const SmoothPiece& p : all)
@@ -224,7 +224,7 @@ std::vector<SmoothPiece> common(const std::vector<SmoothPiece>& a, const std::ve
     return both;
 }
 
-std::optional<SurfacePoint> meeting_near(const SurfaceOffset& solid, Vec3 x, const std::vector<SmoothPiece>& pieces,
+std::optional<SurfacePoint> meeting_near(const SignedDistance& solid, Vec3 x, const std::vector<SmoothPiece>& pieces,
                                          double reach, double hard_cosine) {
     const auto point = hard_point(solid, pieces, x, {x - Vec3(reach), x + Vec3(reach)}, hard_cosine);
     return point && glm::length(point->position - x) <= reach ? point : std::nullopt;
@@ -235,7 +235,7 @@ constexpr double on_piece = 1e-7;
 
 }  // namespace
 
-std::optional<SurfacePoint> hard_edge_point(const SurfaceOffset& solid, Vec3 x, Vec3 p, Vec3 q, double reach,
+std::optional<SurfacePoint> hard_edge_point(const SignedDistance& solid, Vec3 x, Vec3 p, Vec3 q, double reach,
                                             double hard_cosine) {
     const auto all = solid.pieces();
     const double tolerance = on_piece * glm::length(p - q);
@@ -243,7 +243,7 @@ std::optional<SurfacePoint> hard_edge_point(const SurfaceOffset& solid, Vec3 x, 
     return pieces.size() == 2 ? meeting_near(solid, x, pieces, reach, hard_cosine) : std::nullopt;
 }
 
-std::optional<SurfacePoint> cut_off_point(const SurfaceOffset& solid, const std::vector<Vec3>& points, Vec3 x,
+std::optional<SurfacePoint> cut_off_point(const SignedDistance& solid, const std::vector<Vec3>& points, Vec3 x,
                                           double hard_cosine) {
     const auto all = solid.pieces();
     double apart = 0;

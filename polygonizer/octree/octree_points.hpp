@@ -20,8 +20,8 @@ struct Face {
     int leaf = -1;  // by its number in the whole solid; −1: a plane
 };
 
-/// The face of a point on the surface, given what SurfaceOffset says there.
-Face face_of(const SurfaceOffset& solid, const Offset& there);
+/// The face of a point on the surface, given what SignedDistance says there.
+Face face_of(const SignedDistance& solid, const SurfaceSample& there);
 
 struct SurfacePoint {
     Vec3 position{0.0};
@@ -35,21 +35,21 @@ struct CrossingPoint {
 };
 
 /// The root between two points of which one is inside and the other is not.
-Vec3 surface_root(const SurfaceOffset& solid, Vec3 inside, Vec3 outside);
+Vec3 surface_root(const SignedDistance& solid, Vec3 inside, Vec3 outside);
 
 /// The point of the sheet that passes `cell` in these crossings; in the cell, but for a tip that
 /// sticks out of it, if that may be. Faces that bend by no more than acos(hard_cosine) are one.
-SurfacePoint surface_point(const SurfaceOffset& solid, const Box& cell, const std::vector<CrossingPoint>& crossings,
+SurfacePoint surface_point(const SignedDistance& solid, const Box& cell, const std::vector<CrossingPoint>& crossings,
                            double hard_cosine, bool tip_may_stick_out);
 
 /// Where the two pieces meet that pass both p and q, no farther than `reach` from x; nothing if they
 /// meet at no hard edge there.
-std::optional<SurfacePoint> hard_edge_point(const SurfaceOffset& solid, Vec3 x, Vec3 p, Vec3 q, double reach,
+std::optional<SurfacePoint> hard_edge_point(const SignedDistance& solid, Vec3 x, Vec3 p, Vec3 q, double reach,
                                             double hard_cosine);
 
 /// Where the pieces that pass these two or three points meet, if no piece passes all: the point of a
 /// hard edge, or the corner, that their mesh cuts off. Near x, no farther than they are apart.
-std::optional<SurfacePoint> cut_off_point(const SurfaceOffset& solid, const std::vector<Vec3>& points, Vec3 x,
+std::optional<SurfacePoint> cut_off_point(const SignedDistance& solid, const std::vector<Vec3>& points, Vec3 x,
                                           double hard_cosine);
 
 }  // namespace deburr

@@ -23,7 +23,7 @@ void PointMesh::divide(const Edge& e, SurfacePoint point) {
     const int v = int(points.size());
     points.push_back(std::move(point));
     for (const int side : {e.left, e.right}) {
-        Corners &near = triangles[std::size_t(side)], far = near;
+        TriangleVertices &near = triangles[std::size_t(side)], far = near;
         std::replace(near.begin(), near.end(), e.q, v);
         std::replace(far.begin(), far.end(), e.p, v);
         triangles.push_back(far);
@@ -33,7 +33,7 @@ void PointMesh::divide(const Edge& e, SurfacePoint point) {
 void PointMesh::divide(int triangle, SurfacePoint point) {
     const int v = int(points.size());
     points.push_back(std::move(point));
-    const Corners t = triangles[std::size_t(triangle)];
+    const TriangleVertices t = triangles[std::size_t(triangle)];
     triangles[std::size_t(triangle)][2] = v;
     triangles.push_back({t[1], t[2], v});
     triangles.push_back({t[2], t[0], v});
@@ -48,19 +48,19 @@ Mesh PointMesh::mesh(std::vector<Origin>& origins) const {
         first_normal.push_back(int(mesh.normals.size()));
         for (const Face& f : p.faces) mesh.normals.push_back(f.normal);
     }
-    for (const Corners& t : triangles) {
+    for (const TriangleVertices& t : triangles) {
         Triangle triangle{t, {}};
         int leaf = -1;
         const Vec3 area = area_vector(t);
-        std::size_t fewest = std::numeric_limits<std::size_t>::max();
+        std::size_t min_faces = std::numeric_limits<std::size_t>::max();
         for (std::size_t k = 0; k < 3; ++k) {
             const auto& faces = point(t[k]).faces;
             std::size_t best = 0;
             for (std::size_t f = 1; f < faces.size(); ++f)
                 if (glm::dot(area, faces[f].normal) > glm::dot(area, faces[best].normal)) best = f;
             triangle.normal[k] = first_normal[std::size_t(t[k])] + int(best);
-            if (faces.size() < fewest) {
-                fewest = faces.size();
+            if (faces.size() < min_faces) {
+                min_faces = faces.size();
                 triangle.material = faces[best].material;
                 leaf = faces[best].leaf;
             }

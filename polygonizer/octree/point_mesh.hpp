@@ -7,21 +7,21 @@
 
 namespace deburr {
 
-using Corners = std::array<int, 3>;
+using TriangleVertices = std::array<int, 3>;
 
 struct PointMesh {
     std::vector<SurfacePoint> points;
-    std::vector<Corners> triangles;
+    std::vector<TriangleVertices> triangles;
     std::size_t polygons = 0;
 
     const SurfacePoint& point(int v) const { return points[std::size_t(v)]; }
     Vec3 position(int v) const { return point(v).position; }
     /// Twice the area, outward.
-    Vec3 area_vector(const Corners& t) const {
+    Vec3 area_vector(const TriangleVertices& t) const {
         return glm::cross(position(t[1]) - position(t[0]), position(t[2]) - position(t[0]));
     }
-    Vec3 middle(const Corners& t) const { return (position(t[0]) + position(t[1]) + position(t[2])) / 3.0; }
-    Box box(const Corners& t) const {
+    Vec3 middle(const TriangleVertices& t) const { return (position(t[0]) + position(t[1]) + position(t[2])) / 3.0; }
+    Box box(const TriangleVertices& t) const {
         Box b;
         for (const int v : t) b = hull(b, {position(v), position(v)});
         return b;

@@ -24,10 +24,10 @@ public:
     bool split_unseen() {
         std::vector<Unseen> unseen;
         for (std::size_t i = 0; i < linking_.loops.size(); ++i)
-            if (!mesh_.points[i].hard()) look_across(linking_.loops[i].leaf, mesh_.points[i], unseen);
+            if (!mesh_.points[i].hard()) probe_across(linking_.loops[i].leaf, mesh_.points[i], unseen);
         for (int i = 0; i < int(tree_.cells().size()); ++i) {
             const OctreeCell& c = tree_.cell(i);
-            if (c.children < 0 && c.open) look_inside(i, unseen);
+            if (c.children < 0 && c.open) probe_inside(i, unseen);
         }
         bool changed = false;
         for (const Unseen& u : unseen) {
@@ -68,12 +68,12 @@ private:
     }
 
     // From a point through the solid, or over a gap, to the next surface.
-    void look_across(int leaf, const SurfacePoint& p, std::vector<Unseen>& unseen) const {
+    void probe_across(int leaf, const SurfacePoint& p, std::vector<Unseen>& unseen) const {
         const double side = tree_.unit() * tree_.cell(leaf).size;
-        const SurfaceOffset& solid = tree_.solid(tree_.cell(leaf));
-        for (const double way : {-1.0, 1.0}) {
-            const Vec3 line = p.faces[0].normal * way;
-            const bool in = way < 0;
+        const SignedDistance& solid = tree_.solid(tree_.cell(leaf));
+        for (const double step : {-1.0, 1.0}) {
+            const Vec3 line = p.faces[0].normal * step;
+            const bool in = step < 0;
             for (const double far : {0.5 * side, side}) {
                 const Vec3 beyond = p.position + line * far;
                 if (solid.inside(beyond) == in) continue;
@@ -95,28 +95,28 @@ private:
 
     // To the surface from the middle of a leaf whose corners say nothing of it. What pokes into it
     // from a neighbour is seen there.
-    void look_inside(int leaf, std::vector<Unseen>& unseen) const {
+    void probe_inside(int leaf, std::vector<Unseen>& unseen) const {
         const OctreeCell& c = tree_.cell(leaf);
         if (first_loop(leaf) != linking_.loops.end()) return;
-        const SurfaceOffset& solid = tree_.solid(c);
+        const SignedDistance& solid = tree_.solid(c);
         const Box box = tree_.box(c);
         const double side = box.hi.x - box.lo.x;
-        constexpr int most_steps = 8;
+        constexpr int max_steps = 8;
         constexpr double near_enough = 1e-3, deep = 0.3;  // in sides
         Vec3 x = 0.5 * (box.lo + box.hi);
         const bool outside = !solid.inside(x);
-        for (int step = 0; step < most_steps; ++step) {
-            const Offset o = solid.at(x);
+        for (int step = 0; step < max_steps; ++step) {
+            const SurfaceSample o = solid.at(x);
             if (!std::isfinite(o.distance) || o.normal == Vec3(0.0)) return;
             x += o.normal * o.distance;
             if (!inflated(box, 0.5 * side).contains(x)) return;
             if (std::abs(o.distance) > near_enough * side) continue;
             if (!box.contains(x)) return;
             for (int axis = 0; axis < 3; ++axis)
-                for (const double way : {-side, side}) {
+                for (const double step : {-side, side}) {
                     Vec3 beside = x;
-                    beside[axis] += way;
-                    const double depth = way < 0 ? x[axis] - box.lo[axis] : box.hi[axis] - x[axis];
+                    beside[axis] += step;
+                    const double depth = step < 0 ? x[axis] - box.lo[axis] : box.hi[axis] - x[axis];
                     if (depth < deep * side && sees(tree_.find(beside), x, o.normal, 1)) return;
                 }
             double thickness = 0.5 * side;

@@ -139,7 +139,7 @@ int CellComplex::split_face(int face, int a, int b, std::span<const Vec3> betwee
     return fresh;
 }
 
-int CellComplex::split_cell(int cell, std::span<const Step> loop, int seed, std::span<const Corners> disc) {
+int CellComplex::split_cell(int cell, std::span<const Step> loop, int seed, std::span<const VertexList> disc) {
     const int fresh = int(cells.size());
     cells.emplace_back();
 
@@ -182,7 +182,7 @@ int CellComplex::split_cell(int cell, std::span<const Step> loop, int seed, std:
         edges.push_back({a, b, {}});
         return known.back().step;
     };
-    for (const Corners& polygon : disc) {
+    for (const VertexList& polygon : disc) {
         const int f = int(faces.size());
         Face face{{}, cell, fresh};
         for (std::size_t k = 0; k < polygon.size(); ++k) {
@@ -232,25 +232,25 @@ bool CellComplex::cut_is_simple(int cell) {
         const auto& loop = faces[reach.face].loop;
         const std::size_t n = loop.size();
         if (reach.below) {
-            int places[2], count = 0;
+            int cut_points[2], count = 0;
             for (std::size_t k = 0; k < n; ++k) {
                 const int here = start(loop[k]), next = end(loop[k]);
-                int place;
+                int cut_point;
                 if (side_[here] * side_[next] < 0) {
-                    place = ~(loop[k] >> 1);
+                    cut_point = ~(loop[k] >> 1);
                 } else if (side_[next] == 0 && side_[here] != 0) {
                     const int after = side_[end(loop[k + 1 < n ? k + 1 : 0])];
                     if (after == side_[here]) continue;  // touches only
                     if (after == 0) return false;        // an edge on the plane between both sides
-                    place = next;
+                    cut_point = next;
                 } else {
                     continue;
                 }
                 if (count == 2) return false;
-                places[count++] = place;
+                cut_points[count++] = cut_point;
             }
             if (count != 2) return false;
-            links.push_back({places[0], places[1]});
+            links.push_back({cut_points[0], cut_points[1]});
         } else {
             for (Step s : loop) {
                 if (side_[start(s)] != 0 || side_[end(s)] != 0) continue;
@@ -330,7 +330,7 @@ int CellComplex::cut(int cell, const Plane& plane) {
             std::swap(ring[k + 1], ring[j]);
             break;
         }
-    Corners polygon;
+    VertexList polygon;
     for (Step s : ring) polygon.push_back(start(s));
     // Which way round is combinatorial, not a matter of a sliver's area: the ring must run against
     // the new cell's face at its first edge.

@@ -35,7 +35,7 @@ public:
     using Step = int;
     template <std::uint32_t usual>
     using List = ShortList<int, usual>;
-    using Corners = List<6>;
+    using VertexList = List<6>;
 
     struct Edge {
         int tail, head;
@@ -80,7 +80,7 @@ public:
     /// Puts the disc into the cell: faces given by their corners, counter-clockwise seen from the
     /// side of `seed`, a face of the cell, where the new cell will be. `loop` is the disc's rim,
     /// edges of the cell. Returns the new cell; the new faces are the last ones.
-    int split_cell(int cell, std::span<const Step> loop, int seed, std::span<const Corners> disc);
+    int split_cell(int cell, std::span<const Step> loop, int seed, std::span<const VertexList> disc);
     /// Cuts a convex cell; returns the new cell, on the side the normal points to, or -1 if the
     /// plane does not cut it or the cut was refused.
     int cut(int cell, const Plane& plane);

@@ -11,13 +11,13 @@ namespace deburr {
 // ρ ranges this near to ½ count as ending there: they come from α = 0 to within a few ε.
 inline constexpr double level_slack = 1e-12;
 
-inline Side decide(Range rho) {
+inline Side classify_with_slack(Range rho) {
     if (rho.hi <= 0.5 + level_slack) return Side::outside;
     if (rho.lo >= 0.5 - level_slack) return Side::inside;
     return Side::straddling;
 }
 
-inline bool is_decided(Range rho) { return decide(rho) != Side::straddling; }
+inline bool is_classified_with_slack(Range rho) { return classify_with_slack(rho) != Side::straddling; }
 
 // Distances that a vertex snapped to h or h ± r should have had.
 inline double snapped(double distance, double radius, double tolerance) {
@@ -27,16 +27,16 @@ inline double snapped(double distance, double radius, double tolerance) {
 }
 
 // ρ between two distances: the least is at the greater of them. A sharp one is constant on either closed side.
-inline double least_rho(const HalfSpace& h, double hi, double tolerance) {
+inline double min_rho(const HalfSpace& h, double hi, double tolerance) {
     hi = snapped(hi, h.radius, tolerance);
     return h.radius > 0 ? profile(hi / h.radius) : hi > 0 ? 0.0 : 1.0;
 }
-inline double greatest_rho(const HalfSpace& h, double lo, double tolerance) {
+inline double max_rho(const HalfSpace& h, double lo, double tolerance) {
     lo = snapped(lo, h.radius, tolerance);
     return h.radius > 0 ? profile(lo / h.radius) : lo >= 0 ? 0.0 : 1.0;
 }
 inline Range rho_between(const HalfSpace& h, double lo, double hi, double tolerance) {
-    return {least_rho(h, hi, tolerance), greatest_rho(h, lo, tolerance)};
+    return {min_rho(h, hi, tolerance), max_rho(h, lo, tolerance)};
 }
 
 inline bool varies(Range rho) { return rho.hi != 0 && rho.lo != 1; }
@@ -70,7 +70,7 @@ Side fold(std::vector<SolidTreeNode>& solid, SideOfLeaf side_of_leaf) {
         if (!needed[i] || sides[i] != Side::straddling || solid[i].op == SolidOp::leaf) continue;
         needed[std::size_t(solid[i].a)] = needed[std::size_t(solid[i].b)] = true;
     }
-    std::vector<int> place(solid.size(), -1);
+    std::vector<int> new_index(solid.size(), -1);
     std::vector<SolidTreeNode> to;
     for (std::size_t i = 0; i < solid.size(); ++i) {
         if (!needed[i]) continue;
@@ -81,16 +81,16 @@ Side fold(std::vector<SolidTreeNode>& solid, SideOfLeaf side_of_leaf) {
             const bool a_open = sides[std::size_t(n.a)] == Side::straddling;
             const bool b_open = sides[std::size_t(n.b)] == Side::straddling;
             if (!b_open || (!a_open && n.op != SolidOp::subtract)) {
-                place[i] = place[std::size_t(b_open ? n.b : n.a)];
+                new_index[i] = new_index[std::size_t(b_open ? n.b : n.a)];
                 continue;
             }
-            n.a = place[std::size_t(n.a)];
-            n.b = place[std::size_t(n.b)];
+            n.a = new_index[std::size_t(n.a)];
+            n.b = new_index[std::size_t(n.b)];
         }
-        place[i] = int(to.size());
+        new_index[i] = int(to.size());
         to.push_back(n);
     }
-    to.resize(std::size_t(place.back()) + 1);
+    to.resize(std::size_t(new_index.back()) + 1);
     solid = std::move(to);
     return root;
 }

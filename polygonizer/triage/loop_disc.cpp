@@ -55,8 +55,8 @@ bool strips(const std::vector<Vec3>& rim, Vec3 sweep, double tolerance, Disc& di
     std::vector<int> right, left;
     if (!walk(1, right) || !walk(-1, left)) return false;
 
-    CellComplex::Corners line{low};  // what the faces so far end at, from left to right
-    std::size_t i = 1, j = 1;        // the next ones
+    CellComplex::VertexList line{low};  // what the faces so far end at, from left to right
+    std::size_t i = 1, j = 1;           // the next ones
     const auto level = [&](int v) { return u[std::size_t(v)]; };
     const double top = level(high) - slack;
     while (true) {
@@ -74,7 +74,7 @@ bool strips(const std::vector<Vec3>& rim, Vec3 sweep, double tolerance, Disc& di
             return true;
         } else {
             const bool on_right = r <= l + slack, on_left = l <= r + slack;
-            const CellComplex::Corners next{on_left ? left[j] : line.front(), on_right ? right[i] : line.back()};
+            const CellComplex::VertexList next{on_left ? left[j] : line.front(), on_right ? right[i] : line.back()};
             if (on_right) line.push_back(right[i++]);
             if (on_left) line.push_back(left[j++]);
             if (line.size() > 2) disc.faces.push_back(line);
@@ -86,13 +86,13 @@ bool strips(const std::vector<Vec3>& rim, Vec3 sweep, double tolerance, Disc& di
 // The centroid, moved along the gradient to the surface, within the walls; where the rim lies in a
 // plane that the surface does not follow, across that plane.
 bool displaced_centroid(const std::vector<Vec3>& rim, bool flat, const LocalDensity& density,
-                        const std::vector<Wall>& walls, double tolerance, Vec3& centre) {
+                        const std::vector<Wall>& walls, double tolerance, Vec3& center) {
     const Vec3 c = std::accumulate(rim.begin(), rim.end(), Vec3(0.0)) / double(rim.size());
     const ValueGradient here = density.gradient_at(c);
     const double f = here.value - 0.5;
     const double slope = glm::length(here.gradient);
     if (std::abs(f) < 1e-14 + tolerance * slope) {
-        centre = c;
+        center = c;
         return true;
     }
     const Vec3 area = area_vector(rim);
@@ -118,7 +118,7 @@ bool displaced_centroid(const std::vector<Vec3>& rim, bool flat, const LocalDens
             const Vec3 x = c + line * (reach * k / samples);
             const double fx = density.at(x) - 0.5;
             if ((fx > 0) != (f > 0)) {
-                centre = root_between(density, last, flast, x, fx);
+                center = root_between(density, last, flast, x, fx);
                 return true;
             }
             last = x;
@@ -162,7 +162,7 @@ void fan_about_corner(const std::vector<Vec3>& rim, const LocalDensity& density,
 void span_loop(const std::vector<Vec3>& rim, const LocalDensity& density, const std::vector<Wall>& walls,
                double tolerance, Disc& disc) {
     disc.faces.clear();
-    disc.has_centre = false;
+    disc.has_center = false;
     const int n = int(rim.size());
     const auto whole = [&] {
         auto& face = disc.faces.emplace_back();
@@ -175,11 +175,11 @@ void span_loop(const std::vector<Vec3>& rim, const LocalDensity& density, const 
     if (n > 3 && !(flat && !follows(rim, density)) && is_swept(density, sweep) && strips(rim, sweep, tolerance, disc))
         return;
     disc.faces.clear();
-    if (!displaced_centroid(rim, flat, density, walls, tolerance, disc.centre))
+    if (!displaced_centroid(rim, flat, density, walls, tolerance, disc.center))
         return fan_about_corner(rim, density, disc);
     const Vec3 c = std::accumulate(rim.begin(), rim.end(), Vec3(0.0)) / double(n);
-    if (flat && glm::length(disc.centre - c) <= 2 * tolerance) return whole();
-    disc.has_centre = true;
+    if (flat && glm::length(disc.center - c) <= 2 * tolerance) return whole();
+    disc.has_center = true;
     for (int k = 0; k < n; ++k) disc.faces.push_back({n, k, (k + 1) % n});
 }
 

@@ -8,9 +8,9 @@
 namespace deburr {
 
 struct Disc {
-    std::vector<CellComplex::Corners> faces;  // positions in the rim; its size: the centre
-    bool has_centre = false;
-    Vec3 centre{0.0};
+    std::vector<CellComplex::VertexList> faces;  // positions in the rim; its size: the centre
+    bool has_center = false;
+    Vec3 center{0.0};
 };
 
 /// `rim` lies on the isosurface, counter-clockwise seen from inside (ρ > ½); at least 3 points.

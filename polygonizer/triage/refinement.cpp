@@ -55,22 +55,22 @@ Plane halving(const Part& part, const LocalDensity& density) {
 // Whether the triangle leans too far from the surface, or is too far from it; then `distance` is how far.
 bool is_wrong(const Part& part, const LocalDensity& density, double tolerance, double& distance) {
     // Cosine between a triangle and the surface below which its cell is halved: 75°.
-    constexpr double least_cosine = 0.25;
+    constexpr double min_cosine = 0.25;
     // A sliver leans for other reasons, which halving does not help: repair.hpp.
     constexpr double sliver = 0.005;  // height over longest side
-    Vec3 normal(0.0), centre(0.0);
+    Vec3 normal(0.0), center(0.0);
     double longest2 = 0;
     for (std::size_t k = 0; k < 3; ++k) {
         const Vec3 d = part.x[k] - part.x[(k + 1) % 3];
         normal += part.normal[k];
-        centre += part.x[k] / 3.0;
+        center += part.x[k] / 3.0;
         longest2 = std::max(longest2, glm::dot(d, d));
     }
     const Vec3 area = glm::cross(part.x[1] - part.x[0], part.x[2] - part.x[0]);
-    const ValueGradient here = density.gradient_at(centre);
+    const ValueGradient here = density.gradient_at(center);
     const double slope = glm::length(here.gradient), size = glm::length(area);
     const double side = glm::dot(here.gradient, normal) > 0 ? 1 : -1;
-    const bool leans = size > sliver * longest2 && side * glm::dot(area, here.gradient) < least_cosine * size * slope;
+    const bool leans = size > sliver * longest2 && side * glm::dot(area, here.gradient) < min_cosine * size * slope;
     distance = slope > 0 ? std::abs(here.value - 0.5) / slope : 0;
     if (std::isfinite(tolerance))
         for (std::size_t k = 0; k < 3; ++k) {

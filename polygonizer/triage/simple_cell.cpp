@@ -12,7 +12,7 @@ namespace {
 bool falling_direction(const LocalDensity& density, const std::vector<Vec3>& corners, Vec3& direction) {
     thread_local std::vector<Vec3> down;  // unit
     down.clear();
-    Vec3 centre(0.0), sum(0.0);
+    Vec3 center(0.0), sum(0.0);
     const auto ask = [&](Vec3 x) {
         const Vec3 gradient = density.gradient_at(x).gradient;
         const double slope = glm::length(gradient);
@@ -22,9 +22,9 @@ bool falling_direction(const LocalDensity& density, const std::vector<Vec3>& cor
     };
     for (const Vec3& x : corners) {
         ask(x);
-        centre += x / double(corners.size());
+        center += x / double(corners.size());
     }
-    ask(centre);
+    ask(center);
     // The perceptron's rule: what is least in agreement is added. A few steps find the direction where the fan of
     // gradients is not nearly a half-space wide.
     constexpr int steps = 12;

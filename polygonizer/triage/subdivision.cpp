@@ -10,14 +10,14 @@
 namespace deburr {
 
 Subdivision::Subdivision(const SolidTree& solid, const Box& box) : complex(box, 1e-9 * glm::length(box.hi - box.lo)) {
-    Place whole;
+    PartitionNode whole;
     whole.solid = solid.nodes;
     for (std::size_t k = 0; k < solid.leaves.size(); ++k)
         whole.open.push_back({int(k), std::make_shared<DensityTree>(solid.leaves[k].density), nullptr});
-    places.push_back(std::move(whole));
+    nodes.push_back(std::move(whole));
     refused_.emplace_back();
-    place_of.push_back(0);
-    place_of[0] = new_place(0, 0);
+    node_of.push_back(0);
+    node_of[0] = add_node(0, 0);
     subdivide(0);
 }
 
@@ -51,8 +51,8 @@ void Subdivision::range_over_cell(const std::vector<HalfSpace>& half_spaces) {
 // The leaf within corners_.
 OpenLeaf Subdivision::localize(const OpenLeaf& leaf, Side& side) {
     range_over_cell(leaf.tree->half_spaces);
-    Pruned pruned = prune_further(*leaf.tree, ranges_, is_decided);
-    side = decide(pruned.range);
+    Pruned pruned = prune_further(*leaf.tree, ranges_, is_classified_with_slack);
+    side = classify_with_slack(pruned.range);
     if (side != Side::straddling) return leaf;
     OpenLeaf local = leaf;
     if (!pruned.tree.nodes.empty()) {
@@ -64,7 +64,7 @@ OpenLeaf Subdivision::localize(const OpenLeaf& leaf, Side& side) {
         local.density = std::make_shared<LocalDensity>(*local.tree);
     if (local.density) {
         range_over_cell(local.density->half_spaces());
-        side = decide(local.density->range(ranges_));
+        side = classify_with_slack(local.density->range(ranges_));
         if (side == Side::straddling && is_parallel_family(*local.density)) {
             const Range s = extent(local.density->half_spaces()[0].normal);
             const auto roots = level_planes(*local.density, s, complex.tolerance);
@@ -74,52 +74,52 @@ OpenLeaf Subdivision::localize(const OpenLeaf& leaf, Side& side) {
     return local;
 }
 
-void Subdivision::look_at(int cell) {
+void Subdivision::visit(int cell) {
     const std::pair now{cell, complex.cells.size()};
-    if (looked_at_ == now) return;
-    looked_at_ = now;
+    if (visited_ == now) return;
+    visited_ = now;
     corners_.clear();
     along_normals_.clear();
     for (int v : complex.vertices_of(cell)) corners_.push_back(complex.vertices[std::size_t(v)]);
 }
 
-int Subdivision::new_place(int parent, int cell) {
-    look_at(cell);
-    Place place;
-    place.parent = parent;
-    place.solid = places[std::size_t(parent)].solid;
-    for (const OpenLeaf& leaf : places[std::size_t(parent)].open) {
+int Subdivision::add_node(int parent, int cell) {
+    visit(cell);
+    PartitionNode node;
+    node.parent = parent;
+    node.solid = nodes[std::size_t(parent)].solid;
+    for (const OpenLeaf& leaf : nodes[std::size_t(parent)].open) {
         Side side;
         OpenLeaf local = localize(leaf, side);
         if (side == Side::straddling)
-            place.open.push_back(std::move(local));
+            node.open.push_back(std::move(local));
         else
-            place.decided.push_back({leaf.leaf, side});
+            node.classified.push_back({leaf.leaf, side});
     }
-    place.side = fold(place.solid, [&](int leaf) {
-        for (const auto& [decided, side] : place.decided)
-            if (decided == leaf) return side;
+    node.side = fold(node.solid, [&](int leaf) {
+        for (const auto& [classified, side] : node.classified)
+            if (classified == leaf) return side;
         return Side::straddling;
     });
-    std::erase_if(place.open, [&](const OpenLeaf& leaf) {
-        return std::none_of(place.solid.begin(), place.solid.end(),
+    std::erase_if(node.open, [&](const OpenLeaf& leaf) {
+        return std::none_of(node.solid.begin(), node.solid.end(),
                             [&](const SolidTreeNode& n) { return n.op == SolidOp::leaf && n.a == leaf.leaf; });
     });
-    places.push_back(std::move(place));
-    return int(places.size()) - 1;
+    nodes.push_back(std::move(node));
+    return int(nodes.size()) - 1;
 }
 
 Side Subdivision::side(int cell, int leaf) const {
-    for (int p = place_of[std::size_t(cell)]; p >= 0; p = places[std::size_t(p)].parent) {
-        const auto& decided = places[std::size_t(p)].decided;
-        const auto at = std::lower_bound(decided.begin(), decided.end(), std::pair{leaf, Side::outside});
-        if (at != decided.end() && at->first == leaf) return at->second;
+    for (int p = node_of[std::size_t(cell)]; p >= 0; p = nodes[std::size_t(p)].parent) {
+        const auto& classified = nodes[std::size_t(p)].classified;
+        const auto at = std::lower_bound(classified.begin(), classified.end(), std::pair{leaf, Side::outside});
+        if (at != classified.end() && at->first == leaf) return at->second;
     }
     return Side::straddling;
 }
 
 const OpenLeaf* Subdivision::open(int cell, int leaf) const {
-    for (const OpenLeaf& o : places[std::size_t(place_of[std::size_t(cell)])].open)
+    for (const OpenLeaf& o : nodes[std::size_t(node_of[std::size_t(cell)])].open)
         if (o.leaf == leaf) return &o;
     return nullptr;
 }
@@ -127,10 +127,10 @@ const OpenLeaf* Subdivision::open(int cell, int leaf) const {
 bool Subdivision::halve(int cell, const Plane& plane) {
     const int upper = complex.cut(cell, plane);
     if (upper < 0) return false;
-    const int parent = place_of[std::size_t(cell)];
+    const int parent = node_of[std::size_t(cell)];
     refused_.push_back(refused_[std::size_t(cell)]);
-    place_of.push_back(new_place(parent, upper));
-    place_of[std::size_t(cell)] = new_place(parent, cell);
+    node_of.push_back(add_node(parent, upper));
+    node_of[std::size_t(cell)] = add_node(parent, cell);
     return true;
 }
 
@@ -139,13 +139,13 @@ void Subdivision::subdivide(int cell) {
     while (!todo.empty()) {
         current_ = todo.back();
         todo.pop_back();
-        const int at = place_of[std::size_t(current_)];
-        if (places[std::size_t(at)].side != Side::straddling) continue;
-        look_at(current_);
+        const int at = node_of[std::size_t(current_)];
+        if (nodes[std::size_t(at)].side != Side::straddling) continue;
+        visit(current_);
         Plane plane{};
-        if (!choose(places[std::size_t(at)], plane)) {
+        if (!choose(nodes[std::size_t(at)], plane)) {
             // Cells of a filter that reaches all over the object stay large, with many half-spaces.
-            for (OpenLeaf& leaf : places[std::size_t(at)].open)
+            for (OpenLeaf& leaf : nodes[std::size_t(at)].open)
                 if (!leaf.density) leaf.density = std::make_shared<LocalDensity>(*leaf.tree);
             continue;
         }

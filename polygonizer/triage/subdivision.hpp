@@ -27,12 +27,12 @@ struct OpenLeaf {
 };
 
 /// A node of the binary space partition.
-struct Place {
+struct PartitionNode {
     int parent = -1;
-    Side side = Side::straddling;               // of the solid
-    std::vector<OpenLeaf> open;                 // leaves that are undecided, and matter
-    std::vector<std::pair<int, Side>> decided;  // leaves decided here but not in the parent, sorted
-    std::vector<SolidTreeNode> solid;           // what the open leaves decide
+    Side side = Side::straddling;                  // of the solid
+    std::vector<OpenLeaf> open;                    // leaves that are undecided, and matter
+    std::vector<std::pair<int, Side>> classified;  // leaves decided here but not in the parent, sorted
+    std::vector<SolidTreeNode> solid;              // what the open leaves decide
 };
 
 class Subdivision {
@@ -41,8 +41,8 @@ public:
     Subdivision(const SolidTree& solid, const Box& box);
 
     CellComplex complex;
-    std::vector<Place> places;
-    std::vector<int> place_of;  // of each cell
+    std::vector<PartitionNode> nodes;
+    std::vector<int> node_of;  // of each cell
 
     /// Side of the leaf throughout the cell; straddling also where nobody asked.
     Side side(int cell, int leaf) const;
@@ -88,26 +88,26 @@ private:
     Range extent(Vec3 normal);
     Range distances(const HalfSpace& h);
     void range_over_cell(const std::vector<HalfSpace>& half_spaces);
-    int new_place(int parent, int cell);
+    int add_node(int parent, int cell);
     OpenLeaf localize(const OpenLeaf& leaf, Side& side);
-    bool choose(const Place& place, Plane& plane);
-    bool choose_own(const Place& place, Plane& plane);
-    bool choose_neutral(const Place& place, const Extents& cell, Plane& plane) const;
-    bool is_simple_cell(const Place& place) const;
-    bool shows_surface(const Place& place) const;
-    Extents extents(const Place& place) const;
-    void turn(const Place& place, Vec3 normal);
-    double cost(const Place& place, double offset, bool above);
+    bool choose(const PartitionNode& node, Plane& plane);
+    bool choose_own(const PartitionNode& node, Plane& plane);
+    bool choose_neutral(const PartitionNode& node, const Extents& cell, Plane& plane) const;
+    bool is_simple_cell(const PartitionNode& node) const;
+    bool shows_surface(const PartitionNode& node) const;
+    Extents extents(const PartitionNode& node) const;
+    void turn(const PartitionNode& node, Vec3 normal);
+    double cost(const PartitionNode& node, double offset, bool above);
     bool is_refused(const Plane& plane) const;
-    void look_at(int cell);
+    void visit(int cell);
 
-    std::pair<int, std::size_t> looked_at_{-1, 0};  // a cell, and how many there were
-    std::vector<Vec3> corners_;                     // of that cell
-    std::vector<AlongNormal> along_normals_;        // of them, along normals that were asked for
-    std::vector<Reach> reach_;                      // of its densities' half-spaces, leaf by leaf
-    std::vector<Candidate> candidates_;             // planes that may cut the cell
-    Vec3 turned_to_{0.0};                           // the normal of planes that are being considered
-    std::vector<std::vector<Plane>> refused_;       // by cell
+    std::pair<int, std::size_t> visited_{-1, 0};  // a cell, and how many there were
+    std::vector<Vec3> corners_;                   // of that cell
+    std::vector<AlongNormal> along_normals_;      // of them, along normals that were asked for
+    std::vector<Reach> reach_;                    // of its densities' half-spaces, leaf by leaf
+    std::vector<Candidate> candidates_;           // planes that may cut the cell
+    Vec3 turned_to_{0.0};                         // the normal of planes that are being considered
+    std::vector<std::vector<Plane>> refused_;     // by cell
     int current_ = 0;
     std::vector<Range> ranges_;
     std::vector<Side> sides_;           // of open leaves

@@ -10,11 +10,11 @@ namespace deburr {
 
 // Half-spaces left to deal with on one side of a plane with this offset and the normal that reach_ was
 // turned to; 0 where the solid is decided.
-double Subdivision::cost(const Place& place, double offset, bool above) {
+double Subdivision::cost(const PartitionNode& node, double offset, bool above) {
     std::size_t first = 0;
     double left = 0;
-    for (std::size_t k = 0; k < place.open.size(); ++k) {
-        const LocalDensity& density = *place.open[k].density;
+    for (std::size_t k = 0; k < node.open.size(); ++k) {
+        const LocalDensity& density = *node.open[k].density;
         const std::size_t count = density.half_spaces().size();
         std::size_t varying = varying_[k];
         for (std::size_t i = first; i < first + count; ++i) {
@@ -24,22 +24,22 @@ double Subdivision::cost(const Place& place, double offset, bool above) {
             const double at = offset * reach.along - h.offset;
             ranges_[i] = reach.rho;
             if ((reach.along > 0) != above) {
-                if (at < reach.distance.hi) ranges_[i].lo = least_rho(h, at, complex.tolerance);
+                if (at < reach.distance.hi) ranges_[i].lo = min_rho(h, at, complex.tolerance);
             } else if (at > reach.distance.lo) {
-                ranges_[i].hi = greatest_rho(h, at, complex.tolerance);
+                ranges_[i].hi = max_rho(h, at, complex.tolerance);
             }
             varying += varies(ranges_[i]);
         }
-        sides_[k] = decide(density.range(std::span(ranges_).subspan(first, count)));
+        sides_[k] = classify_with_slack(density.range(std::span(ranges_).subspan(first, count)));
         if (sides_[k] == Side::straddling) left += 1.0 + double(varying);
         first += count;
     }
     if (left == 0) return 0;
-    if (place.open.size() > 1) {
-        std::vector<SolidTreeNode> solid = place.solid;
+    if (node.open.size() > 1) {
+        std::vector<SolidTreeNode> solid = node.solid;
         const Side side = fold(solid, [&](int leaf) {
-            for (std::size_t k = 0; k < place.open.size(); ++k)
-                if (place.open[k].leaf == leaf) return sides_[k];
+            for (std::size_t k = 0; k < node.open.size(); ++k)
+                if (node.open[k].leaf == leaf) return sides_[k];
             return Side::straddling;
         });
         if (side != Side::straddling) return 0;
@@ -48,18 +48,18 @@ double Subdivision::cost(const Place& place, double offset, bool above) {
 }
 
 // Makes ready for planes of this normal.
-void Subdivision::turn(const Place& place, Vec3 normal) {
+void Subdivision::turn(const PartitionNode& node, Vec3 normal) {
     if (normal == -turned_to_)
         for (Reach& reach : reach_) reach.along = -reach.along;
     const bool is_along = normal == turned_to_ || normal == -turned_to_;
     turned_to_ = normal;
     if (is_along) return;
     ranges_.clear();
-    varying_.assign(place.open.size(), 0);
-    sides_.resize(place.open.size());
+    varying_.assign(node.open.size(), 0);
+    sides_.resize(node.open.size());
     auto reach = reach_.begin();
-    for (std::size_t k = 0; k < place.open.size(); ++k)
-        for (std::size_t count = place.open[k].density->half_spaces().size(); count > 0; --count, ++reach) {
+    for (std::size_t k = 0; k < node.open.size(); ++k)
+        for (std::size_t count = node.open[k].density->half_spaces().size(); count > 0; --count, ++reach) {
             const double cosine = glm::dot(reach->half_space->normal, normal);
             reach->along = std::abs(cosine) > 1 - 1e-12 ? (cosine > 0 ? 1 : -1) : 0;
             ranges_.push_back(reach->rho);
@@ -74,11 +74,11 @@ bool Subdivision::is_refused(const Plane& plane) const {
 }
 
 // The cell that is looked at, by its size against the filter.
-Subdivision::Extents Subdivision::extents(const Place& place) const {
+Subdivision::Extents Subdivision::extents(const PartitionNode& node) const {
     Extents e;
     for (const Vec3& x : corners_) e.box = hull(e.box, Box{x, x});
     Vec3 size = e.box.hi - e.box.lo, across(0.0);
-    for (const OpenLeaf& leaf : place.open) {
+    for (const OpenLeaf& leaf : node.open) {
         e.half_spaces += leaf.tree->half_spaces.size();
         e.all_small &= leaf.density != nullptr;
         for (const HalfSpace& h : leaf.tree->half_spaces) {
@@ -89,7 +89,7 @@ Subdivision::Extents Subdivision::extents(const Place& place) const {
     if (e.half_spaces <= many) {
         // Along a sweep nothing changes.
         size *= glm::min(across, Vec3(1.0));
-        for (const OpenLeaf& leaf : place.open)
+        for (const OpenLeaf& leaf : node.open)
             for (const HalfSpace& h : leaf.tree->half_spaces) {
                 const Range along = extent_along(h.normal, corners_);
                 e.width = std::max(e.width, along.hi - along.lo);
@@ -103,15 +103,15 @@ Subdivision::Extents Subdivision::extents(const Place& place) const {
 }
 
 // Every leaf that is open is simple throughout the cell.
-bool Subdivision::is_simple_cell(const Place& place) const {
-    return std::all_of(place.open.begin(), place.open.end(), [&](const OpenLeaf& leaf) {
+bool Subdivision::is_simple_cell(const PartitionNode& node) const {
+    return std::all_of(node.open.begin(), node.open.end(), [&](const OpenLeaf& leaf) {
         return leaf.density && is_simple(*leaf.density, corners_, complex.tolerance);
     });
 }
 
 // Some leaf that is open has corners of the cell on either side.
-bool Subdivision::shows_surface(const Place& place) const {
-    return std::any_of(place.open.begin(), place.open.end(), [&](const OpenLeaf& leaf) {
+bool Subdivision::shows_surface(const PartitionNode& node) const {
+    return std::any_of(node.open.begin(), node.open.end(), [&](const OpenLeaf& leaf) {
         if (!leaf.density) return false;
         bool above = false, below = false;
         for (const Vec3& x : corners_) (leaf.density->at(x) > 0.5 ? above : below) = true;
@@ -119,28 +119,28 @@ bool Subdivision::shows_surface(const Place& place) const {
     });
 }
 
-bool Subdivision::choose(const Place& place, Plane& plane) {
-    const Extents cell = extents(place);
+bool Subdivision::choose(const PartitionNode& node, Plane& plane) {
+    const Extents cell = extents(node);
     // Where many half-spaces vary together in a cell that is not much larger than their filters, few of their planes
     // would part flat faces from the rest, and all of them together cut it into many.
     constexpr double small = 4;  // in radii, across any of the planes: two filters
-    if (cell.all_small && cell.half_spaces > many && cell.width <= small * cell.radius && is_simple_cell(place))
+    if (cell.all_small && cell.half_spaces > many && cell.width <= small * cell.radius && is_simple_cell(node))
         return false;
-    if ((cell.half_spaces > many || !cell.all_small) && choose_neutral(place, cell, plane)) return true;
+    if ((cell.half_spaces > many || !cell.all_small) && choose_neutral(node, cell, plane)) return true;
     if (!cell.all_small) return false;
-    if (choose_own(place, plane)) return true;
+    if (choose_own(node, plane)) return true;
     // No plane is left. A part of the surface that the cell's corners do not tell of may lie whole within.
-    return !shows_surface(place) && !is_simple_cell(place) && choose_neutral(place, cell, plane);
+    return !shows_surface(node) && !is_simple_cell(node) && choose_neutral(node, cell, plane);
 }
 
 // A plane of the half-spaces in the cell, or one of their parallels at ±r.
-bool Subdivision::choose_own(const Place& place, Plane& plane) {
+bool Subdivision::choose_own(const PartitionNode& node, Plane& plane) {
     candidates_.clear();
     const auto consider = [&](const Plane& p, Range s, double bias) {
         if (s.hi - p.offset <= complex.tolerance || p.offset - s.lo <= complex.tolerance) return;
         if (!is_refused(p)) candidates_.push_back({p, s, bias});
     };
-    for (const OpenLeaf& leaf : place.open) {
+    for (const OpenLeaf& leaf : node.open) {
         const auto& planes = leaf.density->half_spaces();
         if (is_parallel_family(*leaf.density)) {
             const Range s = extent(planes[0].normal);
@@ -161,18 +161,18 @@ bool Subdivision::choose_own(const Place& place, Plane& plane) {
 
     reach_.clear();
     turned_to_ = Vec3(0.0);
-    for (const OpenLeaf& leaf : place.open)
+    for (const OpenLeaf& leaf : node.open)
         for (const HalfSpace& h : leaf.density->half_spaces()) {
             const Range d = distances(h);
             reach_.push_back({&h, d, rho_between(h, d.lo, d.hi, complex.tolerance), 0});
         }
     double best = infinity;
     for (const auto& [p, s, bias] : candidates_) {
-        turn(place, p.normal);
+        turn(node, p.normal);
         const double share = (s.hi - p.offset) / (s.hi - s.lo);
-        const double above = cost(place, p.offset, true) * std::sqrt(share);
+        const double above = cost(node, p.offset, true) * std::sqrt(share);
         if (above + bias >= best) continue;
-        const double c = above + cost(place, p.offset, false) * std::sqrt(1 - share) + bias;
+        const double c = above + cost(node, p.offset, false) * std::sqrt(1 - share) + bias;
         if (c >= best) continue;
         best = c;
         plane = p;
@@ -181,20 +181,20 @@ bool Subdivision::choose_own(const Place& place, Plane& plane) {
 }
 
 // Across the longest side of the cell, at a half-space's own plane if one is near the middle.
-bool Subdivision::choose_neutral(const Place& place, const Extents& cell, Plane& plane) const {
+bool Subdivision::choose_neutral(const PartitionNode& node, const Extents& cell, Plane& plane) const {
     // That may hold several sheets, though only of a surface that its corners tell of: or of one that is lost.
     constexpr double smallest_seen = 1, smallest_unseen = 0.125;  // in radii
     constexpr double sharp_smallest = 1e5;                        // in tolerances
     const auto& [box, axis, size, radius, width, half_spaces, all_small] = cell;
     if (radius == infinity ? size <= sharp_smallest * complex.tolerance
-                           : size <= (shows_surface(place) ? smallest_seen : smallest_unseen) * radius)
+                           : size <= (shows_surface(node) ? smallest_seen : smallest_unseen) * radius)
         return false;
     const double middle = 0.5 * (box.lo[axis] + box.hi[axis]);
     plane.normal = Vec3(0.0);
     plane.normal[axis] = 1;
     plane.offset = middle;
     double nearest = 0.2 * (box.hi[axis] - box.lo[axis]);
-    for (const OpenLeaf& leaf : place.open)
+    for (const OpenLeaf& leaf : node.open)
         for (const HalfSpace& h : leaf.tree->half_spaces) {
             if (std::abs(h.normal[axis]) < 1 - 1e-12) continue;
             for (const double shift : {-h.radius, 0.0, h.radius}) {

@@ -51,7 +51,7 @@ void Subspace::polygonize() {
 void Subspace::polygonize(std::span<const int> undivided) {
     std::vector<std::pair<int, int>> open;  // leaf, and undivided cell
     for (const int c : undivided)
-        for (const OpenLeaf& o : subdivision_.places[std::size_t(subdivision_.place_of[std::size_t(c)])].open)
+        for (const OpenLeaf& o : subdivision_.nodes[std::size_t(subdivision_.node_of[std::size_t(c)])].open)
             open.push_back({o.leaf, c});
     std::sort(open.begin(), open.end());
     std::vector<int> cells;
@@ -86,10 +86,10 @@ Side Subspace::side_now(int cell) {
 
 bool Subspace::inside(int cell) const {
     if (cell == CellComplex::outside) return false;
-    const Place& place = subdivision_.places[std::size_t(subdivision_.place_of[std::size_t(origin(cell))])];
-    if (place.side != Side::straddling) return place.side == Side::inside;
+    const PartitionNode& node = subdivision_.nodes[std::size_t(subdivision_.node_of[std::size_t(origin(cell))])];
+    if (node.side != Side::straddling) return node.side == Side::inside;
     in_.clear();
-    for (const SolidTreeNode& n : place.solid) {
+    for (const SolidTreeNode& n : node.solid) {
         const auto at = [&](int child) { return bool(in_[std::size_t(child)]); };
         switch (n.op) {
             case SolidOp::nothing: in_.push_back(false); break;
@@ -263,7 +263,7 @@ void Subspace::span(int cell, const LocalDensity& density) {
             points_.push_back(complex_.vertices[std::size_t(rim_.back())]);
         }
         span_loop(points_, density, walls_, complex_.tolerance, disc_);
-        if (disc_.has_centre) rim_.push_back(complex_.add_vertex(disc_.centre));
+        if (disc_.has_center) rim_.push_back(complex_.add_vertex(disc_.center));
         for (auto& face : disc_.faces)
             for (int& corner : face) corner = rim_[std::size_t(corner)];
         const int fresh = complex_.split_cell(owner(loop.seed, family), loop.steps, loop.seed, disc_.faces);

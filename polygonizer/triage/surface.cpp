@@ -15,11 +15,11 @@ class EdgeSet {
 public:
     using Ends = std::pair<int, int>;
 
-    bool has(Ends ends) const { return !slots_.empty() && slots_[place(ends)] == ends; }
+    bool has(Ends ends) const { return !slots_.empty() && slots_[slot_of(ends)] == ends; }
     /// False if they are there already.
     bool add(Ends ends) {
         if (2 * (count_ + 1) > slots_.size()) grow();
-        Ends& slot = slots_[place(ends)];
+        Ends& slot = slots_[slot_of(ends)];
         if (slot == ends) return false;
         slot = ends;
         ++count_;
@@ -29,7 +29,7 @@ public:
 private:
     static constexpr Ends empty{-1, -1};
 
-    std::size_t place(Ends ends) const {
+    std::size_t slot_of(Ends ends) const {
         const std::uint64_t key = std::uint64_t(ends.first) << 32 | std::uint32_t(ends.second);
         constexpr std::uint64_t golden = 0x9e3779b97f4a7c15;  // 2⁶⁴ by the golden ratio: spreads neighbours
         std::size_t at = std::size_t((key * golden) >> 32) & (slots_.size() - 1);
@@ -40,7 +40,7 @@ private:
         std::vector<Ends> old(std::max<std::size_t>(64, 2 * slots_.size()), empty);
         old.swap(slots_);
         for (const Ends& ends : old)
-            if (ends != empty) slots_[place(ends)] = ends;
+            if (ends != empty) slots_[slot_of(ends)] = ends;
     }
 
     std::vector<Ends> slots_;  // a power of two of them

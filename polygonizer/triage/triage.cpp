@@ -61,14 +61,14 @@ std::vector<int> halve(Subdivision& subdivision, const std::vector<Cut>& cuts) {
 // Halves the cells of these triangles, and what is farther from the surface than splits of edges could mend: there
 // sheets lie close together. What has been halved is looked at again without the rest. False if nothing could be cut.
 bool cut_cells(Subdivision& subdivision, const Mesh& mesh, const std::vector<Origin>& origins,
-               const std::vector<int>& triangles, double tolerance, std::size_t max_cells, StopFlag stop) {
+               const std::vector<int>& triangles, double tolerance, std::size_t max_cells, CancelFlag cancel) {
     // Of the tolerance; splits of edges begin there.
     constexpr double coarse = 5;
-    constexpr std::size_t most_rounds = 24;
+    constexpr std::size_t max_rounds = 24;
     std::vector<int> halves = halve(subdivision, cells_to_halve(mesh, origins, triangles, subdivision));
     const bool changed = !halves.empty();
-    for (std::size_t k = 0; k < most_rounds && !halves.empty() && subdivision.complex.cells.size() < max_cells; ++k) {
-        throw_if_stopped(stop);
+    for (std::size_t k = 0; k < max_rounds && !halves.empty() && subdivision.complex.cells.size() < max_cells; ++k) {
+        throw_if_cancelled(cancel);
         Subspace part(subdivision);
         part.polygonize(with_neighbours(subdivision.complex, halves));
         halves = halve(subdivision, cells_to_halve(part, coarse * tolerance));
@@ -76,8 +76,8 @@ bool cut_cells(Subdivision& subdivision, const Mesh& mesh, const std::vector<Ori
     return changed;
 }
 
-void add_crossing(const Mesh& mesh, std::vector<int>& triangles, StopFlag stop) {
-    for (const auto& [s, t] : crossing_triangles(mesh, TriangleTree(mesh), stop))
+void add_crossing(const Mesh& mesh, std::vector<int>& triangles, CancelFlag cancel) {
+    for (const auto& [s, t] : crossing_triangles(mesh, TriangleTree(mesh), cancel))
         triangles.insert(triangles.end(), {s, t});
 }
 
@@ -111,42 +111,42 @@ Mesh triage(const SolidTree& mixed, const Box& box, const TriageOptions& options
     Subdivision subdivision(solid, box);
     Mesh mesh, best;
     std::vector<Origin> origins, best_origins;
-    std::size_t least_left = std::numeric_limits<std::size_t>::max();
+    std::size_t min_left = std::numeric_limits<std::size_t>::max();
     double farthest = 0;
     std::optional<FacetJudge> judge;
     // Each round halves the cells that need it.
-    const std::size_t most_rounds = std::isfinite(options.tolerance) ? 6 : 5;
-    constexpr std::size_t most_mending_rounds = 8;
+    const std::size_t max_rounds = std::isfinite(options.tolerance) ? 6 : 5;
+    constexpr std::size_t max_mending_rounds = 8;
     std::size_t mending = 0;
     std::vector<int> best_left;  // triangles of it that are wrong
     std::vector<Box> dense;      // where a mesh that was thinned out was wrong
     // Where surfaces nearly touch, halves of what is too far may be too far for ever.
     const std::size_t max_cells = 8 * subdivision.complex.cells.size() + 20'000;
     const auto may_halve = [&] { return subdivision.complex.cells.size() < max_cells; };
-    for (std::size_t round = 0; mending < most_mending_rounds; ++round) {
-        throw_if_stopped(options.stop);
+    for (std::size_t round = 0; mending < max_mending_rounds; ++round) {
+        throw_if_cancelled(options.cancel);
         Subspace subspace(subdivision);
         subspace.polygonize();
         origins.clear();
         mesh = surface(subspace, solid, &origins);
         if (statistics) statistics->rounds = round + 1;
-        const bool may_cut = round + 1 < most_rounds && may_halve();
+        const bool may_cut = round + 1 < max_rounds && may_halve();
         if (may_cut && !std::isfinite(options.tolerance) &&
             !halve(subdivision, cells_to_halve(mesh, origins, subdivision)).empty())
             continue;
         if (!judge) judge.emplace(solid, mesh);
-        drop_sheets(mesh, origins, 10 * subdivision.complex.tolerance, judge->solid());
+        drop_flat_shells(mesh, origins, 10 * subdivision.complex.tolerance, judge->solid());
         if (std::isfinite(options.tolerance)) {
             const double tolerance = at_points * options.tolerance;
-            const std::vector<int> left = refine(mesh, origins, *judge, tolerance, options.stop);
+            const std::vector<int> left = refine(mesh, origins, *judge, tolerance, options.cancel);
             if (may_cut && !left.empty() &&
-                cut_cells(subdivision, mesh, origins, left, tolerance, max_cells, options.stop))
+                cut_cells(subdivision, mesh, origins, left, tolerance, max_cells, options.cancel))
                 continue;
         }
         if (thin_out) {
             // Facets that lean are mended first: what mends them later knows of no tolerance.
             repair(mesh, origins, *judge);
-            decimate(mesh, origins, *judge, at_points * options.tolerance, dense, options.stop);
+            decimate(mesh, origins, *judge, at_points * options.tolerance, dense, options.cancel);
         }
         // What repair cannot help needs smaller cells around it.
         ++mending;
@@ -155,33 +155,33 @@ Mesh triage(const SolidTree& mixed, const Box& box, const TriageOptions& options
             Mesh mended = mesh;
             std::vector<Origin> mended_origins = origins;
             RepairStatistics repaired = repair(mended, mended_origins, *judge, may_split);
-            drop_wrong_sheets(mended, mended_origins, repaired.left);
-            add_crossing(mended, repaired.left, options.stop);
+            drop_wrong_shells(mended, mended_origins, repaired.left);
+            add_crossing(mended, repaired.left, options.cancel);
             if (std::isfinite(options.tolerance)) add_far(mended, *judge, options.tolerance, repaired.left);
             sort_once(repaired.left);
             cuts[may_split] = cells_around(mended, mended_origins, repaired.left, subdivision);
-            if (repaired.left.size() < least_left) {
-                least_left = repaired.left.size();
+            if (repaired.left.size() < min_left) {
+                min_left = repaired.left.size();
                 farthest = repaired.farthest;
                 best = std::move(mended);
                 best_left = repaired.left;
                 best_origins = std::move(mended_origins);
             }
-            if (least_left == 0) break;
+            if (min_left == 0) break;
         }
-        if (least_left == 0 || !may_halve()) break;
+        if (min_left == 0 || !may_halve()) break;
         if (halve(subdivision, cuts[0]).empty() && halve(subdivision, cuts[1]).empty() && !thin_out) break;
         for (const int t : best_left) add_corners(best, best.triangles[std::size_t(t)], dense);
     }
     mesh = std::move(best);
     origins = std::move(best_origins);
-    thin_borders(mesh, origins, *judge, farthest);
+    simplify_borders(mesh, origins, *judge, farthest);
     merge_close(mesh);
     if (statistics) {
         statistics->cells = subdivision.complex.cells.size();
         statistics->open_cells = 0;
-        for (const int place : subdivision.place_of)
-            statistics->open_cells += subdivision.places[std::size_t(place)].side == Side::straddling;
+        for (const int node : subdivision.node_of)
+            statistics->open_cells += subdivision.nodes[std::size_t(node)].side == Side::straddling;
     }
     return mesh;
 }

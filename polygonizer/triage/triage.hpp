@@ -13,7 +13,7 @@ struct TriageOptions {
     /// Whether a mesh with a tolerance is thinned out within it. Pictures of meshes want its normals dense instead.
     bool decimate = true;
     /// Looked at between the rounds of refinement.
-    StopFlag stop = nullptr;
+    CancelFlag cancel = nullptr;
 };
 
 struct TriageStatistics {
@@ -21,7 +21,7 @@ struct TriageStatistics {
     std::size_t rounds = 1;                 // of refinement
 };
 
-/// A closed, oriented 2-manifold mesh of the solid. What leaves `box` is cut off by it. Throws Stopped.
+/// A closed, oriented 2-manifold mesh of the solid. What leaves `box` is cut off by it. Throws Cancelled.
 Mesh triage(const SolidTree& solid, const Box& box, const TriageOptions& options = {},
             TriageStatistics* statistics = nullptr);
 

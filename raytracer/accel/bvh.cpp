@@ -18,7 +18,7 @@ BoxFrame::BoxFrame(const Box& around) : middle(0.5 * (around.lo + around.hi)) {
     if (side > 0) per_unit = 2 / side;
 }
 
-BoxTree::BoxTree(const Builder& from, int root) {
+Bvh4::Bvh4(const Builder& from, int root) {
     if (root == Builder::nothing) return;
     box_ = from.parts_[std::size_t(root)].box;
     frame_ = BoxFrame(box_);
@@ -29,10 +29,10 @@ BoxTree::BoxTree(const Builder& from, int root) {
 }
 
 // The largest of the children is opened until there are four, or items only.
-std::int32_t BoxTree::collapse(const Builder& from, int root, int depth) {
+std::int32_t Bvh4::collapse(const Builder& from, int root, int depth) {
     const auto part = [&](int i) -> const Builder::Part& { return from.parts_[std::size_t(i)]; };
     if (part(root).b < 0) return ~part(root).a;
-    if (depth >= deepest) throw std::length_error("expected a tree of at most 150 levels");
+    if (depth >= max_depth) throw std::length_error("expected a tree of at most 150 levels");
     std::vector<int> children{part(root).a, part(root).b};
     while (children.size() < 4) {
         int largest = -1;
@@ -54,7 +54,7 @@ std::int32_t BoxTree::collapse(const Builder& from, int root, int depth) {
     return number;
 }
 
-BoxTree::Node BoxTree::node_of(const Builder& from, const std::vector<int>& children) const {
+Bvh4::Node Bvh4::node_of(const Builder& from, const std::vector<int>& children) const {
     Node n;
     for (std::size_t i = 0; i < 4; ++i) {
         n.child[i] = 0;
@@ -63,8 +63,8 @@ BoxTree::Node BoxTree::node_of(const Builder& from, const std::vector<int>& chil
             n.side[k][i + 4] = -std::numeric_limits<float>::max();
             if (i >= children.size()) continue;
             const Box& box = from.parts_[std::size_t(children[i])].box;
-            n.side[k][i] = float(frame_.place(box.lo)[k] - slack);
-            n.side[k][i + 4] = float(frame_.place(box.hi)[k] + slack);
+            n.side[k][i] = float(frame_.to_local(box.lo)[k] - slack);
+            n.side[k][i + 4] = float(frame_.to_local(box.hi)[k] + slack);
         }
     }
     return n;

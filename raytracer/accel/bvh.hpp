@@ -20,7 +20,7 @@ struct BoxFrame {
     BoxFrame() = default;
     explicit BoxFrame(const Box& around);
 
-    Vec3 place(const Vec3& x) const { return (x - middle) * per_unit; }
+    Vec3 to_local(const Vec3& x) const { return (x - middle) * per_unit; }
     /// At least the distance, and 0.
     float distance(double d) const { return std::max(0.0f, float(d * per_unit) * (1 + 0x1p-22f)); }
 
@@ -28,7 +28,7 @@ struct BoxFrame {
     double per_unit = 1;
 };
 
-class BoxTree {
+class Bvh4 {
 public:
     /// A binary tree to start from; every subtree of it that holds anything has a finite box.
     class Builder {
@@ -41,17 +41,17 @@ public:
         const Box& box(int part) const { return parts_[std::size_t(part)].box; }
 
     private:
-        friend class BoxTree;
+        friend class Bvh4;
         struct Part {
             Box box;
             int a, b;  // b < 0: an item, its number in a
         };
-        int split(std::vector<int>& order, std::size_t first, std::size_t end, int place, int depth);
+        int split(std::vector<int>& order, std::size_t first, std::size_t end, int slot, int depth);
         std::vector<Part> parts_;
     };
 
-    BoxTree() = default;
-    BoxTree(const Builder& from, int root);
+    Bvh4() = default;
+    Bvh4(const Builder& from, int root);
 
     const Box& box() const { return box_; }
     bool empty() const { return nodes_.empty(); }
@@ -64,17 +64,17 @@ public:
 
     /// Several rays: where they enter box(), their directions, and how far the farthest goes on in it.
     struct Beam {
-        Vec3 least_point, most_point, least_direction, most_direction;
+        Vec3 min_point, max_point, min_direction, max_direction;
         double longest;
     };
     /// visit() for all of them at once: calls visit(number of an item) for whatever one of them may meet, the
     /// nearest first but where boxes overlap. It returns how far the farthest goes on.
     template <class Visit>
-    void visit_together(const Beam& beam, Visit visit) const;
+    void visit_packet(const Beam& beam, Visit visit) const;
 
     /// Items from `number` on lie at `first`, so many bytes apart: they are fetched before they are visited.
-    void items_lie_at(std::uint32_t number, const void* first, std::size_t apart) {
-        items_ = {number, static_cast<const char*>(first), apart};
+    void items_lie_at(std::uint32_t number, const void* first, std::size_t stride) {
+        items_ = {number, static_cast<const char*>(first), stride};
     }
 
     /// Calls visit(number of an item) for those whose boxes may meet this one.
@@ -84,7 +84,7 @@ public:
 private:
     // Three entries a level; what is joined by area is at most some 60 deep, a BSP some 70, lists in its
     // cells some 20.
-    static constexpr int most_entries = 480, deepest = most_entries / 3 - 1;
+    static constexpr int max_entries = 480, max_depth = max_entries / 3 - 1;
 
     // side[axis]: the four lower, then the four upper bounds. An empty slot: lower above upper.
     struct alignas(64) Node {
@@ -94,12 +94,12 @@ private:
     struct Items {
         std::uint32_t number = ~0u;
         const char* first = nullptr;
-        std::size_t apart = 0;
+        std::size_t stride = 0;
     };
     void fetch_item(std::uint32_t i) const {
         if (i < items_.number) return;
-        const char* item = items_.first + (i - items_.number) * items_.apart;
-        for (std::size_t at = 0; at < items_.apart; at += 64) __builtin_prefetch(item + at);
+        const char* item = items_.first + (i - items_.number) * items_.stride;
+        for (std::size_t at = 0; at < items_.stride; at += 64) __builtin_prefetch(item + at);
     }
     template <class Meet, class Visit>
     void walk(float end, Meet meet, Visit visit) const;
@@ -136,12 +136,12 @@ inline Vec3 reciprocal(Vec3 d) { return {reciprocal(d.x), reciprocal(d.y), recip
 
 // meet(node, end, t[4]) → bits of the children that are met before `end`, and where.
 template <class Meet, class Visit>
-[[gnu::always_inline]] inline void BoxTree::walk(float end, Meet meet, Visit visit) const {
+[[gnu::always_inline]] inline void Bvh4::walk(float end, Meet meet, Visit visit) const {
     struct Entry {
         std::int32_t child;
         float t;
     };
-    Entry stack[most_entries];
+    Entry stack[max_entries];
     int top = 0;
     std::int32_t now = 0;
     for (;;) {
@@ -158,9 +158,9 @@ template <class Meet, class Visit>
                 do {  // sorted by insertion, the nearest on top
                     const int k = __builtin_ctz(met);
                     met &= met - 1;
-                    int place = top++;
-                    for (; place > first && stack[place - 1].t < t[k]; --place) stack[place] = stack[place - 1];
-                    stack[place] = {n.child[k], t[k]};
+                    int slot = top++;
+                    for (; slot > first && stack[slot - 1].t < t[k]; --slot) stack[slot] = stack[slot - 1];
+                    stack[slot] = {n.child[k], t[k]};
                     // It is looked at soon, if not next.
                     if (n.child[k] >= 0)
                         __builtin_prefetch(&nodes_[std::size_t(n.child[k])]);
@@ -182,15 +182,15 @@ template <class Meet, class Visit>
     }
 }
 
-inline float BoxTree::inverse_of(double x) {
+inline float Bvh4::inverse_of(double x) {
     constexpr double most = 1e30;  // beyond it a direction does not leave its place
     return float(std::clamp(x, -most, most));
 }
 
 template <class Visit>
-void BoxTree::visit(const Vec3& origin, const Vec3& direction, const Vec3& reciprocals, double t0, double t1,
-                    Visit visit) const {
-    const Vec3 start = frame_.place(origin + direction * t0);
+void Bvh4::visit(const Vec3& origin, const Vec3& direction, const Vec3& reciprocals, double t0, double t1,
+                 Visit visit) const {
+    const Vec3 start = frame_.to_local(origin + direction * t0);
     float inverse[3];
     int near[3];
     for (int k = 0; k < 3; ++k) {
@@ -220,7 +220,7 @@ void BoxTree::visit(const Vec3& origin, const Vec3& direction, const Vec3& recip
 // rounds, so what the extreme starts and directions give lies around what any of the rays gives. Along
 // another: the places that any of them reaches. The boxes' slack is more than rounding makes of these.
 template <class Visit>
-void BoxTree::visit_together(const Beam& beam, Visit visit) const {
+void Bvh4::visit_packet(const Beam& beam, Visit visit) const {
     struct Directed {
         int axis, near;
         float to_near, to_far, inverse, other_inverse;  // from which start; divided by
@@ -232,18 +232,18 @@ void BoxTree::visit_together(const Beam& beam, Visit visit) const {
     Directed directed[3];
     Undirected undirected[3];
     int directed_axes = 0, undirected_axes = 0;
-    const Vec3 start = frame_.place(beam.least_point), other_start = frame_.place(beam.most_point);
-    const double way = frame_.distance(beam.longest);
+    const Vec3 start = frame_.to_local(beam.min_point), other_start = frame_.to_local(beam.max_point);
+    const double length = frame_.distance(beam.longest);
     for (int k = 0; k < 3; ++k) {
-        const double least = beam.least_direction[k], most = beam.most_direction[k];
+        const double least = beam.min_direction[k], most = beam.max_direction[k];
         const float a = float(start[k]), b = float(other_start[k]);
         if (least > 0)
             directed[directed_axes++] = {k, 0, b, a, inverse_of(reciprocal(most)), inverse_of(reciprocal(least))};
         else if (most < 0)
             directed[directed_axes++] = {k, 4, a, b, inverse_of(reciprocal(most)), inverse_of(reciprocal(least))};
         else
-            undirected[undirected_axes++] = {k, float(std::max(a + least * way, -2.0)),
-                                             float(std::min(b + most * way, 2.0))};
+            undirected[undirected_axes++] = {k, float(std::max(a + least * length, -2.0)),
+                                             float(std::min(b + most * length, 2.0))};
     }
     walk(
         frame_.distance(beam.longest),
@@ -273,9 +273,9 @@ void BoxTree::visit_together(const Beam& beam, Visit visit) const {
 }
 
 template <class Visit>
-void BoxTree::meeting(const Box& box, Visit visit) const {
+void Bvh4::meeting(const Box& box, Visit visit) const {
     if (empty()) return;
-    const Vec3 lo = frame_.place(box.lo), hi = frame_.place(box.hi);
+    const Vec3 lo = frame_.to_local(box.lo), hi = frame_.to_local(box.hi);
     std::vector<std::int32_t> open{0};
     while (!open.empty()) {
         const Node& n = nodes_[std::size_t(open.back())];

@@ -1,4 +1,4 @@
-// Binary trees for BoxTree: what is not laid out by a BSP is split by the surface-area heuristic
+// Binary trees for Bvh4: what is not laid out by a BSP is split by the surface-area heuristic
 // (MacDonald & Booth 1990) in bins (Wald 2007).
 #include <tbb/parallel_invoke.h>
 
@@ -13,7 +13,7 @@ constexpr int bins = 16;
 // Fewer parts are not worth a task.
 constexpr std::size_t parts_of_a_task = 4096;
 // From here on parts are halved, so that a ray's stack has room for every tree.
-constexpr int deepest_by_area = 40;
+constexpr int max_depth_by_area = 40;
 
 Vec3 middle(const Box& b) { return 0.5 * b.lo + 0.5 * b.hi; }
 
@@ -24,19 +24,19 @@ struct Bin {
 
 }  // namespace
 
-int BoxTree::Builder::item(std::uint32_t number, const Box& box) {
+int Bvh4::Builder::item(std::uint32_t number, const Box& box) {
     parts_.push_back({box, int(number), -1});
     return int(parts_.size()) - 1;
 }
 
-int BoxTree::Builder::join(int a, int b) {
+int Bvh4::Builder::join(int a, int b) {
     if (a == nothing) return b;
     if (b == nothing) return a;
     parts_.push_back({hull(box(a), box(b)), a, b});
     return int(parts_.size()) - 1;
 }
 
-int BoxTree::Builder::join_by_area(std::vector<int> parts) {
+int Bvh4::Builder::join_by_area(std::vector<int> parts) {
     std::erase(parts, nothing);
     if (parts.empty()) return nothing;
     const int first = int(parts_.size());
@@ -46,7 +46,7 @@ int BoxTree::Builder::join_by_area(std::vector<int> parts) {
 
 // n parts have n − 1 joins: where each subtree's are is known beforehand. It does not depend on the number
 // of threads.
-int BoxTree::Builder::split(std::vector<int>& order, std::size_t first, std::size_t end, int place, int depth) {
+int Bvh4::Builder::split(std::vector<int>& order, std::size_t first, std::size_t end, int slot, int depth) {
     if (end - first == 1) return order[first];
     const auto box_at = [&](std::size_t i) -> const Box& { return box(order[i]); };
     Box middles;
@@ -57,7 +57,7 @@ int BoxTree::Builder::split(std::vector<int>& order, std::size_t first, std::siz
         const double share = (middle(box(part))[axis] - middles.lo[axis]) / (middles.hi[axis] - middles.lo[axis]);
         return std::clamp(int(share * bins), 0, bins - 1);
     };
-    for (int axis = 0; axis < 3 && depth < deepest_by_area; ++axis) {
+    for (int axis = 0; axis < 3 && depth < max_depth_by_area; ++axis) {
         if (!(middles.hi[axis] > middles.lo[axis])) continue;
         Bin all[bins];
         for (std::size_t i = first; i < end; ++i) {
@@ -90,8 +90,8 @@ int BoxTree::Builder::split(std::vector<int>& order, std::size_t first, std::siz
         middle_one = std::size_t(upper - order.begin());
     }
     Part to{{}, 0, 0};
-    const auto lower_half = [&] { to.a = split(order, first, middle_one, place + 1, depth + 1); };
-    const auto upper_half = [&] { to.b = split(order, middle_one, end, place + int(middle_one - first), depth + 1); };
+    const auto lower_half = [&] { to.a = split(order, first, middle_one, slot + 1, depth + 1); };
+    const auto upper_half = [&] { to.b = split(order, middle_one, end, slot + int(middle_one - first), depth + 1); };
     if (end - first < parts_of_a_task) {
         lower_half();
         upper_half();
@@ -99,8 +99,8 @@ int BoxTree::Builder::split(std::vector<int>& order, std::size_t first, std::siz
         tbb::parallel_invoke(lower_half, upper_half);
     }
     to.box = hull(box(to.a), box(to.b));
-    parts_[std::size_t(place)] = to;
-    return place;
+    parts_[std::size_t(slot)] = to;
+    return slot;
 }
 
 }  // namespace deburr

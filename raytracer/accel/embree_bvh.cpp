@@ -28,7 +28,7 @@ struct Query : EmbreeContext {
     double (*call)(void*, std::uint32_t);
     void* visit;
 
-    void look(std::uint32_t item, RTCRay& ray) const {
+    void on_item(std::uint32_t item, RTCRay& ray) const {
         const double until = call(visit, numbers[item]);
         if (until < 0)
             ray.tfar = -std::numeric_limits<float>::infinity();
@@ -40,17 +40,17 @@ struct Query : EmbreeContext {
 // There is one ray in them, as there is in the queries.
 void on_intersect(const RTCIntersectFunctionNArguments* a) {
     static_cast<const Query*>(static_cast<EmbreeContext*>(a->context))
-        ->look(a->primID, reinterpret_cast<RTCRayHit*>(a->rayhit)->ray);
+        ->on_item(a->primID, reinterpret_cast<RTCRayHit*>(a->rayhit)->ray);
 }
 
 void on_occluded(const RTCOccludedFunctionNArguments* a) {
     static_cast<const Query*>(static_cast<EmbreeContext*>(a->context))
-        ->look(a->primID, *reinterpret_cast<RTCRay*>(a->ray));
+        ->on_item(a->primID, *reinterpret_cast<RTCRay*>(a->ray));
 }
 
 }  // namespace
 
-struct EmbreeBoxes::Embree {
+struct EmbreeBvh::Embree {
     EmbreeScene scene;
     BoxFrame frame;
     std::vector<std::uint32_t> numbers;
@@ -70,7 +70,7 @@ struct EmbreeBoxes::Embree {
                 const auto& [frame, boxes] =
                     *static_cast<const std::pair<const BoxFrame*, const NumberedBox*>*>(a->geometryUserPtr);
                 const Box& box = boxes[a->primID].box;
-                const Vec3 lo = frame->place(box.lo) - slack, hi = frame->place(box.hi) + slack;
+                const Vec3 lo = frame->to_local(box.lo) - slack, hi = frame->to_local(box.hi) + slack;
                 *a->bounds_o = {float(lo.x), float(lo.y), float(lo.z), 0, float(hi.x), float(hi.y), float(hi.z), 0};
             },
             nullptr);
@@ -82,13 +82,13 @@ struct EmbreeBoxes::Embree {
     }
 };
 
-EmbreeBoxes::EmbreeBoxes(const std::vector<NumberedBox>& boxes) : embree_(std::make_unique<Embree>(boxes)) {}
-EmbreeBoxes::EmbreeBoxes(EmbreeBoxes&&) noexcept = default;
-EmbreeBoxes& EmbreeBoxes::operator=(EmbreeBoxes&&) noexcept = default;
-EmbreeBoxes::~EmbreeBoxes() = default;
+EmbreeBvh::EmbreeBvh(const std::vector<NumberedBox>& boxes) : embree_(std::make_unique<Embree>(boxes)) {}
+EmbreeBvh::EmbreeBvh(EmbreeBvh&&) noexcept = default;
+EmbreeBvh& EmbreeBvh::operator=(EmbreeBvh&&) noexcept = default;
+EmbreeBvh::~EmbreeBvh() = default;
 
-void EmbreeBoxes::run(const Vec3& origin, const Vec3& direction, double t0, double t1, Order order, Call call,
-                      void* visit) const {
+void EmbreeBvh::run(const Vec3& origin, const Vec3& direction, double t0, double t1, Order order, Call call,
+                    void* visit) const {
     const Embree& e = *embree_;
     Query query;
     query.numbers = e.numbers.data();
@@ -96,7 +96,7 @@ void EmbreeBoxes::run(const Vec3& origin, const Vec3& direction, double t0, doub
     query.t0 = t0;
     query.call = call;
     query.visit = visit;
-    const Vec3 start = e.frame.place(origin + direction * t0);
+    const Vec3 start = e.frame.to_local(origin + direction * t0);
     RTCRayHit rayhit;
     RTCRay& ray = rayhit.ray;
     ray.org_x = float(start.x);

@@ -16,15 +16,15 @@ struct NumberedBox {
     Box box;  // finite, not empty
 };
 
-class EmbreeBoxes {
+class EmbreeBvh {
 public:
-    explicit EmbreeBoxes(const std::vector<NumberedBox>& boxes);
-    EmbreeBoxes(EmbreeBoxes&&) noexcept;
-    EmbreeBoxes& operator=(EmbreeBoxes&&) noexcept;
-    ~EmbreeBoxes();
+    explicit EmbreeBvh(const std::vector<NumberedBox>& boxes);
+    EmbreeBvh(EmbreeBvh&&) noexcept;
+    EmbreeBvh& operator=(EmbreeBvh&&) noexcept;
+    ~EmbreeBvh();
 
     enum class Order { nearest_first, any };
-    /// As BoxTree::visit. What visit() returns is a distance up to which the ray goes on; a negative one
+    /// As Bvh4::visit. What visit() returns is a distance up to which the ray goes on; a negative one
     /// ends it.
     template <class Visit>
     void visit(const Vec3& origin, const Vec3& direction, double t0, double t1, Order order, Visit visit) const {

@@ -130,7 +130,7 @@ int answer(int argc, char** argv, const std::vector<Command (*)(CLI::App&)>& mor
         const int code = run(program, commands, argc, argv);
         if (std::fflush(stdout) != 0 || std::ferror(stdout)) return fail(1, "cannot write to the standard output");
         return code;
-    } catch (const Stopped&) {
+    } catch (const Cancelled&) {
         return fail(interrupted_exit_code, "interrupted: nothing is written");
     } catch (const UsageError& error) {
         return fail(2, error.what());

@@ -26,7 +26,7 @@ using Json = nlohmann::ordered_json;
 
 struct CompareOptions : Options {
     std::string second, via, tolerance, json;
-    std::string most_missed, most_distance, most_rmse;
+    std::string max_missed, max_distance, max_rmse;
 };
 
 Film trace(const Scene& scene, const RayTracer& tracer, Size size, const Window& window, int spp, std::uint64_t seed) {
@@ -58,7 +58,7 @@ Json json_of(const PictureDifference& d) {
 
 std::vector<double> radii(const SceneMesh& mesh) {
     std::vector<double> all;
-    for (const SolidTree& tree : mesh.trees) all.push_back(tree.least_radius());
+    for (const SolidTree& tree : mesh.trees) all.push_back(tree.min_radius());
     return all;
 }
 
@@ -69,9 +69,9 @@ int run_compare(const CompareOptions& o) {
     const auto limit_of = [](const char* name, const std::string& text) {
         return text.empty() ? infinity : parse_limit(name, text);
     };
-    const double most_missed = limit_of("--max-missed", o.most_missed);
-    const double most_distance = limit_of("--max-distance", o.most_distance);
-    const double most_rmse = limit_of("--max-rmse", o.most_rmse);
+    const double max_missed = limit_of("--max-missed", o.max_missed);
+    const double max_distance = limit_of("--max-distance", o.max_distance);
+    const double max_rmse = limit_of("--max-rmse", o.max_rmse);
     const int threads = o.threads.value_or(tbb::info::default_concurrency());
     const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, std::size_t(threads));
 
@@ -105,8 +105,8 @@ int run_compare(const CompareOptions& o) {
     j.update(json_of(d));
     const double missed = j["missed_percent"].get<double>();
     const double distance = d.distance ? d.distance->p99 : 0;
-    const bool within = missed <= most_missed && distance <= most_distance && d.rmse <= most_rmse;
-    const bool limited = most_missed < infinity || most_distance < infinity || most_rmse < infinity;
+    const bool within = missed <= max_missed && distance <= max_distance && d.rmse <= max_rmse;
+    const bool limited = max_missed < infinity || max_distance < infinity || max_rmse < infinity;
     j["within_limits"] = limited ? Json(within) : Json(nullptr);
     for (const std::string& path : o.outputs) write_difference(path, a, b);
     if (!o.json.empty()) write_whole_file(o.json, j.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
@@ -148,12 +148,12 @@ Command add_compare_command(CLI::App& program) {
         ->type_name("D");
     command->add_option("--json", options->json, "write the figures as JSON")->type_name("FILE");
     command
-        ->add_option("--max-missed", options->most_missed,
+        ->add_option("--max-missed", options->max_missed,
                      "exit code 1 if more pixels, in percent of the object's, see another solid or none")
         ->type_name("P");
-    command->add_option("--max-distance", options->most_distance, "exit code 1 if not 99 % of the hits are nearer")
+    command->add_option("--max-distance", options->max_distance, "exit code 1 if not 99 % of the hits are nearer")
         ->type_name("D");
-    command->add_option("--max-rmse", options->most_rmse, "exit code 1 if colours differ more")->type_name("E");
+    command->add_option("--max-rmse", options->max_rmse, "exit code 1 if colours differ more")->type_name("E");
     add_run_options(*command, *options);
     return {command, [options] { return run_compare(*options); }};
 }

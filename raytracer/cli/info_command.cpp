@@ -66,12 +66,12 @@ Json json_of(const Box& box) {
         const double r = places > 0 ? std::round(x * unit) / unit : std::round(x / unit) * unit;
         return std::isfinite(r) ? r + 0.0 : x;  // -0 becomes 0
     };
-    Box told = box;
+    Box shown = box;
     for (int k = 0; k < 3; ++k) {
-        told.lo[k] = rounded(box.lo[k]);
-        told.hi[k] = rounded(box.hi[k]);
+        shown.lo[k] = rounded(box.lo[k]);
+        shown.hi[k] = rounded(box.hi[k]);
     }
-    return {{"lo", json_of(told.lo)}, {"hi", json_of(told.hi)}};
+    return {{"lo", json_of(shown.lo)}, {"hi", json_of(shown.hi)}};
 }
 
 // What a solid is made of.

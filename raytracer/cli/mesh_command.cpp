@@ -30,7 +30,7 @@ using Json = nlohmann::ordered_json;
 struct MeshCommandOptions : Options {
     std::string method, tolerance, grid, edge, level, hard_angle, faces, unit, up;
     std::vector<std::string> only;
-    bool no_check = false, force = false, recentre = false;
+    bool no_check = false, force = false, recenter = false;
 };
 
 MeshSettings settings(const MeshCommandOptions& o) {
@@ -118,7 +118,7 @@ void print_table(const Json& j, const std::string& prefix = "") {
 
 Json json_of(const MeshFault& f) {
     Json j{{"count", f.count}};
-    if (f.count > 0) j["place"] = {f.place.x, f.place.y, f.place.z};
+    if (f.count > 0) j["place"] = {f.location.x, f.location.y, f.location.z};
     if (f.line > 0) j["line"] = f.line;
     return j;
 }
@@ -172,8 +172,8 @@ std::vector<std::string> failures(const Scene& scene, const std::vector<MeshChec
             if (f.count == 0) return;
             const std::string line = f.line > 0 ? fmt::format("{}:{}", scene.file, f.line) : scene.file;
             lines.push_back(fmt::format("{}: solid {}: {} {}, {} ({:.6g}, {:.6g}, {:.6g})", line, i + 1, f.count,
-                                        f.count == 1 ? one : many, f.count == 1 ? "at" : "the first at", f.place.x,
-                                        f.place.y, f.place.z));
+                                        f.count == 1 ? one : many, f.count == 1 ? "at" : "the first at", f.location.x,
+                                        f.location.y, f.location.z));
         };
         const MeshCheck& c = checks[i];
         say(c.open, "edge of the mesh is open", "edges of the mesh are open");
@@ -197,7 +197,7 @@ bool passes(const MeshCommandOptions& o, const Scene& scene, const SceneMesh& me
 }
 
 // The finite ones of these solids, or of all, go to the origin, by their middle; returns the way.
-Vec3 recentre(Scene& scene, const std::vector<std::size_t>& only) {
+Vec3 recenter(Scene& scene, const std::vector<std::size_t>& only) {
     Box all;
     for (std::size_t i = 0; i < scene.solids.size(); ++i) {
         if (!only.empty() && !std::binary_search(only.begin(), only.end(), i)) continue;
@@ -215,7 +215,7 @@ void warn_of_single_precision(const MeshCommandOptions& o, const SceneMesh& mesh
     const SinglePrecisionLoss loss = single_precision_loss(mesh.mesh);
     double radius = infinity;
     for (const SolidTree& tree : mesh.trees)
-        if (const double r = tree.least_radius(); r > 0) radius = std::min(radius, r);
+        if (const double r = tree.min_radius(); r > 0) radius = std::min(radius, r);
     constexpr double visible = 0.02;  // of a radius
     if (loss.spoiled == 0 && loss.step <= visible * radius) return;
     for (const std::string& path : o.outputs) {
@@ -225,7 +225,7 @@ void warn_of_single_precision(const MeshCommandOptions& o, const SceneMesh& mesh
             stderr,
             "deburr: {}: single precision has steps of {:.2g} at coordinates up to {:.6g}, and the mesh edges of "
             "{:.2g}: {} facets are flattened or turned over; PLY, OBJ and 3MF hold them, --recentre may help\n",
-            path, loss.step, loss.coordinate, loss.least_edge, loss.spoiled);
+            path, loss.step, loss.coordinate, loss.min_edge, loss.spoiled);
     }
 }
 
@@ -252,8 +252,8 @@ int run_mesh(const MeshCommandOptions& o) {
     check_outputs(files, {o.stats_json}, {o.scene});
     if (!o.stats_json.empty()) files.push_back(o.stats_json);
     for (const std::string& path : files) check_writable(path);
-    if (o.recentre)
-        if (const Vec3 shift = recentre(scene, method.only); shift != Vec3(0.0) && !o.quiet)
+    if (o.recenter)
+        if (const Vec3 shift = recenter(scene, method.only); shift != Vec3(0.0) && !o.quiet)
             fmt::print(stderr, "deburr: --recentre: moved by ({:.17g}, {:.17g}, {:.17g})\n", shift.x, shift.y, shift.z);
     clock.begin("polygonize");
     // How many meshes --faces takes is not known before.
@@ -339,7 +339,7 @@ Command add_mesh_command(CLI::App& program) {
         ->add_option("--up", options->up,
                      "what the scene's y axis is in the files, but for .glb, which is y-up; default: y")
         ->type_name("y|z");
-    command->add_flag("--recentre", options->recentre, "move the middle of the solids to the origin");
+    command->add_flag("--recentre", options->recenter, "move the middle of the solids to the origin");
     command->add_flag("--no-check", options->no_check, "do not check the mesh against the solids");
     command->add_flag("--force", options->force, "write the mesh even if the check fails");
     add_run_options(*command, *options);

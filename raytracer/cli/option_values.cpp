@@ -83,11 +83,10 @@ Size parse_size(std::string_view option, std::string_view text) {
 }
 
 void check_pixels(std::string_view option, const Window& window) {
-    if (std::int64_t(window.width) * window.height > most_pixels ||
-        std::max(window.width, window.height) > largest_side)
+    if (std::int64_t(window.width) * window.height > max_pixels || std::max(window.width, window.height) > largest_side)
         expected(
             option,
-            fmt::format("at most {} pixels and {} a side at once (--crop renders parts)", most_pixels, largest_side),
+            fmt::format("at most {} pixels and {} a side at once (--crop renders parts)", max_pixels, largest_side),
             fmt::format("{}x{}", window.width, window.height));
 }
 
@@ -132,9 +131,9 @@ Criterion parse_criterion(std::string_view option, std::string_view text) {
 }
 
 Accel parse_accel(std::string_view option, std::string_view text) {
-    if (text == "bsp") return Accel::bsp;
+    if (text == "bvh" || text == "bsp") return Accel::bvh;  // bsp: the older name
     if (text == "embree") return Accel::embree;
-    expected(option, "bsp or embree", text);
+    expected(option, "bvh or embree", text);
 }
 
 MeshMethod parse_mesh_method(const std::string& option, const std::string& name) {

@@ -17,7 +17,7 @@ namespace deburr {
 
 /// Of a whole picture, of which crops are rendered; and of what is rendered at once.
 constexpr int largest_picture_side = 1'000'000, largest_side = 65536;
-constexpr std::int64_t most_pixels = std::int64_t(1) << 28;
+constexpr std::int64_t max_pixels = std::int64_t(1) << 28;
 
 std::int64_t parse_whole(std::string_view option, std::string_view text, std::int64_t least, std::int64_t most);
 /// A number > 0.

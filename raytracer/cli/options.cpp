@@ -13,7 +13,7 @@
 namespace deburr {
 namespace {
 
-constexpr int most_threads = 1024;
+constexpr int max_threads = 1024;
 
 // An option whose text goes to a function; CLI11's own conversions know nothing of our ranges.
 template <class Function>
@@ -67,7 +67,7 @@ void add_picture_options(CLI::App& command, Options& o) {
 
 void add_run_options(CLI::App& command, Options& o) {
     add(command, "--threads", "N", "number of threads; default: as many as there are processors",
-        [&o](const std::string& text) { o.threads = int(parse_whole("--threads", text, 1, most_threads)); });
+        [&o](const std::string& text) { o.threads = int(parse_whole("--threads", text, 1, max_threads)); });
     command.add_flag("-q,--quiet", o.quiet, "say nothing but errors");
     command.add_flag("-v,--verbose", o.verbose, "say what is done");
 }
@@ -92,7 +92,7 @@ bool is_ordinary(const Affine& map) {
 }
 
 // Of more, what is wrong is told when the solids are laid out.
-constexpr std::int64_t most_nodes_checked = 20'000'000;
+constexpr std::int64_t max_nodes_checked = 20'000'000;
 
 // What only shows once all placements of a solid are taken together. A leaf that is ordinary once
 // it is placed by an ordinary map is one wherever such a map places it.
@@ -110,7 +110,7 @@ void check_placements(const Scene& scene) {
         if (all) ordinary.insert(&node);
     };
     try {
-        std::int64_t nodes_left = most_nodes_checked;
+        std::int64_t nodes_left = max_nodes_checked;
         for_each_leaf(
             scene.solids, [&](const SolidNode&) { return nodes_left-- > 0; }, check);
     } catch (const SingularPlacement& error) {

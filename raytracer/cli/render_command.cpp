@@ -62,7 +62,7 @@ std::string date_text(std::time_t time) {
     return text;
 }
 
-void check_road(const std::string& via) {
+void check_via(const std::string& via) {
     try {
         if (via != "implicit") parse_mesh_method("--via", via);
     } catch (const UsageError&) {
@@ -71,7 +71,7 @@ void check_road(const std::string& via) {
 }
 
 void check_options(const RenderOptions& o) {
-    check_road(o.via);
+    check_via(o.via);
     if (!o.tolerance.empty()) {
         if (o.via != "triage" && o.via != "octree")
             throw UsageError("--tolerance: expected --via triage or octree, got '" + o.via + "'");
@@ -104,11 +104,11 @@ void write_images(const RenderOptions& o, const Film& film, const ImageNotes& no
     std::string error;
     for (const std::string& path : o.outputs) {
         const double work = writing_work * double(film.pixels.size());
-        double told = 0;
+        double reported = 0;
         try {
             write_image(path, film, {o.float_color, threads, o.bits, o.alpha}, notes, [&](double share) {
-                progress.advance(work * (share - told));
-                told = share;
+                progress.advance(work * (share - reported));
+                reported = share;
             });
         } catch (const std::exception& e) {
             if (error.empty()) error = e.what();
@@ -149,8 +149,8 @@ Frame frame_of(const RenderOptions& o, const Scene& scene) {
 
 void build_implicit(const RenderOptions& o, World& world) {
     auto tracer = std::make_unique<ImplicitTracer>(
-        world.scene.solids, o.criterion, o.criterion == Criterion::lobb ? Search::always : Search::where_needed,
-        o.accel.value_or(Accel::bsp));
+        world.scene.solids, o.criterion, o.criterion == Criterion::lobb ? RootMethod::always : RootMethod::where_needed,
+        o.accel.value_or(Accel::bvh));
     world.bsp = tracer->statistics();
     world.tracer = std::move(tracer);
     say(o, fmt::format("{} cells of {} half-spaces", world.bsp->cells, world.bsp->half_spaces));
@@ -202,7 +202,7 @@ ImageNotes notes_of(const RenderOptions& o, const World& world, int spp, double 
                         {"seed", fmt::format("{}", o.seed)},
                         {"via", o.via},
                         {"criterion", o.criterion == Criterion::lobb ? "lobb" : "exact"}};
-    if (world.bsp) notes.attributes.push_back({"accel", name(o.accel.value_or(Accel::bsp))});
+    if (world.bsp) notes.attributes.push_back({"accel", name(o.accel.value_or(Accel::bvh))});
     for (const auto& [name, value] : scene.parameters) notes.attributes.push_back({"parameter." + name, value});
     return notes;
 }
@@ -261,7 +261,7 @@ int run_render(const RenderOptions& o) {
     else
         progress.stop();
     write_statistics(
-        o, {scene.file, o.via, world->bsp ? name(o.accel.value_or(Accel::bsp)) : "", size.width, size.height, window,
+        o, {scene.file, o.via, world->bsp ? name(o.accel.value_or(Accel::bvh)) : "", size.width, size.height, window,
             spp, threads, o.seed, film.complete, rendering.pixels_done, clock.times(), rendering.counters, world->bsp});
     for (const std::string& path : o.outputs) say(o, "wrote " + path);
     if (film.complete) return 0;
@@ -286,9 +286,8 @@ Command add_render_command(CLI::App& program) {
         ->add_option_function<std::string>(
             "--accel", [options](const std::string& text) { options->accel = parse_accel("--accel", text); },
             "implicit only: find surfaces by our own BVH over BSP cells or by Embree's, with the same picture; "
-            "default: "
-            "bsp")
-        ->type_name("bsp|embree");
+            "default: bvh")
+        ->type_name("bvh|embree");
     command
         ->add_option("--tolerance", options->tolerance,
                      "meshes only: the mesh's tolerance, as for mesh; default: 0.03 of each solid's least radius")

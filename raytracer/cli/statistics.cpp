@@ -57,14 +57,14 @@ std::string statistics_table(const RunStatistics& run) {
         text += row("time: " + phase.name, fmt::format("{:.3f} s", phase.wall)) +
                 row("  of all threads", fmt::format("{:.3f} s", phase.cpu));
     const TraceCounters& c = run.counters;
-    text += row("rays", c.rays) + row("shadow rays", c.shadow_rays) + row("placements visited", c.placements) +
+    text += row("rays", c.rays) + row("shadow rays", c.shadow_rays) + row("instances visited", c.instances) +
             row("cells visited", c.cells) + row("flat hits", c.flat_hits) + row("segments", c.segments) +
             row("splits", c.splits) + row("density evaluations", c.evaluations);
     if (c.rays > 0)
         text += row("  per ray", fmt::format("{:.2f}", double(c.evaluations) / double(c.rays + c.shadow_rays)));
     if (!run.accel.empty()) text += row("accel", run.accel);
     if (run.bsp) {
-        text += row("spaces", run.bsp->spaces) + row("  placements", run.bsp->placements) +
+        text += row("prototypes", run.bsp->prototypes) + row("  instances", run.bsp->instances) +
                 row("BSP cells", run.bsp->cells) + row("  empty", run.bsp->empty_cells) +
                 row("  flat", run.bsp->flat_cells) + row("  depth", std::uint64_t(run.bsp->depth)) +
                 row("half-spaces", run.bsp->half_spaces) +
@@ -78,7 +78,7 @@ std::string statistics_json(const RunStatistics& run) {
     j["program"] = "deburr";
     j["version"] = DEBURR_VERSION;
     j["scene"] = run.scene;
-    j["via"] = run.road;
+    j["via"] = run.via;
     if (!run.accel.empty()) j["accel"] = run.accel;
     j["complete"] = run.complete;
     j["width"] = run.width;
@@ -93,15 +93,15 @@ std::string statistics_json(const RunStatistics& run) {
     const TraceCounters& c = run.counters;
     j["rays"] = c.rays;
     j["shadow_rays"] = c.shadow_rays;
-    j["placements_visited"] = c.placements;
+    j["instances_visited"] = c.instances;
     j["cells_visited"] = c.cells;
     j["flat_hits"] = c.flat_hits;
     j["segments"] = c.segments;
     j["splits"] = c.splits;
     j["density_evaluations"] = c.evaluations;
     if (run.bsp)
-        j["bsp"] = {{"spaces", run.bsp->spaces},
-                    {"placements", run.bsp->placements},
+        j["bsp"] = {{"prototypes", run.bsp->prototypes},
+                    {"instances", run.bsp->instances},
                     {"cells", run.bsp->cells},
                     {"empty_cells", run.bsp->empty_cells},
                     {"flat_cells", run.bsp->flat_cells},

@@ -35,8 +35,8 @@ private:
 };
 
 struct RunStatistics {
-    std::string scene, road;  // the road to the surface: "implicit", …
-    std::string accel;        // of implicit rays: "bsp", …; else empty
+    std::string scene, via;  // the road to the surface: "implicit", …
+    std::string accel;       // of implicit rays: "bsp", …; else empty
     int width = 0, height = 0;
     Window window;
     int spp = 1, threads = 1;

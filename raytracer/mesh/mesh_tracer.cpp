@@ -14,7 +14,7 @@ constexpr double lift = 64 * double(std::numeric_limits<float>::epsilon());
 
 // How far it is turned beyond the side view, as a share of the angle: far above rounding, far below
 // what is seen.
-constexpr double least_tilt = 1e-6;
+constexpr double min_tilt = 1e-6;
 
 RTCRay ray_of(const Ray& ray, double t_max) {
     RTCRay r{};
@@ -69,7 +69,7 @@ private:
 };
 
 MeshTracer::MeshTracer(Mesh mesh, const Box& near)
-    : mesh_(split_far(std::move(mesh), near)), embree_(std::make_unique<Embree>(mesh_)) {
+    : mesh_(split_distant_triangles(std::move(mesh), near)), embree_(std::make_unique<Embree>(mesh_)) {
     if (mesh_.triangles.empty()) return;
     const Box box = bounding_box(mesh_);
     middle_ = 0.5 * (box.lo + box.hi);
@@ -85,7 +85,7 @@ double MeshTracer::start(const Ray& ray) const {
     return nearest > far * radius_ ? nearest - clearance * radius_ : 0;
 }
 
-Hit MeshTracer::first_hit(const Ray& ray, double t_max, TraceCounters& counters) const {
+Hit MeshTracer::closest_hit(const Ray& ray, double t_max, TraceCounters& counters) const {
     ++counters.rays;
     const double begin = start(ray);
     const Ray near{ray.origin + begin * ray.direction, ray.direction};
@@ -112,7 +112,7 @@ Hit MeshTracer::first_hit(const Ray& ray, double t_max, TraceCounters& counters)
     // turned until it is seen from the side, or the outline would be black.
     const double away = glm::dot(hit.normal, ray.direction);
     if (away * glm::dot(facet, ray.direction) < 0)
-        hit.normal = glm::normalize(hit.normal - (1 + least_tilt) * away * ray.direction);
+        hit.normal = glm::normalize(hit.normal - (1 + min_tilt) * away * ray.direction);
     hit.t = std::max(glm::dot(hit.position - ray.origin, ray.direction), double(std::numeric_limits<float>::min()));
     hit.solid = t.solid;
     hit.material = t.material;
@@ -120,7 +120,7 @@ Hit MeshTracer::first_hit(const Ray& ray, double t_max, TraceCounters& counters)
     return hit;
 }
 
-bool MeshTracer::occluded(const Ray& ray, double t_max, TraceCounters& counters) const {
+bool MeshTracer::any_hit(const Ray& ray, double t_max, TraceCounters& counters) const {
     ++counters.shadow_rays;
     const double begin = start(ray);
     if (begin > 0 && begin >= t_max) return false;

@@ -16,8 +16,8 @@ public:
     /// Triangles say which solid and material they are. Rays are most exact in and around `near`.
     explicit MeshTracer(Mesh mesh, const Box& near = {});
     ~MeshTracer() override;
-    Hit first_hit(const Ray& ray, double t_max, TraceCounters& counters) const override;
-    bool occluded(const Ray& ray, double t_max, TraceCounters& counters) const override;
+    Hit closest_hit(const Ray& ray, double t_max, TraceCounters& counters) const override;
+    bool any_hit(const Ray& ray, double t_max, TraceCounters& counters) const override;
 
 private:
     struct Embree;

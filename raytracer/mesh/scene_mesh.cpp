@@ -17,7 +17,7 @@ namespace deburr {
 namespace {
 
 // A grid of more cubes than this is refused: it would take tens of gigabytes.
-constexpr double most_cubes = 2e9;
+constexpr double max_cubes = 2e9;
 
 // A mesh's own tolerance is measured at middles and to first order; beyond this many of it is wrong.
 constexpr double check_slack = 2;
@@ -51,14 +51,14 @@ void need_densities(const SolidTree& solid, std::size_t id) {
 }
 
 double octree_tolerance(const SolidTree& tree, const Box& box, const MeshSettings& settings) {
-    const double radius = tree.least_radius();
+    const double radius = tree.min_radius();
     const double relative =
         radius > 0 ? settings.tolerance_in_radii * radius : settings.tolerance_in_sizes * largest(box.hi - box.lo);
     return std::min(settings.tolerance, tree.has_field() || radius > 0 ? relative : infinity);
 }
 
 Mesh by_octree(const SolidTree& tree, const Box& box, bool cut_off, const MeshSettings& settings, std::size_t id,
-               StopFlag stop, OctreeStatistics& statistics) {
+               CancelFlag cancel, OctreeStatistics& statistics) {
     const Vec3 size = box.hi - box.lo;
     const double longest = largest(size), own = octree_edge(tree, box);
     OctreeOptions options;
@@ -67,7 +67,7 @@ Mesh by_octree(const SolidTree& tree, const Box& box, bool cut_off, const MeshSe
     if (cut_off && settings.level == 0) options.edge = std::max(options.edge, own);
     options.edge *= settings.coarseness;
     options.hard_angle = settings.hard_angle;
-    options.stop = stop;
+    options.cancel = cancel;
     options.tolerance = octree_tolerance(tree, box, settings);
     try {
         return octree(tree, box, options, &statistics);
@@ -75,7 +75,7 @@ Mesh by_octree(const SolidTree& tree, const Box& box, bool cut_off, const MeshSe
         throw WorkError(fmt::format("solid {}: {}", id, error.what()));
     } catch (const std::length_error&) {
         throw UnsupportedError(fmt::format("--edge: cells of {:g} would be more than {} for solid {}", options.edge,
-                                           CellTree::most_cells, id));
+                                           CellTree::max_cells, id));
     }
 }
 
@@ -98,32 +98,33 @@ struct SolidMesh {
 };
 
 // `id` is for messages. Where the solid has been cut off, its box is not its own.
-SolidMesh polygonize(const SolidTree& tree, bool cut_off, const MeshSettings& settings, std::size_t id, StopFlag stop) {
+SolidMesh polygonize(const SolidTree& tree, bool cut_off, const MeshSettings& settings, std::size_t id,
+                     CancelFlag cancel) {
     SolidMesh result;
     const Box box = polygonization_box(tree);
     if (box.empty()) return result;
     result.method = settings.method.value_or(tree.has_field() ? MeshMethod::octree : MeshMethod::triage);
-    result.check_options.stop = stop;
+    result.check_options.cancel = cancel;
     if (result.method == MeshMethod::octree) {
-        result.mesh = by_octree(tree, box, cut_off, settings, id, stop, result.octree);
+        result.mesh = by_octree(tree, box, cut_off, settings, id, cancel, result.octree);
         result.check_options.tolerance = check_slack * octree_tolerance(tree, box, settings);
-        if (!std::isfinite(result.check_options.tolerance)) result.check_options.least_tolerance = result.octree.edge;
+        if (!std::isfinite(result.check_options.tolerance)) result.check_options.min_tolerance = result.octree.edge;
     } else if (result.method == MeshMethod::triage) {
         need_densities(tree, id);
-        const double radius = tree.least_radius();
+        const double radius = tree.min_radius();
         const double in_radii = std::min(settings.tolerance_in_radii, settings.triage_tolerance_in_radii);
         const double relative = radius > 0 ? in_radii * radius : infinity;
         const double tolerance = settings.coarseness * std::min(settings.tolerance, relative);
-        result.mesh =
-            triage(tree, box, {.tolerance = tolerance, .decimate = settings.decimate, .stop = stop}, &result.triage);
+        result.mesh = triage(tree, box, {.tolerance = tolerance, .decimate = settings.decimate, .cancel = cancel},
+                             &result.triage);
         result.check_options.tolerance = check_slack * tolerance;
     } else {
         const double grid = settings.coarseness * (settings.grid > 0 ? settings.grid : marching_cubes_grid(tree, box));
-        if (marching_cubes_count(box, grid) > most_cubes)
+        if (marching_cubes_count(box, grid) > max_cubes)
             throw UnsupportedError(fmt::format("--grid: a grid of {:g} would have more than {:g} cubes for solid {}",
-                                               grid, most_cubes, id));
-        result.mesh = marching_cubes(tree, box, grid, stop);
-        result.check_options.least_tolerance = grid;
+                                               grid, max_cubes, id));
+        result.mesh = marching_cubes(tree, box, grid, cancel);
+        result.check_options.min_tolerance = grid;
         result.check_options.may_lean = true;
     }
     return result;
@@ -131,8 +132,8 @@ SolidMesh polygonize(const SolidTree& tree, bool cut_off, const MeshSettings& se
 
 // The mesh and its check. What fails is made once more, finer, and the better one of both is taken.
 SolidMesh polygonize_checked(const SolidTree& tree, bool cut_off, const MeshSettings& settings, std::size_t id,
-                             StopFlag stop) {
-    SolidMesh first = polygonize(tree, cut_off, settings, id, stop);
+                             CancelFlag cancel) {
+    SolidMesh first = polygonize(tree, cut_off, settings, id, cancel);
     if (!settings.check) return first;
     const Box box = polygonization_box(tree);
     first.check = check_mesh(first.mesh, tree, box, first.check_options);
@@ -144,7 +145,7 @@ SolidMesh polygonize_checked(const SolidTree& tree, bool cut_off, const MeshSett
     finer.tolerance_in_radii = std::min(finer.tolerance_in_radii, 2 * expected);
     finer.tolerance_in_sizes = std::min(finer.tolerance_in_sizes, 1.0);
     try {
-        SolidMesh second = polygonize(tree, cut_off, finer, id, stop);
+        SolidMesh second = polygonize(tree, cut_off, finer, id, cancel);
         second.check_options = first.check_options;
         second.check = check_mesh(second.mesh, tree, box, second.check_options);
         if (second.check->faults() < first.check->faults()) std::swap(first, second);
@@ -246,9 +247,9 @@ SceneMesh mesh_scene(const Scene& scene, const MeshSettings& settings, const Mes
         if (wanted[i]) work += work_of(result.trees[i]);
     std::vector<SolidMesh> parts(count);
     in_parallel(count, [&](std::size_t i) {
-        throw_if_stopped(watch.stop);
+        throw_if_cancelled(watch.cancel);
         if (!wanted[i]) return;
-        parts[i] = polygonize_checked(result.trees[i], !finite(boxes[i]), settings, i + 1, watch.stop);
+        parts[i] = polygonize_checked(result.trees[i], !finite(boxes[i]), settings, i + 1, watch.cancel);
         if (watch.done) watch.done(work_of(result.trees[i]) / work);
     });
     for (std::size_t i = 0; i < count; ++i) {
@@ -269,24 +270,24 @@ SceneMesh mesh_scene(const Scene& scene, const MeshSettings& settings, const Mes
     return result;
 }
 
-SceneMesh mesh_scene(const Scene& scene, MeshSettings settings, std::size_t faces, StopFlag stop) {
+SceneMesh mesh_scene(const Scene& scene, MeshSettings settings, std::size_t faces, CancelFlag cancel) {
     // Triangles go with the inverse square of lengths, and triage's with the inverse of its tolerance;
     // near the wanted number the last two meshes tell better.
-    constexpr int most_rounds = 12;
+    constexpr int max_rounds = 12;
     constexpr double near_enough = 0.001, worth_a_warning = 0.01;
-    constexpr double largest_step = 16, least_slope = 0.5, greatest_slope = 4;
+    constexpr double largest_step = 16, min_slope = 0.5, greatest_slope = 4;
     if (settings.method.value_or(MeshMethod::triage) == MeshMethod::triage && !std::isfinite(settings.tolerance))
         settings.tolerance_in_radii = rendering_tolerance;
     const bool check = std::exchange(settings.check, false);
     SceneMesh best;
     double slope = settings.method == MeshMethod::triage || !settings.method ? 1 : 2, error = infinity;
     double last_coarseness = 0, last_count = 0;
-    for (int round = 0; round < most_rounds && error > near_enough; ++round) {
-        SceneMesh mesh = mesh_scene(scene, settings, {stop, {}});
+    for (int round = 0; round < max_rounds && error > near_enough; ++round) {
+        SceneMesh mesh = mesh_scene(scene, settings, {cancel, {}});
         const double count = double(std::max<std::size_t>(mesh.mesh.triangles.size(), 1));
         if (last_count > 0 && count != last_count && settings.coarseness != last_coarseness)
             slope = std::clamp(-std::log(count / last_count) / std::log(settings.coarseness / last_coarseness),
-                               least_slope, greatest_slope);
+                               min_slope, greatest_slope);
         last_coarseness = settings.coarseness;
         last_count = count;
         settings.coarseness *= std::clamp(std::pow(count / double(faces), 1 / slope), 1 / largest_step, largest_step);

@@ -30,7 +30,7 @@ struct SceneMesh {
 
 /// How the making of a mesh is watched.
 struct MeshWatch {
-    StopFlag stop = nullptr;                // once it is set, Stopped is thrown soon
+    CancelFlag cancel = nullptr;            // once it is set, Cancelled is thrown soon
     std::function<void(double)> done = {};  // the share of the work that is done since the last call; any thread
 };
 
@@ -41,7 +41,7 @@ SceneMesh mesh_scene(const Scene& scene, const MeshSettings& settings, const Mes
 
 /// As near to `faces` triangles as the method comes, found by search over its coarseness; a warning
 /// says so if that is not within 1 %.
-SceneMesh mesh_scene(const Scene& scene, MeshSettings settings, std::size_t faces, StopFlag stop = nullptr);
+SceneMesh mesh_scene(const Scene& scene, MeshSettings settings, std::size_t faces, CancelFlag cancel = nullptr);
 
 std::vector<MeshMetrics> measure_parts(const SceneMesh& mesh);
 

@@ -12,7 +12,7 @@ public:
     Splitter(Mesh& mesh, const Box& near)
         : mesh_(mesh), middle_(0.5 * (near.lo + near.hi)), size_(glm::length(near.hi - near.lo)) {
         const Box all = bounding_box(mesh);
-        if (!all.empty()) size_ = std::max(size_, least_share * glm::length(all.hi - all.lo));
+        if (!all.empty()) size_ = std::max(size_, min_share * glm::length(all.hi - all.lo));
     }
 
     bool round() {
@@ -35,7 +35,7 @@ public:
     }
 
 private:
-    static constexpr double least_share = 1e-7;  // of the mesh's size: where single precision ends
+    static constexpr double min_share = 1e-7;  // of the mesh's size: where single precision ends
 
     bool along_axes(const Triangle& t) const {
         const auto at = [&](std::size_t i) { return mesh_.positions[std::size_t(t.vertex[i])]; };
@@ -84,7 +84,7 @@ private:
 
 }  // namespace
 
-Mesh split_far(Mesh mesh, const Box& near) {
+Mesh split_distant_triangles(Mesh mesh, const Box& near) {
     if (near.empty() || !near.finite()) return mesh;
     Splitter splitter(mesh, near);
     while (splitter.round()) {

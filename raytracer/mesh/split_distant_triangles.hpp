@@ -10,6 +10,6 @@ namespace deburr {
 /// stay. A tilted floor that reaches the horizon becomes some hundred triangles, and what single
 /// precision loses is 10⁻⁷ of the distance from `near`, no longer of the floor's size. Triangles
 /// across an axis lose nothing and are left alone.
-Mesh split_far(Mesh mesh, const Box& near);
+Mesh split_distant_triangles(Mesh mesh, const Box& near);
 
 }  // namespace deburr

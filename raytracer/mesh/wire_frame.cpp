@@ -84,10 +84,10 @@ bool seen(Vec3 x, Vec3 normal, const RayTracer& hiding, const PinholeCamera& cam
     const double distance = glm::length(x - camera.eye());
     const Vec3 start =
         x + (normal + glm::normalize(camera.eye() - x)) * (std::min(max_lift, camera.pixel()) * distance);
-    const Vec3 way = camera.eye() - start;
-    const double length = glm::length(way);
+    const Vec3 to_eye = camera.eye() - start;
+    const double length = glm::length(to_eye);
     TraceCounters unused;
-    return !hiding.occluded({start, way / length}, length, unused);
+    return !hiding.any_hit({start, to_eye / length}, length, unused);
 }
 
 void add_visible(Line3 line, const RayTracer* hiding, const PinholeCamera& camera, const Window& window,

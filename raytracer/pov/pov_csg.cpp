@@ -14,7 +14,7 @@ namespace {
 // As for the families of decision diagrams (bounds/decision_diagram.cpp).
 constexpr double same_direction = 1e-9, same_offset = 1e-12;
 // Three normals that span less than this are no box's.
-constexpr double least_volume = 1e-6;
+constexpr double min_volume = 1e-6;
 
 bool parallel(Vec3 a, Vec3 b) { return glm::length(a - b) <= same_direction; }
 
@@ -77,7 +77,7 @@ std::optional<std::string> take_box(std::vector<BoundPlane>& planes) {
         for (std::size_t b = a + 1; b < slabs.size(); ++b)
             for (std::size_t c = b + 1; c < slabs.size(); ++c) {
                 const auto n = [&](std::size_t s) { return planes[slabs[s].high].normal; };
-                if (std::abs(glm::dot(n(a), glm::cross(n(b), n(c)))) < least_volume) continue;
+                if (std::abs(glm::dot(n(a), glm::cross(n(b), n(c)))) < min_volume) continue;
                 const std::string text = box_of(planes, {slabs[a], slabs[b], slabs[c]});
                 std::vector<BoundPlane> rest;
                 for (std::size_t i = 0; i < planes.size(); ++i) {
@@ -109,13 +109,13 @@ std::string with(const std::string& object, const std::string& modifiers) {
 }  // namespace
 
 PovCsg PovCsg::plane(BoundPlane plane) {
-    PovCsg csg(Kind::both);
+    PovCsg csg(Kind::intersect);
     csg.planes_.push_back(plane);
     return csg;
 }
 
 PovCsg PovCsg::object(std::string text) {
-    PovCsg csg(Kind::both);
+    PovCsg csg(Kind::intersect);
     csg.objects_.push_back(std::move(text));
     return csg;
 }
@@ -140,8 +140,8 @@ void append(std::vector<T>& to, std::vector<T>&& from) {
 PovCsg PovCsg::unite(PovCsg a, PovCsg b) {
     if (a.kind_ == Kind::nothing || b.kind_ == Kind::everything) return b;
     if (b.kind_ == Kind::nothing || a.kind_ == Kind::everything) return a;
-    a = std::move(a).as(Kind::either);
-    b = std::move(b).as(Kind::either);
+    a = std::move(a).as(Kind::unite);
+    b = std::move(b).as(Kind::unite);
     append(a.objects_, std::move(b.objects_));
     return a;
 }
@@ -149,8 +149,8 @@ PovCsg PovCsg::unite(PovCsg a, PovCsg b) {
 PovCsg PovCsg::intersect(PovCsg a, PovCsg b) {
     if (a.kind_ == Kind::nothing || b.kind_ == Kind::everything) return a;
     if (b.kind_ == Kind::nothing || a.kind_ == Kind::everything) return b;
-    a = std::move(a).as(Kind::both);
-    b = std::move(b).as(Kind::both);
+    a = std::move(a).as(Kind::intersect);
+    b = std::move(b).as(Kind::intersect);
     append(a.planes_, std::move(b.planes_));
     append(a.objects_, std::move(b.objects_));
     append(a.taken_, std::move(b.taken_));
@@ -160,8 +160,8 @@ PovCsg PovCsg::intersect(PovCsg a, PovCsg b) {
 PovCsg PovCsg::subtract(PovCsg a, PovCsg b) {
     if (a.kind_ == Kind::nothing || b.kind_ == Kind::nothing) return a;
     if (b.kind_ == Kind::everything) return nothing();
-    if (a.kind_ == Kind::everything) a = PovCsg(Kind::both);
-    a = std::move(a).as(Kind::both);
+    if (a.kind_ == Kind::everything) a = PovCsg(Kind::intersect);
+    a = std::move(a).as(Kind::intersect);
     a.taken_.push_back(std::move(b));
     return a;
 }
@@ -169,7 +169,7 @@ PovCsg PovCsg::subtract(PovCsg a, PovCsg b) {
 // What is left equals the rest within `whole`.
 PovCsg PovCsg::without_planes_of(const PovCsg& whole) const {
     PovCsg rest = *this;
-    if (kind_ != Kind::both) return rest;
+    if (kind_ != Kind::intersect) return rest;
     std::erase_if(rest.planes_, [&](const BoundPlane& p) {
         for (const BoundPlane& w : whole.planes_)
             if (parallel(w.normal, p.normal) && std::abs(w.offset - p.offset) <= same_offset * std::abs(w.offset))
@@ -183,7 +183,7 @@ PovCsg PovCsg::without_planes_of(const PovCsg& whole) const {
 std::string PovCsg::text(const std::string& modifiers) const {
     if (kind_ == Kind::nothing) return with(empty, modifiers);
     if (kind_ == Kind::everything) return with(with(empty, "inverse"), modifiers);
-    if (kind_ == Kind::either) return braces("union", objects_, modifiers);
+    if (kind_ == Kind::unite) return braces("union", objects_, modifiers);
 
     std::vector<BoundPlane> planes = least(planes_);
     const Box bounds = planes.size() > 1 ? polyhedron_box(planes) : Box::everything();

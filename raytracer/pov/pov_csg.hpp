@@ -31,7 +31,7 @@ public:
     std::string text(const std::string& modifiers = "") const;
 
 private:
-    enum class Kind { nothing, everything, both, either };
+    enum class Kind { nothing, everything, intersect, unite };
     explicit PovCsg(Kind kind) : kind_(kind) {}
     PovCsg as(Kind kind) &&;
     PovCsg without_planes_of(const PovCsg& whole) const;

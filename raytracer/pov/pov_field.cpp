@@ -32,12 +32,12 @@ namespace {
 
 // Work for the slope, in nodes and planes evaluated over a box, some tenths of a second; and when it is
 // near enough.
-constexpr double most_work = 2e6;
+constexpr double max_work = 2e6;
 constexpr double near_enough = 1.01;
 
 Range plus(Range a, Range b) { return {a.lo + b.lo, a.hi + b.hi}; }
 Range minus(Range a, Range b) { return {a.lo - b.hi, a.hi - b.lo}; }
-Range either(Range a, Range b) { return {std::min(a.lo, b.lo), std::max(a.hi, b.hi)}; }
+Range hull_of(Range a, Range b) { return {std::min(a.lo, b.lo), std::max(a.hi, b.hi)}; }
 Range times(Range a, Range b) {
     const auto [lo, hi] = std::minmax({a.lo * b.lo, a.lo * b.hi, a.hi * b.lo, a.hi * b.hi});
     return {lo, hi};
@@ -49,7 +49,7 @@ class Average {
 public:
     void add(Range weight, Range value) {
         if (weight.hi <= 0) return;
-        hull_ = none_ ? value : either(hull_, value);
+        hull_ = none_ ? value : hull_of(hull_, value);
         sum_ = plus(sum_, times(weight, value));
         none_ = false;
     }
@@ -94,19 +94,19 @@ PovField::PovField(const DensityTree& tree, int line) : line_(line), half_spaces
         if (!arithmetic[std::size_t(i)] || !is_arithmetic(n.op)) continue;
         arithmetic[std::size_t(n.a)] = arithmetic[std::size_t(n.b)] = true;
     }
-    std::vector<int> place(tree.nodes.size(), -1);
+    std::vector<int> new_index(tree.nodes.size(), -1);
     for (std::size_t i = 0; i < tree.nodes.size(); ++i) {
         if (!arithmetic[i]) continue;
         const TreeNode& n = tree.nodes[i];
         const Step step = n.op == Op::sum ? Step::sum : n.op == Op::product ? Step::product : Step::difference;
         if (n.op == Op::constant)
-            place[i] = add({Step::constant, n.value, -1, -1, {}, {}});
+            new_index[i] = add({Step::constant, n.value, -1, -1, {}, {}});
         else if (n.op == Op::half_space)
-            place[i] = add({Step::half_space, 0, n.a, -1, {}, {}});
+            new_index[i] = add({Step::half_space, 0, n.a, -1, {}, {}});
         else if (is_arithmetic(n.op))
-            place[i] = add({step, 0, place[std::size_t(n.a)], place[std::size_t(n.b)], {}, {}});
+            new_index[i] = add({step, 0, new_index[std::size_t(n.a)], new_index[std::size_t(n.b)], {}, {}});
         else
-            place[i] = add_boolean(tree, int(i));
+            new_index[i] = add_boolean(tree, int(i));
     }
 }
 
@@ -118,7 +118,7 @@ int PovField::add(Node node) {
 int PovField::add_boolean(const DensityTree& tree, int root) {
     DecisionDiagram diagram;
     try {
-        diagram = decide(tree, root);
+        diagram = build_diagram(tree, root);
     } catch (const TooEntangled&) {
         throw TooEntangled(line_);
     }
@@ -132,16 +132,16 @@ int PovField::add_boolean(const DensityTree& tree, int root) {
     for (int i = diagram.root; i >= 2; --i)
         if (reached[std::size_t(i)])
             for (const int child : diagram.nodes[std::size_t(i)].children) reached[std::size_t(child)] = true;
-    std::vector<int> place(diagram.nodes.size(), -1);
+    std::vector<int> new_index(diagram.nodes.size(), -1);
     for (int i = 0; i <= diagram.root; ++i) {
         if (!reached[std::size_t(i)]) continue;
         const Decision& d = diagram.nodes[std::size_t(i)];
-        Node node{i < 2 ? Step::constant : Step::decide, double(i == 1), -1, -1, {}, {}};
+        Node node{i < 2 ? Step::constant : Step::decision, double(i == 1), -1, -1, {}, {}};
         for (const int t : d.thresholds) node.planes.push_back(first_plane[std::size_t(d.family)] + t);
-        for (const int c : d.children) node.children.push_back(place[std::size_t(c)]);
-        place[std::size_t(i)] = add(std::move(node));
+        for (const int c : d.children) node.children.push_back(new_index[std::size_t(c)]);
+        new_index[std::size_t(i)] = add(std::move(node));
     }
-    return place[std::size_t(diagram.root)];
+    return new_index[std::size_t(diagram.root)];
 }
 
 // Σ pⱼ cⱼ, where pⱼ = Fⱼ − Fⱼ₋₁, F₋₁ = 0 and Fₘ = 1.
@@ -169,9 +169,9 @@ std::string PovField::formula() const {
         for (const int c : n.children) count += at(c);
         terms.push_back(count);
     }
-    if (terms.back() > most_terms)
+    if (terms.back() > max_terms)
         throw UnsupportedError(fmt::format("{}expected a formula of at most {:.0f} half-spaces for POV-Ray, got {:.3g}",
-                                           line_ > 0 ? fmt::format("the solid of line {}: ", line_) : "", most_terms,
+                                           line_ > 0 ? fmt::format("the solid of line {}: ", line_) : "", max_terms,
                                            terms.back()));
 
     std::vector<std::string> done;
@@ -184,7 +184,7 @@ std::string PovField::formula() const {
             case Step::sum: done.push_back(fmt::format("({}+{})", take(n.a), take(n.b))); break;
             case Step::product: done.push_back(fmt::format("{}*{}", take(n.a), take(n.b))); break;
             case Step::difference: done.push_back(fmt::format("({}-{})", take(n.a), take(n.b))); break;
-            case Step::decide: done.push_back(decision(n, done)); break;
+            case Step::decision: done.push_back(decision(n, done)); break;
         }
     }
     return done.back();
@@ -235,7 +235,7 @@ PovField::Slopes PovField::slopes(const Box& box) const {
                 s.value = times(at(n.a).value, at(n.b).value);
                 each([&](Range a, Range b) { return plus(times(a, at(n.b).value), times(b, at(n.a).value)); });
                 break;
-            case Step::decide: {
+            case Step::decision: {
                 Average value;
                 std::array<Average, 3> slope;
                 for (std::size_t j = 0; j < n.children.size(); ++j) {
@@ -269,22 +269,22 @@ double PovField::greatest_slope(const Box& box) const {
     };
     std::priority_queue<Open> open;
     double met = 0;
-    const auto look = [&](const Box& b) {
+    const auto examine = [&](const Box& b) {
         const Vec3 middle = 0.5 * (b.lo + b.hi);
         met = std::max(met, glm::length(slopes({middle, middle}).greatest()));
         const Vec3 most = slopes(b).greatest(), change = most * (b.hi - b.lo);
         const int axis = change.x >= change.y && change.x >= change.z ? 0 : change.y >= change.z ? 1 : 2;
         open.push({glm::length(most), b, axis});
     };
-    look(box);
+    examine(box);
     const double work = 2 * double(nodes_.size() + half_spaces_.size());  // of a box and its middle
-    for (double done = work; done < most_work && open.top().most > near_enough * met; done += 2 * work) {
+    for (double done = work; done < max_work && open.top().most > near_enough * met; done += 2 * work) {
         const Open widest = open.top();
         open.pop();
         Box half = widest.box, other = half;
         half.hi[widest.axis] = other.lo[widest.axis] = 0.5 * (half.lo[widest.axis] + half.hi[widest.axis]);
-        look(half);
-        look(other);
+        examine(half);
+        examine(other);
     }
     return open.top().most;
 }

@@ -19,21 +19,21 @@ public:
     /// No half-space of `tree` is sharp. Throws TooEntangled with the line if a diagram is too large.
     explicit PovField(const DensityTree& tree, int line = 0);
 
-    /// ρ. Throws UnsupportedError if it has more than `most_terms` half-spaces, counted once per use.
+    /// ρ. Throws UnsupportedError if it has more than `max_terms` half-spaces, counted once per use.
     std::string formula() const;
-    static constexpr double most_terms = 20'000;
+    static constexpr double max_terms = 20'000;
 
     /// |∇ρ| is nowhere in the finite box greater than this. Boxes are halved where it may be, until
     /// the bound is within 1 % of a slope that was met or the work is spent.
     double greatest_slope(const Box& box) const;
 
 private:
-    enum class Step : unsigned char { constant, half_space, sum, product, difference, decide };
+    enum class Step : unsigned char { constant, half_space, sum, product, difference, decision };
     struct Node {
         Step step = Step::constant;
         double value = 0;                   // constant
         int a = -1, b = -1;                 // operands; half_space: a is its index
-        std::vector<int> planes, children;  // decide: as in Decision, planes by index
+        std::vector<int> planes, children;  // decision: as in Decision, planes by index
     };
     struct Slopes;
 

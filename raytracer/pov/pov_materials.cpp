@@ -17,7 +17,7 @@ using std::numbers::pi;
 // the distance to what the camera looks at.
 constexpr double fade_part = 1e-3;
 // Its highlights may not be sharper; a highlight of a point light is a pixel then.
-constexpr double least_alpha = 0.02;
+constexpr double min_alpha = 0.02;
 
 std::string pigment(const Texture& t) {
     switch (t.kind) {
@@ -44,7 +44,7 @@ std::string pigment(const Texture& t) {
 // The peak of a GGX lobe of this α over that of a white matte surface is 1/(4α²); Blinn's of the same
 // width has the exponent 2/α² − 2.
 std::string highlight(double alpha, double f0) {
-    alpha = std::max(alpha, least_alpha);
+    alpha = std::max(alpha, min_alpha);
     return fmt::format("specular {} roughness {}", f0 / (4 * alpha * alpha),
                        1 / std::max(1.0, 2 / (alpha * alpha) - 2));
 }
@@ -82,9 +82,9 @@ std::string pov_light(const Light& light, const Scene& scene) {
     // POV-Ray's diffuse reflection is the colour times the cosine, without 1/π.
     const Vec3 color = light.color * light.power / pi;
     if (light.kind == Light::Kind::directional) {
-        const Vec3 way = glm::normalize(light.direction);
+        const Vec3 direction = glm::normalize(light.direction);
         const double far = 1e3 * std::max(1.0, glm::length(scene.camera.eye - target));
-        return fmt::format("light_source {{ {}, {} parallel point_at {} }}\n", pov_vector(target - far * way),
+        return fmt::format("light_source {{ {}, {} parallel point_at {} }}\n", pov_vector(target - far * direction),
                            pov_color(color), pov_vector(target));
     }
     const double fade = fade_part * std::max(epsilon, glm::length(light.position - target));

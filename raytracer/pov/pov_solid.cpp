@@ -13,7 +13,7 @@ namespace deburr {
 namespace {
 
 // Parts that a density with sharp half-spaces is divided into; each is an isosurface.
-constexpr int most_parts = 64;
+constexpr int max_parts = 64;
 // The container's walls keep clear of the surface by this part of its size, or flat faces would lie in
 // them.
 constexpr double clear_of_walls = 1e-3;
@@ -40,7 +40,7 @@ PovCsg sharp_csg(const DensityTree& tree) {
             case Op::conjunction: csg = PovCsg::intersect(take(n.a), take(n.b)); break;
             case Op::difference: csg = PovCsg::subtract(take(n.a), take(n.b)); break;
             case Op::complement: csg = PovCsg::subtract(PovCsg::everything(), take(n.a)); break;
-            case Op::ball_share: csg = take(n.a); break;
+            case Op::convolution: csg = take(n.a); break;
         }
         done.push_back(std::move(csg));
     }
@@ -56,7 +56,7 @@ public:
     PovCsg csg() {
         if (leaf_.field)
             throw UnsupportedError(of_leaf("expected rounded densities for POV-Ray, got another function"));
-        if (leaf_.density.nodes.back().op == Op::ball_share && !surface_.sharp)
+        if (leaf_.density.nodes.back().op == Op::convolution && !surface_.sharp)
             throw UnsupportedError(of_leaf("expected rounded densities for POV-Ray, got a true convolution"));
         return csg(leaf_.density);
     }
@@ -86,10 +86,10 @@ private:
         const Pruned part = prune(tree, ranges);
         if (classify(part.range) == Side::outside) return PovCsg::nothing();
         if (classify(part.range) == Side::inside) return PovCsg::everything();
-        if (++parts_ > most_parts)
+        if (++parts_ > max_parts)
             throw UnsupportedError(of_leaf(fmt::format(
                 "expected sharp half-spaces that divide a rounded density into {} parts at most for POV-Ray, got more",
-                most_parts)));
+                max_parts)));
         return csg(part.tree);
     }
 

@@ -9,7 +9,7 @@ namespace {
 using std::numbers::pi;
 
 // Cosines at a shading point are kept from 0, where G and E are 0/0.
-constexpr double least_cosine = 1e-5;
+constexpr double min_cosine = 1e-5;
 
 struct Frame {
     Vec3 x, y, z;
@@ -121,7 +121,7 @@ SurfaceLayer::SurfaceLayer(const Material& material)
 // roughnesses, two indices and five angles a white furnace was off by at most 10⁻³.
 double SurfaceLayer::integrate(double cosine) const {
     if (kind_ == Material::Kind::matte) return 0.0;
-    const double c = std::max(cosine, least_cosine);
+    const double c = std::max(cosine, min_cosine);
     if (smooth_) return fresnel(Vec3(1.0), c).x;
     constexpr int points = 1024;
     static const std::vector<Vec2> turns = [] {
@@ -158,15 +158,15 @@ Vec3 SurfaceLayer::fresnel(Vec3 color, double cosine) const {
     }
 }
 
-Bsdf::Bsdf(const SurfaceLayer& layer, Vec3 color, Vec3 normal, Vec3 to_eye, double least_alpha)
+Bsdf::Bsdf(const SurfaceLayer& layer, Vec3 color, Vec3 normal, Vec3 to_eye, double min_alpha)
     : layer_(layer),
       color_(color),
       base_(color),
       normal_(normal),
       to_eye_(to_eye),
-      cos_eye_(std::max(glm::dot(normal, to_eye), least_cosine)),
+      cos_eye_(std::max(glm::dot(normal, to_eye), min_cosine)),
       albedo_eye_(layer.kind() == Material::Kind::matte ? 0.0 : layer.albedo(cos_eye_)),
-      ggx_{std::max(least_alpha, layer.ggx().alpha)} {
+      ggx_{std::max(min_alpha, layer.ggx().alpha)} {
     if (layer.kind() == Material::Kind::mirror) base_ = Vec3(0.0);
     if (layer.kind() == Material::Kind::metal && layer.smooth()) base_ = Vec3(0.0);
     if (layer.kind() == Material::Kind::metal && !layer.smooth()) {

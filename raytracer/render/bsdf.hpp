@@ -89,8 +89,8 @@ private:
 /// from the surface.
 class Bsdf {
 public:
-    /// The layer is no sharper than `least_alpha`, but for its albedo; smooth ones stay smooth.
-    Bsdf(const SurfaceLayer& layer, Vec3 color, Vec3 normal, Vec3 to_eye, double least_alpha = 0);
+    /// The layer is no sharper than `min_alpha`, but for its albedo; smooth ones stay smooth.
+    Bsdf(const SurfaceLayer& layer, Vec3 color, Vec3 normal, Vec3 to_eye, double min_alpha = 0);
 
     struct Value {
         Vec3 base{0.0}, layer{0.0};

@@ -8,7 +8,7 @@ namespace {
 
 // Below this sine of the angle between `up` and the view, up decides nothing: its cross product
 // has lost half of its digits.
-const double least_sine = std::sqrt(epsilon);
+const double min_sine = std::sqrt(epsilon);
 
 Vec3 unit_or(Vec3 v, Vec3 otherwise) {
     const double length = glm::length(v);
@@ -19,7 +19,7 @@ Vec3 unit_or(Vec3 v, Vec3 otherwise) {
 Vec3 rightwards(Vec3 forward, Vec3 up) {
     const Vec3 right = glm::cross(forward, unit_or(up, {0, 1, 0}));
     const double sine = glm::length(right);
-    if (sine > least_sine) return right / sine;
+    if (sine > min_sine) return right / sine;
     const Vec3 other = std::abs(forward.z) < 0.5 ? Vec3(0, 0, -1) : Vec3(1, 0, 0);
     return glm::normalize(glm::cross(forward, other));
 }

@@ -13,14 +13,14 @@ namespace {
 constexpr double polished_alpha = 0.09;
 
 // With one sample both ways of glass are traced while they can change the pixel by this much.
-constexpr double least_weight = 1.0 / 512;
+constexpr double min_weight = 1.0 / 512;
 
 // Surfaces of glass that a shadow ray passes; beyond more of them it is dark.
 constexpr int glass_in_shadow = 16;
 
 // Bounds of the probability that a path goes on by the layer: beside the base, so that neither
 // starves, and where it would end otherwise.
-constexpr double least_share = 0.1, least_share_alone = 0.25;
+constexpr double min_share = 0.1, min_share_alone = 0.25;
 
 // A highlight that a base sees is a caustic: few paths find it, and those are bright. They find it
 // with at least this α, dimmer and wider [Kaplanyan & Dachsbacher 2013].
@@ -33,8 +33,8 @@ Vec3 towards_ray(Vec3 normal, Vec3 direction) { return glm::dot(normal, directio
 
 double layer_share(double layer, double base) {
     if (layer <= 0) return 0.0;
-    if (base <= 0) return glm::clamp(2 * layer, least_share_alone, 1.0);
-    return glm::clamp(layer / (layer + base), least_share, 1 - least_share);
+    if (base <= 0) return glm::clamp(2 * layer, min_share_alone, 1.0);
+    return glm::clamp(layer / (layer + base), min_share, 1 - min_share);
 }
 
 }  // namespace
@@ -63,7 +63,7 @@ const Material& Integrator::material(const Hit& hit) const { return scene_.mater
 Vec3 Integrator::texture_color(const Hit& hit) const { return color_at(material(hit).color, hit.position, hit.normal); }
 
 Vec3 Integrator::color_along(const Ray& ray, const Path& path) const {
-    const Hit hit = tracer_.first_hit(ray, infinity, path.counters);
+    const Hit hit = tracer_.closest_hit(ray, infinity, path.counters);
     const Vec3 color = hit ? color_from(hit, texture_color(hit), ray.direction, path) : sky_.towards(ray.direction);
     return path.sees_lights ? color + lights_seen(ray, hit.t, path) : color;
 }
@@ -117,11 +117,11 @@ Incident Integrator::incident(const LightSource& source, const Hit& hit, const S
 
 Vec3 Integrator::transmittance(const Hit& hit, const Incident& light, const Path& path) const {
     Ray ray = leave(hit, light.direction);
-    if (!glass_) return tracer_.occluded(ray, light.distance, path.counters) ? Vec3(0.0) : Vec3(1.0);
+    if (!glass_) return tracer_.any_hit(ray, light.distance, path.counters) ? Vec3(0.0) : Vec3(1.0);
     Vec3 share(1.0);
     double left = light.distance;
     for (int i = 0; i < glass_in_shadow; ++i) {
-        const Hit next = tracer_.first_hit(ray, left, path.counters);
+        const Hit next = tracer_.closest_hit(ray, left, path.counters);
         if (!next) return share;
         if (material(next).kind != Material::Kind::glass) break;
         const double cosine = glm::dot(next.normal, light.direction);
@@ -159,20 +159,20 @@ Vec3 Integrator::color_of(const Surface& s, Vec3 lit, const Path& path) const {
     const double share = s.layer_share, base_share = s.both ? 1.0 : 1 - share;
     const double chosen = s.both ? 0.0 : path.sampler.line(path.dimension(choice));
     Vec3 color = ambient + lit;
-    Vec3 way, weight;
-    if (chosen < share && bsdf.sample_layer(path.sampler.square(path.dimension(layer_turn)), way, weight)) {
+    Vec3 direction, weight;
+    if (chosen < share && bsdf.sample_layer(path.sampler.square(path.dimension(layer_turn)), direction, weight)) {
         const SurfaceLayer& layer = bsdf.layer();
-        Path next = path.reflected(share * bsdf.layer_density(way));
+        Path next = path.reflected(share * bsdf.layer_density(direction));
         if (!layer.smooth()) next.blur = std::min(caustic_alpha, std::max(path.blur, blur_in_blur * layer.ggx().alpha));
-        color += weight / share * color_along(leave(s.hit, way), next);
+        color += weight / share * color_along(leave(s.hit, direction), next);
     }
     if (s.base > 0 && (s.both || chosen >= share)) {
-        weight = bsdf.sample_base(path.sampler.square(path.dimension(turn)), way);
+        weight = bsdf.sample_base(path.sampler.square(path.dimension(turn)), direction);
         Path next = path.on();
         next.scattered = true;
         next.blur = caustic_alpha;
         next.sees_lights = false;
-        color += weight / base_share * color_along(leave(s.hit, way), next);
+        color += weight / base_share * color_along(leave(s.hit, direction), next);
     }
     return color;
 }
@@ -184,14 +184,14 @@ Vec3 Integrator::reflected_without_noise(const Bsdf& bsdf, const Hit& hit, const
     if (layer.kind() == Material::Kind::matte) return base;
     const double alpha = layer.smooth() ? 0.0 : std::min(1.0, layer.ggx().alpha);
     const bool polished = layer.smooth() || (layer.kind() == Material::Kind::metal && alpha <= polished_alpha);
-    const Vec3 way = reflected(bsdf.to_eye(), bsdf.normal());
+    const Vec3 direction = reflected(bsdf.to_eye(), bsdf.normal());
     const Vec3 albedo = bsdf.layer_albedo();
     if (!polished || path.depth >= scene_.bounces)
-        return base + albedo * glm::mix(sky_.towards(way), sky_.mean(way), alpha);
+        return base + albedo * glm::mix(sky_.towards(direction), sky_.mean(direction), alpha);
     // Where the layer is not smooth lit() has found the lights already.
     Path next = path.reflected(infinity, brightest(albedo));
     next.sees_lights = next.sees_lights && layer.smooth();
-    return base + albedo * color_along(leave(hit, way), next);
+    return base + albedo * color_along(leave(hit, direction), next);
 }
 
 // The first surface of glass is followed both ways with any number of samples: a highlight that is
@@ -216,15 +216,15 @@ Vec3 Integrator::color_of_glass(const Hit& hit, Vec3 tint, Vec3 direction, const
         return share * sky_.towards(back) + (passes ? (1 - share) * tint * sky_.towards(through) : Vec3(0.0));
 
     // `side` is 1 for a reflection, -1 for light that passes.
-    auto along = [&](Vec3 way, double side, const Path& next) {
-        if (next.weight < least_weight) return sky_.towards(way);
+    auto along = [&](Vec3 direction, double side, const Path& next) {
+        if (next.weight < min_weight) return sky_.towards(direction);
         double seen = 1.0;
         if (rough) {
-            const double cosine = side * glm::dot(way, normal);
+            const double cosine = side * glm::dot(direction, normal);
             if (!(cosine > 0)) return Vec3(0.0);  // it meets another facet
             seen = layer.ggx().shadowing(cosine, glm::dot(to_eye, normal));
         }
-        return seen * color_along(leave(hit, way), next);
+        return seen * color_along(leave(hit, direction), next);
     };
     Path passing = path.on(1 - share), returning = path.reflected(infinity, share);
     passing.sees_lights = false;

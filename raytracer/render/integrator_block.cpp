@@ -9,7 +9,7 @@ namespace {
 // Pixels each way whose rays travel together: at one sample, a packet.
 constexpr int patch = 4;
 // Camera rays at a time: many packets, whose hits fit into the processor's cache.
-constexpr std::size_t most_rays = 128;
+constexpr std::size_t max_rays = 128;
 
 }  // namespace
 
@@ -28,17 +28,17 @@ public:
     struct Memory {
         std::vector<Ray> rays;
         std::vector<Use> uses;
-        std::vector<Hit> hits = std::vector<Hit>(most_rays);
-        std::vector<Vec3> colors = std::vector<Vec3>(most_rays);
+        std::vector<Hit> hits = std::vector<Hit>(max_rays);
+        std::vector<Vec3> colors = std::vector<Vec3>(max_rays);
         // Of those that hit something opaque; they keep references to the hits.
         std::vector<Surface> surfaces;
         std::vector<std::uint32_t> seen_by;
-        std::vector<Vec3> lit = std::vector<Vec3>(most_rays), here = lit;
+        std::vector<Vec3> lit = std::vector<Vec3>(max_rays), here = lit;
         // To one light.
         std::vector<Ray> shadows;
         std::vector<double> t_max;
         std::vector<Unhidden> unhidden;
-        std::unique_ptr<bool[]> hidden{new bool[most_rays]};
+        std::unique_ptr<bool[]> hidden{new bool[max_rays]};
     };
 
     CameraRays(const Integrator& integrator, Pixel* pixels, PixelLayers* layers, TraceCounters& counters,
@@ -50,12 +50,12 @@ public:
     void add(const Ray& ray, const Use& use) {
         m_.rays.push_back(ray);
         m_.uses.push_back(use);
-        if (m_.rays.size() == most_rays) finish();
+        if (m_.rays.size() == max_rays) finish();
     }
 
     /// Of all rays so far.
     void finish() {
-        in_.tracer_.first_hits(m_.rays, m_.hits.data(), counters_);
+        in_.tracer_.closest_hits(m_.rays, m_.hits.data(), counters_);
         for (std::uint32_t i = 0; i < m_.rays.size(); ++i) take(i);
         std::fill_n(m_.lit.begin(), m_.surfaces.size(), Vec3(0.0));
         light();
@@ -140,7 +140,7 @@ private:
             m_.t_max.push_back(light.distance);
             m_.unhidden.push_back({scattered, j});
         }
-        in_.tracer_.occlusions(m_.shadows, m_.t_max, m_.hidden.get(), counters_);
+        in_.tracer_.any_hits(m_.shadows, m_.t_max, m_.hidden.get(), counters_);
         for (std::size_t s = 0; s < m_.unhidden.size(); ++s)
             if (!m_.hidden[s]) m_.here[m_.unhidden[s].surface] += m_.unhidden[s].light;
     }

@@ -40,14 +40,14 @@ Incident LightSource::at(Vec3 point, Vec2 u) const {
         light.irradiance = emitted_;
         return light;
     }
-    Vec3 place = position_;
-    if (kind_ == Light::Kind::area) place += (u.x - 0.5) * u_ + (u.y - 0.5) * v_;
-    const Vec3 way = place - point;
-    const double square = glm::dot(way, way);
+    Vec3 light_point = position_;
+    if (kind_ == Light::Kind::area) light_point += (u.x - 0.5) * u_ + (u.y - 0.5) * v_;
+    const Vec3 to_light = light_point - point;
+    const double square = glm::dot(to_light, to_light);
     if (!(square > 0)) return light;
     light.distance = std::sqrt(square);
     const double inverse = 1 / light.distance;
-    light.direction = way * inverse;
+    light.direction = to_light * inverse;
     if (kind_ == Light::Kind::point) {
         light.irradiance = emitted_ * (inverse * inverse);
         return light;

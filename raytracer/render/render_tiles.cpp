@@ -110,7 +110,7 @@ Rendering render(Film film, const BlockFunction& block) {
 Rendering render(Film film, const BlockFunction& block, const std::atomic<bool>& stop, const PixelsDone& done,
                  std::chrono::milliseconds grace) {
     // How soon a stop is noticed, and an end told.
-    constexpr std::chrono::milliseconds look = std::chrono::milliseconds(20);
+    constexpr std::chrono::milliseconds poll_interval = std::chrono::milliseconds(20);
     const auto making = std::make_shared<Making>(std::move(film), block, stop, done);
     std::packaged_task<void()> run([making] { making->run(); });
     std::future<void> end = run.get_future();
@@ -122,8 +122,8 @@ Rendering render(Film film, const BlockFunction& block, const std::atomic<bool>&
         return making->take();
     }
     std::chrono::milliseconds waited(0);
-    while (end.wait_for(look) != std::future_status::ready && waited < grace)
-        if (stop) waited += look;
+    while (end.wait_for(poll_interval) != std::future_status::ready && waited < grace)
+        if (stop) waited += poll_interval;
     if (end.wait_for(std::chrono::seconds(0)) == std::future_status::ready) {
         thread.join();
         end.get();

@@ -26,19 +26,19 @@ public:
         for_each_leaf(solids, first_met, [&](const Solid& leaf, const Affine& map) {
             const SolidNode& node = leaf.node();
             if (node.field() || node.convolved() || !node.density().node().may_be_illegal) return;
-            const PlacedForm placed = forms_.of(leaf);
-            if (seen_.insert(placed.form).second) all_.push_back({placed.form, compose(map, placed.map)});
+            const CanonicalPlacement placed = canonical_.of(leaf);
+            if (seen_.insert(placed.canonical).second) all_.push_back({placed.canonical, compose(map, placed.map)});
         });
     }
 
     std::size_t size() const { return all_.size(); }
     DensityTree tree(std::size_t i) const {
-        const SolidNode& form = forms_.solid(all_[i].first).node();
-        return flatten(form.density(), form.radius(), all_[i].second);
+        const SolidNode& node = canonical_.solid(all_[i].first).node();
+        return flatten(node.density(), node.radius(), all_[i].second);
     }
 
 private:
-    SolidForms forms_;
+    CanonicalSolids canonical_;
     std::unordered_set<int> seen_;
     std::vector<std::pair<int, Affine>> all_;
 };
@@ -47,15 +47,15 @@ private:
 
 std::vector<std::string> illegal_densities(const Scene& scene, int boxes) {
     std::vector<std::string> lines;
-    std::vector<std::pair<int, Op>> told;
+    std::vector<std::pair<int, Op>> reported;
     const Suspects suspects(scene.solids);
     // However many there are, it should not take long.
     LegalityEffort effort{std::min(boxes, 500 * boxes / std::max(1, int(suspects.size())) + 1), nodes_a_box * boxes};
     for (std::size_t i = 0; i < suspects.size() && effort.nodes > 0; ++i)
         for (const IllegalDensity& d : find_illegal(suspects.tree(i), effort)) {
-            const std::pair<int, Op> place{d.line, d.op};
-            if (std::find(told.begin(), told.end(), place) != told.end()) continue;
-            told.push_back(place);
+            const std::pair<int, Op> location{d.line, d.op};
+            if (std::find(reported.begin(), reported.end(), location) != reported.end()) continue;
+            reported.push_back(location);
             const std::string where = d.line > 0 ? fmt::format("{}:{}", scene.file, d.line) : scene.file;
             const bool above = d.value > 1;
             const char* why = d.op == Op::sum ? "its parts overlap: use |"

@@ -118,34 +118,34 @@ int insert_into_table(lua_State* lua) {
     const lua_Integer end = border(lua, 1) + 1;
     const int count = lua_gettop(lua);
     if (count != 2 && count != 3) return luaL_error(lua, "wrong number of arguments to 'insert'");
-    lua_Integer place = end;
+    lua_Integer location = end;
     if (count == 3) {
-        place = luaL_checkinteger(lua, 2);
-        luaL_argcheck(lua, place >= 1 && place <= end, 2, "position out of bounds");
-        Sandbox::spend(lua, end - place);
-        for (lua_Integer i = end; i > place; --i) {
+        location = luaL_checkinteger(lua, 2);
+        luaL_argcheck(lua, location >= 1 && location <= end, 2, "position out of bounds");
+        Sandbox::spend(lua, end - location);
+        for (lua_Integer i = end; i > location; --i) {
             lua_rawgeti(lua, 1, i - 1);
             lua_rawseti(lua, 1, i);
         }
     }
-    lua_rawseti(lua, 1, place);
+    lua_rawseti(lua, 1, location);
     return 0;
 }
 
 int remove_from_table(lua_State* lua) {
     check_plain_table(lua, 1);
     const lua_Integer size = border(lua, 1);
-    lua_Integer place = luaL_optinteger(lua, 2, size);
+    lua_Integer location = luaL_optinteger(lua, 2, size);
     if (lua_gettop(lua) > 1)
-        luaL_argcheck(lua, (place >= 1 && place <= size + 1) || place == size, 2, "position out of bounds");
-    lua_rawgeti(lua, 1, place);
-    Sandbox::spend(lua, size - std::min(place, size));
-    for (; place < size; ++place) {
-        lua_rawgeti(lua, 1, place + 1);
-        lua_rawseti(lua, 1, place);
+        luaL_argcheck(lua, (location >= 1 && location <= size + 1) || location == size, 2, "position out of bounds");
+    lua_rawgeti(lua, 1, location);
+    Sandbox::spend(lua, size - std::min(location, size));
+    for (; location < size; ++location) {
+        lua_rawgeti(lua, 1, location + 1);
+        lua_rawseti(lua, 1, location);
     }
     lua_pushnil(lua);
-    lua_rawseti(lua, 1, place);
+    lua_rawseti(lua, 1, location);
     return 1;
 }
 

@@ -278,8 +278,8 @@ lua_State* Sandbox::run(std::string text, const std::string& file, Prepare prepa
     State& state = *state_;
     const auto fail = [&](Spent spent) {
         const int line = state.line;
-        const std::string place = line > 0 ? fmt::format("{}:{}: ", file_mark, line) : std::string();
-        return SceneError(one_line(place + reason(state.limits, spent), file));
+        const std::string location = line > 0 ? fmt::format("{}:{}: ", file_mark, line) : std::string();
+        return SceneError(one_line(location + reason(state.limits, spent), file));
     };
     text = with_length_by_content(text);
     if (!state.memory.try_take(text.size())) throw fail(Spent::memory);
@@ -293,10 +293,10 @@ lua_State* Sandbox::run(std::string text, const std::string& file, Prepare prepa
         state->ended.notify_one();
     });
     {
-        constexpr double most_seconds = 1e6;  // what a clock's count has room for
+        constexpr double max_seconds = 1e6;  // what a clock's count has room for
         const auto ended = [&] { return state.has_ended; };
         std::unique_lock lock(state.mutex);
-        if (!state.ended.wait_for(lock, std::chrono::duration<double>(std::min(state.limits.seconds, most_seconds)),
+        if (!state.ended.wait_for(lock, std::chrono::duration<double>(std::min(state.limits.seconds, max_seconds)),
                                   ended)) {
             lock.unlock();
             {

@@ -14,8 +14,8 @@ namespace deburr {
 namespace {
 
 // Deeper than any table that a scene needs: solids may be grouped, vectors are inside.
-constexpr int deepest = 12;
-static_assert(read_value_slots > 3 * deepest);
+constexpr int max_depth = 12;
+static_assert(read_value_slots > 3 * max_depth);
 
 // Names may be as long as memory allows; messages quote so much of them.
 constexpr std::size_t longest_name = 40;
@@ -36,11 +36,11 @@ struct Reader {
         return std::string(text, size);
     }
 
-    LuaValue read(int index, const std::string& place, int depth);
-    LuaValue read_table(int index, const std::string& place, int depth);
+    LuaValue read(int index, const std::string& location, int depth);
+    LuaValue read_table(int index, const std::string& location, int depth);
 };
 
-LuaValue Reader::read(int index, const std::string& place, int depth) {
+LuaValue Reader::read(int index, const std::string& location, int depth) {
     ++cost.values;
     take(sizeof(LuaValue));
     switch (lua_type(lua, index)) {
@@ -54,14 +54,14 @@ LuaValue Reader::read(int index, const std::string& place, int depth) {
             return take_text(text, size);
         }
         case LUA_TLIGHTUSERDATA: return static_cast<const SceneObject*>(lua_touserdata(lua, index));
-        case LUA_TTABLE: return read_table(lua_absindex(lua, index), place, depth);
+        case LUA_TTABLE: return read_table(lua_absindex(lua, index), location, depth);
         default: return LuaOther{lua_typename(lua, lua_type(lua, index))};
     }
 }
 
-LuaValue Reader::read_table(int index, const std::string& place, int depth) {
-    if (depth == deepest)
-        throw BadValue(place, fmt::format("expected tables nested at most {} deep, got deeper", deepest));
+LuaValue Reader::read_table(int index, const std::string& location, int depth) {
+    if (depth == max_depth)
+        throw BadValue(location, fmt::format("expected tables nested at most {} deep, got deeper", max_depth));
     // Lua's order of keys differs from run to run, and with it the error that is met first. So keys
     // are sorted; those that are names wait on the stack, as pushing one anew might not return.
     std::vector<lua_Integer> numbers;
@@ -70,7 +70,7 @@ LuaValue Reader::read_table(int index, const std::string& place, int depth) {
     const int top = lua_gettop(lua);
     take(block_bytes(sizeof(LuaTable) + 2 * sizeof(void*)));
     const auto room = [&] {
-        if (!lua_checkstack(lua, 8)) throw BadValue(place, "expected fewer fields, got too many");
+        if (!lua_checkstack(lua, 8)) throw BadValue(location, "expected fewer fields, got too many");
     };
     for (lua_pushnil(lua); room(), lua_next(lua, index);) {
         lua_pop(lua, 1);
@@ -85,11 +85,11 @@ LuaValue Reader::read_table(int index, const std::string& place, int depth) {
             take(3 * sizeof(lua_Integer));
             numbers.push_back(lua_tointeger(lua, -1));
         } else {
-            const std::string key = described(read(-1, place, depth + 1));
+            const std::string key = described(read(-1, location, depth + 1));
             if (other.empty() || key < other) other = key;
         }
     }
-    if (!other.empty()) throw BadValue(place, "expected names or 1, 2, … as keys, got " + other);
+    if (!other.empty()) throw BadValue(location, "expected names or 1, 2, … as keys, got " + other);
     std::sort(names.begin(), names.end());
     std::sort(numbers.begin(), numbers.end());
 
@@ -98,17 +98,17 @@ LuaValue Reader::read_table(int index, const std::string& place, int depth) {
     for (const auto& [name, at] : names) {
         lua_pushvalue(lua, at);
         lua_rawget(lua, index);
-        LuaValue value = read(-1, place + "." + quotable(name), depth + 1);
+        LuaValue value = read(-1, location + "." + quotable(name), depth + 1);
         lua_pop(lua, 1);
         table->fields.emplace(name, std::move(value));
     }
     for (const lua_Integer key : numbers) {
         const auto next = lua_Integer(table->list.size()) + 1;
         if (key != next)
-            throw BadValue(
-                place, fmt::format("expected a list without holes, got item {} but no item {}", numbers.back(), next));
+            throw BadValue(location, fmt::format("expected a list without holes, got item {} but no item {}",
+                                                 numbers.back(), next));
         lua_rawgeti(lua, index, key);
-        table->list.push_back(read(-1, place, depth + 1));
+        table->list.push_back(read(-1, location, depth + 1));
         lua_pop(lua, 1);
     }
     lua_settop(lua, top);
@@ -119,9 +119,9 @@ const LuaValue nil_value;
 
 }  // namespace
 
-LuaValue read_value(lua_State* lua, int index, const std::string& place, MemoryMeter* memory, ReadCost* cost) {
+LuaValue read_value(lua_State* lua, int index, const std::string& location, MemoryMeter* memory, ReadCost* cost) {
     ReadCost ignored;
-    return Reader{lua, memory, cost ? *cost : ignored}.read(index, place, 0);
+    return Reader{lua, memory, cost ? *cost : ignored}.read(index, location, 0);
 }
 
 std::string described(const LuaValue& value) {
@@ -147,8 +147,8 @@ std::string described(const LuaValue& value) {
     return std::visit(Describe{}, value);
 }
 
-void expected(const std::string& place, const std::string& what, const LuaValue& got) {
-    throw BadValue(place, "expected " + what + ", got " + described(got));
+void expected(const std::string& location, const std::string& what, const LuaValue& got) {
+    throw BadValue(location, "expected " + what + ", got " + described(got));
 }
 
 bool is_nil(const LuaValue& value) { return std::holds_alternative<std::monostate>(value); }
@@ -168,39 +168,39 @@ static bool finite_number(const LuaValue& value) {
     return x && std::isfinite(*x);
 }
 
-double number(const LuaValue& value, const std::string& place) {
-    if (!finite_number(value)) expected(place, "a finite number", value);
+double number(const LuaValue& value, const std::string& location) {
+    if (!finite_number(value)) expected(location, "a finite number", value);
     return std::get<double>(value);
 }
 
-double number_at_least(const LuaValue& value, const std::string& place, double least) {
+double number_at_least(const LuaValue& value, const std::string& location, double least) {
     if (!finite_number(value) || std::get<double>(value) < least)
-        expected(place, fmt::format("a number >= {}", least), value);
+        expected(location, fmt::format("a number >= {}", least), value);
     return std::get<double>(value);
 }
 
-double number_above(const LuaValue& value, const std::string& place, double limit) {
+double number_above(const LuaValue& value, const std::string& location, double limit) {
     if (!finite_number(value) || std::get<double>(value) <= limit)
-        expected(place, fmt::format("a number > {}", limit), value);
+        expected(location, fmt::format("a number > {}", limit), value);
     return std::get<double>(value);
 }
 
-double number_between(const LuaValue& value, const std::string& place, double least, double most) {
+double number_between(const LuaValue& value, const std::string& location, double least, double most) {
     if (!finite_number(value) || std::get<double>(value) < least || std::get<double>(value) > most)
-        expected(place, fmt::format("a number from {} to {}", least, most), value);
+        expected(location, fmt::format("a number from {} to {}", least, most), value);
     return std::get<double>(value);
 }
 
-int integer(const LuaValue& value, const std::string& place, int least, int most) {
+int integer(const LuaValue& value, const std::string& location, int least, int most) {
     const double* x = std::get_if<double>(&value);
     if (!x || !(*x >= least && *x <= most) || *x != std::floor(*x))
-        expected(place, fmt::format("a whole number from {} to {}", least, most), value);
+        expected(location, fmt::format("a whole number from {} to {}", least, most), value);
     return int(*x);
 }
 
-const std::string& text(const LuaValue& value, const std::string& place) {
+const std::string& text(const LuaValue& value, const std::string& location) {
     const auto* string = std::get_if<std::string>(&value);
-    if (!string) expected(place, "a text", value);
+    if (!string) expected(location, "a text", value);
     return *string;
 }
 
@@ -210,41 +210,42 @@ static bool three_numbers(const LuaValue& value) {
            std::all_of(table->list.begin(), table->list.end(), finite_number);
 }
 
-Vec3 vector(const LuaValue& value, const std::string& place) {
-    if (!three_numbers(value)) expected(place, "three finite numbers {x, y, z}", value);
+Vec3 vector(const LuaValue& value, const std::string& location) {
+    if (!three_numbers(value)) expected(location, "three finite numbers {x, y, z}", value);
     Vec3 v(0.0);
     for (int k = 0; k < 3; ++k) v[k] = std::get<double>(as_table(value)->list[std::size_t(k)]);
     return v;
 }
 
-Vec3 direction(const LuaValue& value, const std::string& place) {
-    const Vec3 v = vector(value, place);
+Vec3 direction(const LuaValue& value, const std::string& location) {
+    const Vec3 v = vector(value, location);
     const double largest = glm::max(std::abs(v.x), glm::max(std::abs(v.y), std::abs(v.z)));
-    if (largest == 0) expected(place, "a direction other than {0, 0, 0}", value);
+    if (largest == 0) expected(location, "a direction other than {0, 0, 0}", value);
     const Vec3 scaled = v / largest;  // so that squares stay in range
     return scaled / glm::length(scaled);
 }
 
-Vec3 color(const LuaValue& value, const std::string& place, double most) {
+Vec3 color(const LuaValue& value, const std::string& location, double most) {
     const auto in_range = [&](double x) { return x >= 0 && x <= most; };
     if (finite_number(value) && in_range(std::get<double>(value))) return Vec3(std::get<double>(value));
     if (three_numbers(value)) {
-        const Vec3 c = vector(value, place);
+        const Vec3 c = vector(value, location);
         if (in_range(c.x) && in_range(c.y) && in_range(c.z)) return c;
     }
-    expected(place,
+    expected(location,
              most < infinity ? fmt::format("a colour, {{r, g, b}} or a number, from 0 to {}", most)
                              : std::string("a colour, {r, g, b} or a number, >= 0"),
              value);
 }
 
-Fields::Fields(const LuaValue& value, std::string place, std::initializer_list<const char*> known)
-    : place_(std::move(place)) {
+Fields::Fields(const LuaValue& value, std::string location, std::initializer_list<const char*> known)
+    : location_(std::move(location)) {
     if (const auto* table = std::get_if<std::shared_ptr<const LuaTable>>(&value)) table_ = *table;
-    if (!table_ || !table_->list.empty()) expected(place_.empty() ? "scene" : place_, "a table of named fields", value);
+    if (!table_ || !table_->list.empty())
+        expected(location_.empty() ? "scene" : location_, "a table of named fields", value);
     for (const auto& [name, field] : table_->fields) {
         if (std::find(known.begin(), known.end(), name) != known.end()) continue;
-        throw BadValue(this->place(name),
+        throw BadValue(this->location(name),
                        fmt::format("expected one of the fields {}, got '{}'", fmt::join(known, ", "), quotable(name)));
     }
 }
@@ -259,8 +260,8 @@ const LuaValue& Fields::get(const std::string& name) const {
     return value ? *value : nil_value;
 }
 
-std::string Fields::place(const std::string& name) const {
-    return place_.empty() ? quotable(name) : place_ + "." + quotable(name);
+std::string Fields::location(const std::string& name) const {
+    return location_.empty() ? quotable(name) : location_ + "." + quotable(name);
 }
 
 }  // namespace deburr

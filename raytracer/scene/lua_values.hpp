@@ -37,10 +37,10 @@ struct LuaTable {
 /// A value that is not what is expected; what() is "place: expected …, got …".
 class BadValue : public std::runtime_error {
 public:
-    BadValue(std::string place, const std::string& message)
-        : std::runtime_error(place + ": " + message), place(std::move(place)) {}
+    BadValue(std::string location, const std::string& message)
+        : std::runtime_error(location + ": " + message), location(std::move(location)) {}
 
-    std::string place;  // names joined by dots, as in "camera.fov"
+    std::string location;  // names joined by dots, as in "camera.fov"
 };
 
 /// Free stack slots that read_value needs.
@@ -55,12 +55,12 @@ struct ReadCost {
     std::int64_t values = 0;
     std::size_t bytes = 0;
 };
-LuaValue read_value(lua_State* lua, int index, const std::string& place, MemoryMeter* memory = nullptr,
+LuaValue read_value(lua_State* lua, int index, const std::string& location, MemoryMeter* memory = nullptr,
                     ReadCost* cost = nullptr);
 
 /// As in "got a density".
 std::string described(const LuaValue& value);
-[[noreturn]] void expected(const std::string& place, const std::string& what, const LuaValue& got);
+[[noreturn]] void expected(const std::string& location, const std::string& what, const LuaValue& got);
 
 bool is_nil(const LuaValue& value);
 /// The object in `value`, or null.
@@ -69,32 +69,32 @@ const SceneObject* as_object(const LuaValue& value);
 const LuaTable* as_table(const LuaValue& value);
 
 /// All of these are finite.
-double number(const LuaValue& value, const std::string& place);
-double number_at_least(const LuaValue& value, const std::string& place, double least);
-double number_above(const LuaValue& value, const std::string& place, double limit);
-double number_between(const LuaValue& value, const std::string& place, double least, double most);
-int integer(const LuaValue& value, const std::string& place, int least, int most);
-const std::string& text(const LuaValue& value, const std::string& place);
-Vec3 vector(const LuaValue& value, const std::string& place);
+double number(const LuaValue& value, const std::string& location);
+double number_at_least(const LuaValue& value, const std::string& location, double least);
+double number_above(const LuaValue& value, const std::string& location, double limit);
+double number_between(const LuaValue& value, const std::string& location, double least, double most);
+int integer(const LuaValue& value, const std::string& location, int least, int most);
+const std::string& text(const LuaValue& value, const std::string& location);
+Vec3 vector(const LuaValue& value, const std::string& location);
 /// Of length 1; {0, 0, 0} is refused. Exact for a multiple of an axis.
-Vec3 direction(const LuaValue& value, const std::string& place);
+Vec3 direction(const LuaValue& value, const std::string& location);
 /// {r, g, b} or one number for grey, each in [0, most].
-Vec3 color(const LuaValue& value, const std::string& place, double most);
+Vec3 color(const LuaValue& value, const std::string& location, double most);
 
 /// A table of named fields, which are all among `known`.
 class Fields {
 public:
-    Fields(const LuaValue& value, std::string place, std::initializer_list<const char*> known);
+    Fields(const LuaValue& value, std::string location, std::initializer_list<const char*> known);
 
     /// Null where the field is missing.
     const LuaValue* find(const std::string& name) const;
     /// nil where the field is missing.
     const LuaValue& get(const std::string& name) const;
-    std::string place(const std::string& name) const;
+    std::string location(const std::string& name) const;
 
 private:
     std::shared_ptr<const LuaTable> table_;
-    std::string place_;
+    std::string location_;
 };
 
 }  // namespace deburr

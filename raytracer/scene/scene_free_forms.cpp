@@ -9,7 +9,7 @@ namespace {
 // Cubes of quadrics stay far inside the range of a double.
 constexpr double largest_coefficient = 1e50;
 
-constexpr std::size_t most_perturbations = 100'000;
+constexpr std::size_t max_perturbations = 100'000;
 
 // Instructions that take as long as bounding a free form, for each of its perturbations.
 constexpr std::int64_t work_per_perturbation = 20'000;
@@ -20,10 +20,10 @@ const LuaValue& only_argument(const SceneCall& call, const char* what) {
     return call.argument(0);
 }
 
-double coefficient(const LuaValue& value, const std::string& place) {
-    const double c = number(value, place);
+double coefficient(const LuaValue& value, const std::string& location) {
+    const double c = number(value, location);
     if (!(std::abs(c) <= largest_coefficient))
-        expected(place, fmt::format("a coefficient of at most {:g}", largest_coefficient), value);
+        expected(location, fmt::format("a coefficient of at most {:g}", largest_coefficient), value);
     return c;
 }
 
@@ -43,7 +43,7 @@ SceneResult quadric(SceneCall& call) {
     } else {
         const Fields fields(given, call.name, {"xx", "yy", "zz", "xy", "xz", "yz", "x", "y", "z", "c"});
         for (int i = 0; i < 10; ++i)
-            if (const LuaValue* value = fields.find(names[i])) c[i] = coefficient(*value, fields.place(names[i]));
+            if (const LuaValue* value = fields.find(names[i])) c[i] = coefficient(*value, fields.location(names[i]));
     }
     const Quadric result = quadric_from(c);
     if (result.is_constant())
@@ -57,19 +57,21 @@ SceneResult quadric(SceneCall& call) {
 struct Placed {
     explicit Placed(const SceneCall& call, const char* at, std::initializer_list<const char*> known)
         : fields(only_argument(call, "a table of fields"), call.name, known) {
-        if (const LuaValue* given = fields.find(at)) centre = vector(*given, fields.place(at));
-        if (const LuaValue* given = fields.find("axis")) axis = direction(*given, fields.place("axis"));
+        if (const LuaValue* given = fields.find(at)) center = vector(*given, fields.location(at));
+        if (const LuaValue* given = fields.find("axis")) axis = direction(*given, fields.location("axis"));
         radius = length("radius", radius);
         height = length("height", height);
     }
     double length(const char* name, double otherwise) const {
         const LuaValue* given = fields.find(name);
-        return given ? number_above(*given, fields.place(name), 0) : otherwise;
+        return given ? number_above(*given, fields.location(name), 0) : otherwise;
     }
-    Quadric revolved(const Revolution& form) const { return deburr::revolved(form, centre, axis, radius, height); }
+    Quadric revolved(const Revolution& revolution) const {
+        return deburr::revolved(revolution, center, axis, radius, height);
+    }
 
     Fields fields;
-    Vec3 centre{0.0}, axis{0, 1, 0};
+    Vec3 center{0.0}, axis{0, 1, 0};
     double radius = 1, height = 1;
 };
 
@@ -77,14 +79,14 @@ SceneResult ellipsoid(SceneCall& call) {
     const Fields fields(only_argument(call, "a table of fields"), call.name, {"center", "radius", "radii"});
     Quadric q;
     q.k = 1;
-    if (const LuaValue* given = fields.find("center")) q.centre = vector(*given, fields.place("center"));
+    if (const LuaValue* given = fields.find("center")) q.center = vector(*given, fields.location("center"));
     Vec3 radii(1.0);
-    if (const LuaValue* given = fields.find("radius")) radii = Vec3(number_above(*given, fields.place("radius"), 0));
+    if (const LuaValue* given = fields.find("radius")) radii = Vec3(number_above(*given, fields.location("radius"), 0));
     if (const LuaValue* given = fields.find("radii")) {
         if (fields.find("radius")) throw BadValue(call.name, "expected radius or radii, got both");
-        radii = vector(*given, fields.place("radii"));
+        radii = vector(*given, fields.location("radii"));
         for (int k = 0; k < 3; ++k)
-            if (!(radii[k] > 0)) expected(fields.place("radii"), "three numbers > 0", *given);
+            if (!(radii[k] > 0)) expected(fields.location("radii"), "three numbers > 0", *given);
     }
     for (int k = 0; k < 3; ++k) q.A[k][k] = -1 / (radii[k] * radii[k]);
     return checked(call, q);
@@ -108,7 +110,7 @@ SceneResult paraboloid(SceneCall& call) {
 SceneResult hyperboloid(SceneCall& call) {
     const Placed p(call, "center", {"center", "axis", "radius", "height", "sheets"});
     int sheets = 1;
-    if (const LuaValue* given = p.fields.find("sheets")) sheets = integer(*given, p.fields.place("sheets"), 1, 2);
+    if (const LuaValue* given = p.fields.find("sheets")) sheets = integer(*given, p.fields.location("sheets"), 1, 2);
     return checked(call, p.revolved({sheets == 1 ? 1.0 : -1.0, 0, 1, -1}));
 }
 
@@ -120,7 +122,7 @@ const Quadric& need_quadric(const SceneCall& call, std::size_t index) {
 
 SceneResult perturbation(SceneCall& call) {
     call.at_most(2);
-    const double factor = coefficient(call.argument(0), call.place("factor"));
+    const double factor = coefficient(call.argument(0), call.location("factor"));
     const Quadric& quadric = need_quadric(call, 1);
     if (quadric.range_everywhere().hi <= 0)
         throw BadValue(call.name, "expected a quadric that is positive somewhere, got one that is <= 0 everywhere");
@@ -132,9 +134,9 @@ SceneResult freeform(SceneCall& call) {
     const Quadric& base = need_quadric(call, 0);
     const LuaTable* given = as_table(call.argument(1));
     if (!given || !given->fields.empty()) expected(call.name, "a list of perturbations", call.argument(1));
-    if (given->list.size() > most_perturbations)
-        throw BadValue(call.name, fmt::format("expected at most {} perturbations, got {}", most_perturbations,
-                                              given->list.size()));
+    if (given->list.size() > max_perturbations)
+        throw BadValue(call.name,
+                       fmt::format("expected at most {} perturbations, got {}", max_perturbations, given->list.size()));
     call.builder.spend(work_per_perturbation * std::int64_t(given->list.size()));
     std::vector<Perturbation> perturbations;
     for (const LuaValue& item : given->list) {
@@ -143,13 +145,13 @@ SceneResult freeform(SceneCall& call) {
         perturbations.push_back(*perturbation);
     }
     call.builder.keep_parts(perturbations.size() * sizeof(Perturbation));
-    return call.make(solid_of_form(call.name, base, std::move(perturbations), call.line));
+    return call.make(solid_of_free_form(call.name, base, std::move(perturbations), call.line));
 }
 
 }  // namespace
 
-Solid solid_of_form(const std::string& function, const Quadric& base, std::vector<Perturbation> perturbations,
-                    int line) {
+Solid solid_of_free_form(const std::string& function, const Quadric& base, std::vector<Perturbation> perturbations,
+                         int line) {
     const Range q = base.range_everywhere();
     const auto some = [&](double sign) {
         return std::any_of(perturbations.begin(), perturbations.end(),
@@ -163,20 +165,20 @@ Solid solid_of_form(const std::string& function, const Quadric& base, std::vecto
 const Quadric& ordinary(const Quadric& quadric, const char* function) {
     bool good = std::isfinite(quadric.k) && quadric.largest() <= largest_coefficient;
     for (int i = 0; i < 3; ++i) {
-        good &= std::isfinite(quadric.b[i]) && std::isfinite(quadric.centre[i]);
+        good &= std::isfinite(quadric.b[i]) && std::isfinite(quadric.center[i]);
         for (int j = 0; j < 3; ++j) good &= std::isfinite(quadric.A[i][j]);
     }
     if (!good) throw BadValue(function, "expected lengths of ordinary size, got such that coefficients overflow");
     return quadric;
 }
 
-const std::vector<SceneFunction>& form_functions() {
-    using Place = SceneFunction::Place;
+const std::vector<SceneFunction>& free_form_functions() {
+    using Kind = SceneFunction::Kind;
     static const std::vector<SceneFunction> functions = {
-        {Place::global, "quadric", "", quadric},           {Place::global, "ellipsoid", "", ellipsoid},
-        {Place::global, "cylinder", "", cylinder},         {Place::global, "cone", "", cone},
-        {Place::global, "paraboloid", "", paraboloid},     {Place::global, "hyperboloid", "", hyperboloid},
-        {Place::global, "perturbation", "", perturbation}, {Place::global, "freeform", "", freeform},
+        {Kind::global, "quadric", "", quadric},           {Kind::global, "ellipsoid", "", ellipsoid},
+        {Kind::global, "cylinder", "", cylinder},         {Kind::global, "cone", "", cone},
+        {Kind::global, "paraboloid", "", paraboloid},     {Kind::global, "hyperboloid", "", hyperboloid},
+        {Kind::global, "perturbation", "", perturbation}, {Kind::global, "freeform", "", freeform},
     };
     return functions;
 }

@@ -19,8 +19,8 @@ std::string kind_of(const SceneObject& object) {
 }
 
 void SceneBuilder::check_size(double half_spaces) {
-    if (half_spaces > most_half_spaces)
-        throw std::runtime_error(fmt::format("expected at most {} half-spaces, got {}", most_half_spaces, half_spaces));
+    if (half_spaces > max_half_spaces)
+        throw std::runtime_error(fmt::format("expected at most {} half-spaces, got {}", max_half_spaces, half_spaces));
 }
 
 // A node as make_shared makes it.
@@ -68,7 +68,7 @@ const SceneObject* SceneBuilder::keep(SceneObject object) {
 Solid SceneBuilder::solid(const SceneObject& object) {
     if (const auto* solid = as<Solid>(&object)) return *solid;
     keep_parts(node_block<SolidNode>);
-    if (const auto* quadric = as<Quadric>(&object)) return solid_of_form("quadric", *quadric, {}, object.line);
+    if (const auto* quadric = as<Quadric>(&object)) return solid_of_free_form("quadric", *quadric, {}, object.line);
     return Solid::sharp(*as<Density>(&object), object.line);
 }
 
@@ -91,11 +91,11 @@ static bool from_text(const std::string& text, double& value) {
 }
 
 SceneResult SceneBuilder::parameter(const std::string& name, const LuaValue& fallback) {
-    const std::string place = "param '" + shortened(name, 40) + "'";
+    const std::string location = "param '" + shortened(name, 40) + "'";
     const bool is_number = std::holds_alternative<double>(fallback);
     const bool is_bool = std::holds_alternative<bool>(fallback);
     if (!is_number && !is_bool && !std::holds_alternative<std::string>(fallback))
-        expected(place, "a number, boolean or text as default", fallback);
+        expected(location, "a number, boolean or text as default", fallback);
 
     // Both are kept here and in the scene.
     const auto keep = [&](const std::string& value) {
@@ -113,7 +113,7 @@ SceneResult SceneBuilder::parameter(const std::string& name, const LuaValue& fal
     }
     const std::string& given = define->second;
     const auto wrong = [&](const char* what) {
-        return BadValue(place, fmt::format("expected {} after -D {}=, got '{}'", what, name, given));
+        return BadValue(location, fmt::format("expected {} after -D {}=, got '{}'", what, name, given));
     };
     keep(given);
     if (is_number) {
@@ -249,13 +249,13 @@ void open_scene_functions(lua_State* lua) {
     const int meta = lua_gettop(lua);
     lua_newtable(lua);
     const int methods = lua_gettop(lua);
-    for (const auto* functions : {&shape_functions(), &form_functions(), &look_functions()})
+    for (const auto* functions : {&shape_functions(), &free_form_functions(), &material_functions()})
         for (const SceneFunction& function : *functions) {
             push_function(lua, function);
-            switch (function.place) {
-                case SceneFunction::Place::global: lua_setglobal(lua, function.name); break;
-                case SceneFunction::Place::method: lua_setfield(lua, methods, function.name); break;
-                case SceneFunction::Place::metamethod: lua_setfield(lua, meta, function.symbol); break;
+            switch (function.kind) {
+                case SceneFunction::Kind::global: lua_setglobal(lua, function.name); break;
+                case SceneFunction::Kind::method: lua_setfield(lua, methods, function.name); break;
+                case SceneFunction::Kind::metamethod: lua_setfield(lua, meta, function.symbol); break;
             }
         }
     lua_pushcclosure(lua, find_method, 1);

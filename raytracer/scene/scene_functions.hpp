@@ -84,7 +84,7 @@ public:
     const std::vector<Material>& materials() const { return materials_; }
     const std::map<std::string, std::string>& parameters() const { return parameters_; }
 
-    /// Throws if there are more than most_half_spaces.
+    /// Throws if there are more than max_half_spaces.
     static void check_size(double half_spaces);
     /// Counts parts; throws if all take more than they may.
     void keep_parts(std::size_t bytes);
@@ -127,7 +127,7 @@ struct SceneCall {
     /// Throws if there are more arguments than this.
     void at_most(std::size_t count) const;
     /// "name: argument"
-    std::string place(const char* argument) const { return std::string(name) + ": " + argument; }
+    std::string location(const char* argument) const { return std::string(name) + ": " + argument; }
     template <class T>
     const SceneObject* make(T object, SceneName object_name = nullptr) const {
         return builder.make(std::move(object), line, std::move(object_name));
@@ -135,8 +135,8 @@ struct SceneCall {
 };
 
 struct SceneFunction {
-    enum class Place { global, method, metamethod };
-    Place place;
+    enum class Kind { global, method, metamethod };
+    Kind kind;
     const char* name;    // in messages, and in the scene unless it is a metamethod
     const char* symbol;  // metamethod: Lua's name for it
     SceneResult (*body)(SceneCall&);
@@ -145,15 +145,15 @@ struct SceneFunction {
 /// The tables of functions: shapes, operators and placements; quadrics and free forms; materials,
 /// textures and lights.
 const std::vector<SceneFunction>& shape_functions();
-const std::vector<SceneFunction>& form_functions();
-const std::vector<SceneFunction>& look_functions();
+const std::vector<SceneFunction>& free_form_functions();
+const std::vector<SceneFunction>& material_functions();
 
 /// The quadric itself; throws if its coefficients are too large to be cubed.
 const Quadric& ordinary(const Quadric& quadric, const char* function);
 
 /// Q + Σ fᵢRᵢ as a solid. Throws where Q's sign is everywhere the same, and no perturbation could change it.
-Solid solid_of_form(const std::string& function, const Quadric& base, std::vector<Perturbation> perturbations,
-                    int line);
+Solid solid_of_free_form(const std::string& function, const Quadric& base, std::vector<Perturbation> perturbations,
+                         int line);
 
 /// Registers all functions; the sandbox's host must be a SceneBuilder. May raise Lua errors.
 void open_scene_functions(lua_State* lua);

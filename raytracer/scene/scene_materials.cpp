@@ -4,7 +4,7 @@
 namespace deburr {
 namespace {
 
-constexpr int most_shadow_rays = 4096;
+constexpr int max_shadow_rays = 4096;
 constexpr double largest_ior = 10;  // diamond has 2.4
 
 // The only argument; missing, it is an empty table.
@@ -15,11 +15,11 @@ const LuaValue& fields_argument(const SceneCall& call) {
 }
 
 void read_color(const Fields& fields, const char* name, Vec3& value, double most) {
-    if (const LuaValue* given = fields.find(name)) value = color(*given, fields.place(name), most);
+    if (const LuaValue* given = fields.find(name)) value = color(*given, fields.location(name), most);
 }
 
 void read_vector(const Fields& fields, const char* name, Vec3& value) {
-    if (const LuaValue* given = fields.find(name)) value = vector(*given, fields.place(name));
+    if (const LuaValue* given = fields.find(name)) value = vector(*given, fields.location(name));
 }
 
 void read_texture(const Fields& fields, Texture& texture) {
@@ -27,10 +27,10 @@ void read_texture(const Fields& fields, Texture& texture) {
     if (!given) return;
     if (const SceneObject* object = as_object(*given)) {
         const auto* pattern = as<Texture>(object);
-        if (!pattern) expected(fields.place("color"), "a colour or a texture", *given);
+        if (!pattern) expected(fields.location("color"), "a colour or a texture", *given);
         texture = *pattern;
     } else {
-        texture.a = color(*given, fields.place("color"), 1);
+        texture.a = color(*given, fields.location("color"), 1);
     }
 }
 
@@ -49,8 +49,8 @@ SceneResult plastic(SceneCall& call) {
     Material m{Material::Kind::plastic, {}, 0.2, 1.5};
     read_texture(fields, m.color);
     if (const auto* given = fields.find("roughness"))
-        m.roughness = number_between(*given, fields.place("roughness"), 0, 1);
-    if (const auto* given = fields.find("ior")) m.ior = number_between(*given, fields.place("ior"), 1, largest_ior);
+        m.roughness = number_between(*given, fields.location("roughness"), 0, 1);
+    if (const auto* given = fields.find("ior")) m.ior = number_between(*given, fields.location("ior"), 1, largest_ior);
     return call.make(m);
 }
 
@@ -59,7 +59,7 @@ SceneResult metal(SceneCall& call) {
     Material m{Material::Kind::metal, {}, 0.2, 1.5};
     read_texture(fields, m.color);
     if (const auto* given = fields.find("roughness"))
-        m.roughness = number_between(*given, fields.place("roughness"), 0, 1);
+        m.roughness = number_between(*given, fields.location("roughness"), 0, 1);
     return call.make(m);
 }
 
@@ -75,15 +75,15 @@ SceneResult glass(SceneCall& call) {
     Material m{Material::Kind::glass, untinted, 0, 1.5};
     read_texture(fields, m.color);
     if (const auto* given = fields.find("roughness"))
-        m.roughness = number_between(*given, fields.place("roughness"), 0, 1);
-    if (const auto* given = fields.find("ior")) m.ior = number_between(*given, fields.place("ior"), 1, largest_ior);
+        m.roughness = number_between(*given, fields.location("roughness"), 0, 1);
+    if (const auto* given = fields.find("ior")) m.ior = number_between(*given, fields.location("ior"), 1, largest_ior);
     return call.make(m);
 }
 
 void read_pattern(const Fields& fields, Texture& texture) {
     read_color(fields, "a", texture.a, 1);
     read_color(fields, "b", texture.b, 1);
-    if (const auto* given = fields.find("scale")) texture.scale = number_above(*given, fields.place("scale"), 0);
+    if (const auto* given = fields.find("scale")) texture.scale = number_above(*given, fields.location("scale"), 0);
     read_vector(fields, "origin", texture.origin);
 }
 
@@ -102,19 +102,19 @@ SceneResult wood(SceneCall& call) {
     texture.a = {0.72, 0.48, 0.27};
     texture.b = {0.45, 0.25, 0.12};
     read_pattern(fields, texture);
-    if (const auto* given = fields.find("axis")) texture.axis = direction(*given, fields.place("axis"));
+    if (const auto* given = fields.find("axis")) texture.axis = direction(*given, fields.location("axis"));
     return call.make(texture);
 }
 
 void read_power(const Fields& fields, Light& light) {
     read_color(fields, "color", light.color, infinity);
-    if (const auto* given = fields.find("power")) light.power = number_at_least(*given, fields.place("power"), 0);
+    if (const auto* given = fields.find("power")) light.power = number_at_least(*given, fields.location("power"), 0);
 }
 
 SceneResult point_light(SceneCall& call) {
     const Fields fields(fields_argument(call), call.name, {"position", "color", "power"});
     Light light;
-    light.position = vector(fields.get("position"), fields.place("position"));
+    light.position = vector(fields.get("position"), fields.location("position"));
     read_power(fields, light);
     return call.make(light);
 }
@@ -123,7 +123,7 @@ SceneResult directional_light(SceneCall& call) {
     const Fields fields(fields_argument(call), call.name, {"direction", "color", "power"});
     Light light;
     light.kind = Light::Kind::directional;
-    light.direction = direction(fields.get("direction"), fields.place("direction"));
+    light.direction = direction(fields.get("direction"), fields.location("direction"));
     read_power(fields, light);
     return call.make(light);
 }
@@ -132,15 +132,15 @@ SceneResult area_light(SceneCall& call) {
     const Fields fields(fields_argument(call), call.name, {"position", "u", "v", "color", "power", "samples"});
     Light light;
     light.kind = Light::Kind::area;
-    light.position = vector(fields.get("position"), fields.place("position"));
-    light.u = vector(fields.get("u"), fields.place("u"));
-    light.v = vector(fields.get("v"), fields.place("v"));
+    light.position = vector(fields.get("position"), fields.location("position"));
+    light.u = vector(fields.get("u"), fields.location("u"));
+    light.v = vector(fields.get("v"), fields.location("v"));
     const double area = glm::length(glm::cross(light.u, light.v));
     if (!(area > 0 && std::isfinite(area)))
-        throw BadValue(fields.place("v"),
+        throw BadValue(fields.location("v"),
                        "expected a side that spans an area with u, got " + described(fields.get("v")));
     if (const auto* given = fields.find("samples"))
-        light.samples = integer(*given, fields.place("samples"), 1, most_shadow_rays);
+        light.samples = integer(*given, fields.location("samples"), 1, max_shadow_rays);
     read_power(fields, light);
     return call.make(light);
 }
@@ -156,20 +156,20 @@ SceneResult sky(SceneCall& call) {
 
 }  // namespace
 
-const std::vector<SceneFunction>& look_functions() {
-    using Place = SceneFunction::Place;
+const std::vector<SceneFunction>& material_functions() {
+    using Kind = SceneFunction::Kind;
     static const std::vector<SceneFunction> functions = {
-        {Place::global, "matte", "", matte},
-        {Place::global, "plastic", "", plastic},
-        {Place::global, "metal", "", metal},
-        {Place::global, "mirror", "", mirror},
-        {Place::global, "glass", "", glass},
-        {Place::global, "checker", "", checker},
-        {Place::global, "wood", "", wood},
-        {Place::global, "point_light", "", point_light},
-        {Place::global, "directional_light", "", directional_light},
-        {Place::global, "area_light", "", area_light},
-        {Place::global, "sky", "", sky},
+        {Kind::global, "matte", "", matte},
+        {Kind::global, "plastic", "", plastic},
+        {Kind::global, "metal", "", metal},
+        {Kind::global, "mirror", "", mirror},
+        {Kind::global, "glass", "", glass},
+        {Kind::global, "checker", "", checker},
+        {Kind::global, "wood", "", wood},
+        {Kind::global, "point_light", "", point_light},
+        {Kind::global, "directional_light", "", directional_light},
+        {Kind::global, "area_light", "", area_light},
+        {Kind::global, "sky", "", sky},
     };
     return functions;
 }

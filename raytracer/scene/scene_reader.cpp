@@ -19,42 +19,42 @@ namespace {
 
 constexpr std::size_t largest_file = std::size_t(16) << 20;
 constexpr int largest_side = 65'536;
-constexpr int most_bounces = 1'000;
+constexpr int max_bounces = 1'000;
 
 // Up and view this nearly parallel leave no direction for the picture's side. Chosen.
-constexpr double least_sine = 1e-6;
+constexpr double min_sine = 1e-6;
 
 void read_image(const LuaValue& value, Scene& scene) {
     const Fields fields(value, "image", {"width", "height", "spp", "bounces"});
     const auto read = [&](const char* name, int& number, int least, int most) {
-        if (const auto* given = fields.find(name)) number = integer(*given, fields.place(name), least, most);
+        if (const auto* given = fields.find(name)) number = integer(*given, fields.location(name), least, most);
     };
     read("width", scene.width, 1, largest_side);
     read("height", scene.height, 1, largest_side);
     read("spp", scene.spp, 1, max_samples);
-    read("bounces", scene.bounces, 0, most_bounces);
+    read("bounces", scene.bounces, 0, max_bounces);
 }
 
 void read_camera(const LuaValue& value, Camera& camera) {
     const Fields fields(value, "camera", {"eye", "target", "up", "fov"});
     const auto read = [&](const char* name, Vec3& v) {
-        if (const auto* given = fields.find(name)) v = vector(*given, fields.place(name));
+        if (const auto* given = fields.find(name)) v = vector(*given, fields.location(name));
     };
     read("eye", camera.eye);
     read("target", camera.target);
-    if (const auto* given = fields.find("up")) camera.up = direction(*given, fields.place("up"));
+    if (const auto* given = fields.find("up")) camera.up = direction(*given, fields.location("up"));
     if (const auto* given = fields.find("fov")) {
         const double* fov = std::get_if<double>(given);
         if (!fov || !(*fov > 0 && *fov < 180))
-            expected(fields.place("fov"), "a number of degrees between 0 and 180", *given);
+            expected(fields.location("fov"), "a number of degrees between 0 and 180", *given);
         camera.fov = *fov;
     }
     const Vec3 view = camera.target - camera.eye;
     const double distance = glm::length(view);
     if (!(distance > 0 && std::isfinite(distance)))
-        expected(fields.place("target"), "a point other than the eye", fields.get("target"));
-    if (!(glm::length(glm::cross(view / distance, camera.up)) > least_sine))
-        expected(fields.place("up"), "a direction not parallel to the view", fields.get("up"));
+        expected(fields.location("target"), "a point other than the eye", fields.get("target"));
+    if (!(glm::length(glm::cross(view / distance, camera.up)) > min_sine))
+        expected(fields.location("up"), "a direction not parallel to the view", fields.get("up"));
 }
 
 void read_background(const LuaValue& value, Background& background) {
@@ -82,18 +82,18 @@ void read_solids(const LuaValue& value, SceneBuilder& builder, Scene& scene) {
     if (!table || !table->fields.empty() || table->list.empty())
         expected("solids", "a list of at least one solid", value);
     for (const LuaValue& item : table->list) {
-        const std::string place = fmt::format("solids[{}]", scene.solids.size() + 1);
+        const std::string location = fmt::format("solids[{}]", scene.solids.size() + 1);
         const SceneObject* object = as_object(item);
         if (!as<Solid>(object) && !as<Density>(object) && !as<Quadric>(object))
-            expected(place, "a solid or a density", item);
+            expected(location, "a solid or a density", item);
         scene.solids.push_back(builder.solid(*object));
         const std::string name = object->name ? *object->name : "";
         builder.memory->take_text(name.size());
         scene.names.push_back(name);
     }
     const double half_spaces = half_spaces_to_lay_out(scene.solids);
-    if (half_spaces > most_half_spaces)
-        throw BadValue("solids", fmt::format("expected at most {} half-spaces, got {}", most_half_spaces, half_spaces));
+    if (half_spaces > max_half_spaces)
+        throw BadValue("solids", fmt::format("expected at most {} half-spaces, got {}", max_half_spaces, half_spaces));
 }
 
 // A scene that says nothing about light is lit from over the viewer's left shoulder.
@@ -191,7 +191,7 @@ Scene read_scene_text(const std::string& given, const std::string& file,
         read_table(read_value(lua, 1, "scene", builder.memory), builder, scene);
         check_defines(defines, builder.parameters());
     } catch (const BadValue& error) {
-        const int line = line_of(text, error.place);
+        const int line = line_of(text, error.location);
         throw SceneError(one_line(line > 0 ? fmt::format("{}:{}: {}", file_mark, line, error.what())
                                            : fmt::format("{}: {}", file_mark, error.what()),
                                   file));

@@ -7,7 +7,7 @@
 namespace deburr {
 namespace {
 
-constexpr std::size_t most_hull_points = 100'000;
+constexpr std::size_t max_hull_points = 100'000;
 
 // Instructions that take as long as finding the hull, for each point: 100,000 points on a sphere
 // take 0.8 s.
@@ -17,7 +17,7 @@ constexpr std::int64_t work_per_hull_point = 2'500;
 // it.
 constexpr std::size_t bytes_per_hull_point = 1'000;
 
-constexpr std::size_t most_polygon_points = 4'096;  // the check for convexity takes its square
+constexpr std::size_t max_polygon_points = 4'096;  // the check for convexity takes its square
 
 const Density* as_density(const LuaValue& value) { return as<Density>(as_object(value)); }
 
@@ -26,41 +26,41 @@ bool is_set(const LuaValue& value) {  // something with an inside
     return as<Density>(object) || as<Solid>(object) || as<Quadric>(object);
 }
 
-const SceneObject& need_set(const LuaValue& value, const std::string& place) {
-    if (!is_set(value)) expected(place, "a density or a solid", value);
+const SceneObject& need_set(const LuaValue& value, const std::string& location) {
+    if (!is_set(value)) expected(location, "a density or a solid", value);
     return *as_object(value);
 }
 
-const SceneObject& need_movable(const LuaValue& value, const std::string& place) {
+const SceneObject& need_movable(const LuaValue& value, const std::string& location) {
     const SceneObject* object = as_object(value);
     if (as<Perturbation>(object)) return *object;
-    return need_set(value, place);
+    return need_set(value, location);
 }
 
-const Density& need_density(const LuaValue& value, const std::string& place) {
+const Density& need_density(const LuaValue& value, const std::string& location) {
     const Density* density = as_density(value);
-    if (!density) expected(place, "a density", value);
+    if (!density) expected(location, "a density", value);
     return *density;
 }
 
-const std::vector<LuaValue>& need_list(const LuaValue& value, const std::string& place, const char* of_what,
+const std::vector<LuaValue>& need_list(const LuaValue& value, const std::string& location, const char* of_what,
                                        std::size_t most) {
     const LuaTable* table = as_table(value);
-    if (!table || !table->fields.empty()) expected(place, std::string("a list of ") + of_what, value);
+    if (!table || !table->fields.empty()) expected(location, std::string("a list of ") + of_what, value);
     if (table->list.size() > most)
-        throw BadValue(place, fmt::format("expected at most {} {}, got {}", most, of_what, table->list.size()));
+        throw BadValue(location, fmt::format("expected at most {} {}, got {}", most, of_what, table->list.size()));
     return table->list;
 }
 
-std::string item(const std::string& place, std::size_t index) { return fmt::format("{}[{}]", place, index + 1); }
+std::string item(const std::string& location, std::size_t index) { return fmt::format("{}[{}]", location, index + 1); }
 
 // Shapes.
 
 SceneResult half_space(SceneCall& call) {
     call.at_most(2);
-    const Vec3 given = vector(call.argument(0), call.place("normal"));
-    const Vec3 normal = direction(call.argument(0), call.place("normal"));
-    const double offset = number(call.argument(1), call.place("d"));
+    const Vec3 given = vector(call.argument(0), call.location("normal"));
+    const Vec3 normal = direction(call.argument(0), call.location("normal"));
+    const double offset = number(call.argument(1), call.location("d"));
     // The plane is given · x = offset; along an axis this is exact, and no length overflows.
     const double length = glm::dot(given, normal), distance = offset / length;
     if (!(length > 0 && std::isfinite(length) && std::isfinite(distance)))
@@ -76,8 +76,8 @@ SceneResult cube(SceneCall& call) {
 
 SceneResult box(SceneCall& call) {
     call.at_most(2);
-    const Vec3 lo = vector(call.argument(0), call.place("lower corner"));
-    const Vec3 hi = vector(call.argument(1), call.place("upper corner"));
+    const Vec3 lo = vector(call.argument(0), call.location("lower corner"));
+    const Vec3 hi = vector(call.argument(1), call.location("upper corner"));
     for (int k = 0; k < 3; ++k)
         if (!(lo[k] < hi[k]))
             throw BadValue(call.name, fmt::format("expected {0}0 < {0}1, got {1} and {2}", "xyz"[k], lo[k], hi[k]));
@@ -95,7 +95,7 @@ SceneResult product_of(SceneCall& call, const std::vector<HullFace>& faces) {
 
 SceneResult convex(SceneCall& call) {
     call.at_most(1);
-    const std::vector<LuaValue>& given = need_list(call.argument(0), call.name, "points", most_hull_points);
+    const std::vector<LuaValue>& given = need_list(call.argument(0), call.name, "points", max_hull_points);
     call.builder.spend(work_per_hull_point * std::int64_t(given.size()));
     call.builder.borrow(bytes_per_hull_point * given.size());
     std::vector<Vec3> points;
@@ -105,29 +105,29 @@ SceneResult convex(SceneCall& call) {
 
 SceneResult make_prism(SceneCall& call) {
     call.at_most(3);
-    const std::vector<LuaValue>& given = need_list(call.argument(0), call.name, "points", most_polygon_points);
+    const std::vector<LuaValue>& given = need_list(call.argument(0), call.name, "points", max_polygon_points);
     call.builder.spend(std::int64_t(given.size() * given.size()));
     std::vector<glm::dvec2> polygon;
     for (const LuaValue& point : given) {
-        const std::string place = item(call.name, polygon.size());
+        const std::string location = item(call.name, polygon.size());
         const LuaTable* pair = as_table(point);
-        if (!pair || !pair->fields.empty() || pair->list.size() != 2) expected(place, "two numbers {x, z}", point);
-        polygon.emplace_back(number(pair->list[0], place), number(pair->list[1], place));
+        if (!pair || !pair->fields.empty() || pair->list.size() != 2) expected(location, "two numbers {x, z}", point);
+        polygon.emplace_back(number(pair->list[0], location), number(pair->list[1], location));
     }
-    const double y0 = number(call.argument(1), call.place("y0"));
-    const double y1 = number(call.argument(2), call.place("y1"));
+    const double y0 = number(call.argument(1), call.location("y0"));
+    const double y1 = number(call.argument(2), call.location("y1"));
     return product_of(call, prism(std::move(polygon), y0, y1));
 }
 
 SceneResult rounded(SceneCall& call) {
     call.at_most(2);
-    const double radius = number_at_least(call.argument(0), call.place("radius"), 0);
+    const double radius = number_at_least(call.argument(0), call.location("radius"), 0);
     return call.make(Solid::rounded(radius, need_density(call.argument(1), call.name), call.line));
 }
 
 SceneResult convolved(SceneCall& call) {
     call.at_most(2);
-    const double radius = number_above(call.argument(0), call.place("radius"), 0);
+    const double radius = number_above(call.argument(0), call.location("radius"), 0);
     const Density& density = need_density(call.argument(1), call.name);
     if (density.has_radius())
         throw BadValue(call.name,
@@ -205,7 +205,7 @@ SceneResult name(SceneCall& call) {
     return call.make(call.builder.solid(self), std::make_shared<const std::string>(given));
 }
 
-SceneResult place(SceneCall& call, const Affine& map) {
+SceneResult transform(SceneCall& call, const Affine& map) {
     const SceneObject& self = need_movable(call.argument(0), call.name);
     if (const auto* density = as<Density>(&self)) return call.make(density->transformed(map));
     if (const auto* quadric = as<Quadric>(&self)) return call.make(ordinary(transformed(*quadric, map), call.name));
@@ -218,8 +218,9 @@ SceneResult translate(SceneCall& call) {
     call.at_most(4);
     need_movable(call.argument(0), call.name);
     Affine map;
-    for (int k = 0; k < 3; ++k) map.shift[k] = number(call.argument(std::size_t(k) + 1), call.place(&"x\0y\0z"[2 * k]));
-    return place(call, map);
+    for (int k = 0; k < 3; ++k)
+        map.shift[k] = number(call.argument(std::size_t(k) + 1), call.location(&"x\0y\0z"[2 * k]));
+    return transform(call, map);
 }
 
 SceneResult scale(SceneCall& call) {
@@ -229,7 +230,7 @@ SceneResult scale(SceneCall& call) {
     Affine map;
     for (int k = 0; k < 3; ++k) {
         const LuaValue& given = call.argument(even ? 1 : std::size_t(k) + 1);
-        const std::string where = even ? call.name : call.place(&"x\0y\0z"[2 * k]);
+        const std::string where = even ? call.name : call.location(&"x\0y\0z"[2 * k]);
         const double factor = number(given, where);
         // Products of three of these and their inverses stay far inside the range of a double.
         constexpr double largest = 1e100;
@@ -237,15 +238,15 @@ SceneResult scale(SceneCall& call) {
             expected(where, "a factor that leaves a volume, for 0 is singular", given);
         map.linear[k][k] = factor;
     }
-    return place(call, map);
+    return transform(call, map);
 }
 
 // Exact at multiples of 90 degrees about an axis, so that planes stay parallel to axes.
 SceneResult rotate(SceneCall& call) {
     call.at_most(3);
     need_movable(call.argument(0), call.name);
-    const double degrees = std::fmod(number(call.argument(1), call.place("degrees")), 360.0);
-    const Vec3 k = direction(call.argument(2), call.place("axis"));
+    const double degrees = std::fmod(number(call.argument(1), call.location("degrees")), 360.0);
+    const Vec3 k = direction(call.argument(2), call.location("axis"));
     const int quarters = int(degrees / 90);
     const bool exact = quarters * 90.0 == degrees;
     constexpr double cosines[4] = {1, 0, -1, 0};
@@ -256,51 +257,51 @@ SceneResult rotate(SceneCall& call) {
     const Mat3 across(Vec3(0, k.z, -k.y), Vec3(-k.z, 0, k.x), Vec3(k.y, -k.x, 0));  // by columns
     Affine map;
     map.linear = along + c * (Mat3(1.0) - along) + s * across;
-    return place(call, map);
+    return transform(call, map);
 }
 
 // In the plane through the origin with this normal.
 SceneResult mirror(SceneCall& call) {
     call.at_most(2);
     need_movable(call.argument(0), call.name);
-    const Vec3 n = direction(call.argument(1), call.place("normal"));
+    const Vec3 n = direction(call.argument(1), call.location("normal"));
     Affine map;
     map.linear = Mat3(1.0) - 2.0 * glm::outerProduct(n, n);
-    return place(call, map);
+    return transform(call, map);
 }
 
 SceneResult param(SceneCall& call) {
     call.at_most(2);
-    return call.builder.parameter(text(call.argument(0), call.place("name")), call.argument(1));
+    return call.builder.parameter(text(call.argument(0), call.location("name")), call.argument(1));
 }
 
 }  // namespace
 
 const std::vector<SceneFunction>& shape_functions() {
-    using Place = SceneFunction::Place;
+    using Kind = SceneFunction::Kind;
     static const std::vector<SceneFunction> functions = {
-        {Place::global, "halfspace", "", half_space},
-        {Place::global, "cube", "", cube},
-        {Place::global, "box", "", box},
-        {Place::global, "convex", "", convex},
-        {Place::global, "prism", "", make_prism},
-        {Place::global, "rounded", "", rounded},
-        {Place::global, "convolved", "", convolved},
-        {Place::global, "sharp", "", sharp},
-        {Place::global, "param", "", param},
-        {Place::metamethod, "operator +", "__add", add},
-        {Place::metamethod, "operator *", "__mul", multiply},
-        {Place::metamethod, "operator -", "__sub", subtract},
-        {Place::metamethod, "operator |", "__bor", disjoin},
-        {Place::metamethod, "operator &", "__band", conjoin},
-        {Place::metamethod, "operator ~", "__bnot", complement},
-        {Place::method, "radius", "", radius},
-        {Place::method, "material", "", material},
-        {Place::method, "name", "", name},
-        {Place::method, "translate", "", translate},
-        {Place::method, "scale", "", scale},
-        {Place::method, "rotate", "", rotate},
-        {Place::method, "mirror", "", mirror},
+        {Kind::global, "halfspace", "", half_space},
+        {Kind::global, "cube", "", cube},
+        {Kind::global, "box", "", box},
+        {Kind::global, "convex", "", convex},
+        {Kind::global, "prism", "", make_prism},
+        {Kind::global, "rounded", "", rounded},
+        {Kind::global, "convolved", "", convolved},
+        {Kind::global, "sharp", "", sharp},
+        {Kind::global, "param", "", param},
+        {Kind::metamethod, "operator +", "__add", add},
+        {Kind::metamethod, "operator *", "__mul", multiply},
+        {Kind::metamethod, "operator -", "__sub", subtract},
+        {Kind::metamethod, "operator |", "__bor", disjoin},
+        {Kind::metamethod, "operator &", "__band", conjoin},
+        {Kind::metamethod, "operator ~", "__bnot", complement},
+        {Kind::method, "radius", "", radius},
+        {Kind::method, "material", "", material},
+        {Kind::method, "name", "", name},
+        {Kind::method, "translate", "", translate},
+        {Kind::method, "scale", "", scale},
+        {Kind::method, "rotate", "", rotate},
+        {Kind::method, "mirror", "", mirror},
     };
     return functions;
 }

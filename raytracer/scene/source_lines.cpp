@@ -88,9 +88,9 @@ int only_assignment(const std::vector<Token>& tokens, const std::string& name) {
 
 }  // namespace
 
-int line_of(const std::string& text, const std::string& place) {
+int line_of(const std::string& text, const std::string& location) {
     const std::vector<Token> tokens = Lexer(text).tokens();
-    std::string path = place;
+    std::string path = location;
     while (!path.empty()) {
         const std::size_t dot = path.rfind('.');
         std::string name = dot == std::string::npos ? path : path.substr(dot + 1);

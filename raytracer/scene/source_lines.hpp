@@ -4,8 +4,8 @@
 
 namespace deburr {
 
-/// The line that writes the field `place`, such as "camera.fov" or "solids[3]": the only `fov =`,
+/// The line that writes the field `location`, such as "camera.fov" or "solids[3]": the only `fov =`,
 /// else the only `camera =`, else the last `return`; 0 if there is none of these.
-int line_of(const std::string& text, const std::string& place);
+int line_of(const std::string& text, const std::string& location);
 
 }  // namespace deburr

@@ -51,37 +51,37 @@ public:
         V t, plane;
     };
 
-    HWY_INLINE M meeting(M rays, V lo, V hi, V negligible) const {
-        return but(both(rays, out_ - in_ > negligible), either(in_ > hi, out_ < lo));
+    HWY_INLINE M meeting(M rays, V lo, V hi, V t_tolerance) const {
+        return and_not(and_(rays, out_ - in_ > t_tolerance), or_(in_ > hi, out_ < lo));
     }
 
     // Of `rays`, which meet C.
-    HWY_INLINE Found first(M rays, V lo, V hi, V negligible) const {
+    HWY_INLINE Found first(M rays, V lo, V hi, V t_tolerance) const {
         const M entering = in_ > lo;
         const V start = select(entering, in_, lo);
-        const M alone = both(both(rays, entering), is_alone(plane_in_, start));
-        const M asked = but(rays, alone);
+        const M alone = and_(and_(rays, entering), is_alone(plane_in_, start));
+        const M asked = and_not(rays, alone);
         const Point p = at(start, asked);
-        const M inside = both(asked, p.P > level_);
+        const M inside = and_(asked, p.P > level_);
         Found f;
-        f.any = f.into = either(alone, both(inside, entering));
+        f.any = f.into = or_(alone, and_(inside, entering));
         f.t = start;
         f.plane = select(alone, plane_in_, if_sharp(plane_in_));
 
-        M search = but(asked, inside);  // from outside of C into it
+        M search = and_not(asked, inside);  // from outside of C into it
         V s = start, base = hn::Zero(d), sign = number(1), to = select(out_ < hi, out_, hi);
         Point at_s = p;
-        const M leaving = but(inside, entering);
+        const M leaving = and_not(inside, entering);
         M back = leaving;
         if (!none(leaving)) {
             const M here = out_ <= hi;
-            const M alone_out = both(both(leaving, here), is_alone(plane_out_, to));
-            back = but(leaving, alone_out);
+            const M alone_out = and_(and_(leaving, here), is_alone(plane_out_, to));
+            back = and_not(leaving, alone_out);
             const Point q = at(to, back);
-            const M still = both(back, q.P > level_);
-            const M out = either(alone_out, both(still, here));
-            back = but(back, still);
-            f.any = either(f.any, out);
+            const M still = and_(back, q.P > level_);
+            const M out = or_(alone_out, and_(still, here));
+            back = and_not(back, still);
+            f.any = or_(f.any, out);
             f.t = select(out, to, f.t);
             f.plane = select(alone_out, plane_out_, select(out, if_sharp(plane_out_), f.plane));
             // Mirrored: backwards from where it is outside again.
@@ -90,31 +90,31 @@ public:
             sign = select(back, number(-1), sign);
             at_s = {select(back, q.P, at_s.P), select(back, hn::Neg(q.slope), at_s.slope)};
             to = select(back, number(infinity), to);
-            search = either(search, back);
+            search = or_(search, back);
         }
         if (none(search)) return f;
-        const M rooted = newton(search, s, at_s, to, base, sign, negligible);
-        const M root_in = but(rooted, back);
-        f.any = either(f.any, either(root_in, back));
-        f.into = either(f.into, root_in);
+        const M rooted = newton(search, s, at_s, to, base, sign, t_tolerance);
+        const M root_in = and_not(rooted, back);
+        f.any = or_(f.any, or_(root_in, back));
+        f.into = or_(f.into, root_in);
         // Out of C always: where rounding hides the root, at the end.
         f.t = select(root_in, s, select(back, select(rooted, base - s, base), f.t));
-        f.plane = select(either(root_in, back), number(-1), f.plane);
+        f.plane = select(or_(root_in, back), number(-1), f.plane);
         return f;
     }
 
-    HWY_INLINE M any(M rays, V lo, V hi, V negligible) const {
+    HWY_INLINE M any(M rays, V lo, V hi, V t_tolerance) const {
         const V from = hn::Max(in_, lo), to = hn::Min(hi, out_);
-        const M inside = both(rays, at(number(0.5) * (from + to), rays).P > level_);
-        M found = both(inside, either(in_ > lo, out_ <= hi));
-        M asked = but(inside, found);
+        const M inside = and_(rays, at(number(0.5) * (from + to), rays).P > level_);
+        M found = and_(inside, or_(in_ > lo, out_ <= hi));
+        M asked = and_not(inside, found);
         if (!none(asked)) {
-            const M outside = both(asked, at(lo, asked).P <= level_);
-            asked = but(asked, outside);
-            found = either(found, either(outside, both(asked, at(hi, asked).P <= level_)));
+            const M outside = and_(asked, at(lo, asked).P <= level_);
+            asked = and_not(asked, outside);
+            found = or_(found, or_(outside, and_(asked, at(hi, asked).P <= level_)));
         }
-        const M search = but(rays, inside);
-        return none(search) ? found : either(found, both(search, first(search, lo, hi, negligible).any));
+        const M search = and_not(rays, inside);
+        return none(search) ? found : or_(found, and_(search, first(search, lo, hi, t_tolerance).any));
     }
 
 private:
@@ -122,12 +122,12 @@ private:
 
     HWY_INLINE void clip(V a, V b, int plane) {
         const V t = hn::Neg(a) / b, zero = hn::Zero(d);
-        const M later = both(b<zero, t> in_), sooner = both(b > zero, t < out_);
+        const M later = and_(b<zero, t> in_), sooner = and_(b > zero, t < out_);
         in_ = select(later, t, in_);
         plane_in_ = select(later, number(plane), plane_in_);
         out_ = select(sooner, t, out_);
         plane_out_ = select(sooner, number(plane), plane_out_);
-        const M never = both(b == zero, a > zero);
+        const M never = and_(b == zero, a > zero);
         in_ = select(never, number(infinity), in_);
         out_ = select(never, number(-infinity), out_);
     }
@@ -150,39 +150,38 @@ private:
 
     HWY_INLINE M is_alone(V plane, V t) const {
         M alone = plane < number(soft());
-        for (int i = 0; i < soft(); ++i)
-            alone = both(alone, either(plane == number(i), a_[i] + b_[i] * t <= number(-1)));
+        for (int i = 0; i < soft(); ++i) alone = and_(alone, or_(plane == number(i), a_[i] + b_[i] * t <= number(-1)));
         return alone;
     }
 
     // Moves s to the root, for those of `run` that have one before `to`: they are returned.
-    HWY_INLINE M newton(M run, V& s, Point p, V to, V base, V sign, V negligible) const {
+    HWY_INLINE M newton(M run, V& s, Point p, V to, V base, V sign, V t_tolerance) const {
         const V one = number(1), two = number(2), three = number(3), four = number(4), zero = hn::Zero(d);
-        M found = but(run, run);
-        for (int k = 0; k < most_newton_steps; ++k) {
-            const M there = both(run, p.P >= number(0.5 - rounding));
-            found = either(found, both(there, p.slope > zero));
-            run = both(but(run, there), p.slope > zero);
+        M found = and_not(run, run);
+        for (int k = 0; k < max_newton_steps; ++k) {
+            const M there = and_(run, p.P >= number(0.5 - rounding));
+            found = or_(found, and_(there, p.slope > zero));
+            run = and_(and_not(run, there), p.slope > zero);
             if (none(run)) return found;
             const V x = two * p.P;
             const V step = p.P * (three * (one - x * x)) / (p.slope * (one + x * (four + x)));
             s = select(run, s + step, s);
-            run = but(run, s > to);
-            const M close = both(
-                run, either(step <= negligible, number(2.25) * rates_ * p.P * step * step <= negligible * p.slope));
-            found = either(found, close);
-            run = but(run, close);
+            run = and_not(run, s > to);
+            const M close =
+                and_(run, or_(step <= t_tolerance, number(2.25) * rates_ * p.P * step * step <= t_tolerance * p.slope));
+            found = or_(found, close);
+            run = and_not(run, close);
             if (none(run)) return found;
             p = at(base + sign * s, run);
             p.slope = p.slope * sign;
         }
-        return either(found, run);
+        return or_(found, run);
     }
 
     int soft_;
     std::uint64_t& evaluations_;
     V level_, in_, out_, rates_, plane_in_, plane_out_;
-    V a_[N > 0 ? N : most_packet_factors], b_[N > 0 ? N : most_packet_factors];
+    V a_[N > 0 ? N : max_packet_factors], b_[N > 0 ? N : max_packet_factors];
 };
 
 template <int N, bool Any>
@@ -194,13 +193,13 @@ Lanes crossings_of(const ConvexView& density, const RayPacket& rays, Lanes lanes
         if (part == 0) continue;
         const Convex<N> convex(density, Rays(rays, first), evaluations);
         const V lo = hn::Load(d, spans.from + first), hi = hn::Load(d, spans.to + first);
-        const V negligible = number(8 * epsilon) * (number(scale) + hn::Abs(lo));
-        const M meeting = convex.meeting(mask_of(part), lo, hi, negligible);
+        const V t_tolerance = number(8 * epsilon) * (number(scale) + hn::Abs(lo));
+        const M meeting = convex.meeting(mask_of(part), lo, hi, t_tolerance);
         if (none(meeting)) continue;
         if constexpr (Any) {
-            crossed |= bits_of(convex.any(meeting, lo, hi, negligible)) << first;
+            crossed |= bits_of(convex.any(meeting, lo, hi, t_tolerance)) << first;
         } else {
-            const auto f = convex.first(meeting, lo, hi, negligible);
+            const auto f = convex.first(meeting, lo, hi, t_tolerance);
             hn::Store(f.t, d, found->t + first);
             hn::Store(f.plane, d, found->plane + first);
             crossed |= bits_of(f.any) << first;

@@ -24,9 +24,9 @@ const D d;
 
 HWY_INLINE V number(double x) { return hn::Set(d, x); }
 HWY_INLINE V select(M m, V a, V b) { return hn::IfThenElse(m, a, b); }
-HWY_INLINE M both(M a, M b) { return hn::And(a, b); }
-HWY_INLINE M either(M a, M b) { return hn::Or(a, b); }
-HWY_INLINE M but(M a, M b) { return hn::AndNot(b, a); }
+HWY_INLINE M and_(M a, M b) { return hn::And(a, b); }
+HWY_INLINE M or_(M a, M b) { return hn::Or(a, b); }
+HWY_INLINE M and_not(M a, M b) { return hn::AndNot(b, a); }
 HWY_INLINE bool none(M m) { return hn::AllFalse(d, m); }
 
 HWY_INLINE M mask_of(Lanes bits) {

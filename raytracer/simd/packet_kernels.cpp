@@ -19,15 +19,15 @@ namespace HWY_NAMESPACE {
 bool prepare(RayPacket& rays, double scale, double farthest) {
     bool far = false;
     for (std::size_t first = 0; first < RayPacket::size; first += hn::Lanes(d)) {
-        V reach = hn::Zero(d);
+        V coordinate_bound = hn::Zero(d);
         for (int k = 0; k < 3; ++k) {
             const V x = hn::Load(d, rays.direction[k] + first);
             const V inverse = select(hn::Abs(x) > number(1e-300), number(1) / x, hn::CopySign(number(1e300), x));
             hn::Store(inverse, d, rays.inverse[k] + first);
-            reach = hn::Max(reach, hn::Abs(hn::Load(d, rays.origin[k] + first)));
+            coordinate_bound = hn::Max(coordinate_bound, hn::Abs(hn::Load(d, rays.origin[k] + first)));
         }
-        hn::Store(number(scale) + reach, d, rays.reach + first);
-        far |= !none(reach > number(farthest));
+        hn::Store(number(scale) + coordinate_bound, d, rays.coordinate_bound + first);
+        far |= !none(coordinate_bound > number(farthest));
     }
     return far;
 }
@@ -58,13 +58,13 @@ Lanes enter(const Box& box, const RayPacket& rays, Lanes lanes, PacketEntry& ent
         const Span s(box, rays, first, hn::Load(d, rays.end + first));
         hn::Store(s.lo, d, entry.lo + first);
         hn::Store(s.hi, d, entry.hi + first);
-        M meets = both(s.lo <= s.hi, mask_of(part));
+        M meets = and_(s.lo <= s.hi, mask_of(part));
         V around[6];
         for (int k = 0; k < 3; ++k) {
             around[k + 3] = hn::Load(d, rays.direction[k] + first);
             around[k] = hn::Load(d, rays.origin[k] + first) + around[k + 3] * s.lo;
             // What is no number meets nothing, and must not be taken for the least or the most.
-            meets = both(meets, both(around[k] == around[k], around[k + 3] == around[k + 3]));
+            meets = and_(meets, and_(around[k] == around[k], around[k + 3] == around[k + 3]));
         }
         met |= bits_of(meets) << first;
         for (int k = 0; k < 6; ++k) {
@@ -73,22 +73,22 @@ Lanes enter(const Box& box, const RayPacket& rays, Lanes lanes, PacketEntry& ent
         }
     }
     for (int k = 0; k < 3; ++k) {
-        entry.least_point[k] = hn::GetLane(hn::MinOfLanes(d, least[k]));
-        entry.most_point[k] = hn::GetLane(hn::MaxOfLanes(d, most[k]));
-        entry.least_direction[k] = hn::GetLane(hn::MinOfLanes(d, least[k + 3]));
-        entry.most_direction[k] = hn::GetLane(hn::MaxOfLanes(d, most[k + 3]));
+        entry.min_point[k] = hn::GetLane(hn::MinOfLanes(d, least[k]));
+        entry.max_point[k] = hn::GetLane(hn::MaxOfLanes(d, most[k]));
+        entry.min_direction[k] = hn::GetLane(hn::MinOfLanes(d, least[k + 3]));
+        entry.max_direction[k] = hn::GetLane(hn::MaxOfLanes(d, most[k + 3]));
     }
     return met;
 }
 
-double longest_way(const RayPacket& rays, Lanes lanes, const PacketEntry& entry) {
+double longest_distance(const RayPacket& rays, Lanes lanes, const PacketEntry& entry) {
     V most = hn::Zero(d);
     for (std::size_t first = 0; first < RayPacket::size; first += hn::Lanes(d)) {
         const Lanes part = part_of(lanes, first);
         if (part == 0) continue;
-        const V way =
+        const V length =
             hn::Min(hn::Load(d, entry.hi + first), hn::Load(d, rays.end + first)) - hn::Load(d, entry.lo + first);
-        most = select(mask_of(part), hn::Max(most, way), most);
+        most = select(mask_of(part), hn::Max(most, length), most);
     }
     return hn::GetLane(hn::MaxOfLanes(d, most));
 }
@@ -100,11 +100,11 @@ Lanes spans_in_cell(const Box& cell, const RayPacket& rays, Lanes lanes, PacketS
         if (part == 0) continue;
         const V t_max = hn::Load(d, rays.t_max + first);
         const Span s(cell, rays, first, t_max);
-        const V pad = number(4 * epsilon) * (hn::Load(d, rays.reach + first) + hn::Min(s.lo, s.hi));
+        const V pad = number(4 * epsilon) * (hn::Load(d, rays.coordinate_bound + first) + hn::Min(s.lo, s.hi));
         const V from = hn::Max(s.lo - pad, hn::Zero(d)), to = hn::Min(s.hi + pad, t_max);
         hn::Store(from, d, spans.from + first);
         hn::Store(to, d, spans.to + first);
-        in |= (bits_of(both(from <= to, from <= hn::Load(d, rays.end + first))) & part) << first;
+        in |= (bits_of(and_(from <= to, from <= hn::Load(d, rays.end + first))) & part) << first;
     }
     return in;
 }
@@ -120,7 +120,7 @@ Lanes plane_crossings(const AlphaPlane& plane, const RayPacket& rays, Lanes lane
         hn::Store(t, d, found.t + first);
         hn::Store(number(-1), d, found.plane + first);
         const M within =
-            both(both(t >= hn::Load(d, spans.from + first), t <= hn::Load(d, spans.to + first)), t < number(infinity));
+            and_(and_(t >= hn::Load(d, spans.from + first), t <= hn::Load(d, spans.to + first)), t < number(infinity));
         crossed |= (bits_of(within) & part) << first;
     }
     return crossed;
@@ -131,13 +131,13 @@ Lanes convex_crossings(const ConvexView& density, const RayPacket& rays, Lanes l
     return crossings_of<false>(density, rays, lanes, spans, scale, &found, evaluations);
 }
 
-Lanes convex_occlusions(const ConvexView& density, const RayPacket& rays, Lanes lanes, const PacketSpans& spans,
-                        double scale, std::uint64_t& evaluations) {
+Lanes convex_any_crossings(const ConvexView& density, const RayPacket& rays, Lanes lanes, const PacketSpans& spans,
+                           double scale, std::uint64_t& evaluations) {
     return crossings_of<true>(density, rays, lanes, spans, scale, nullptr, evaluations);
 }
 
-const PacketFunctions functions{prepare,          enter, longest_way, spans_in_cell, plane_crossings, convex_crossings,
-                                convex_occlusions};
+const PacketFunctions functions{
+    prepare, enter, longest_distance, spans_in_cell, plane_crossings, convex_crossings, convex_any_crossings};
 
 }  // namespace HWY_NAMESPACE
 }  // namespace deburr

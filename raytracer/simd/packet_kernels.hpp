@@ -1,6 +1,5 @@
-// Where the rays of a packet cross a piece: what Pieces and bounds/convex_density.hpp compute of one ray, of
-// as many at a time as the processor's vectors hold. The instructions are chosen when the program starts
-// (Highway).
+// Where the rays of a packet cross a primitive: what CellPrimitives and bounds/convex_density.hpp compute of one ray,
+// of as many at a time as the processor's vectors hold. The instructions are chosen when the program starts (Highway).
 //
 // Each ray gets the same bits as alone, with any instructions: the same operations in the same order, none
 // fused. So a picture depends neither on the machine nor on which rays travel together.
@@ -15,10 +14,10 @@ namespace deburr {
 /// Where rays of a packet are in a box, and what lies around them where they enter it.
 struct PacketEntry {
     alignas(64) double lo[RayPacket::size], hi[RayPacket::size];
-    Vec3 least_point, most_point, least_direction, most_direction;
+    Vec3 min_point, max_point, min_direction, max_direction;
 };
 
-/// Where rays of a packet are in a cell, with its walls' rounding added: what a piece there is asked for.
+/// Where rays of a packet are in a cell, with its walls' rounding added: what a primitive there is asked for.
 struct PacketSpans {
     alignas(64) double from[RayPacket::size], to[RayPacket::size];
 };
@@ -30,7 +29,7 @@ struct PacketCrossings {
 };
 
 /// Soft factors beyond these are left to single rays.
-constexpr int most_packet_factors = 8;
+constexpr int max_packet_factors = 8;
 
 /// What there is for each set of instructions.
 struct PacketFunctions {
@@ -41,7 +40,7 @@ struct PacketFunctions {
     Lanes (*enter)(const Box& box, const RayPacket& rays, Lanes lanes, PacketEntry& entry);
 
     /// How far the farthest of `lanes` goes on in the box, from where it enters.
-    double (*longest_way)(const RayPacket& rays, Lanes lanes, const PacketEntry& entry);
+    double (*longest_distance)(const RayPacket& rays, Lanes lanes, const PacketEntry& entry);
 
     /// Of `lanes`, the rays that are in the cell before their end.
     Lanes (*spans_in_cell)(const Box& cell, const RayPacket& rays, Lanes lanes, PacketSpans& spans);
@@ -50,14 +49,14 @@ struct PacketFunctions {
     Lanes (*plane_crossings)(const AlphaPlane& plane, const RayPacket& rays, Lanes lanes, const PacketSpans& spans,
                              PacketCrossings& found);
 
-    /// first_crossing() for each of `lanes`, whose spans must be finite, with negligible = 8 ε (scale + |from|); those
+    /// first_crossing() for each of `lanes`, whose spans must be finite, with t_tolerance = 8 ε (scale + |from|); those
     /// that have one.
     Lanes (*convex_crossings)(const ConvexView& density, const RayPacket& rays, Lanes lanes, const PacketSpans& spans,
                               double scale, PacketCrossings& found, std::uint64_t& evaluations);
 
     /// any_crossing() likewise.
-    Lanes (*convex_occlusions)(const ConvexView& density, const RayPacket& rays, Lanes lanes, const PacketSpans& spans,
-                               double scale, std::uint64_t& evaluations);
+    Lanes (*convex_any_crossings)(const ConvexView& density, const RayPacket& rays, Lanes lanes,
+                                  const PacketSpans& spans, double scale, std::uint64_t& evaluations);
 };
 
 struct PacketInstructions {

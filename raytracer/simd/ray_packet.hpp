@@ -22,8 +22,8 @@ struct RayPacket {
     alignas(64) double origin[3][size], direction[3][size];
     alignas(64) double t_max[size], end[size];  // as far as is asked for; as far as counts still
     // Of these, by prepare():
-    alignas(64) double inverse[3][size];  // reciprocal(direction)
-    alignas(64) double reach[size];       // of coordinates that are added
+    alignas(64) double inverse[3][size];        // reciprocal(direction)
+    alignas(64) double coordinate_bound[size];  // of coordinates that are added
 };
 
 }  // namespace deburr

@@ -81,17 +81,18 @@ std::shared_ptr<const SolidTree> without_tiny_radii(std::shared_ptr<const SolidT
 
 class Builder {
 public:
-    Builder(Search search, double least_scale) : search_(search), least_scale_(least_scale) {}
+    Builder(RootMethod root_method, double min_scale) : root_method_(root_method), min_scale_(min_scale) {}
 
     BspTree run(const std::vector<Solid>& solids) {
         std::vector<Item> items;
         Box bounds;
-        double reach = 0;
+        double coordinate_bound = 0;
         for (std::size_t i = 0; i < solids.size(); ++i) {
             auto tree = std::make_shared<const SolidTree>(flatten(solids[i]));
             for (const SolidLeaf& leaf : tree->leaves) {
                 bsp_.half_spaces += leaf.density.half_spaces.size();
-                for (const HalfSpace& h : leaf.density.half_spaces) reach = std::max(reach, std::abs(h.offset));
+                for (const HalfSpace& h : leaf.density.half_spaces)
+                    coordinate_bound = std::max(coordinate_bound, std::abs(h.offset));
                 if (!leaf.field) continue;
                 bsp_.half_spaces += std::size_t(leaf.field->size());
                 const Box extent = leaf.field->extent();
@@ -102,17 +103,17 @@ public:
             if (box.finite()) bounds = hull(bounds, box);
             items.push_back({int(i), tree, box, {}});
         }
-        if (bounds.empty()) bounds = {Vec3(-reach - 1), Vec3(reach + 1)};
-        const double scale = std::max({least_scale_, largest(bounds.lo), largest(bounds.hi)});
+        if (bounds.empty()) bounds = {Vec3(-coordinate_bound - 1), Vec3(coordinate_bound + 1)};
+        const double scale = std::max({min_scale_, largest(bounds.lo), largest(bounds.hi)});
         bsp_.tolerances.scale = scale > 0 ? scale : 1;
         margin_ = bsp_.tolerances.margin();
         const Vec3 sides = bounds.hi - bounds.lo;
         const double size = std::max({sides.x, sides.y, sides.z});
         world_ = inflated(bounds, 0.05 * size + margin_);
         smallest_ = 1e-5 * size;
-        deepest_ = 16 + int(2.5 * std::log2(1.0 + double(bsp_.half_spaces)));
+        max_depth_ = 16 + int(2.5 * std::log2(1.0 + double(bsp_.half_spaces)));
         for (Item& item : items) {
-            item.tree = without_tiny_radii(std::move(item.tree), bsp_.tolerances.least_radius());
+            item.tree = without_tiny_radii(std::move(item.tree), bsp_.tolerances.min_radius());
             item.size = local_size(*item.tree, Box::everything());
         }
         bsp_.boxes.assign(solids.size(), Box::everything());
@@ -160,7 +161,7 @@ private:
         }
         if (half_spaces <= part_gone * patient.half_spaces) patient = {patience, double(half_spaces)};
         Split best;
-        if (depth < deepest_ && here > cost_node + cost_flat) {
+        if (depth < max_depth_ && here > cost_node + cost_flat) {
             best = half_spaces <= few_half_spaces || items.size() == 1 ? best_local(cell, items)
                                                                        : best_of_boxes(cell, items);
         }
@@ -262,27 +263,27 @@ private:
     }
 
     Split best_local(const Box& cell, const std::vector<Item>& items) const {
-        struct Look {
+        struct Trial {
             int axis;
             double position, sum[2];
         };
-        std::vector<Look> looks;
+        std::vector<Trial> trials;
         for (int axis = 0; axis < 3; ++axis)
-            for (const double position : candidates(cell, items, axis)) looks.push_back({axis, position, {0, 0}});
-        const auto look = [&](std::size_t i) {
+            for (const double position : candidates(cell, items, axis)) trials.push_back({axis, position, {0, 0}});
+        const auto evaluate = [&](std::size_t i) {
             for (const bool upper : {false, true}) {
-                const Box part = side(cell, looks[i].axis, looks[i].position, upper);
-                for (const Item& item : items) looks[i].sum[upper] += cost(size_in(item, part));
+                const Box part = side(cell, trials[i].axis, trials[i].position, upper);
+                for (const Item& item : items) trials[i].sum[upper] += cost(size_in(item, part));
             }
         };
         int half_spaces = 0;
         for (const Item& item : items) half_spaces += item.size.half_spaces;
         if (half_spaces < half_spaces_of_a_task)
-            for (std::size_t i = 0; i < looks.size(); ++i) look(i);
+            for (std::size_t i = 0; i < trials.size(); ++i) evaluate(i);
         else
-            tbb::parallel_for(std::size_t(0), looks.size(), look);
+            tbb::parallel_for(std::size_t(0), trials.size(), evaluate);
         Split best;
-        for (const Look& l : looks) consider(best, cell, l.axis, l.position, l.sum[0], l.sum[1]);
+        for (const Trial& l : trials) consider(best, cell, l.axis, l.position, l.sum[0], l.sum[1]);
         return best;
     }
 
@@ -320,7 +321,7 @@ private:
         const Box known = inflated(cell, margin_);
         for (const Item& item : items) {
             const SolidTree local = prune(*item.tree, known);
-            LocalSolid solid(item.solid, local, known, bsp_.tolerances, search_);
+            LocalSolid solid(item.solid, local, known, bsp_.tolerances, root_method_);
             if (solid.has_surface()) to.locals.push_back(std::move(solid));
         }
     } catch (const std::bad_alloc&) {
@@ -329,18 +330,18 @@ private:
         to.error = std::current_exception();  // the first one in the tree's order is thrown
     }
 
-    Search search_;
-    double least_scale_;
+    RootMethod root_method_;
+    double min_scale_;
     BspTree bsp_;
     Box world_;
     double margin_ = 0, smallest_ = 0;
-    int deepest_ = 0;
+    int max_depth_ = 0;
 };
 
 }  // namespace
 
-BspTree build_bsp(const std::vector<Solid>& solids, Search search, double least_scale) {
-    return Builder(search, least_scale).run(solids);
+BspTree build_bsp(const std::vector<Solid>& solids, RootMethod root_method, double min_scale) {
+    return Builder(root_method, min_scale).run(solids);
 }
 
 }  // namespace deburr

@@ -33,7 +33,8 @@ struct BspTree {
     int depth = 0;
 };
 
-/// `least_scale`: of its tolerances, where rays come with larger coordinates than the solids have.
-BspTree build_bsp(const std::vector<Solid>& solids, Search search = Search::where_needed, double least_scale = 0);
+/// `min_scale`: of its tolerances, where rays come with larger coordinates than the solids have.
+BspTree build_bsp(const std::vector<Solid>& solids, RootMethod root_method = RootMethod::where_needed,
+                  double min_scale = 0);
 
 }  // namespace deburr

@@ -12,68 +12,69 @@ CrossingScratch& scratch() {
 
 }  // namespace
 
-void Pieces::add(LocalSolid&& local, const Box& box, int solid) {
-    Piece p;
+void CellPrimitives::add(LocalSolid&& local, const Box& box, int solid) {
+    CellPrimitive p;
     p.box = box;
     p.solid = solid;
     const auto convex = local.convex();
     if (!convex || convex->density.planes.empty()) {
-        p.kind = Piece::Kind::general;
-        p.first = std::uint32_t(locals_.size());
+        p.kind = CellPrimitive::Kind::general;
+        p.index = std::uint32_t(locals_.size());
         locals_.push_back(std::move(local));
     } else {
         const ConvexDensity& d = convex->density;
-        p.first = std::uint32_t(planes_.size());
+        p.index = std::uint32_t(planes_.size());
         p.material = convex->material;
         if (d.planes.size() == 1) {
-            p.kind = Piece::Kind::plane;
+            p.kind = CellPrimitive::Kind::plane;
             // Unit, and outward.
             const double length = glm::length(d.planes[0].slope) * (d.complement ? -1 : 1);
             planes_.push_back({d.planes[0].slope / length, d.planes[0].base / length});
         } else {
-            p.kind = Piece::Kind::convex;
+            p.kind = CellPrimitive::Kind::convex;
             p.sharp = std::uint8_t(d.sharp);
             p.soft = std::uint8_t(d.planes.size()) - p.sharp;
             p.complement = d.complement;
             planes_.insert(planes_.end(), d.planes.begin(), d.planes.end());
         }
     }
-    pieces_.push_back(p);
+    primitives_.push_back(p);
 }
 
-std::size_t Pieces::half_spaces(std::size_t i) const {
-    const Piece& p = pieces_[i];
+std::size_t CellPrimitives::half_spaces(std::size_t i) const {
+    const CellPrimitive& p = primitives_[i];
     switch (p.kind) {
-        case Piece::Kind::plane: return 1;
-        case Piece::Kind::convex: return std::size_t(p.soft) + p.sharp;
-        default: return locals_[p.first].half_spaces();
+        case CellPrimitive::Kind::plane: return 1;
+        case CellPrimitive::Kind::convex: return std::size_t(p.soft) + p.sharp;
+        default: return locals_[p.index].half_spaces();
     }
 }
 
-Lanes Pieces::crossings(const Piece& p, const RayPacket& rays, Lanes lanes, const PacketSpans& spans,
-                        PacketCrossings& found, TraceCounters& counters) const {
-    if (p.kind == Piece::Kind::convex)
+Lanes CellPrimitives::crossings(const CellPrimitive& p, const RayPacket& rays, Lanes lanes, const PacketSpans& spans,
+                                PacketCrossings& found, TraceCounters& counters) const {
+    if (p.kind == CellPrimitive::Kind::convex)
         return packet_functions.convex_crossings(view(p), rays, lanes, spans, tolerances_.scale, found,
                                                  counters.evaluations);
-    const Lanes crossed = packet_functions.plane_crossings(planes_[p.first], rays, lanes, spans, found);
+    const Lanes crossed = packet_functions.plane_crossings(planes_[p.index], rays, lanes, spans, found);
     counters.flat_hits += std::uint64_t(__builtin_popcount(crossed));
     return crossed;
 }
 
-Lanes Pieces::occlusions(const Piece& p, const RayPacket& rays, Lanes lanes, const PacketSpans& spans,
-                         TraceCounters& counters) const {
-    if (p.kind == Piece::Kind::convex)
-        return packet_functions.convex_occlusions(view(p), rays, lanes, spans, tolerances_.scale, counters.evaluations);
+Lanes CellPrimitives::any_crossings(const CellPrimitive& p, const RayPacket& rays, Lanes lanes,
+                                    const PacketSpans& spans, TraceCounters& counters) const {
+    if (p.kind == CellPrimitive::Kind::convex)
+        return packet_functions.convex_any_crossings(view(p), rays, lanes, spans, tolerances_.scale,
+                                                     counters.evaluations);
     PacketCrossings found;
     return crossings(p, rays, lanes, spans, found, counters);
 }
 
-SurfaceCrossing Pieces::general_crossing(const Piece& p, const Vec3& origin, const Vec3& direction, double t0,
-                                         double t1, bool any, TraceCounters& counters) const {
+SurfaceCrossing CellPrimitives::general_crossing(const CellPrimitive& p, const Vec3& origin, const Vec3& direction,
+                                                 double t0, double t1, bool any, TraceCounters& counters) const {
     CrossingScratch& memory = scratch();
     memory.criterion = criterion_;
     memory.counters = {};
-    const SurfaceCrossing c = locals_[p.first].first_crossing(origin, direction, t0, t1, any, memory);
+    const SurfaceCrossing c = locals_[p.index].first_crossing(origin, direction, t0, t1, any, memory);
     counters.flat_hits += memory.counters.flat;
     counters.segments += memory.counters.roots.segments;
     counters.splits += memory.counters.roots.splits;
@@ -81,9 +82,10 @@ SurfaceCrossing Pieces::general_crossing(const Piece& p, const Vec3& origin, con
     return c;
 }
 
-Vec3 Pieces::normal(std::size_t i, const ConvexCrossing& crossing, const Vec3& origin, const Vec3& direction) const {
-    const Piece& p = pieces_[i];
-    if (p.kind == Piece::Kind::plane) return planes_[p.first].slope;
+Vec3 CellPrimitives::normal(std::size_t i, const ConvexCrossing& crossing, const Vec3& origin,
+                            const Vec3& direction) const {
+    const CellPrimitive& p = primitives_[i];
+    if (p.kind == CellPrimitive::Kind::plane) return planes_[p.index].slope;
     const Vec3 n = surface_normal(view(p), crossing, origin + direction * crossing.t);
     // It leaves the solid, so it is against a ray that enters.
     return (glm::dot(n, direction) < 0) == crossing.entering ? n : -n;
@@ -97,11 +99,11 @@ struct Extent {
     double lo, hi;
 };
 
-// Of slope·x without axis `but` (−1: with all).
-Extent extent(Vec3 slope, const Box& box, int but) {
+// Of slope·x without axis `skipped_axis` (−1: with all).
+Extent extent(Vec3 slope, const Box& box, int skipped_axis) {
     Extent e{0, 0};
     for (int k = 0; k < 3; ++k) {
-        if (k == but || slope[k] == 0) continue;
+        if (k == skipped_axis || slope[k] == 0) continue;
         const double a = slope[k] * box.lo[k], b = slope[k] * box.hi[k];
         e.lo += std::min(a, b);
         e.hi += std::max(a, b);
@@ -109,8 +111,8 @@ Extent extent(Vec3 slope, const Box& box, int but) {
     return e;
 }
 
-// Cuts off what lies where slope·x + base > 0; if `both`, also where it is < 0.
-void cut(Box& box, const AlphaPlane& p, bool both) {
+// Cuts off what lies where slope·x + base > 0; if `two_sided`, also where it is < 0.
+void cut(Box& box, const AlphaPlane& p, bool two_sided) {
     for (int k = 0; k < 3; ++k) {
         const double s = p.slope[k];
         if (s == 0) continue;
@@ -118,7 +120,7 @@ void cut(Box& box, const AlphaPlane& p, bool both) {
         const double most = (-p.base - others.lo) / s, least = (-p.base - others.hi) / s;
         if (std::isfinite(most))
             (s > 0 ? box.hi[k] : box.lo[k]) = s > 0 ? std::min(box.hi[k], most) : std::max(box.lo[k], most);
-        if (both && std::isfinite(least))
+        if (two_sided && std::isfinite(least))
             (s > 0 ? box.lo[k] : box.hi[k]) = s > 0 ? std::max(box.lo[k], least) : std::min(box.hi[k], least);
     }
 }
@@ -152,14 +154,14 @@ void cut_within(Box& box, ConvexView d) {
 
 }  // namespace
 
-Box Pieces::surface_box(std::size_t i, double margin) const {
-    const Piece& p = pieces_[i];
+Box CellPrimitives::surface_box(std::size_t i, double margin) const {
+    const CellPrimitive& p = primitives_[i];
     // A ray looks as far as rounding beyond the cell's walls.
     const Box cell = inflated(p.box, margin);
     Box box = cell;
-    if (p.kind == Piece::Kind::plane) {
-        cut(box, planes_[p.first], true);
-    } else if (p.kind == Piece::Kind::convex) {
+    if (p.kind == CellPrimitive::Kind::plane) {
+        cut(box, planes_[p.index], true);
+    } else if (p.kind == CellPrimitive::Kind::convex) {
         const ConvexView d = view(p);
         constexpr int rounds = 2;
         for (int round = 0; round < rounds; ++round) {

@@ -1,6 +1,6 @@
-// A piece of one solid's surface: what may be crossed of it in one cell, laid out to be crossed fast.
+// A primitive of one solid's surface: what may be crossed of it in one cell, laid out to be crossed fast.
 //
-// Most pieces are a plane or a product of half-spaces (bounds/convex_density.hpp), whose numbers lie
+// Most primitives are a plane or a product of half-spaces (bounds/convex_density.hpp), whose numbers lie
 // side by side with those of their neighbours. What is neither is a LocalSolid.
 #pragma once
 #include <cstdint>
@@ -13,69 +13,70 @@
 
 namespace deburr {
 
-struct Piece {
+struct CellPrimitive {
     enum class Kind : std::uint8_t { plane, convex, general };
 
-    Box box;                  // the cell; beyond it the piece is not valid
-    std::uint32_t first = 0;  // in Pieces::planes; general: in Pieces::locals
+    Box box;                  // the cell; beyond it the primitive is not valid
+    std::uint32_t index = 0;  // in CellPrimitives::planes; general: in CellPrimitives::locals
     std::int32_t solid = 0, material = 0;
     std::uint8_t soft = 0, sharp = 0;  // factors
     Kind kind = Kind::plane;
     bool complement = false;
 };
-static_assert(sizeof(Piece) == 64);  // a cache line
+static_assert(sizeof(CellPrimitive) == 64);  // a cache line
 
-class Pieces {
+class CellPrimitives {
 public:
-    Pieces() = default;
-    Pieces(const Tolerances& tolerances, Criterion criterion) : tolerances_(tolerances), criterion_(criterion) {}
+    CellPrimitives() = default;
+    CellPrimitives(const Tolerances& tolerances, Criterion criterion)
+        : tolerances_(tolerances), criterion_(criterion) {}
 
     /// `box`: the cell; `solid`: the number of its solid here.
     void add(LocalSolid&& local, const Box& box, int solid);
 
-    std::size_t size() const { return pieces_.size(); }
-    const Piece& operator[](std::size_t i) const { return pieces_[i]; }
+    std::size_t size() const { return primitives_.size(); }
+    const CellPrimitive& operator[](std::size_t i) const { return primitives_[i]; }
     std::size_t half_spaces(std::size_t i) const;
 
-    /// Where the line of a ray meets the plane that piece p is; no number, or infinite, if it does not.
-    double plane_crossing(const Piece& p, const Vec3& origin, const Vec3& direction) const {
-        const AlphaPlane& plane = planes_[p.first];
+    /// Where the line of a ray meets the plane that primitive p is; no number, or infinite, if it does not.
+    double plane_crossing(const CellPrimitive& p, const Vec3& origin, const Vec3& direction) const {
+        const AlphaPlane& plane = planes_[p.index];
         return -(glm::dot(plane.slope, origin) + plane.base) / glm::dot(plane.slope, direction);
     }
-    /// First crossing of a convex piece in [t0, t1]; whether there is one.
-    ConvexCrossing convex_crossing(const Piece& p, const Vec3& origin, const Vec3& direction, double t0, double t1,
-                                   TraceCounters& counters) const {
+    /// First crossing of a convex primitive in [t0, t1]; whether there is one.
+    ConvexCrossing convex_crossing(const CellPrimitive& p, const Vec3& origin, const Vec3& direction, double t0,
+                                   double t1, TraceCounters& counters) const {
         return first_crossing(view(p), origin, direction, t0, t1, tolerances_.along(t0), counters.evaluations);
     }
-    bool crosses_convex(const Piece& p, const Vec3& origin, const Vec3& direction, double t0, double t1,
+    bool crosses_convex(const CellPrimitive& p, const Vec3& origin, const Vec3& direction, double t0, double t1,
                         TraceCounters& counters) const {
         return any_crossing(view(p), origin, direction, t0, t1, tolerances_.along(t0), counters.evaluations);
     }
-    /// Whether packets may ask for piece i.
+    /// Whether packets may ask for primitive i.
     bool for_packets(std::size_t i) const {
-        const Piece& p = pieces_[i];
-        return p.kind == Piece::Kind::plane ||
-               (p.kind == Piece::Kind::convex && p.soft <= most_packet_factors && p.box.finite());
+        const CellPrimitive& p = primitives_[i];
+        return p.kind == CellPrimitive::Kind::plane ||
+               (p.kind == CellPrimitive::Kind::convex && p.soft <= max_packet_factors && p.box.finite());
     }
-    /// First crossings of rays of a packet with such a piece, in their spans; those that have one.
-    Lanes crossings(const Piece& p, const RayPacket& rays, Lanes lanes, const PacketSpans& spans,
+    /// First crossings of rays of a packet with such a primitive, in their spans; those that have one.
+    Lanes crossings(const CellPrimitive& p, const RayPacket& rays, Lanes lanes, const PacketSpans& spans,
                     PacketCrossings& found, TraceCounters& counters) const;
     /// Those that cross it.
-    Lanes occlusions(const Piece& p, const RayPacket& rays, Lanes lanes, const PacketSpans& spans,
-                     TraceCounters& counters) const;
+    Lanes any_crossings(const CellPrimitive& p, const RayPacket& rays, Lanes lanes, const PacketSpans& spans,
+                        TraceCounters& counters) const;
     /// First crossing of a general one; `any`: that there is one will do, and its t means nothing.
-    SurfaceCrossing general_crossing(const Piece& p, const Vec3& origin, const Vec3& direction, double t0, double t1,
-                                     bool any, TraceCounters& counters) const;
-    /// Unit normal, out of the solid, of piece i: a plane, or convex.
+    SurfaceCrossing general_crossing(const CellPrimitive& p, const Vec3& origin, const Vec3& direction, double t0,
+                                     double t1, bool any, TraceCounters& counters) const;
+    /// Unit normal, out of the solid, of primitive i: a plane, or convex.
     Vec3 normal(std::size_t i, const ConvexCrossing& crossing, const Vec3& origin, const Vec3& direction) const;
 
-    /// A box around what can be crossed of piece i, in its cell or this much beyond, with as much to spare.
+    /// A box around what can be crossed of primitive i, in its cell or this much beyond, with as much to spare.
     Box surface_box(std::size_t i, double margin) const;
 
 private:
-    ConvexView view(const Piece& p) const { return {&planes_[p.first], p.soft, p.sharp, p.complement}; }
+    ConvexView view(const CellPrimitive& p) const { return {&planes_[p.index], p.soft, p.sharp, p.complement}; }
 
-    std::vector<Piece> pieces_;
+    std::vector<CellPrimitive> primitives_;
     std::vector<AlphaPlane> planes_;
     std::vector<LocalSolid> locals_;
     Tolerances tolerances_;

@@ -18,15 +18,15 @@ public:
     Vicinity() = default;
     /// `around`: all bounded surfaces of a space, or empty; the scales are those of its BSPs' tolerances, the least of
     /// those that hold anything.
-    Vicinity(const Box& around, double largest_scale, double least_scale) {
-        double reach = largest_scale;
-        radius_ = 2 * reach;
+    Vicinity(const Box& around, double largest_scale, double min_scale) {
+        double coordinate_bound = largest_scale;
+        radius_ = 2 * coordinate_bound;
         if (!around.empty()) {
-            reach = std::max({reach, largest(around.lo), largest(around.hi)});
+            coordinate_bound = std::max({coordinate_bound, largest(around.lo), largest(around.hi)});
             middle_ = 0.5 * (around.lo + around.hi);
             radius_ = 0.5 * glm::length(around.hi - around.lo);
         }
-        farthest_ = std::max(nearest_far * reach, surely_near * std::min(reach, least_scale));
+        farthest_ = std::max(nearest_far * coordinate_bound, surely_near * std::min(coordinate_bound, min_scale));
     }
 
     /// Rays that begin beyond, by their largest coordinate, may have to be moved.
@@ -37,8 +37,8 @@ public:
     /// does not, before it is nearest to its middle. 0: the ray begins near the space, or leads away from it.
     double start(const Ray& ray) const {
         if (!is_far(ray.origin)) return 0;
-        const double clear = radius_ + 16 * epsilon * largest(ray.origin);
-        const double start = glm::dot(middle_ - ray.origin, ray.direction) - clear;
+        const double clearance = radius_ + 16 * epsilon * largest(ray.origin);
+        const double start = glm::dot(middle_ - ray.origin, ray.direction) - clearance;
         return start > 0 && start < infinity ? start : 0;
     }
 

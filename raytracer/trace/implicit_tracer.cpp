@@ -9,43 +9,43 @@ namespace {
 
 // What is placed in a space. It sees the ray with a unit direction of its own, so that tolerances mean
 // there what they mean here; distances along it are longer by `rate`.
-class Placed final : public Others {
+class PrototypeInstances final : public InstanceTracer {
 public:
-    Placed(const Spaces& all, const Space& space) : all_(all), space_(space) {}
+    PrototypeInstances(const Prototypes& all, const Prototype& prototype) : all_(all), prototype_(prototype) {}
 
-    FoundSurface find(std::uint32_t number, const Ray& ray, double t_max, double end,
-                      TraceCounters& counters) const override;
-    bool any(std::uint32_t number, const Ray& ray, double t_max, TraceCounters& counters) const override;
-    void find_together(std::uint32_t number, const SeveralRays& rays, FoundSurface* found,
-                       TraceCounters& counters) const override;
-    Lanes any_together(std::uint32_t number, const SeveralRays& rays, TraceCounters& counters) const override;
+    FoundSurface closest_hit(std::uint32_t number, const Ray& ray, double t_max, double end,
+                             TraceCounters& counters) const override;
+    bool any_hit(std::uint32_t number, const Ray& ray, double t_max, TraceCounters& counters) const override;
+    void closest_hit_packet(std::uint32_t number, const RayBatch& rays, FoundSurface* found,
+                            TraceCounters& counters) const override;
+    Lanes any_hit_packet(std::uint32_t number, const RayBatch& rays, TraceCounters& counters) const override;
 
 private:
     struct Entered;
 
-    const Spaces& all_;
-    const Space& space_;
+    const Prototypes& all_;
+    const Prototype& prototype_;
 };
 
 // A placement that rays enter.
-struct Placed::Entered {
-    Entered(const Placed& around, std::uint32_t number, std::size_t rays, TraceCounters& counters)
-        : p(around.space_.placements[number]),
-          space(around.all_[std::size_t(p.space)]),
-          bsp(space.bsp),
-          others(around.all_, space) {
-        counters.placements += rays;
+struct PrototypeInstances::Entered {
+    Entered(const PrototypeInstances& around, std::uint32_t number, std::size_t rays, TraceCounters& counters)
+        : p(around.prototype_.instances[number]),
+          prototype(around.all_[std::size_t(p.prototype)]),
+          bsp(prototype.bsp),
+          instances(around.all_, prototype) {
+        counters.instances += rays;
     }
 
-    const Placement& p;
-    const Space& space;
-    const BspTracer& bsp;
-    Placed others;
+    const Instance& p;
+    const Prototype& prototype;
+    const SurfaceTracer& bsp;
+    PrototypeInstances instances;
 };
 
 // What a ray is in the placed space.
 struct Inside {
-    Inside(const Placement& p, const Ray& from) {
+    Inside(const Instance& p, const Ray& from) {
         if (p.only_moved) {
             ray = {from.origin + p.into.shift, from.direction};
             return;
@@ -62,8 +62,8 @@ struct Inside {
 };
 
 // What several are.
-struct InsideTogether {
-    InsideTogether(const Placement& p, const SeveralRays& from) : count(from.size()) {
+struct InsideBatch {
+    InsideBatch(const Instance& p, const RayBatch& from) : count(from.size()) {
         for (std::size_t k = 0; k < count; ++k) {
             const Inside in(p, from.rays[k]);
             rays[k] = in.ray;
@@ -72,7 +72,7 @@ struct InsideTogether {
             ends[k] = in.end(from.end[k]);
         }
     }
-    SeveralRays several() const { return {{rays, count}, {t_max, count}, {ends, count}}; }
+    RayBatch batch() const { return {{rays, count}, {t_max, count}, {ends, count}}; }
 
     std::size_t count;
     Ray rays[RayPacket::size];
@@ -80,7 +80,7 @@ struct InsideTogether {
 };
 
 // What was found along `ray`, in the space around again.
-FoundSurface outside(FoundSurface found, const Placement& p, const Ray& ray, double rate) {
+FoundSurface outside(FoundSurface found, const Instance& p, const Ray& ray, double rate) {
     if (!(found.crossing.t < infinity)) return {};
     found.crossing.t = (found.start + found.crossing.t) / rate;
     found.start = 0;
@@ -92,36 +92,37 @@ FoundSurface outside(FoundSurface found, const Placement& p, const Ray& ray, dou
     return found;
 }
 
-FoundSurface Placed::find(std::uint32_t number, const Ray& ray, double t_max, double end,
-                          TraceCounters& counters) const {
+FoundSurface PrototypeInstances::closest_hit(std::uint32_t number, const Ray& ray, double t_max, double end,
+                                             TraceCounters& counters) const {
     const Entered e(*this, number, 1, counters);
     const Inside in(e.p, ray);
-    return outside(e.bsp.find(in.ray, t_max * in.rate, counters, &e.others, in.end(end)), e.p, ray, in.rate);
+    return outside(e.bsp.closest_hit(in.ray, t_max * in.rate, counters, &e.instances, in.end(end)), e.p, ray, in.rate);
 }
 
-bool Placed::any(std::uint32_t number, const Ray& ray, double t_max, TraceCounters& counters) const {
+bool PrototypeInstances::any_hit(std::uint32_t number, const Ray& ray, double t_max, TraceCounters& counters) const {
     const Entered e(*this, number, 1, counters);
     const Inside in(e.p, ray);
-    return e.bsp.any(in.ray, t_max * in.rate, counters, &e.others);
+    return e.bsp.any_hit(in.ray, t_max * in.rate, counters, &e.instances);
 }
 
-void Placed::find_together(std::uint32_t number, const SeveralRays& rays, FoundSurface* found,
-                           TraceCounters& counters) const {
+void PrototypeInstances::closest_hit_packet(std::uint32_t number, const RayBatch& rays, FoundSurface* found,
+                                            TraceCounters& counters) const {
     const Entered e(*this, number, rays.size(), counters);
-    const InsideTogether in(e.p, rays);
-    e.bsp.find(in.several(), found, counters, &e.others);
+    const InsideBatch in(e.p, rays);
+    e.bsp.closest_hit_packet(in.batch(), found, counters, &e.instances);
     for (std::size_t k = 0; k < rays.size(); ++k) found[k] = outside(found[k], e.p, rays.rays[k], in.rates[k]);
 }
 
-Lanes Placed::any_together(std::uint32_t number, const SeveralRays& rays, TraceCounters& counters) const {
+Lanes PrototypeInstances::any_hit_packet(std::uint32_t number, const RayBatch& rays, TraceCounters& counters) const {
     const Entered e(*this, number, rays.size(), counters);
-    return e.bsp.any(InsideTogether(e.p, rays).several(), counters, &e.others);
+    return e.bsp.any_hit_packet(InsideBatch(e.p, rays).batch(), counters, &e.instances);
 }
 
 }  // namespace
 
-ImplicitTracer::ImplicitTracer(const std::vector<Solid>& solids, Criterion criterion, Search search, Accel accel)
-    : spaces_(new Spaces(solids, criterion, search, accel)) {}
+ImplicitTracer::ImplicitTracer(const std::vector<Solid>& solids, Criterion criterion, RootMethod root_method,
+                               Accel accel)
+    : prototypes_(new Prototypes(solids, criterion, root_method, accel)) {}
 
 ImplicitTracer::~ImplicitTracer() = default;
 
@@ -147,38 +148,39 @@ Hit hit_of(const FoundSurface& found, const Ray& ray) {
 
 }  // namespace
 
-Hit ImplicitTracer::first_hit(const Ray& ray, double t_max, TraceCounters& counters) const {
+Hit ImplicitTracer::closest_hit(const Ray& ray, double t_max, TraceCounters& counters) const {
     ++counters.rays;
-    const Placed placed(*spaces_, (*spaces_)[0]);
-    return hit_of((*spaces_)[0].bsp.find(ray, t_max, counters, &placed), ray);
+    const PrototypeInstances instances(*prototypes_, (*prototypes_)[0]);
+    return hit_of((*prototypes_)[0].bsp.closest_hit(ray, t_max, counters, &instances), ray);
 }
 
-bool ImplicitTracer::occluded(const Ray& ray, double t_max, TraceCounters& counters) const {
+bool ImplicitTracer::any_hit(const Ray& ray, double t_max, TraceCounters& counters) const {
     ++counters.shadow_rays;
-    const Placed placed(*spaces_, (*spaces_)[0]);
-    return (*spaces_)[0].bsp.any(ray, t_max, counters, &placed);
+    const PrototypeInstances instances(*prototypes_, (*prototypes_)[0]);
+    return (*prototypes_)[0].bsp.any_hit(ray, t_max, counters, &instances);
 }
 
-void ImplicitTracer::first_hits(std::span<const Ray> rays, Hit* hits, TraceCounters& counters) const {
+void ImplicitTracer::closest_hits(std::span<const Ray> rays, Hit* hits, TraceCounters& counters) const {
     static const std::vector<double> endless(RayPacket::size, infinity);
     counters.rays += rays.size();
-    const Placed placed(*spaces_, (*spaces_)[0]);
+    const PrototypeInstances instances(*prototypes_, (*prototypes_)[0]);
     FoundSurface found[RayPacket::size];
     for (std::size_t first = 0; first < rays.size(); first += RayPacket::size) {
         const auto packet = rays.subspan(first, std::min(rays.size() - first, std::size_t(RayPacket::size)));
-        (*spaces_)[0].bsp.find({packet, endless, endless}, found, counters, &placed);
+        (*prototypes_)[0].bsp.closest_hit_packet({packet, endless, endless}, found, counters, &instances);
         for (std::size_t k = 0; k < packet.size(); ++k) hits[first + k] = hit_of(found[k], packet[k]);
     }
 }
 
-void ImplicitTracer::occlusions(std::span<const Ray> rays, std::span<const double> t_max, bool* occluded,
-                                TraceCounters& counters) const {
+void ImplicitTracer::any_hits(std::span<const Ray> rays, std::span<const double> t_max, bool* occluded,
+                              TraceCounters& counters) const {
     counters.shadow_rays += rays.size();
-    const Placed placed(*spaces_, (*spaces_)[0]);
+    const PrototypeInstances instances(*prototypes_, (*prototypes_)[0]);
     for (std::size_t first = 0; first < rays.size(); first += RayPacket::size) {
         const std::size_t count = std::min(rays.size() - first, std::size_t(RayPacket::size));
         const auto ends = t_max.subspan(first, count);
-        const Lanes any = (*spaces_)[0].bsp.any({rays.subspan(first, count), ends, ends}, counters, &placed);
+        const Lanes any =
+            (*prototypes_)[0].bsp.any_hit_packet({rays.subspan(first, count), ends, ends}, counters, &instances);
         for (std::size_t k = 0; k < count; ++k) occluded[first + k] = any >> k & 1;
     }
 }
@@ -186,25 +188,25 @@ void ImplicitTracer::occlusions(std::span<const Ray> rays, std::span<const doubl
 BspStatistics ImplicitTracer::statistics() const {
     BspStatistics s;
     std::size_t local = 0;
-    for (std::size_t i = 0; i < spaces_->size(); ++i) {
-        if (!spaces_->built(i)) {
-            ++s.spaces;
+    for (std::size_t i = 0; i < prototypes_->size(); ++i) {
+        if (!prototypes_->built(i)) {
+            ++s.prototypes;
             continue;
         }
-        const Space& space = *spaces_->built(i);
-        const Pieces& pieces = space.bsp.surfaces().pieces;
-        s.placements += space.placements.size() + space.bsp.trees().size() - 1;
-        std::uint32_t first = 0;  // piece of the tree
-        for (const BspTree& tree : space.bsp.trees()) {
-            ++s.spaces;
+        const Prototype& prototype = *prototypes_->built(i);
+        const CellPrimitives& primitives = prototype.bsp.surfaces().cell_primitives;
+        s.instances += prototype.instances.size() + prototype.bsp.trees().size() - 1;
+        std::uint32_t first = 0;  // primitive of the tree
+        for (const BspTree& tree : prototype.bsp.trees()) {
+            ++s.prototypes;
             s.cells += tree.cells.size();
             s.half_spaces += tree.half_spaces;
             s.depth = std::max(s.depth, tree.depth);
             for (const BspCell& cell : tree.cells) {
                 bool flat = cell.count > 0;
                 for (std::uint32_t i = first + cell.first; i < first + cell.first + cell.count; ++i) {
-                    local += pieces.half_spaces(i);
-                    flat &= pieces[i].kind == Piece::Kind::plane;
+                    local += primitives.half_spaces(i);
+                    flat &= primitives[i].kind == CellPrimitive::Kind::plane;
                 }
                 s.empty_cells += cell.count == 0;
                 s.flat_cells += flat;

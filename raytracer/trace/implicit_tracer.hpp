@@ -12,14 +12,14 @@
 
 namespace deburr {
 
-class Spaces;
+class Prototypes;
 
-/// Of what has been built so far (instances.hpp), but `spaces` of all.
+/// Of what has been built so far (instances.hpp), but `prototypes` of all.
 struct BspStatistics {
     std::size_t cells = 0, empty_cells = 0, flat_cells = 0;
     std::size_t half_spaces = 0;        // that the cells were made of
-    std::size_t spaces = 0;             // BSPs, each of a space or of a part of one
-    std::size_t placements = 0;         // of these in others
+    std::size_t prototypes = 0;         // BSPs, each of a space or of a part of one
+    std::size_t instances = 0;          // of these in others
     double mean_local_half_spaces = 0;  // in the cells that hold a surface
     int depth = 0;
 };
@@ -28,17 +28,17 @@ class ImplicitTracer final : public RayTracer {
 public:
     /// The criterion matters where roots are searched for.
     explicit ImplicitTracer(const std::vector<Solid>& solids, Criterion criterion = Criterion::exact,
-                            Search search = Search::where_needed, Accel accel = Accel::bsp);
+                            RootMethod root_method = RootMethod::where_needed, Accel accel = Accel::bvh);
     ~ImplicitTracer() override;
-    Hit first_hit(const Ray& ray, double t_max, TraceCounters& counters) const override;
-    bool occluded(const Ray& ray, double t_max, TraceCounters& counters) const override;
-    void first_hits(std::span<const Ray> rays, Hit* hits, TraceCounters& counters) const override;
-    void occlusions(std::span<const Ray> rays, std::span<const double> t_max, bool* occluded,
-                    TraceCounters& counters) const override;
+    Hit closest_hit(const Ray& ray, double t_max, TraceCounters& counters) const override;
+    bool any_hit(const Ray& ray, double t_max, TraceCounters& counters) const override;
+    void closest_hits(std::span<const Ray> rays, Hit* hits, TraceCounters& counters) const override;
+    void any_hits(std::span<const Ray> rays, std::span<const double> t_max, bool* occluded,
+                  TraceCounters& counters) const override;
     BspStatistics statistics() const;
 
 private:
-    std::unique_ptr<const Spaces> spaces_;
+    std::unique_ptr<const Prototypes> prototypes_;
 };
 
 }  // namespace deburr

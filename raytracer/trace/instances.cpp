@@ -13,25 +13,25 @@
 namespace deburr {
 namespace {
 
-// Spaces within spaces; what is deeper is taken as it is.
-constexpr int deepest_space = 8;
+// Prototypes within prototypes; what is deeper is taken as it is.
+constexpr int max_nesting = 8;
 // A map that squeezes more would magnify what floating point rounds by.
 constexpr double largest_condition = 64;
 // A form further from its origin, in its own sizes, is moved there.
 constexpr double farthest = 16;
 // What is smaller than this, of the space that it is in, is found by a tree of boxes of its own, whose single
 // precision is finer.
-constexpr double least_size = 0x1p-10;
+constexpr double min_size = 0x1p-10;
 // Tolerances of a solid among larger ones are at least these ones' times this: cells must know their solids
 // further beyond their walls, by 2⁻³⁸, than a ray's place is off by, of the larger scale and a few times 2⁻⁵⁰.
-constexpr double least_share_of_scale = 0x1p-8;
+constexpr double min_share_of_scale = 0x1p-8;
 
 // The box of a union of more half-spaces is the hull of its operands' boxes; flattened, turned operands may have
 // a smaller one.
-constexpr double most_flattened = 4096;
+constexpr double max_flattened = 4096;
 // So many spaces are built beforehand, with their statistics. Further ones of a single rounded density with few
 // half-spaces, which cannot fail, are built when a ray comes; a diagram of so few is never too large.
-constexpr std::size_t most_built_beforehand = 1000;
+constexpr std::size_t max_built_beforehand = 1000;
 constexpr double few_half_spaces = 12;
 
 bool is_quick_to_build(const Solid& solid) {
@@ -44,7 +44,7 @@ bool is_quick_to_build(const Solid& solid) {
 double norm(const Mat3& m) { return std::sqrt(glm::dot(m[0], m[0]) + glm::dot(m[1], m[1]) + glm::dot(m[2], m[2])); }
 
 struct Part {
-    PlacedForm placed;
+    CanonicalPlacement placed;
     int solid;
     Box box;
 };
@@ -59,31 +59,32 @@ struct Group {
     std::vector<int> numbers;  // in the world
 };
 
-struct PlannedSpace {
+struct PlannedPrototype {
     std::vector<Group> groups{1};  // the first is of what is unbounded, or squeezed, or all there is
-    double reach = 0;              // of the others
-    Placements placements;
+    double coordinate_bound = 0;   // of the others
+    Instances instances;
     std::vector<Box> boxes;  // of the placements
 };
 
 class Plan {
 public:
     explicit Plan(const std::vector<Solid>& solids) {
-        spaces.emplace_back();
+        prototypes.emplace_back();
         fill(0, solids, 0);
     }
 
-    std::vector<PlannedSpace> spaces;
+    std::vector<PlannedPrototype> prototypes;
     std::vector<Solid> later;  // each alone in a space; these are numbered after all others
 
-    /// What a placement's `space` is once the number of `spaces` is known: below the world, later ones are ~number.
-    int number_of(int space) const { return space < 0 ? int(spaces.size()) + ~space : space; }
+    /// What a placement's `prototype` is once the number of `prototypes` is known: below the world, later ones are
+    /// ~number.
+    int number_of(int prototype) const { return prototype < 0 ? int(prototypes.size()) + ~prototype : prototype; }
 
 private:
-    bool is_union(int form) const { return forms_.solid(form).node().kind == SolidNode::Kind::unite; }
+    bool is_union(int canonical) const { return canonical_.solid(canonical).node().kind == SolidNode::Kind::unite; }
 
-    PlacedForm within(const PlacedForm& outer, const Solid& child) {
-        PlacedForm to = forms_.of(child);
+    CanonicalPlacement within(const CanonicalPlacement& outer, const Solid& child) {
+        CanonicalPlacement to = canonical_.of(child);
         to.map = compose(outer.map, to.map);
         if (to.material < 0) to.material = outer.material;
         return to;
@@ -92,50 +93,52 @@ private:
     using Counts = std::unordered_map<int, double>;
 
     /// How often each form occurs, counting through unions.
-    Counts occurrences(const std::vector<PlacedForm>& roots) {
+    Counts occurrences(const std::vector<CanonicalPlacement>& roots) {
         Counts count;
         std::map<int, double, std::greater<int>> open;  // parts have lower numbers
-        for (const PlacedForm& root : roots) open[root.form] += 1;
+        for (const CanonicalPlacement& root : roots) open[root.canonical] += 1;
         while (!open.empty()) {
-            const auto [form, times] = *open.begin();
+            const auto [canonical, times] = *open.begin();
             open.erase(open.begin());
-            count[form] = times;
-            if (!is_union(form)) continue;
-            const Solid solid = forms_.solid(form);
-            for (const Solid& child : solid.node().children()) open[forms_.of(child).form] += times;
+            count[canonical] = times;
+            if (!is_union(canonical)) continue;
+            const Solid solid = canonical_.solid(canonical);
+            for (const Solid& child : solid.node().children()) open[canonical_.of(child).canonical] += times;
         }
         return count;
     }
 
-    bool is_large_union(int form) const { return is_union(form) && forms_.solid(form).node().leaves > most_flattened; }
+    bool is_large_union(int canonical) const {
+        return is_union(canonical) && canonical_.solid(canonical).node().leaves > max_flattened;
+    }
 
     /// In the form's own space. Keeps a stack of its own, for unions may be long chains.
     const Box& box(int root) {
         std::vector<int> open{root};
         while (!open.empty()) {
-            const int form = open.back();
-            if (boxes_.count(form)) {
+            const int canonical = open.back();
+            if (boxes_.count(canonical)) {
                 open.pop_back();
                 continue;
             }
-            if (!is_large_union(form)) {
-                boxes_[form] = bounding_box(flatten(forms_.solid(form)));
+            if (!is_large_union(canonical)) {
+                boxes_[canonical] = bounding_box(flatten(canonical_.solid(canonical)));
                 continue;
             }
             Box around;
             bool known = true;
-            const Solid solid = forms_.solid(form);
+            const Solid solid = canonical_.solid(canonical);
             for (const Solid& child : solid.node().children()) {
-                const PlacedForm part = forms_.of(child);
-                const auto at = boxes_.find(part.form);
+                const CanonicalPlacement part = canonical_.of(child);
+                const auto at = boxes_.find(part.canonical);
                 if (at == boxes_.end()) {
-                    open.push_back(part.form);
+                    open.push_back(part.canonical);
                     known = false;
                 } else if (!at->second.empty()) {
                     around = hull(around, placed_box(part.map, at->second));
                 }
             }
-            if (known) boxes_[form] = around;
+            if (known) boxes_[canonical] = around;
         }
         return boxes_.at(root);
     }
@@ -145,46 +148,46 @@ private:
     }
 
     /// Finds the boxes of those forms that are no unions, several at once.
-    void find_boxes(const std::vector<PlacedForm>& all) {
+    void find_boxes(const std::vector<CanonicalPlacement>& all) {
         std::vector<std::pair<const int, Box>*> open;
-        for (const PlacedForm& p : all)
-            if (!is_union(p.form))
-                if (const auto [at, is_new] = boxes_.try_emplace(p.form); is_new) open.push_back(&*at);
+        for (const CanonicalPlacement& p : all)
+            if (!is_union(p.canonical))
+                if (const auto [at, is_new] = boxes_.try_emplace(p.canonical); is_new) open.push_back(&*at);
         in_parallel(open.size(),
-                    [&](std::size_t i) { open[i]->second = bounding_box(flatten(forms_.solid(open[i]->first))); });
+                    [&](std::size_t i) { open[i]->second = bounding_box(flatten(canonical_.solid(open[i]->first))); });
     }
 
     /// The operands of a union, as far down as unions occur once.
-    std::vector<PlacedForm> operands(const PlacedForm& root, const Counts& count) {
-        std::vector<PlacedForm> open{root}, all;
+    std::vector<CanonicalPlacement> operands(const CanonicalPlacement& root, const Counts& count) {
+        std::vector<CanonicalPlacement> open{root}, all;
         while (!open.empty()) {
-            const PlacedForm now = open.back();
+            const CanonicalPlacement now = open.back();
             open.pop_back();
-            if (!is_union(now.form) || (now.form != root.form && count.at(now.form) > 1)) {
+            if (!is_union(now.canonical) || (now.canonical != root.canonical && count.at(now.canonical) > 1)) {
                 all.push_back(now);
                 continue;
             }
-            const Solid solid = forms_.solid(now.form);
+            const Solid solid = canonical_.solid(now.canonical);
             const auto children = solid.node().children();
             for (auto child = children.rbegin(); child != children.rend(); ++child) open.push_back(within(now, *child));
         }
         return all;
     }
 
-    Solid solid_of(const PlacedForm& placed) const {
-        const Solid solid = forms_.solid(placed.form).transformed(placed.map);
+    Solid solid_of(const CanonicalPlacement& placed) const {
+        const Solid solid = canonical_.solid(placed.canonical).transformed(placed.map);
         return placed.material < 0 ? solid : solid.material(placed.material);
     }
 
     /// Which of the boxes nearly meet, directly or by way of others: ordered lists, that of the least number first.
-    static std::vector<std::vector<int>> clusters(const std::vector<Box>& boxes, double clear) {
-        BoxTree::Builder builder;
+    static std::vector<std::vector<int>> clusters(const std::vector<Box>& boxes, double clearance) {
+        Bvh4::Builder builder;
         std::vector<int> items;
         for (std::size_t i = 0; i < boxes.size(); ++i) items.push_back(builder.item(std::uint32_t(i), boxes[i]));
-        const BoxTree tree(builder, builder.join_by_area(std::move(items)));
+        const Bvh4 tree(builder, builder.join_by_area(std::move(items)));
         UnionFind together(boxes.size());
         for (std::size_t i = 0; i < boxes.size(); ++i) {
-            const Box near = inflated(boxes[i], clear);
+            const Box near = inflated(boxes[i], clearance);
             tree.meeting(near, [&](std::uint32_t j) {
                 if (j < i || intersection(near, boxes[j]).empty()) return;
                 const int a = together.find(int(i)), b = together.find(int(j));
@@ -205,20 +208,20 @@ private:
     }
 
     /// Takes a union that occurs once apart; operands that meet stay together.
-    void take_apart(const PlacedForm& root, int solid, const Counts& count, std::vector<Part>& parts) {
-        if (!is_union(root.form) || count.at(root.form) > 1) {
-            const Box own = box(root.form);
+    void take_apart(const CanonicalPlacement& root, int solid, const Counts& count, std::vector<Part>& parts) {
+        if (!is_union(root.canonical) || count.at(root.canonical) > 1) {
+            const Box own = box(root.canonical);
             if (!own.empty()) parts.push_back({root, solid, placed_box(root.map, own)});
             return;
         }
-        std::vector<PlacedForm> all = operands(root, count);
+        std::vector<CanonicalPlacement> all = operands(root, count);
         find_boxes(all);
-        std::erase_if(all, [&](const PlacedForm& p) { return box(p.form).empty(); });
+        std::erase_if(all, [&](const CanonicalPlacement& p) { return box(p.canonical).empty(); });
         if (all.empty()) return;
         std::vector<Box> boxes;
         Box around;
-        for (const PlacedForm& p : all) {
-            boxes.push_back(placed_box(p.map, box(p.form)));
+        for (const CanonicalPlacement& p : all) {
+            boxes.push_back(placed_box(p.map, box(p.canonical)));
             around = hull(around, boxes.back());
         }
         const bool bounded = std::all_of(boxes.begin(), boxes.end(), [](const Box& b) { return b.finite(); });
@@ -226,39 +229,40 @@ private:
             parts.push_back({root, solid, bounded ? boxes[0] : Box::everything()});
             return;
         }
-        const double clear = std::max(largest(around.lo), largest(around.hi)) * 0x1p-30;  // more than any cell's margin
-        for (const std::vector<int>& members : clusters(boxes, clear)) {
+        const double clearance =
+            std::max(largest(around.lo), largest(around.hi)) * 0x1p-30;  // more than any cell's margin
+        for (const std::vector<int>& members : clusters(boxes, clearance)) {
             Part part{all[std::size_t(members[0])], solid, {}};
             for (const int i : members) part.box = hull(part.box, boxes[std::size_t(i)]);
             if (members.size() == all.size())
                 part.placed = root;
             else if (members.size() > 1)
-                part.placed = forms_.of(sum(all, members));
+                part.placed = canonical_.of(sum(all, members));
             parts.push_back(part);
         }
     }
 
-    const Solid& sum(const std::vector<PlacedForm>& all, const std::vector<int>& members) {
+    const Solid& sum(const std::vector<CanonicalPlacement>& all, const std::vector<int>& members) {
         Solid to = solid_of(all[std::size_t(members[0])]);
         for (std::size_t k = 1; k < members.size(); ++k) to = to | solid_of(all[std::size_t(members[k])]);
         sums_.push_back(to);  // forms look at it later
         return sums_.back();
     }
 
-    void put(int space, Group& group, const Solid& solid, int number) {
+    void put(int prototype, Group& group, const Solid& solid, int number) {
         // Below the world, materials that are not named stay so.
-        group.solids.push_back(space == 0 ? solid : solid.material(-1));
+        group.solids.push_back(prototype == 0 ? solid : solid.material(-1));
         group.numbers.push_back(number);
     }
 
-    void fill(int space, const std::vector<Solid>& solids, int depth) {
-        if (depth == deepest_space) {
+    void fill(int prototype, const std::vector<Solid>& solids, int depth) {
+        if (depth == max_nesting) {
             for (std::size_t i = 0; i < solids.size(); ++i)
-                put(space, spaces[std::size_t(space)].groups[0], solids[i], int(i));
+                put(prototype, prototypes[std::size_t(prototype)].groups[0], solids[i], int(i));
             return;
         }
-        std::vector<PlacedForm> roots;
-        for (const Solid& s : solids) roots.push_back(forms_.of(s));
+        std::vector<CanonicalPlacement> roots;
+        for (const Solid& s : solids) roots.push_back(canonical_.of(s));
         const Counts count = occurrences(roots);
         find_boxes(roots);
         std::vector<Part> parts;
@@ -266,102 +270,105 @@ private:
         std::unordered_map<int, int> uses;
         Box around;
         for (const Part& part : parts) {
-            ++uses[part.placed.form];
+            ++uses[part.placed.canonical];
             if (part.box.finite()) around = hull(around, part.box);
         }
         const double whole = largest(around.hi - around.lo);
         for (const Part& part : parts) {
             const Mat3& linear = part.placed.map.linear;
-            PlannedSpace& here = spaces[std::size_t(space)];
+            PlannedPrototype& here = prototypes[std::size_t(prototype)];
             if (parts.size() == 1 || !part.box.finite() ||
                 !(norm(linear) * norm(glm::inverse(linear)) < largest_condition)) {
-                put(space, here.groups[0], solid_of(part.placed), part.solid);
+                put(prototype, here.groups[0], solid_of(part.placed), part.solid);
                 continue;
             }
             const double size = largest(part.box.hi - part.box.lo),
-                         reach = std::max(largest(part.box.lo), largest(part.box.hi));
-            const bool fits = reach <= farthest * size && size >= least_size * whole;
-            if (fits && uses.at(part.placed.form) == 1 && !is_turned(linear) && !space_of_.count(part.placed.form)) {
-                put(space, here.groups.emplace_back(), solid_of(part.placed), part.solid);
-                here.reach = std::max(here.reach, reach);
+                         coordinate_bound = std::max(largest(part.box.lo), largest(part.box.hi));
+            const bool fits = coordinate_bound <= farthest * size && size >= min_size * whole;
+            if (fits && uses.at(part.placed.canonical) == 1 && !is_turned(linear) &&
+                !prototype_of_.count(part.placed.canonical)) {
+                put(prototype, here.groups.emplace_back(), solid_of(part.placed), part.solid);
+                here.coordinate_bound = std::max(here.coordinate_bound, coordinate_bound);
                 continue;
             }
-            place(space, part, depth);
-            spaces[std::size_t(space)].boxes.push_back(part.box);
+            place(prototype, part, depth);
+            prototypes[std::size_t(prototype)].boxes.push_back(part.box);
         }
     }
 
-    void place(int space, const Part& part, int depth) {
-        const int form = part.placed.form;
-        const Box own = box(form);
+    void place(int prototype, const Part& part, int depth) {
+        const int canonical = part.placed.canonical;
+        const Box own = box(canonical);
         const Vec3 sides = own.hi - own.lo;
-        Affine centred;  // of the placed space in the form's
+        Affine centered;  // of the placed space in the form's
         if (std::max(largest(own.lo), largest(own.hi)) > farthest * largest(sides))
-            centred.shift = 0.5 * (own.lo + own.hi);
-        const auto [at, is_new] = space_of_.try_emplace(form, int(spaces.size()));
+            centered.shift = 0.5 * (own.lo + own.hi);
+        const auto [at, is_new] = prototype_of_.try_emplace(canonical, int(prototypes.size()));
         if (is_new) {
-            const Affine to_middle{Mat3(1.0), -centred.shift};
-            const Solid solid = forms_.solid(form);
-            if (spaces.size() >= most_built_beforehand && is_quick_to_build(solid)) {
+            const Affine to_middle{Mat3(1.0), -centered.shift};
+            const Solid solid = canonical_.solid(canonical);
+            if (prototypes.size() >= max_built_beforehand && is_quick_to_build(solid)) {
                 at->second = ~int(later.size());
                 later.push_back(solid.transformed(to_middle).material(-1));
             } else {
-                spaces.emplace_back();
-                fill(at->second, {centred.shift == Vec3(0.0) ? solid : solid.transformed(to_middle)}, depth + 1);
+                prototypes.emplace_back();
+                fill(at->second, {centered.shift == Vec3(0.0) ? solid : solid.transformed(to_middle)}, depth + 1);
             }
         }
-        const int number = space_of_.at(form);
-        const Affine map = compose(part.placed.map, centred);
+        const int number = prototype_of_.at(canonical);
+        const Affine map = compose(part.placed.map, centered);
         const Affine into = inverse(map);
-        spaces[std::size_t(space)].placements.push_back(
+        prototypes[std::size_t(prototype)].instances.push_back(
             {into, norm(map.linear), number, part.solid, part.placed.material, into.linear == Mat3(1.0)});
     }
 
-    SolidForms forms_;
+    CanonicalSolids canonical_;
     std::vector<Solid> sums_;
     std::unordered_map<int, Box> boxes_;
-    std::unordered_map<int, int> space_of_;
+    std::unordered_map<int, int> prototype_of_;
 };
 
 }  // namespace
 
-Spaces::Spaces(const std::vector<Solid>& solids, Criterion criterion, Search search, Accel accel)
-    : criterion_(criterion), search_(search), accel_(accel) {
+Prototypes::Prototypes(const std::vector<Solid>& solids, Criterion criterion, RootMethod root_method, Accel accel)
+    : criterion_(criterion), root_method_(root_method), accel_(accel) {
     Plan plan(solids);
     later_ = std::move(plan.later);
-    spaces_ = std::vector<std::atomic<const Space*>>(plan.spaces.size() + later_.size());
-    std::vector<std::unique_ptr<const Space>> all(plan.spaces.size());
+    prototypes_ = std::vector<std::atomic<const Prototype*>>(plan.prototypes.size() + later_.size());
+    std::vector<std::unique_ptr<const Prototype>> all(plan.prototypes.size());
     in_parallel(all.size(), [&](std::size_t i) {
-        PlannedSpace& planned = plan.spaces[i];
-        for (Placement& p : planned.placements) p.space = plan.number_of(p.space);
+        PlannedPrototype& planned = plan.prototypes[i];
+        for (Instance& p : planned.instances) p.prototype = plan.number_of(p.prototype);
         std::vector<NamedBsp> bsps(planned.groups.size());
-        const auto build = [&](std::size_t k, double least_scale) {
-            bsps[k] = {build_bsp(planned.groups[k].solids, search, least_scale), std::move(planned.groups[k].numbers)};
+        const auto build = [&](std::size_t k, double min_scale) {
+            bsps[k] = {build_bsp(planned.groups[k].solids, root_method, min_scale),
+                       std::move(planned.groups[k].numbers)};
         };
         build(0, 0);
-        const double scale = std::max(bsps[0].tree.tolerances.scale, planned.reach);
-        in_parallel(bsps.size() - 1, [&](std::size_t k) { build(k + 1, least_share_of_scale * scale); });
-        auto space = std::make_unique<Space>(
-            Space{BspTracer(std::move(bsps), planned.boxes, criterion, accel), std::move(planned.placements)});
-        space->bsp.others_lie_at(space->placements.data(), sizeof(Placement));
-        all[i] = std::move(space);
+        const double scale = std::max(bsps[0].tree.tolerances.scale, planned.coordinate_bound);
+        in_parallel(bsps.size() - 1, [&](std::size_t k) { build(k + 1, min_share_of_scale * scale); });
+        auto prototype = std::make_unique<Prototype>(
+            Prototype{SurfaceTracer(std::move(bsps), planned.boxes, criterion, accel), std::move(planned.instances)});
+        prototype->bsp.instances_lie_at(prototype->instances.data(), sizeof(Instance));
+        all[i] = std::move(prototype);
     });
-    for (std::size_t i = 0; i < all.size(); ++i) spaces_[i] = all[i].release();
+    for (std::size_t i = 0; i < all.size(); ++i) prototypes_[i] = all[i].release();
 }
 
-Spaces::~Spaces() {
-    for (const auto& space : spaces_) delete space.load();
+Prototypes::~Prototypes() {
+    for (const auto& prototype : prototypes_) delete prototype.load();
 }
 
 // No lock: a thread that waits for one could have been given work that needs it. Of several that build a space at
 // the same time the first one's is kept, and all are the same.
-const Space& Spaces::build(std::size_t i) const {
-    const std::size_t beforehand = spaces_.size() - later_.size();
+const Prototype& Prototypes::build(std::size_t i) const {
+    const std::size_t beforehand = prototypes_.size() - later_.size();
     std::vector<NamedBsp> alone(1);
-    alone[0] = {build_bsp({later_[i - beforehand]}, search_), {0}};
-    auto space = std::make_unique<const Space>(Space{BspTracer(std::move(alone), {}, criterion_, accel_), {}});
-    const Space* there = nullptr;
-    if (spaces_[i].compare_exchange_strong(there, space.get())) there = space.release();
+    alone[0] = {build_bsp({later_[i - beforehand]}, root_method_), {0}};
+    auto prototype =
+        std::make_unique<const Prototype>(Prototype{SurfaceTracer(std::move(alone), {}, criterion_, accel_), {}});
+    const Prototype* there = nullptr;
+    if (prototypes_[i].compare_exchange_strong(there, prototype.get())) there = prototype.release();
     return *there;
 }
 

@@ -14,21 +14,21 @@
 
 namespace deburr {
 
-struct alignas(64) Placement {  // two cache lines
-    Affine into;                // from the space around to the placed one
-    double stretch = 1;         // a distance there is at most this many times longer here
-    int space = 0;              // that is placed
-    int solid = 0;              // of the world; of no meaning in other spaces
-    int material = -1;          // of what has none there; −1: that of the placement around, if any
-    bool only_moved = false;    // neither turned nor scaled
+struct alignas(64) Instance {  // two cache lines
+    Affine into;               // from the space around to the placed one
+    double stretch = 1;        // a distance there is at most this many times longer here
+    int prototype = 0;         // that is placed
+    int solid = 0;             // of the world; of no meaning in other spaces
+    int material = -1;         // of what has none there; −1: that of the placement around, if any
+    bool only_moved = false;   // neither turned nor scaled
 };
 
-static_assert(sizeof(Placement) == 128);
-using Placements = std::vector<Placement, LargePages<Placement>>;
+static_assert(sizeof(Instance) == 128);
+using Instances = std::vector<Instance, LargePages<Instance>>;
 
-struct Space {
-    BspTracer bsp;  // its others are the placements
-    Placements placements;
+struct Prototype {
+    SurfaceTracer bsp;  // its others are the placements
+    Instances instances;
 };
 
 /// The world (the first) and all that is placed, in spaces of their own. Materials that are still to be named are
@@ -36,29 +36,29 @@ struct Space {
 ///
 /// Of very many forms those that are quick to build are built by the first ray that enters their space, for most of
 /// them are seldom seen. Whoever builds it, a space is the same: no result depends on the number of threads.
-class Spaces {
+class Prototypes {
 public:
-    Spaces(const std::vector<Solid>& solids, Criterion criterion, Search search, Accel accel = Accel::bsp);
-    ~Spaces();
-    Spaces(const Spaces&) = delete;
-    Spaces& operator=(const Spaces&) = delete;
+    Prototypes(const std::vector<Solid>& solids, Criterion criterion, RootMethod root_method, Accel accel = Accel::bvh);
+    ~Prototypes();
+    Prototypes(const Prototypes&) = delete;
+    Prototypes& operator=(const Prototypes&) = delete;
 
-    std::size_t size() const { return spaces_.size(); }
-    const Space& operator[](std::size_t i) const {
-        const Space* space = spaces_[i].load(std::memory_order_acquire);
-        return space ? *space : build(i);
+    std::size_t size() const { return prototypes_.size(); }
+    const Prototype& operator[](std::size_t i) const {
+        const Prototype* prototype = prototypes_[i].load(std::memory_order_acquire);
+        return prototype ? *prototype : build(i);
     }
     /// Null if it has not been built yet.
-    const Space* built(std::size_t i) const { return spaces_[i].load(std::memory_order_acquire); }
+    const Prototype* built(std::size_t i) const { return prototypes_[i].load(std::memory_order_acquire); }
 
 private:
-    const Space& build(std::size_t i) const;
+    const Prototype& build(std::size_t i) const;
 
     Criterion criterion_;
-    Search search_;
+    RootMethod root_method_;
     Accel accel_;
     std::vector<Solid> later_;  // of the last spaces
-    mutable std::vector<std::atomic<const Space*>> spaces_;
+    mutable std::vector<std::atomic<const Prototype*>> prototypes_;
 };
 
 }  // namespace deburr

@@ -32,14 +32,15 @@ FlatDensity flat_density(const LocalDensity& density) {
 
 }  // namespace
 
-LocalSolid::LocalSolid(int solid, const SolidTree& tree, const Box& box, const Tolerances& tolerances, Search search)
+LocalSolid::LocalSolid(int solid, const SolidTree& tree, const Box& box, const Tolerances& tolerances,
+                       RootMethod root_method)
     : solid_(solid), scale_(tolerances.scale) {
-    std::vector<int> place(tree.nodes.size(), -1);
+    std::vector<int> new_index(tree.nodes.size(), -1);
     for (std::size_t i = 0; i < tree.nodes.size(); ++i) {
         SolidTreeNode n = tree.nodes[i];
         if (n.op == SolidOp::leaf) {
             std::optional<bool> constant;
-            add_leaf(tree.leaves[std::size_t(n.a)], box, tolerances, search, constant);
+            add_leaf(tree.leaves[std::size_t(n.a)], box, tolerances, root_method, constant);
             if (constant)
                 n = {*constant ? SolidOp::everything : SolidOp::nothing};
             else
@@ -65,13 +66,13 @@ LocalSolid::LocalSolid(int solid, const SolidTree& tree, const Box& box, const T
     }
 }
 
-void LocalSolid::add_leaf(const SolidLeaf& leaf, const Box& box, const Tolerances& tolerances, Search search,
+void LocalSolid::add_leaf(const SolidLeaf& leaf, const Box& box, const Tolerances& tolerances, RootMethod root_method,
                           std::optional<bool>& constant) {
     if (leaf.field) {  // pruned to where it straddles
         leaves_.push_back({Vec3(0.0), 0, int(softs_.size()), leaf.material});
         const Box seen = intersection(box, inflated(leaf.field->bounding_box(), tolerances.margin()));
-        const double unit = !seen.empty() && seen.finite() ? leaf.field->greatest_unit(seen) : 0;
-        softs_.push_back({LocalDensity(leaf.density), {}, {}, {}, {}, false, false, leaf.field, unit});
+        const double max_noise_scale = !seen.empty() && seen.finite() ? leaf.field->max_noise_scale(seen) : 0;
+        softs_.push_back({LocalDensity(leaf.density), {}, {}, {}, {}, false, false, leaf.field, max_noise_scale});
         return;
     }
     const auto prepared = [&] {
@@ -96,7 +97,7 @@ void LocalSolid::add_leaf(const SolidLeaf& leaf, const Box& box, const Tolerance
         }
         to.normal = flat.normal;
         to.offset = flat.offset;
-    } else if (auto convex = search == Search::always ? std::nullopt : convex_density(density, scale_)) {
+    } else if (auto convex = root_method == RootMethod::always ? std::nullopt : convex_density(density, scale_)) {
         if (convex->planes.size() == 1) {  // other planes coincide with it, or do not matter
             const AlphaPlane& p = convex->planes[0];
             const double length = glm::length(p.slope) * (convex->complement ? -1 : 1);
@@ -106,19 +107,20 @@ void LocalSolid::add_leaf(const SolidLeaf& leaf, const Box& box, const Tolerance
             to.soft = int(softs_.size());
             softs_.push_back({std::move(density), std::move(convex), {}, {}, {}, false, false});
         }
-    } else if (auto sum = search == Search::always ? std::nullopt : ProductSum::of(density, tolerances.clear())) {
+    } else if (auto sum =
+                   root_method == RootMethod::always ? std::nullopt : ProductSum::of(density, tolerances.clearance())) {
         to.soft = int(softs_.size());
         softs_.push_back({std::move(density), {}, std::move(sum), {}, {}, false, false});
     } else {
         to.soft = int(softs_.size());
-        const double clear = tolerances.clear();
+        const double clearance = tolerances.clearance();
         const auto is_sharp = [](const HalfSpace& h) { return h.radius == 0; };
         const bool all_sharp = std::all_of(density.half_spaces().begin(), density.half_spaces().end(), is_sharp);
         softs_.push_back({std::move(density),
                           {},
                           {},
-                          outer_bound(leaf.density, 0.5, clear),
-                          inner_bound(leaf.density, 0.5, clear),
+                          outer_bound(leaf.density, 0.5, clearance),
+                          inner_bound(leaf.density, 0.5, clearance),
                           bounds_hold(leaf.density, box),
                           all_sharp});
     }
@@ -135,8 +137,8 @@ std::size_t LocalSolid::half_spaces() const {
 }
 
 std::optional<LocalSolid::Convex> LocalSolid::convex() const {
-    constexpr std::size_t most_leaves = 6;
-    if (leaves_.empty() || leaves_.size() > most_leaves) return std::nullopt;
+    constexpr std::size_t max_leaves = 6;
+    if (leaves_.empty() || leaves_.size() > max_leaves) return std::nullopt;
     for (const Leaf& leaf : leaves_)
         if (leaf.material != leaves_[0].material) return std::nullopt;
     // As a Boolean function of the leaves: an intersection of these and their complements if it is
@@ -180,7 +182,7 @@ std::optional<ConvexDensity> LocalSolid::intersection_of_leaves(unsigned positiv
     }
     d.planes.insert(d.planes.end(), sharp.begin(), sharp.end());
     d.sharp = int(sharp.size());
-    if (d.planes.size() > std::size_t(most_factors)) return std::nullopt;
+    if (d.planes.size() > std::size_t(max_factors)) return std::nullopt;
     return d;
 }
 

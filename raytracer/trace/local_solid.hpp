@@ -24,13 +24,13 @@ struct Tolerances {
     double scale = 1;
 
     /// Bound planes keep clear by this, so that a density's sign on them can be relied upon.
-    double clear() const { return scale * 0x1p-40; }
+    double clearance() const { return scale * 0x1p-40; }
     /// Stretches of a ray that are no longer than this count as nothing at its parameter t.
     double along(double t) const { return 8 * epsilon * (scale + std::abs(t)); }
     /// Cells know their solids this far beyond their walls.
     double margin() const { return scale * 0x1p-38; }
     /// A smaller filter lies between neighbouring points: α would jump, and overflow.
-    double least_radius() const { return scale * 0x1p-44; }
+    double min_radius() const { return scale * 0x1p-44; }
 };
 
 struct SurfaceCrossing {
@@ -70,7 +70,7 @@ class LocalSolid {
 public:
     /// `tree` is a solid pruned to the box. The box's inside must be the only place it is asked for.
     LocalSolid(int solid, const SolidTree& tree, const Box& box, const Tolerances& tolerances,
-               Search search = Search::where_needed);
+               RootMethod root_method = RootMethod::where_needed);
 
     int solid() const { return solid_; }
     /// False if no ray can cross a surface here.
@@ -83,7 +83,7 @@ public:
         int material;
     };
     /// The whole of it as one product, if it is one and of one material. Planes are sharp factors of
-    /// it: what they were rounded by no longer matters. Empty after Search::always, but for planes.
+    /// it: what they were rounded by no longer matters. Empty after RootMethod::always, but for planes.
     std::optional<Convex> convex() const;
 
     /// First crossing of the solid's surface in [t0, t1]; `any`: that there is one will do, t and normal
@@ -105,18 +105,18 @@ private:
         BoundCsg outer, inner;
         bool bounded;  // the bounds hold
         bool all_sharp;
-        FieldPtr field = {};  // if not null, all else is void, but
-        double unit = 0;      // of any ray here, at most; 0: not known
+        FieldPtr field = {};         // if not null, all else is void, but
+        double max_noise_scale = 0;  // of any ray here, at most; 0: not known
     };
 
-    void add_leaf(const SolidLeaf& leaf, const Box& box, const Tolerances& tolerances, Search search,
+    void add_leaf(const SolidLeaf& leaf, const Box& box, const Tolerances& tolerances, RootMethod root_method,
                   std::optional<bool>& constant);
     /// The intersection of those leaves whose bit is set and of the others' complements.
     std::optional<ConvexDensity> intersection_of_leaves(unsigned positive) const;
     bool evaluate(std::vector<char>& state, const std::vector<char>& inside) const;
     template <class Visit>
-    void field_crossings(const Field& field, double greatest_unit, const Vec3& origin, const Vec3& direction, double t0,
-                         double t1, CrossingScratch& scratch, bool* start_inside, Visit visit) const;
+    void field_crossings(const Field& field, double max_noise_scale, const Vec3& origin, const Vec3& direction,
+                         double t0, double t1, CrossingScratch& scratch, bool* start_inside, Visit visit) const;
     template <class Visit>
     void sum_crossings(const ProductSum& sum, const Vec3& origin, const Vec3& direction, double t0, double t1,
                        bool coarse, CrossingScratch& scratch, bool* start_inside, Visit visit) const;

@@ -8,8 +8,8 @@ namespace {
 // Crossings of one stretch of a ray over which sharp half-spaces stay as they are.
 class Stretch {
 public:
-    Stretch(const RayDensity& density, CrossingScratch& scratch, double negligible)
-        : density_(density), scratch_(scratch), finder_({scratch.criterion, negligible}, scratch.counters.roots) {}
+    Stretch(const RayDensity& density, CrossingScratch& scratch, double t_tolerance)
+        : density_(density), scratch_(scratch), finder_({scratch.criterion, t_tolerance}, scratch.counters.roots) {}
 
     // visit(t, entering) → go on?
     template <class Visit>
@@ -47,7 +47,7 @@ private:
     RootFinder finder_;
 };
 
-Vec3 unit(Vec3 v) {
+Vec3 normalized(Vec3 v) {
     const double length = glm::length(v);
     return length > 0 ? v / length : v;
 }
@@ -70,25 +70,26 @@ bool clip(const Box& box, const Vec3& origin, const Vec3& direction, double& t0,
 
 // visit(t, entering, normal) → go on?
 template <class Visit>
-void LocalSolid::field_crossings(const Field& field, double greatest_unit, const Vec3& origin, const Vec3& direction,
+void LocalSolid::field_crossings(const Field& field, double max_noise_scale, const Vec3& origin, const Vec3& direction,
                                  double t0, double t1, CrossingScratch& scratch, bool* start_inside,
                                  Visit visit) const {
     // What is passed over as a mere touch; f is in the ray's unit, of which rounding is all the noise.
-    constexpr double faint = 2 * RootFinder::rounding;
+    constexpr double f_tolerance = 2 * RootFinder::rounding;
     constexpr double farthest = 1e30;  // squares and cubes are far from overflowing there
     if (start_inside) *start_inside = false;
     const double start = t0;
     // The box may touch the surface, which must be crossed before the box is left.
     const Box box = inflated(field.bounding_box(), Tolerances{scale_}.margin());
     if (!clip(box, origin, direction, t0, t1)) return;
-    if (t1 == infinity) t1 = std::clamp(field.settled(origin, direction), t0, std::max(t0, farthest));
+    if (t1 == infinity) t1 = std::clamp(field.last_sign_change_bound(origin, direction), t0, std::max(t0, farthest));
     FieldRay& ray = scratch.field;
     const auto emit = [&](double t, bool entering) {
-        const Vec3 gradient = field.at(origin + direction * t).gradient, normal = unit(gradient);
+        const Vec3 gradient = field.at(origin + direction * t).gradient, normal = normalized(gradient);
         // Where large terms cancel, f is off by more than its slope makes of a coordinate's rounding; and a ray that
         // leaves from here may run to where they are larger.
         const double slope = glm::length(gradient), most = 0x1p-30 * scale_;
-        scratch.error = slope > 0 ? std::min(4 * epsilon * std::max(ray.unit, greatest_unit) / slope, most) : most;
+        scratch.error =
+            slope > 0 ? std::min(4 * epsilon * std::max(ray.noise_scale, max_noise_scale) / slope, most) : most;
         // At a cone's apex there is none: the ray's own will do.
         return visit(t, entering, normal == Vec3(0.0) ? direction : normal);
     };
@@ -108,7 +109,7 @@ void LocalSolid::field_crossings(const Field& field, double greatest_unit, const
         } else if (inside_at(from) != inside) {
             if (!emit(from, !inside)) return;
         }
-        RootFinder finder({scratch.criterion, Tolerances{scale_}.along(from), faint}, scratch.counters.roots);
+        RootFinder finder({scratch.criterion, Tolerances{scale_}.along(from), f_tolerance}, scratch.counters.roots);
         if (!finder.crossings(ray, from, to, [&](RootCrossing c) { return emit(c.t, c.entering); })) return;
         if (to >= t1) return;
     }
@@ -121,8 +122,9 @@ void LocalSolid::sum_crossings(const ProductSum& sum, const Vec3& origin, const 
     ProductSumRay& ray = scratch.sum;
     ray.set(sum, origin, direction);
     if (start_inside) *start_inside = ray.inside(t0);
-    ray.crossings(t0, t1, Tolerances{scale_}.along(t0), coarse, scratch.counters.roots,
-                  [&](RootCrossing c) { return visit(c.t, c.entering, coarse ? Vec3(0.0) : unit(ray.gradient(c.t))); });
+    ray.crossings(t0, t1, Tolerances{scale_}.along(t0), coarse, scratch.counters.roots, [&](RootCrossing c) {
+        return visit(c.t, c.entering, coarse ? Vec3(0.0) : normalized(ray.gradient(c.t)));
+    });
 }
 
 // visit(t, entering, normal or 0: not known yet) → go on?
@@ -130,7 +132,8 @@ template <class Visit>
 void LocalSolid::soft_crossings(const Soft& soft, const Vec3& origin, const Vec3& direction, double t0, double t1,
                                 CrossingScratch& scratch, bool* start_inside, Visit visit) const {
     if (soft.field)
-        return field_crossings(*soft.field, soft.unit, origin, direction, t0, t1, scratch, start_inside, visit);
+        return field_crossings(*soft.field, soft.max_noise_scale, origin, direction, t0, t1, scratch, start_inside,
+                               visit);
     if (soft.convex) {
         const ConvexView view = ConvexView::of(*soft.convex);
         const ConvexCrossings all = all_crossings(view, origin, direction, t0, t1, Tolerances{scale_}.along(t0),
@@ -172,8 +175,8 @@ void LocalSolid::soft_crossings(const Soft& soft, const Vec3& origin, const Vec3
             }
             if (!(hi < 1e300)) hi = 1e300;
         }
-        const double negligible = Tolerances{scale_}.along(lo);
-        Stretch stretch(density, scratch, negligible);
+        const double t_tolerance = Tolerances{scale_}.along(lo);
+        Stretch stretch(density, scratch, t_tolerance);
         const auto pass = [&](double t, bool entering) { return visit(t, entering, Vec3(0.0)); };
         if (!has_sharp) {
             if (!stretch.crossings(lo, hi, pass)) return;
@@ -191,7 +194,7 @@ void LocalSolid::soft_crossings(const Soft& soft, const Vec3& origin, const Vec3
         bool inside = false;
         for (std::size_t k = 0; k + 1 < cuts.size(); ++k) {
             const double a = cuts[k], b = cuts[k + 1];
-            if (k > 0 && k + 2 < cuts.size() && b - a <= negligible) continue;  // a gap of rounding
+            if (k > 0 && k + 2 < cuts.size() && b - a <= t_tolerance) continue;  // a gap of rounding
             density.fix_sharp(a + 0.5 * (b - a));
             const bool now = inside_at(a);
             if (k > 0 && now != inside) {
@@ -200,7 +203,7 @@ void LocalSolid::soft_crossings(const Soft& soft, const Vec3& origin, const Vec3
                     const HalfSpace& h = soft.density.half_spaces()[i];
                     if (h.radius > 0 || density.distance_rate(i) == 0) continue;
                     const double t = density.plane_crossing(i);
-                    if (std::abs(t - a) <= negligible) normal = h.normal;
+                    if (std::abs(t - a) <= t_tolerance) normal = h.normal;
                 }
                 if (!visit(a, now, normal)) return;
             }
@@ -240,7 +243,7 @@ SurfaceCrossing LocalSolid::first_crossing(const Vec3& origin, const Vec3& direc
             return result;
         }
         soft_crossings(soft, origin, direction, t0, t1, scratch, nullptr, [&](double t, bool entering, Vec3 normal) {
-            if (normal == Vec3(0.0)) normal = unit(scratch.density.gradient(t));
+            if (normal == Vec3(0.0)) normal = normalized(scratch.density.gradient(t));
             found(t, entering, normal, leaf.material, scratch.error);
             return false;
         });
@@ -267,7 +270,7 @@ SurfaceCrossing LocalSolid::first_crossing(const Vec3& origin, const Vec3& direc
         scratch.error = 0;
         soft_crossings(softs_[std::size_t(leaf.soft)], origin, direction, t0, t1, scratch, &start,
                        [&](double t, bool entering, Vec3 normal) {
-                           if (normal == Vec3(0.0)) normal = unit(scratch.density.gradient(t));
+                           if (normal == Vec3(0.0)) normal = normalized(scratch.density.gradient(t));
                            events.push_back({t, int(i), entering, normal, scratch.error});
                            return true;
                        });

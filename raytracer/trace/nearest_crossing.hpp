@@ -23,19 +23,19 @@ public:
     bool found() const { return found_; }
     double end() const { return end_; }
 
-    /// Of piece `number` of `pieces`: a plane or a product of half-spaces.
-    void offer(const Pieces& pieces, std::uint32_t number, const ConvexCrossing& c) {
-        const Piece& p = pieces[number];
+    /// Of primitive `number` of `primitives`: a plane or a product of half-spaces.
+    void offer(const CellPrimitives& primitives, std::uint32_t number, const ConvexCrossing& c) {
+        const CellPrimitive& p = primitives[number];
         if (!take(c.t, p.solid, number)) return;
-        pieces_ = &pieces;
+        primitives_ = &primitives;
         convex_ = c;
         material_ = p.material;
         error_ = 0;
     }
-    /// Whose normal is known: of a piece, or of something else that is placed in the space.
+    /// Whose normal is known: of a primitive, or of something else that is placed in the space.
     void offer(const SurfaceCrossing& c, double error, int solid, std::uint32_t number) {
         if (!take(c.t, solid, number)) return;
-        pieces_ = nullptr;
+        primitives_ = nullptr;
         normal_ = c.normal;
         material_ = c.material;
         error_ = error;
@@ -44,8 +44,8 @@ public:
     /// What was found; `rounding`: what the place is rounded by on a ray of this space.
     [[gnu::always_inline]] FoundSurface surface(const Ray& ray, double rounding) const {
         if (!found_) return {};
-        if (!pieces_) return {{end_, normal_, material_}, solid_, error_};
-        return {{end_, pieces_->normal(number_, convex_, ray.origin, ray.direction), material_}, solid_, rounding};
+        if (!primitives_) return {{end_, normal_, material_}, solid_, error_};
+        return {{end_, primitives_->normal(number_, convex_, ray.origin, ray.direction), material_}, solid_, rounding};
     }
 
 private:
@@ -64,7 +64,7 @@ private:
     int solid_ = -1;
     std::uint32_t number_ = 0;
     // Of which it is, if it is still without its normal.
-    const Pieces* pieces_ = nullptr;
+    const CellPrimitives* primitives_ = nullptr;
     ConvexCrossing convex_;
     Vec3 normal_{0.0};
     int material_ = 0;

@@ -13,12 +13,12 @@ template <bool Any>
 class PacketSearch {
 public:
     /// Of at most RayPacket::size rays.
-    PacketSearch(const Surfaces& surfaces, const SeveralRays& rays, TraceCounters& counters, const Others* others,
-                 double farthest = infinity)
+    PacketSearch(const Surfaces& surfaces, const RayBatch& rays, TraceCounters& counters,
+                 const InstanceTracer* instances, double farthest = infinity)
         : surfaces_(surfaces),
           rays_(rays),
           counters_(counters),
-          others_(others),
+          instances_(instances),
           lanes_((Lanes(1) << rays.size()) - 1) {
         for (std::size_t k = 0; k < RayPacket::size; ++k) {
             const std::size_t i = k < rays.size() ? k : 0;  // so that there are numbers everywhere
@@ -36,77 +36,78 @@ public:
     /// Whether a ray begins beyond `farthest`.
     bool is_far() const { return is_far_; }
 
-    void search(const BoxTree& boxes) {
-        look_at_planes();
+    void search(const Bvh4& boxes) {
+        visit_planes();
         if (boxes.empty() || lanes_ == 0) return;
         lanes_ = packet_functions.enter(boxes.box(), packet_, lanes_, entry_);
         if (lanes_ == 0) return;
-        const BoxTree::Beam beam{entry_.least_point, entry_.most_point, entry_.least_direction, entry_.most_direction,
-                                 longest_way()};
-        boxes.visit_together(beam, [&](std::uint32_t i) {
-            if (!look_at(i)) return infinity;
-            return lanes_ == 0 ? -1.0 : longest_way();
+        const Bvh4::Beam beam{entry_.min_point, entry_.max_point, entry_.min_direction, entry_.max_direction,
+                              longest_distance()};
+        boxes.visit_packet(beam, [&](std::uint32_t i) {
+            if (!visit(i)) return infinity;
+            return lanes_ == 0 ? -1.0 : longest_distance();
         });
     }
 
     /// Those that cross anything.
-    Lanes any() const { return any_; }
+    Lanes any_hit() const { return any_; }
     /// What ray k found.
     FoundSurface surface(int k) const {
-        return nearest_[k].surface(ray(k), rounding_of(packet_.reach[k], nearest_[k].end()));
+        return nearest_[k].surface(ray(k), rounding_of(packet_.coordinate_bound[k], nearest_[k].end()));
     }
 
 private:
     const Ray& ray(int k) const { return rays_.rays[std::size_t(k)]; }
-    double longest_way() const { return packet_functions.longest_way(packet_, lanes_, entry_); }
-    void look_at_planes() {
-        if (surfaces_.planes.size() == 0) return;
+    double longest_distance() const { return packet_functions.longest_distance(packet_, lanes_, entry_); }
+    void visit_planes() {
+        if (surfaces_.infinite_planes.size() == 0) return;
         PacketSpans spans;
         for (int k = 0; k < RayPacket::size; ++k) {
             spans.from[k] = std::size_t(k) < rays_.begin.size() ? rays_.begin[std::size_t(k)] : 0;
             spans.to[k] = packet_.t_max[k];
         }
-        for (std::size_t i = 0; i < surfaces_.planes.size(); ++i)
-            look(surfaces_.planes, std::uint32_t(i), lanes_, spans);
+        for (std::size_t i = 0; i < surfaces_.infinite_planes.size(); ++i)
+            intersect(surfaces_.infinite_planes, std::uint32_t(i), lanes_, spans);
     }
 
     // Whether anything was found.
-    bool look_at(std::uint32_t i) {
-        if (i >= surfaces_.pieces.size()) return look_at_other(i);
+    bool visit(std::uint32_t i) {
+        if (i >= surfaces_.cell_primitives.size()) return visit_instance(i);
         PacketSpans spans;
-        const Lanes in = packet_functions.spans_in_cell(surfaces_.pieces[i].box, packet_, lanes_, spans);
-        return in != 0 && look(surfaces_.pieces, i, in, spans);
+        const Lanes in = packet_functions.spans_in_cell(surfaces_.cell_primitives[i].box, packet_, lanes_, spans);
+        return in != 0 && intersect(surfaces_.cell_primitives, i, in, spans);
     }
 
-    bool look(const Pieces& pieces, std::uint32_t i, Lanes lanes, const PacketSpans& spans) {
+    bool intersect(const CellPrimitives& primitives, std::uint32_t i, Lanes lanes, const PacketSpans& spans) {
         counters_.cells += std::uint64_t(__builtin_popcount(lanes));
-        const Piece& p = pieces[i];
-        if (!pieces.for_packets(i)) return look_one_by_one(pieces, i, lanes, spans);
+        const CellPrimitive& p = primitives[i];
+        if (!primitives.for_packets(i)) return intersect_one_by_one(primitives, i, lanes, spans);
         if constexpr (Any) {
-            return found(pieces.occlusions(p, packet_, lanes, spans, counters_));
+            return found(primitives.any_crossings(p, packet_, lanes, spans, counters_));
         } else {
             PacketCrossings c;
-            return found(pieces.crossings(p, packet_, lanes, spans, c, counters_), [&](int k) {
-                nearest_[k].offer(pieces, i, {c.t[k], bool(c.entering >> k & 1), int(c.plane[k])});
+            return found(primitives.crossings(p, packet_, lanes, spans, c, counters_), [&](int k) {
+                nearest_[k].offer(primitives, i, {c.t[k], bool(c.entering >> k & 1), int(c.plane[k])});
             });
         }
     }
 
-    bool look_one_by_one(const Pieces& pieces, std::uint32_t i, Lanes lanes, const PacketSpans& spans) {
+    bool intersect_one_by_one(const CellPrimitives& primitives, std::uint32_t i, Lanes lanes,
+                              const PacketSpans& spans) {
         Lanes crossed = 0;
         for_each_lane(lanes, [&](int k) {
             NearestCrossing& nearest = nearest_[Any ? 0 : k];  // of no use where that there is one is all that is asked
-            const bool crosses =
-                look_at_piece<Any>(pieces, i, ray(k), spans.from[k], spans.to[k], packet_.reach[k], nearest, counters_);
+            const bool crosses = intersect_primitive<Any>(primitives, i, ray(k), spans.from[k], spans.to[k],
+                                                          packet_.coordinate_bound[k], nearest, counters_);
             crossed |= Lanes(crosses) << k;
         });
         return found(crossed);
     }
 
-    bool look_at_other(std::uint32_t i) {
-        const std::uint32_t other = i - std::uint32_t(surfaces_.pieces.size());
+    bool visit_instance(std::uint32_t i) {
+        const std::uint32_t instance = i - std::uint32_t(surfaces_.cell_primitives.size());
         PacketSpans spans;
-        const Lanes in = packet_functions.spans_in_cell(surfaces_.others[other], packet_, lanes_, spans);
+        const Lanes in = packet_functions.spans_in_cell(surfaces_.instance_boxes[instance], packet_, lanes_, spans);
         if (in == 0) return false;
         Ray rays[RayPacket::size];
         double t_max[RayPacket::size], end[RayPacket::size];
@@ -118,14 +119,14 @@ private:
             end[count] = packet_.end[k];
             lane[count++] = k;
         });
-        const SeveralRays several{{rays, count}, {t_max, count}, {end, count}};
+        const RayBatch batch{{rays, count}, {t_max, count}, {end, count}};
         Lanes crossed = 0;
         if constexpr (Any) {
-            const Lanes any = others_->any_together(other, several, counters_);
+            const Lanes any = instances_->any_hit_packet(instance, batch, counters_);
             for (std::size_t j = 0; j < count; ++j) crossed |= (any >> j & 1) << lane[j];
         } else {
             FoundSurface f[RayPacket::size];
-            others_->find_together(other, several, f, counters_);
+            instances_->closest_hit_packet(instance, batch, f, counters_);
             for (std::size_t j = 0; j < count; ++j) {
                 if (!(f[j].crossing.t < infinity)) continue;
                 crossed |= Lanes(1) << lane[j];
@@ -153,9 +154,9 @@ private:
     }
 
     const Surfaces& surfaces_;
-    const SeveralRays& rays_;
+    const RayBatch& rays_;
     TraceCounters& counters_;
-    const Others* others_;
+    const InstanceTracer* instances_;
     Lanes lanes_, any_ = 0;  // that go on; that found something
     bool is_far_;
     RayPacket packet_;

@@ -5,7 +5,7 @@ namespace deburr {
 TraceCounters& TraceCounters::operator+=(const TraceCounters& o) {
     rays += o.rays;
     shadow_rays += o.shadow_rays;
-    placements += o.placements;
+    instances += o.instances;
     cells += o.cells;
     flat_hits += o.flat_hits;
     segments += o.segments;
@@ -14,13 +14,13 @@ TraceCounters& TraceCounters::operator+=(const TraceCounters& o) {
     return *this;
 }
 
-void RayTracer::first_hits(std::span<const Ray> rays, Hit* hits, TraceCounters& counters) const {
-    for (std::size_t k = 0; k < rays.size(); ++k) hits[k] = first_hit(rays[k], infinity, counters);
+void RayTracer::closest_hits(std::span<const Ray> rays, Hit* hits, TraceCounters& counters) const {
+    for (std::size_t k = 0; k < rays.size(); ++k) hits[k] = closest_hit(rays[k], infinity, counters);
 }
 
-void RayTracer::occlusions(std::span<const Ray> rays, std::span<const double> t_max, bool* occluded,
-                           TraceCounters& counters) const {
-    for (std::size_t k = 0; k < rays.size(); ++k) occluded[k] = this->occluded(rays[k], t_max[k], counters);
+void RayTracer::any_hits(std::span<const Ray> rays, std::span<const double> t_max, bool* occluded,
+                         TraceCounters& counters) const {
+    for (std::size_t k = 0; k < rays.size(); ++k) occluded[k] = this->any_hit(rays[k], t_max[k], counters);
 }
 
 }  // namespace deburr

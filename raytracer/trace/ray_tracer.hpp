@@ -26,7 +26,7 @@ struct Hit {
 
 /// What tracing cost; each thread has its own and they are added up.
 struct TraceCounters {
-    std::uint64_t rays = 0, shadow_rays = 0, placements = 0, cells = 0, flat_hits = 0;
+    std::uint64_t rays = 0, shadow_rays = 0, instances = 0, cells = 0, flat_hits = 0;
     std::uint64_t segments = 0, splits = 0, evaluations = 0;
 
     TraceCounters& operator+=(const TraceCounters& o);
@@ -36,14 +36,14 @@ class RayTracer {
 public:
     virtual ~RayTracer() = default;
     /// First surface at a distance in (0, t_max).
-    virtual Hit first_hit(const Ray& ray, double t_max, TraceCounters& counters) const = 0;
+    virtual Hit closest_hit(const Ray& ray, double t_max, TraceCounters& counters) const = 0;
     /// Whether there is any surface at a distance in (0, t_max).
-    virtual bool occluded(const Ray& ray, double t_max, TraceCounters& counters) const = 0;
+    virtual bool any_hit(const Ray& ray, double t_max, TraceCounters& counters) const = 0;
 
     /// The same for many rays, to the bit: the sooner the closer neighbours run to each other.
-    virtual void first_hits(std::span<const Ray> rays, Hit* hits, TraceCounters& counters) const;
-    virtual void occlusions(std::span<const Ray> rays, std::span<const double> t_max, bool* occluded,
-                            TraceCounters& counters) const;
+    virtual void closest_hits(std::span<const Ray> rays, Hit* hits, TraceCounters& counters) const;
+    virtual void any_hits(std::span<const Ray> rays, std::span<const double> t_max, bool* occluded,
+                          TraceCounters& counters) const;
 };
 
 /// The ray's origin lifted off the surface it was found on, to the side that `direction` leads to.

@@ -13,7 +13,7 @@
 namespace deburr {
 
 /// Rays that run close to each other: each in [begin, t_max]; what lies beyond `end` need not be found.
-struct SeveralRays {
+struct RayBatch {
     std::span<const Ray> rays;
     std::span<const double> t_max, end;
     std::span<const double> begin = {};  // empty: 0
@@ -22,65 +22,65 @@ struct SeveralRays {
 };
 
 /// What is in a space besides: found by its box, asked for by its number.
-class Others {
+class InstanceTracer {
 public:
     /// First crossing along the ray in [0, t_max]; none is needed beyond `end`.
-    virtual FoundSurface find(std::uint32_t other, const Ray& ray, double t_max, double end,
-                              TraceCounters& counters) const = 0;
+    virtual FoundSurface closest_hit(std::uint32_t instance, const Ray& ray, double t_max, double end,
+                                     TraceCounters& counters) const = 0;
     /// Whether there is one.
-    virtual bool any(std::uint32_t other, const Ray& ray, double t_max, TraceCounters& counters) const = 0;
+    virtual bool any_hit(std::uint32_t instance, const Ray& ray, double t_max, TraceCounters& counters) const = 0;
     /// The same for at most RayPacket::size rays, to the bit.
-    virtual void find_together(std::uint32_t other, const SeveralRays& rays, FoundSurface* found,
-                               TraceCounters& counters) const {
+    virtual void closest_hit_packet(std::uint32_t instance, const RayBatch& rays, FoundSurface* found,
+                                    TraceCounters& counters) const {
         for (std::size_t k = 0; k < rays.size(); ++k)
-            found[k] = find(other, rays.rays[k], rays.t_max[k], rays.end[k], counters);
+            found[k] = closest_hit(instance, rays.rays[k], rays.t_max[k], rays.end[k], counters);
     }
-    virtual Lanes any_together(std::uint32_t other, const SeveralRays& rays, TraceCounters& counters) const {
+    virtual Lanes any_hit_packet(std::uint32_t instance, const RayBatch& rays, TraceCounters& counters) const {
         Lanes found = 0;
         for (std::size_t k = 0; k < rays.size(); ++k)
-            found |= Lanes(any(other, rays.rays[k], rays.t_max[k], counters)) << k;
+            found |= Lanes(any_hit(instance, rays.rays[k], rays.t_max[k], counters)) << k;
         return found;
     }
 
 protected:
-    ~Others() = default;
+    ~InstanceTracer() = default;
 };
 
-/// The surfaces of one space. Pieces and then others are numbered as one.
+/// The surfaces of one space. Cell primitives and then instances are numbered as one.
 struct Surfaces {
     double scale = 1;  // coordinates reach so far
-    Pieces pieces;
-    Pieces planes;            // whole solids
-    std::vector<Box> others;  // around them, with more to spare than rounding makes of a ray
+    CellPrimitives cell_primitives;
+    CellPrimitives infinite_planes;   // whole solids
+    std::vector<Box> instance_boxes;  // around them, with more to spare than rounding makes of a ray
 };
 
 /// What a distance along a ray is rounded by, where coordinates that are added reach so far.
-inline double rounding_of(double reach, double t) { return 4 * epsilon * (reach + std::abs(t)); }
+inline double rounding_of(double coordinate_bound, double t) { return 4 * epsilon * (coordinate_bound + std::abs(t)); }
 
-/// Whether the ray crosses piece i in [from, to]. Unless that is all that is asked (`Any`), the first crossing is
+/// Whether the ray crosses primitive i in [from, to]. Unless that is all that is asked (`Any`), the first crossing is
 /// offered to `nearest`.
 template <bool Any>
-[[gnu::always_inline]] inline bool look_at_piece(const Pieces& pieces, std::uint32_t i, const Ray& ray, double from,
-                                                 double to, double reach, NearestCrossing& nearest,
-                                                 TraceCounters& counters) {
-    const Piece& p = pieces[i];
-    if (p.kind == Piece::Kind::plane) {
-        const double t = pieces.plane_crossing(p, ray.origin, ray.direction);
+[[gnu::always_inline]] inline bool intersect_primitive(const CellPrimitives& primitives, std::uint32_t i,
+                                                       const Ray& ray, double from, double to, double coordinate_bound,
+                                                       NearestCrossing& nearest, TraceCounters& counters) {
+    const CellPrimitive& p = primitives[i];
+    if (p.kind == CellPrimitive::Kind::plane) {
+        const double t = primitives.plane_crossing(p, ray.origin, ray.direction);
         if (!(t >= from && t <= to && t < infinity)) return false;
         ++counters.flat_hits;
-        if constexpr (!Any) nearest.offer(pieces, i, {t});
+        if constexpr (!Any) nearest.offer(primitives, i, {t});
         return true;
     }
-    if (p.kind == Piece::Kind::convex) {
-        if constexpr (Any) return pieces.crosses_convex(p, ray.origin, ray.direction, from, to, counters);
-        const ConvexCrossing c = pieces.convex_crossing(p, ray.origin, ray.direction, from, to, counters);
+    if (p.kind == CellPrimitive::Kind::convex) {
+        if constexpr (Any) return primitives.crosses_convex(p, ray.origin, ray.direction, from, to, counters);
+        const ConvexCrossing c = primitives.convex_crossing(p, ray.origin, ray.direction, from, to, counters);
         if (!(c.t < infinity)) return false;
-        nearest.offer(pieces, i, c);
+        nearest.offer(primitives, i, c);
         return true;
     }
-    const SurfaceCrossing c = pieces.general_crossing(p, ray.origin, ray.direction, from, to, Any, counters);
+    const SurfaceCrossing c = primitives.general_crossing(p, ray.origin, ray.direction, from, to, Any, counters);
     if (!(c.t < infinity)) return false;
-    if constexpr (!Any) nearest.offer(c, rounding_of(reach, c.t) + c.error, p.solid, i);
+    if constexpr (!Any) nearest.offer(c, rounding_of(coordinate_bound, c.t) + c.error, p.solid, i);
     return true;
 }
 
@@ -90,16 +90,16 @@ class SurfaceSearch {
 public:
     /// In [begin, t_max]; what lies beyond `end` need not be found.
     SurfaceSearch(const Surfaces& surfaces, const Ray& ray, double t_max, double end, TraceCounters& counters,
-                  const Others* others, double begin = 0)
+                  const InstanceTracer* instances, double begin = 0)
         : surfaces_(surfaces),
           ray_(ray),
           inverse_(reciprocal(ray.direction)),
-          reach_(surfaces.scale + largest(ray.origin)),
+          coordinate_bound_(surfaces.scale + largest(ray.origin)),
           begin_(begin),
           t_max_(t_max),
           nearest_(std::min(t_max, end)),
           counters_(counters),
-          others_(others) {}
+          instances_(instances) {}
 
     const Ray& ray() const { return ray_; }
     const Vec3& inverse() const { return inverse_; }
@@ -110,45 +110,46 @@ public:
     /// Nothing more needs to be looked at.
     bool enough() const { return any_; }
     /// A distance along the ray is rounded by this much.
-    double rounding(double t) const { return rounding_of(reach_, t); }
+    double rounding(double t) const { return rounding_of(coordinate_bound_, t); }
 
-    void look_at_planes() {
-        for (std::size_t i = 0; i < surfaces_.planes.size(); ++i)
-            look(surfaces_.planes, std::uint32_t(i), begin_, t_max_);
+    void visit_planes() {
+        for (std::size_t i = 0; i < surfaces_.infinite_planes.size(); ++i)
+            intersect(surfaces_.infinite_planes, std::uint32_t(i), begin_, t_max_);
     }
 
-    void look_at(std::uint32_t i) {
-        if (i < surfaces_.pieces.size())
-            look_in_cell(i);
+    void visit(std::uint32_t i) {
+        if (i < surfaces_.cell_primitives.size())
+            visit_in_cell(i);
         else
-            look_at_other(i);
+            visit_instance(i);
     }
 
     /// What was found.
     FoundSurface surface() const { return nearest_.surface(ray_, rounding(nearest_.end())); }
 
 private:
-    void look_in_cell(std::uint32_t i) {
+    void visit_in_cell(std::uint32_t i) {
         // As far as t_max, not end(): what is found may depend on both ends of the stretch, by rounding.
-        const BoxSpan span = span_in(surfaces_.pieces[i].box, ray_.origin, inverse_, begin_, t_max_);
+        const BoxSpan span = span_in(surfaces_.cell_primitives[i].box, ray_.origin, inverse_, begin_, t_max_);
         // Cells overlap by what their walls are rounded by: a surface in a wall belongs to both.
         const double pad = rounding(std::min(span.lo, span.hi));
         const double from = std::max(begin_, span.lo - pad), to = std::min(t_max_, span.hi + pad);
-        if (from <= to && from <= end()) look(surfaces_.pieces, i, from, to);
+        if (from <= to && from <= end()) intersect(surfaces_.cell_primitives, i, from, to);
     }
 
-    [[gnu::always_inline]] void look(const Pieces& pieces, std::uint32_t i, double from, double to) {
+    [[gnu::always_inline]] void intersect(const CellPrimitives& primitives, std::uint32_t i, double from, double to) {
         ++counters_.cells;
-        const bool crosses = look_at_piece<Any>(pieces, i, ray_, from, to, reach_, nearest_, counters_);
+        const bool crosses =
+            intersect_primitive<Any>(primitives, i, ray_, from, to, coordinate_bound_, nearest_, counters_);
         any_ |= Any && crosses;
     }
 
-    void look_at_other(std::uint32_t i) {
-        const std::uint32_t other = i - std::uint32_t(surfaces_.pieces.size());
+    void visit_instance(std::uint32_t i) {
+        const std::uint32_t instance = i - std::uint32_t(surfaces_.cell_primitives.size());
         if constexpr (Any) {
-            any_ = others_->any(other, ray_, end(), counters_);
+            any_ = instances_->any_hit(instance, ray_, end(), counters_);
         } else {
-            const FoundSurface found = others_->find(other, ray_, t_max_, end(), counters_);
+            const FoundSurface found = instances_->closest_hit(instance, ray_, t_max_, end(), counters_);
             if (found.crossing.t < infinity) nearest_.offer(found.crossing, found.error, found.solid, i);
         }
     }
@@ -156,12 +157,12 @@ private:
     const Surfaces& surfaces_;
     const Ray& ray_;
     Vec3 inverse_;
-    double reach_;  // of coordinates that are added
+    double coordinate_bound_;  // of coordinates that are added
     double begin_, t_max_;
     NearestCrossing nearest_;
     bool any_ = false;
     TraceCounters& counters_;
-    const Others* others_;
+    const InstanceTracer* instances_;
 };
 
 }  // namespace deburr

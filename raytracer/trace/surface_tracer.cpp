@@ -47,8 +47,8 @@ void traverse(const BspTree& tree, const Ray& ray, double t0, double t1, OnCell 
 }  // namespace
 
 template <bool Any>
-[[gnu::always_inline]] inline bool BspTracer::search(SurfaceSearch<Any>& search) const {
-    search.look_at_planes();
+[[gnu::always_inline]] inline bool SurfaceTracer::search(SurfaceSearch<Any>& search) const {
+    search.visit_planes();
     if (search.enough()) return true;
     const Ray& ray = search.ray();
     // What is no number would be let into empty boxes.
@@ -61,66 +61,67 @@ template <bool Any>
         if (search.enough() || (search.found() && search.end() < span.lo)) return true;
     }
     if (!meets) return search.found();
-    const auto look = [&](std::uint32_t i) {
-        search.look_at(i);
+    const auto visit = [&](std::uint32_t i) {
+        search.visit(i);
         return search.enough() ? -1.0 : search.end();
     };
     if (!embree_)
-        boxes_.visit(ray.origin, ray.direction, search.inverse(), span.lo, span.hi, look);
+        boxes_.visit(ray.origin, ray.direction, search.inverse(), span.lo, span.hi, visit);
     else
         embree_->visit(ray.origin, ray.direction, span.lo, span.hi,
-                       Any ? EmbreeBoxes::Order::any : EmbreeBoxes::Order::nearest_first, look);
+                       Any ? EmbreeBvh::Order::any : EmbreeBvh::Order::nearest_first, visit);
     if (!bounded_ && !search.enough() && search.end() > span.hi) walk(search, span.hi, search.end());
     return search.found();
 }
 
 template <bool Any>
-void BspTracer::walk(SurfaceSearch<Any>& search, double t0, double t1) const {
-    const BspTree& tree = trees_[0];  // whose pieces are the first
+void SurfaceTracer::walk(SurfaceSearch<Any>& search, double t0, double t1) const {
+    const BspTree& tree = trees_[0];  // whose primitives are the first
     traverse(tree, search.ray(), t0, t1, [&](std::size_t number, double from) {
         // What is crossed within rounding of a wall may be found in either cell.
         if (search.enough() || from - search.rounding(from) > search.end()) return true;
         const BspCell& cell = tree.cells[number];
-        for (std::uint32_t i = cell.first; i < cell.first + cell.count; ++i) search.look_at(i);
+        for (std::uint32_t i = cell.first; i < cell.first + cell.count; ++i) search.visit(i);
         return false;
     });
 }
 
-FoundSurface BspTracer::find_nearby(const Ray& ray, double begin, double t_max, TraceCounters& counters,
-                                    const Others* others, double end) const {
-    SurfaceSearch<false> s(surfaces_, ray, t_max, end, counters, others, begin);
+FoundSurface SurfaceTracer::closest_hit_nearby(const Ray& ray, double begin, double t_max, TraceCounters& counters,
+                                               const InstanceTracer* instances, double end) const {
+    SurfaceSearch<false> s(surfaces_, ray, t_max, end, counters, instances, begin);
     return search(s) ? s.surface() : FoundSurface{};
 }
 
-bool BspTracer::any_nearby(const Ray& ray, double begin, double t_max, TraceCounters& counters,
-                           const Others* others) const {
-    SurfaceSearch<true> s(surfaces_, ray, t_max, t_max, counters, others, begin);
+bool SurfaceTracer::any_hit_nearby(const Ray& ray, double begin, double t_max, TraceCounters& counters,
+                                   const InstanceTracer* instances) const {
+    SurfaceSearch<true> s(surfaces_, ray, t_max, t_max, counters, instances, begin);
     return search(s);
 }
 
 // ---- rays from far away --------------------------------------------------------------------------
 
-FoundSurface BspTracer::find_from_afar(const Ray& ray, double t_max, TraceCounters& counters, const Others* others,
-                                       double end) const {
+FoundSurface SurfaceTracer::closest_hit_from_afar(const Ray& ray, double t_max, TraceCounters& counters,
+                                                  const InstanceTracer* instances, double end) const {
     const double start = vicinity_.start(ray);
-    if (start == 0) return find_nearby(ray, 0, t_max, counters, others, end);
+    if (start == 0) return closest_hit_nearby(ray, 0, t_max, counters, instances, end);
     const FarRay far(ray, start, t_max, surfaces_.scale);
     if (has_unbounded()) {
-        const FoundSurface first = find_nearby(ray, 0, std::min(t_max, far.middle), counters, others, end);
+        const FoundSurface first = closest_hit_nearby(ray, 0, std::min(t_max, far.middle), counters, instances, end);
         if (first.crossing.t < infinity) return first;
     }
     if (std::min(t_max, end) < far.middle) return {};
-    FoundSurface found = find_nearby(far.moved, far.begin, far.t_max, counters, others, end - start);
+    FoundSurface found = closest_hit_nearby(far.moved, far.begin, far.t_max, counters, instances, end - start);
     found.start = start;
     return found;
 }
 
-bool BspTracer::any_from_afar(const Ray& ray, double t_max, TraceCounters& counters, const Others* others) const {
+bool SurfaceTracer::any_hit_from_afar(const Ray& ray, double t_max, TraceCounters& counters,
+                                      const InstanceTracer* instances) const {
     const double start = vicinity_.start(ray);
-    if (start == 0) return any_nearby(ray, 0, t_max, counters, others);
+    if (start == 0) return any_hit_nearby(ray, 0, t_max, counters, instances);
     const FarRay far(ray, start, t_max, surfaces_.scale);
-    if (has_unbounded() && any_nearby(ray, 0, std::min(t_max, far.middle), counters, others)) return true;
-    return t_max >= far.middle && any_nearby(far.moved, far.begin, far.t_max, counters, others);
+    if (has_unbounded() && any_hit_nearby(ray, 0, std::min(t_max, far.middle), counters, instances)) return true;
+    return t_max >= far.middle && any_hit_nearby(far.moved, far.begin, far.t_max, counters, instances);
 }
 
 // ---- rays together -------------------------------------------------------------------------------
@@ -128,41 +129,42 @@ bool BspTracer::any_from_afar(const Ray& ray, double t_max, TraceCounters& count
 namespace {
 
 // Fewer are led alone: together they gain nothing.
-constexpr std::size_t fewest_together = 4;
+constexpr std::size_t min_packet_rays = 4;
 
 }  // namespace
 
-bool BspTracer::leads_together(std::size_t rays) const { return rays >= fewest_together && bounded_ && !embree_; }
+bool SurfaceTracer::use_packet(std::size_t rays) const { return rays >= min_packet_rays && bounded_ && !embree_; }
 
 // Those that begin elsewhere than at 0 are moved already.
-double BspTracer::farthest(const SeveralRays& rays) const {
+double SurfaceTracer::farthest(const RayBatch& rays) const {
     return rays.begin.empty() ? vicinity_.farthest() : infinity;
 }
 
-void BspTracer::find(const SeveralRays& rays, FoundSurface* found, TraceCounters& counters,
-                     const Others* others) const {
-    if (!leads_together(rays.size())) {
+void SurfaceTracer::closest_hit_packet(const RayBatch& rays, FoundSurface* found, TraceCounters& counters,
+                                       const InstanceTracer* instances) const {
+    if (!use_packet(rays.size())) {
         for (std::size_t k = 0; k < rays.size(); ++k)
-            found[k] = find(rays.rays[k], rays.t_max[k], counters, others, rays.end[k]);
+            found[k] = closest_hit(rays.rays[k], rays.t_max[k], counters, instances, rays.end[k]);
         return;
     }
-    PacketSearch<false> packet(surfaces_, rays, counters, others, farthest(rays));
-    if (packet.is_far()) return find_from_afar(rays, found, counters, others);
+    PacketSearch<false> packet(surfaces_, rays, counters, instances, farthest(rays));
+    if (packet.is_far()) return closest_hit_from_afar(rays, found, counters, instances);
     packet.search(boxes_);
     for (int k = 0; k < int(rays.size()); ++k) found[k] = packet.surface(k);
 }
 
-Lanes BspTracer::any(const SeveralRays& rays, TraceCounters& counters, const Others* others) const {
+Lanes SurfaceTracer::any_hit_packet(const RayBatch& rays, TraceCounters& counters,
+                                    const InstanceTracer* instances) const {
     Lanes found = 0;
-    if (!leads_together(rays.size())) {
+    if (!use_packet(rays.size())) {
         for (std::size_t k = 0; k < rays.size(); ++k)
-            found |= Lanes(any(rays.rays[k], rays.t_max[k], counters, others)) << k;
+            found |= Lanes(any_hit(rays.rays[k], rays.t_max[k], counters, instances)) << k;
         return found;
     }
-    PacketSearch<true> packet(surfaces_, rays, counters, others, farthest(rays));
-    if (packet.is_far()) return any_from_afar(rays, counters, others);
+    PacketSearch<true> packet(surfaces_, rays, counters, instances, farthest(rays));
+    if (packet.is_far()) return any_hit_from_afar(rays, counters, instances);
     packet.search(boxes_);
-    return packet.any();
+    return packet.any_hit();
 }
 
 namespace {
@@ -176,7 +178,7 @@ struct RaysBeside {
 
     /// on_the_way(number, until): whether a ray from far away is done with before it comes near.
     template <class OnTheWay>
-    RaysBeside(const SeveralRays& all, const Vicinity& vicinity, double scale, OnTheWay on_the_way) {
+    RaysBeside(const RayBatch& all, const Vicinity& vicinity, double scale, OnTheWay on_the_way) {
         for (std::size_t k = 0; k < all.size(); ++k) {
             FarRay far(all.rays[k], vicinity.start(all.rays[k]), all.t_max[k], scale);
             if (far.start > 0 && on_the_way(k, far.middle)) continue;
@@ -188,49 +190,51 @@ struct RaysBeside {
             number[count++] = k;
         }
     }
-    SeveralRays several() const { return {{rays, count}, {t_max, count}, {end, count}, {begin, count}}; }
+    RayBatch batch() const { return {{rays, count}, {t_max, count}, {end, count}, {begin, count}}; }
 };
 
 }  // namespace
 
-void BspTracer::find_from_afar(const SeveralRays& rays, FoundSurface* found, TraceCounters& counters,
-                               const Others* others) const {
+void SurfaceTracer::closest_hit_from_afar(const RayBatch& rays, FoundSurface* found, TraceCounters& counters,
+                                          const InstanceTracer* instances) const {
     const RaysBeside beside(rays, vicinity_, surfaces_.scale, [&](std::size_t k, double middle) {
         if (!has_unbounded()) return false;
-        found[k] = find_nearby(rays.rays[k], 0, std::min(rays.t_max[k], middle), counters, others, rays.end[k]);
+        found[k] =
+            closest_hit_nearby(rays.rays[k], 0, std::min(rays.t_max[k], middle), counters, instances, rays.end[k]);
         return found[k].crossing.t < infinity;
     });
-    if (beside.count < fewest_together) {
+    if (beside.count < min_packet_rays) {
         for (std::size_t i = 0; i < beside.count; ++i) {
             const std::size_t k = beside.number[i];
-            found[k] = find(rays.rays[k], rays.t_max[k], counters, others, rays.end[k]);
+            found[k] = closest_hit(rays.rays[k], rays.t_max[k], counters, instances, rays.end[k]);
         }
         return;
     }
     FoundSurface of_moved[RayPacket::size];
-    find(beside.several(), of_moved, counters, others);
+    closest_hit_packet(beside.batch(), of_moved, counters, instances);
     for (std::size_t i = 0; i < beside.count; ++i) {
         found[beside.number[i]] = of_moved[i];
         found[beside.number[i]].start = beside.start[i];
     }
 }
 
-Lanes BspTracer::any_from_afar(const SeveralRays& rays, TraceCounters& counters, const Others* others) const {
+Lanes SurfaceTracer::any_hit_from_afar(const RayBatch& rays, TraceCounters& counters,
+                                       const InstanceTracer* instances) const {
     Lanes found = 0;
     const RaysBeside beside(rays, vicinity_, surfaces_.scale, [&](std::size_t k, double middle) {
         const bool any =
-            has_unbounded() && any_nearby(rays.rays[k], 0, std::min(rays.t_max[k], middle), counters, others);
+            has_unbounded() && any_hit_nearby(rays.rays[k], 0, std::min(rays.t_max[k], middle), counters, instances);
         found |= Lanes(any) << k;
         return any;
     });
-    if (beside.count < fewest_together) {
+    if (beside.count < min_packet_rays) {
         for (std::size_t i = 0; i < beside.count; ++i) {
             const std::size_t k = beside.number[i];
-            found |= Lanes(any(rays.rays[k], rays.t_max[k], counters, others)) << k;
+            found |= Lanes(any_hit(rays.rays[k], rays.t_max[k], counters, instances)) << k;
         }
         return found;
     }
-    const Lanes of_moved = any(beside.several(), counters, others);
+    const Lanes of_moved = any_hit_packet(beside.batch(), counters, instances);
     for (std::size_t i = 0; i < beside.count; ++i) found |= (of_moved >> i & 1) << beside.number[i];
     return found;
 }
@@ -239,7 +243,7 @@ Lanes BspTracer::any_from_afar(const SeveralRays& rays, TraceCounters& counters,
 
 namespace {
 
-// So many boxes are a single node of a BoxTree, and not worth a scene of Embree's.
+// So many boxes are a single node of a Bvh4, and not worth a scene of Embree's.
 constexpr std::size_t few = 4;
 
 // The cells, by the places of what is in them.
@@ -263,10 +267,10 @@ std::vector<Box> cells_of_locals(const BspTree& tree) {
 
 // As the BSP has them; item(place) makes one.
 template <class Item>
-int join_like(const BspTree& tree, BoxTree::Builder& builder, Item item) {
-    std::vector<int> part(tree.nodes.size(), BoxTree::Builder::nothing);
+int join_like(const BspTree& tree, Bvh4::Builder& builder, Item item) {
+    std::vector<int> part(tree.nodes.size(), Bvh4::Builder::nothing);
     const auto list = [&](auto&& self, std::uint32_t first, std::uint32_t last) -> int {
-        if (first == last) return BoxTree::Builder::nothing;
+        if (first == last) return Bvh4::Builder::nothing;
         if (last - first == 1) return item(first);
         const std::uint32_t middle = first + (last - first) / 2;
         const int a = self(self, first, middle), b = self(self, middle, last);
@@ -293,24 +297,25 @@ std::vector<NamedBsp> alone(BspTree&& tree) {
 
 }  // namespace
 
-BspTracer::BspTracer(BspTree&& tree, Criterion criterion, Accel accel)
-    : BspTracer(alone(std::move(tree)), {}, criterion, accel) {}
+SurfaceTracer::SurfaceTracer(BspTree&& tree, Criterion criterion, Accel accel)
+    : SurfaceTracer(alone(std::move(tree)), {}, criterion, accel) {}
 
-BspTracer::BspTracer(std::vector<NamedBsp> bsps, const std::vector<Box>& others, Criterion criterion, Accel accel) {
+SurfaceTracer::SurfaceTracer(std::vector<NamedBsp> bsps, const std::vector<Box>& instance_boxes, Criterion criterion,
+                             Accel accel) {
     Tolerances tolerances = bsps[0].tree.tolerances;
-    double least_scale = infinity;  // of BSPs that hold anything
+    double min_scale = infinity;  // of BSPs that hold anything
     for (const NamedBsp& bsp : bsps) {
         tolerances.scale = std::max(tolerances.scale, bsp.tree.tolerances.scale);
-        if (!bsp.tree.locals.empty()) least_scale = std::min(least_scale, bsp.tree.tolerances.scale);
+        if (!bsp.tree.locals.empty()) min_scale = std::min(min_scale, bsp.tree.tolerances.scale);
     }
     surfaces_.scale = tolerances.scale;
-    Pieces &pieces = surfaces_.pieces, &planes = surfaces_.planes;
-    pieces = planes = Pieces(tolerances, criterion);
-    std::vector<Box> boxes;  // of pieces
+    CellPrimitives &primitives = surfaces_.cell_primitives, &planes = surfaces_.infinite_planes;
+    primitives = planes = CellPrimitives(tolerances, criterion);
+    std::vector<Box> boxes;  // of primitives
     Box world;
-    for (const Box& box : others) {
+    for (const Box& box : instance_boxes) {
         world = hull(world, box);
-        surfaces_.others.push_back(inflated(box, tolerances.margin()));
+        surfaces_.instance_boxes.push_back(inflated(box, tolerances.margin()));
     }
     for (NamedBsp& bsp : bsps) {
         const auto name = [&](const LocalSolid& local) { return bsp.solids[std::size_t(local.solid())]; };
@@ -323,22 +328,22 @@ BspTracer::BspTracer(std::vector<NamedBsp> bsps, const std::vector<Box>& others,
             LocalSolid& local = bsp.tree.locals[i];
             const Box around = intersection(cells[i], bsp.tree.boxes[std::size_t(local.solid())]);
             const int solid = name(local);
-            pieces.add(std::move(local), around, solid);
-            boxes.push_back(pieces.surface_box(boxes.size(), bsp.tree.tolerances.margin()));
+            primitives.add(std::move(local), around, solid);
+            boxes.push_back(primitives.surface_box(boxes.size(), bsp.tree.tolerances.margin()));
             if (boxes.back().finite())
                 world = hull(world, boxes.back());
             else
                 bounded_ = false;
         }
     }
-    BoxTree::Builder builder;
+    Bvh4::Builder builder;
     std::vector<int> parts;
     std::vector<NumberedBox> items;
     std::uint32_t first = 0;
     for (NamedBsp& bsp : bsps) {
         parts.push_back(join_like(bsp.tree, builder, [&](std::uint32_t i) {
             const Box box = intersection(boxes[first + i], world);
-            if (box.empty()) return BoxTree::Builder::nothing;
+            if (box.empty()) return Bvh4::Builder::nothing;
             items.push_back({first + i, box});
             return builder.item(first + i, box);
         }));
@@ -349,17 +354,17 @@ BspTracer::BspTracer(std::vector<NamedBsp> bsps, const std::vector<Box>& others,
         if (!walked) bsp.tree.nodes = {};
         trees_.push_back(std::move(bsp.tree));
     }
-    for (const Box& box : others) {
+    for (const Box& box : instance_boxes) {
         items.push_back({first, box});
         parts.push_back(builder.item(first++, box));
     }
     for (const NumberedBox& item : items) around_ = hull(around_, item.box);
     // Rays that meet planes only are as exact as they can be.
-    if (!around_.empty() || !bounded_) vicinity_ = Vicinity(around_, tolerances.scale, least_scale);
+    if (!around_.empty() || !bounded_) vicinity_ = Vicinity(around_, tolerances.scale, min_scale);
     if (accel == Accel::embree && items.size() > few)
         embree_.emplace(items);
     else
-        boxes_ = BoxTree(builder, builder.join_by_area(std::move(parts)));
+        boxes_ = Bvh4(builder, builder.join_by_area(std::move(parts)));
 }
 
 }  // namespace deburr

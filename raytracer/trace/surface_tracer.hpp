@@ -21,37 +21,39 @@ struct NamedBsp {
     std::vector<int> solids;  // by the BSP's numbers
 };
 
-class BspTracer {
+class SurfaceTracer {
 public:
-    BspTracer() = default;
+    SurfaceTracer() = default;
     /// Of one BSP, with its numbers.
-    BspTracer(BspTree&& tree, Criterion criterion, Accel accel = Accel::bsp);
+    SurfaceTracer(BspTree&& tree, Criterion criterion, Accel accel = Accel::bvh);
     /// Of several, of which but the first must be bounded, and of others' boxes.
-    BspTracer(std::vector<NamedBsp> bsps, const std::vector<Box>& others, Criterion criterion,
-              Accel accel = Accel::bsp);
+    SurfaceTracer(std::vector<NamedBsp> bsps, const std::vector<Box>& instance_boxes, Criterion criterion,
+                  Accel accel = Accel::bvh);
 
-    /// First crossing along the ray in [0, t_max]; none is needed beyond `end`. `others` are asked by the
+    /// First crossing along the ray in [0, t_max]; none is needed beyond `end`. `instances` are asked by the
     /// number of their box.
-    FoundSurface find(const Ray& ray, double t_max, TraceCounters& counters, const Others* others = nullptr,
-                      double end = infinity) const {
+    FoundSurface closest_hit(const Ray& ray, double t_max, TraceCounters& counters,
+                             const InstanceTracer* instances = nullptr, double end = infinity) const {
         if (vicinity_.is_far(ray.origin)) [[unlikely]]
-            return find_from_afar(ray, t_max, counters, others, end);
-        return find_nearby(ray, 0, t_max, counters, others, end);
+            return closest_hit_from_afar(ray, t_max, counters, instances, end);
+        return closest_hit_nearby(ray, 0, t_max, counters, instances, end);
     }
     /// Whether there is one.
-    bool any(const Ray& ray, double t_max, TraceCounters& counters, const Others* others = nullptr) const {
+    bool any_hit(const Ray& ray, double t_max, TraceCounters& counters,
+                 const InstanceTracer* instances = nullptr) const {
         if (vicinity_.is_far(ray.origin)) [[unlikely]]
-            return any_from_afar(ray, t_max, counters, others);
-        return any_nearby(ray, 0, t_max, counters, others);
+            return any_hit_from_afar(ray, t_max, counters, instances);
+        return any_hit_nearby(ray, 0, t_max, counters, instances);
     }
     /// The same for at most RayPacket::size rays, to the bit.
-    void find(const SeveralRays& rays, FoundSurface* found, TraceCounters& counters,
-              const Others* others = nullptr) const;
-    Lanes any(const SeveralRays& rays, TraceCounters& counters, const Others* others = nullptr) const;
+    void closest_hit_packet(const RayBatch& rays, FoundSurface* found, TraceCounters& counters,
+                            const InstanceTracer* instances = nullptr) const;
+    Lanes any_hit_packet(const RayBatch& rays, TraceCounters& counters,
+                         const InstanceTracer* instances = nullptr) const;
 
-    /// Others lie at `first`, so many bytes apart, as long as rays are traced.
-    void others_lie_at(const void* first, std::size_t apart) {
-        boxes_.items_lie_at(std::uint32_t(surfaces_.pieces.size()), first, apart);
+    /// Instances lie at `first`, so many bytes apart, as long as rays are traced.
+    void instances_lie_at(const void* first, std::size_t stride) {
+        boxes_.items_lie_at(std::uint32_t(surfaces_.cell_primitives.size()), first, stride);
     }
 
     const std::vector<BspTree>& trees() const { return trees_; }  // without their LocalSolids
@@ -61,27 +63,29 @@ private:
     template <bool Any>
     bool search(SurfaceSearch<Any>& search) const;
     // In [begin, t_max]; of rays that are near the space, or moved there.
-    FoundSurface find_nearby(const Ray& ray, double begin, double t_max, TraceCounters& counters, const Others* others,
-                             double end) const;
-    bool any_nearby(const Ray& ray, double begin, double t_max, TraceCounters& counters, const Others* others) const;
+    FoundSurface closest_hit_nearby(const Ray& ray, double begin, double t_max, TraceCounters& counters,
+                                    const InstanceTracer* instances, double end) const;
+    bool any_hit_nearby(const Ray& ray, double begin, double t_max, TraceCounters& counters,
+                        const InstanceTracer* instances) const;
     // Of rays that may come from far away.
-    FoundSurface find_from_afar(const Ray& ray, double t_max, TraceCounters& counters, const Others* others,
-                                double end) const;
-    bool any_from_afar(const Ray& ray, double t_max, TraceCounters& counters, const Others* others) const;
-    void find_from_afar(const SeveralRays& rays, FoundSurface* found, TraceCounters& counters,
-                        const Others* others) const;
-    Lanes any_from_afar(const SeveralRays& rays, TraceCounters& counters, const Others* others) const;
+    FoundSurface closest_hit_from_afar(const Ray& ray, double t_max, TraceCounters& counters,
+                                       const InstanceTracer* instances, double end) const;
+    bool any_hit_from_afar(const Ray& ray, double t_max, TraceCounters& counters,
+                           const InstanceTracer* instances) const;
+    void closest_hit_from_afar(const RayBatch& rays, FoundSurface* found, TraceCounters& counters,
+                               const InstanceTracer* instances) const;
+    Lanes any_hit_from_afar(const RayBatch& rays, TraceCounters& counters, const InstanceTracer* instances) const;
     template <bool Any>
     void walk(SurfaceSearch<Any>& search, double t0, double t1) const;
-    bool leads_together(std::size_t rays) const;
-    double farthest(const SeveralRays& rays) const;
-    bool has_unbounded() const { return !bounded_ || surfaces_.planes.size() > 0; }
+    bool use_packet(std::size_t rays) const;
+    double farthest(const RayBatch& rays) const;
+    bool has_unbounded() const { return !bounded_ || surfaces_.infinite_planes.size() > 0; }
 
     std::vector<BspTree> trees_;
     Surfaces surfaces_;
-    // Of pieces and then of others; unbounded pieces as far as all else reaches. One of the two is there.
-    BoxTree boxes_;
-    std::optional<EmbreeBoxes> embree_;
+    // Of primitives and then of instances; unbounded primitives as far as all else reaches. One of the two is there.
+    Bvh4 boxes_;
+    std::optional<EmbreeBvh> embree_;
     Box around_;  // all of these
     Vicinity vicinity_;
     bool bounded_ = true;  // nothing is outside

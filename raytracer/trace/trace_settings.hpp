@@ -5,14 +5,14 @@ namespace deburr {
 
 /// What leads a ray to the surfaces of a space; what it finds is the same.
 enum class Accel {
-    bsp,    // a tree of boxes around what is in the cells of BSPs
+    bvh,    // a tree of boxes around what is in the cells of BSPs
     embree  // the same boxes under a BVH of Embree's
 };
 
 inline const char* name(Accel accel) { return accel == Accel::embree ? "embree" : "bsp"; }
 
 /// Which densities' roots are searched for by the bounds M, L and G.
-enum class Search {
+enum class RootMethod {
     where_needed,  // those that are neither products of half-spaces nor sums of few
     always         // of more than one half-space; for measuring the search itself
 };

@@ -23,8 +23,8 @@ namespace {
 namespace fs = std::filesystem;
 
 // The hidden files' names for a signal handler. One group of files is written at a time.
-constexpr std::size_t most_files = 2;
-std::array<std::atomic<const char*>, most_files> unfinished{};
+constexpr std::size_t max_files = 2;
+std::array<std::atomic<const char*>, max_files> unfinished{};
 static_assert(std::atomic<const char*>::is_always_lock_free);
 std::atomic<bool> file_written{false};
 
@@ -180,7 +180,7 @@ struct Output {
 void write_together(const std::vector<Output>& outputs) {
     std::vector<Target> targets;
     for (const Output& o : outputs) targets.push_back(find_target(o.path));
-    std::array<std::optional<HiddenFile>, most_files> files;
+    std::array<std::optional<HiddenFile>, max_files> files;
     for (std::size_t i = 0; i < outputs.size(); ++i) {
         if (targets[i].direct) continue;
         HiddenFile& file = files.at(i).emplace(outputs[i].path, targets[i].folder);

@@ -38,7 +38,7 @@ double by_lines(const DensityTree& tree, Vec3 x, double r, int across) {
             for (std::size_t c = 0; c + 1 < cuts.size(); ++c) {
                 const Vec3 y = x + r * (u * ex + v * ey + 0.5 * (cuts[c] + cuts[c + 1]) * ez);
                 for (std::size_t p = 0; p < is_true.size(); ++p) is_true[p] = tree.half_spaces[p].distance(y) <= 0;
-                if (plain::truth(tree, root, is_true)) inside += cuts[c + 1] - cuts[c];
+                if (plain::boolean_value(tree, root, is_true)) inside += cuts[c + 1] - cuts[c];
             }
         }
     return inside * 4.0 / across / across / (4 * pi / 3);

@@ -10,7 +10,7 @@ using namespace deburr;
 namespace {
 
 constexpr double scale = 4;
-constexpr double negligible = 1e-14;
+constexpr double t_tolerance = 1e-14;
 
 double value(const ConvexDensity& d, Vec3 x) {
     double P = 1;
@@ -112,45 +112,45 @@ TEST_CASE("a product's crossings are those of the search, whatever the ray") {
         const auto convex = convex_density(density, scale);
         if (!convex) continue;
         const Vec3 aim = g.near(tree), o = g.chance(0.3) ? g.near(tree) : g.point(2);
-        Vec3 way = glm::normalize(aim - o);
+        Vec3 direction = glm::normalize(aim - o);
         if (g.chance(0.3)) {  // along the surface, almost
             const Vec3 n = tree.half_spaces[std::size_t(g.below(int(tree.half_spaces.size())))].normal;
-            const Vec3 flat = way - n * glm::dot(way, n);
-            if (glm::length(flat) > 1e-3) way = glm::normalize(flat + n * std::pow(10.0, g.between(-9, -1)));
+            const Vec3 flat = direction - n * glm::dot(direction, n);
+            if (glm::length(flat) > 1e-3) direction = glm::normalize(flat + n * std::pow(10.0, g.between(-9, -1)));
         }
         const double t0 = g.chance(0.5) ? 0 : g.between(0, 1), t1 = t0 + g.between(0, 6);
         RayDensity ray;
-        ray.set(density, o, way);
+        ray.set(density, o, direction);
         RootCounters counters;
         std::vector<RootCrossing> want;
-        RootFinder({Criterion::exact, negligible}, counters).crossings(ray, t0, t1, [&](RootCrossing c) {
+        RootFinder({Criterion::exact, t_tolerance}, counters).crossings(ray, t0, t1, [&](RootCrossing c) {
             want.push_back(c);
             return true;
         });
         std::uint64_t evaluations = 0;
         const ConvexView view = ConvexView::of(*convex);
-        const ConvexCrossings all = all_crossings(view, o, way, t0, t1, negligible, evaluations);
-        const ConvexCrossing first = first_crossing(view, o, way, t0, t1, negligible, evaluations);
-        const bool any = any_crossing(view, o, way, t0, t1, negligible, evaluations);
+        const ConvexCrossings all = all_crossings(view, o, direction, t0, t1, t_tolerance, evaluations);
+        const ConvexCrossing first = first_crossing(view, o, direction, t0, t1, t_tolerance, evaluations);
+        const bool any = any_crossing(view, o, direction, t0, t1, t_tolerance, evaluations);
         REQUIRE(any == (first.t < infinity));
         REQUIRE(any == (all.count > 0));
         if (any) {
             REQUIRE(all.at[0].t == Approx(first.t).margin(1e-12));
             REQUIRE(all.at[0].entering == first.entering);
         }
-        const double rho = plain::density(tree, o + way * t0);
+        const double rho = plain::density(tree, o + direction * t0);
         if (std::abs(rho - 0.5) > 1e-9) {
             REQUIRE(all.start_inside == (rho > 0.5));
             inside += rho > 0.5;
         }
-        // The search may overlook a dip of 10⁻⁹ (is_faint); so may whoever starts on the surface.
-        const auto faint = [&](double t) {
+        // The search may overlook a dip of 10⁻⁹ (is_near_zero); so may whoever starts on the surface.
+        const auto near_zero = [&](double t) {
             return std::abs(ray.at(t).slope) < 1e-5 || std::abs(t - t0) < 1e-9 || std::abs(t - t1) < 1e-9;
         };
         if (int(want.size()) != all.count) {
             bool explained = false;
-            for (const RootCrossing& c : want) explained |= faint(c.t);
-            for (int i = 0; i < all.count; ++i) explained |= faint(all.at[i].t);
+            for (const RootCrossing& c : want) explained |= near_zero(c.t);
+            for (int i = 0; i < all.count; ++i) explained |= near_zero(all.at[i].t);
             ++grazing;
             REQUIRE(explained);
             continue;
@@ -159,7 +159,8 @@ TEST_CASE("a product's crossings are those of the search, whatever the ray") {
             REQUIRE(all.at[i].entering == want[i].entering);
             const double slope = std::abs(ray.at(want[i].t).slope);
             REQUIRE(std::abs(all.at[i].t - want[i].t) <= 1e-12 + 1e-13 / slope);
-            const Vec3 n = surface_normal(view, all.at[i], o + way * all.at[i].t), gradient = ray.gradient(want[i].t);
+            const Vec3 n = surface_normal(view, all.at[i], o + direction * all.at[i].t),
+                       gradient = ray.gradient(want[i].t);
             if (slope > 1e-3) REQUIRE(glm::length(glm::cross(n, gradient)) < 1e-6 * glm::length(gradient));
             alone += all.at[i].plane >= 0;
         }
@@ -186,16 +187,16 @@ TEST_CASE("sharp factors clip a product: its crossings against the plain definit
         if (!convex || !density.has_sharp()) continue;
         REQUIRE(convex->sharp > 0);
         // Beside the sharp edges: on them either answer is right.
-        const Vec3 o = g.point(3), way = glm::normalize(g.near(tree.leaves[0].density) + g.point(0.05) - o);
+        const Vec3 o = g.point(3), direction = glm::normalize(g.near(tree.leaves[0].density) + g.point(0.05) - o);
         std::uint64_t evaluations = 0;
         const ConvexView view = ConvexView::of(*convex);
-        const ConvexCrossings all = all_crossings(view, o, way, 0, 12, negligible, evaluations);
-        const double want = plain::first_crossing(tree, o, way, 12, 16);
+        const ConvexCrossings all = all_crossings(view, o, direction, 0, 12, t_tolerance, evaluations);
+        const double want = plain::first_crossing(tree, o, direction, 12, 16);
         const double got = all.count > 0 ? all.at[0].t : infinity;
-        const bool slip = got < want && plain::contains(tree, o + way * (got - 1e-7)) !=
-                                            plain::contains(tree, o + way * (got + 1e-7));
+        const bool slip = got < want && plain::contains(tree, o + direction * (got - 1e-7)) !=
+                                            plain::contains(tree, o + direction * (got + 1e-7));
         if (!slip) REQUIRE((got == want || std::abs(got - want) < 1e-7));
-        REQUIRE(any_crossing(view, o, way, 0, 12, negligible, evaluations) == (all.count > 0));
+        REQUIRE(any_crossing(view, o, direction, 0, 12, t_tolerance, evaluations) == (all.count > 0));
         for (int i = 0; i < all.count; ++i) {
             ++total;
             at_sharp += all.at[i].plane >= int(convex->planes.size()) - convex->sharp;

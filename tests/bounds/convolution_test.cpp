@@ -12,7 +12,7 @@ using namespace deburr;
 namespace {
 
 Density plane(Vec3 normal, double offset) { return Density::half_space(normal, offset); }
-double truth(const Density& d, Vec3 x, double r) { return flatten_convolved(d, r).at(x); }
+double exact(const Density& d, Vec3 x, double r) { return flatten_convolved(d, r).at(x); }
 double quasi(const Density& d, Vec3 x, double r) { return flatten(d, r).at(x); }
 
 DensityTree random_tree(Gen& g) {
@@ -141,15 +141,15 @@ TEST_CASE("Lobb 2.3.1 (a): a product is exact where the filter lies outside of e
         const Density a = g.box(), b = plane(g.normal(), g.between(-0.5, 0.5)), c = g.box();
         const double r = g.between(0.05, 0.4);
         const Vec3 x = g.near(flatten(a, r));
-        if (truth(b, x, r) == 0) {
-            CHECK(truth(a * b, x, r) == 0);
+        if (exact(b, x, r) == 0) {
+            CHECK(exact(a * b, x, r) == 0);
             CHECK(quasi(a * b, x, r) == 0);
-            met += truth(a, x, r) > 0;
+            met += exact(a, x, r) > 0;
         }
         // Of a factor that is a product itself this is not so: a filter beyond its edge may meet both
         // of the planes and nothing of what is between them.
-        if (truth(c, x, r) == 0) {
-            CHECK(truth(a * c, x, r) == 0);
+        if (exact(c, x, r) == 0) {
+            CHECK(exact(a * c, x, r) == 0);
             CHECK(quasi(a * c, x, r) < 0.01);
             compound += quasi(a * c, x, r) > 0;
         }
@@ -166,10 +166,10 @@ TEST_CASE("Lobb 2.3.1 (b): a product is exact where the filter lies inside of on
         const Density a = plane(g.normal(), g.between(-0.5, 0.5)), b = g.box();
         const double r = g.between(0.02, 0.15);
         const Vec3 x = g.near(flatten(a, r), 0.6);
-        if (truth(b, x, r) < 1) continue;
-        CHECK(std::abs(truth(a * b, x, r) - truth(a, x, r)) < 1e-15);
-        CHECK(std::abs(quasi(a * b, x, r) - truth(a * b, x, r)) < 1e-15);
-        met += truth(a, x, r) > 0 && truth(a, x, r) < 1;
+        if (exact(b, x, r) < 1) continue;
+        CHECK(std::abs(exact(a * b, x, r) - exact(a, x, r)) < 1e-15);
+        CHECK(std::abs(quasi(a * b, x, r) - exact(a * b, x, r)) < 1e-15);
+        met += exact(a, x, r) > 0 && exact(a, x, r) < 1;
     }
     CHECK(met > 50);
 }
@@ -182,26 +182,26 @@ TEST_CASE("Lobb 2.3.1 (c), (d): a product is exact on a right-angled edge and in
                    x = g.point();
         const double r = g.between(0.1, 1);
         const Density a = plane(u, glm::dot(u, x)), b = plane(v, glm::dot(v, x)), c = plane(w, glm::dot(w, x));
-        CHECK(truth(a * b, x, r) == Approx(0.25).epsilon(1e-13));
+        CHECK(exact(a * b, x, r) == Approx(0.25).epsilon(1e-13));
         CHECK(quasi(a * b, x, r) == Approx(0.25).epsilon(1e-13));
         const Vec3 along = x + g.between(-3, 3) * w;
-        CHECK(truth(a * b, along, r) == Approx(0.25).epsilon(1e-13));
-        CHECK(truth(a * b * c, x, r) == Approx(0.125).epsilon(1e-13));
+        CHECK(exact(a * b, along, r) == Approx(0.25).epsilon(1e-13));
+        CHECK(exact(a * b * c, x, r) == Approx(0.125).epsilon(1e-13));
         CHECK(quasi(a * b * c, x, r) == Approx(0.125).epsilon(1e-13));
     }
 }
 
 TEST_CASE("Lobb 2.3.1: off a right-angled edge a product is not exact, and a doubled half-space moves in") {
     const Density edge = plane({1, 0, 0}, 0) * plane({0, 1, 0}, 0);
-    CHECK(std::abs(truth(edge, {-0.3, -0.3, 0}, 1) - quasi(edge, {-0.3, -0.3, 0}, 1)) > 1e-3);
+    CHECK(std::abs(exact(edge, {-0.3, -0.3, 0}, 1) - quasi(edge, {-0.3, -0.3, 0}, 1)) > 1e-3);
     // "The entire isosurface is inside the planes by about one quarter of the filter radius."
     const Density twice = plane({1, 0, 0}, 0) * plane({1, 0, 0}, 0);
     const double in = -displacement(std::sqrt(0.5));
     CHECK(in == Approx(0.28).margin(0.005));
     CHECK(quasi(twice, {-in, 0, 0}, 1) == Approx(0.5));
-    CHECK(truth(twice, {0, 0, 0}, 1) == Approx(0.5));
+    CHECK(exact(twice, {0, 0, 0}, 1) == Approx(0.5));
     // "Two abutting antiparallel halfspaces would evaluate to 0.25 on the common plane rather than 0."
     const Density nothing = plane({1, 0, 0}, 0) * plane({-1, 0, 0}, 0);
     CHECK(quasi(nothing, Vec3(0), 1) == Approx(0.25));
-    CHECK(truth(nothing, Vec3(0), 1) == 0);
+    CHECK(exact(nothing, Vec3(0), 1) == 0);
 }

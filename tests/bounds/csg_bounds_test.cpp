@@ -19,8 +19,8 @@ double rounding(const DensityTree& tree, Vec3 x) {
 }
 
 struct Tally {
-    int said = 0;   // the bound said something of the point
-    int tight = 0;  // and ρ was within 1e-9 of t
+    int conclusive = 0;  // the bound said something of the point
+    int tight = 0;       // and ρ was within 1e-9 of t
 };
 
 // x ∉ O ⇒ ρ ≤ t, at points where O's planes meet.
@@ -30,7 +30,7 @@ void check_outer(const DensityTree& tree, double t, Gen& g, Tally& tally) {
         const Vec3 x = g.tight_point(bound, true);
         if (bound.contains(x)) continue;
         const double rho = plain::density(tree, x);
-        ++tally.said;
+        ++tally.conclusive;
         tally.tight += std::abs(rho - t) < 1e-9;
         REQUIRE(rho <= t + rounding(tree, x));
     }
@@ -42,7 +42,7 @@ void check_inner(const DensityTree& tree, double t, Gen& g, Tally& tally) {
         const Vec3 x = g.tight_point(bound, false);
         if (!bound.contains(x)) continue;
         const double rho = plain::density(tree, x);
-        ++tally.said;
+        ++tally.conclusive;
         tally.tight += std::abs(rho - t) < 1e-9;
         REQUIRE(rho >= t - rounding(tree, x));
     }
@@ -67,38 +67,38 @@ Density leaf(Gen& g) { return Density::half_space(g.normal(), g.between(-0.5, 0.
 
 TEST_CASE("Lobb theorem 1: an intersection at t is an outer bound of a product") {
     const Tally tally = over_cases(5'000, true, [](Gen& g) { return leaf(g) * leaf(g); });
-    CHECK(tally.said > 4'000);
+    CHECK(tally.conclusive > 4'000);
     CHECK(tally.tight > 400);
 }
 
 TEST_CASE("Lobb theorem 2: a union at t/2 is an outer bound of a sum") {
     const Tally tally = over_cases(5'000, true, [](Gen& g) { return leaf(g) + leaf(g); });
-    CHECK(tally.said > 4'000);
+    CHECK(tally.conclusive > 4'000);
     CHECK(tally.tight > 400);
 }
 
 TEST_CASE("Lobb theorem 3: O(t) minus I(1 - t) is an outer bound of a difference") {
     const Tally tally = over_cases(5'000, true, [](Gen& g) { return leaf(g) - leaf(g); });
-    CHECK(tally.said > 4'000);
+    CHECK(tally.conclusive > 4'000);
     CHECK(tally.tight > 400);
 }
 
 TEST_CASE("Lobb theorem 4: a union at t is an inner bound of a sum") {
     // The appendix prints "outer" here and in 5 and 6; its proofs say inner.
     const Tally tally = over_cases(5'000, false, [](Gen& g) { return leaf(g) + leaf(g); });
-    CHECK(tally.said > 4'000);
+    CHECK(tally.conclusive > 4'000);
     CHECK(tally.tight > 400);
 }
 
 TEST_CASE("Lobb theorem 5: an intersection at sqrt(t) is an inner bound of a product") {
     const Tally tally = over_cases(5'000, false, [](Gen& g) { return leaf(g) * leaf(g); });
-    CHECK(tally.said > 4'000);
+    CHECK(tally.conclusive > 4'000);
     CHECK(tally.tight > 400);
 }
 
 TEST_CASE("Lobb theorem 6: I(t) minus O(0) is an inner bound of a difference") {
     const Tally tally = over_cases(5'000, false, [](Gen& g) { return leaf(g) - leaf(g); });
-    CHECK(tally.said > 2'000);
+    CHECK(tally.conclusive > 2'000);
     CHECK(tally.tight > 200);
 }
 
@@ -108,7 +108,7 @@ TEST_CASE("Frechet: outer bounds of conjunctions, disjunctions and complements, 
             const Density a = leaf(g), b = g.chance(0.3) ? a : leaf(g);  // fully dependent, too
             return g.chance(0.4) ? a & b : g.chance(0.7) ? a | b : ~a & b;
         });
-        CHECK(tally.said > 4'000);
+        CHECK(tally.conclusive > 4'000);
         CHECK(tally.tight > 300);
     }
 }
@@ -124,7 +124,7 @@ TEST_CASE("bounds of whole trees hold at any threshold") {
                 return d;
             }
         });
-        CHECK(tally.said > 2'000);
+        CHECK(tally.conclusive > 2'000);
         CHECK(deep > 500);
     }
 }

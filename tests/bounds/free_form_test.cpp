@@ -4,7 +4,7 @@
 #include "bounds/root_finder.hpp"
 #include "catch.hpp"
 #include "plain_definition.hpp"
-#include "random_form.hpp"
+#include "random_free_form.hpp"
 
 using namespace deburr;
 
@@ -49,7 +49,7 @@ TEST_CASE("quadrics: a range holds what is in the box, and is attained but for m
         if (mixed) continue;
         double want = q.k;
         for (int k = 0; k < 3; ++k)
-            want += parabola_range(q.b[k], q.A[k][k], box.lo[k] - q.centre[k], box.hi[k] - q.centre[k]).hi;
+            want += parabola_range(q.b[k], q.A[k][k], box.lo[k] - q.center[k], box.hi[k] - q.center[k]).hi;
         REQUIRE(r.hi == Approx(want).epsilon(1e-9).margin(1e-9));
     }
 }
@@ -133,7 +133,7 @@ TEST_CASE("quadrics: the bounding box holds the set, and touches ellipsoids") {
             Vec3 n(0.0);
             n[k] = 1;
             const Vec3 to = glm::inverse(-e.A) * n;
-            const Vec3 touch = e.centre + to / std::sqrt(glm::dot(n, to));
+            const Vec3 touch = e.center + to / std::sqrt(glm::dot(n, to));
             REQUIRE(around.hi[k] == Approx(touch[k]).epsilon(1e-6));
         }
     }
@@ -145,7 +145,7 @@ TEST_CASE("free forms: value and gradient are those of Vyatkin's equations 2 and
     for (auto seed : seeds(300)) {
         CAPTURE(seed);
         Gen g(seed);
-        const auto form = random_form(g, g.below(30));
+        const auto form = random_free_form(g, g.below(30));
         for (int k = 0; k < 10; ++k) {
             const Vec3 x = g.point(1.3), d = g.direction();
             const double want = plain::field(*form, x), h = 1e-5;
@@ -161,7 +161,7 @@ TEST_CASE("free forms: coefficients of any size give the same set") {
     for (auto seed : seeds(200)) {
         CAPTURE(seed);
         Gen g(seed);
-        const auto form = random_form(g, 5);
+        const auto form = random_free_form(g, 5);
         const double size = std::pow(10, g.between(-30, 30)), own = std::pow(10, g.between(-8, 8));
         std::vector<Perturbation> scaled;
         for (const Perturbation& p : form->perturbations())
@@ -181,7 +181,7 @@ TEST_CASE("free forms: ranges hold what is in the box, the bounding box what is 
     for (auto seed : seeds(1'500)) {
         CAPTURE(seed);
         Gen g(seed);
-        const auto form = random_form(g, g.below(g.chance(0.2) ? 80 : 12));
+        const auto form = random_free_form(g, g.below(g.chance(0.2) ? 80 : 12));
         for (int b = 0; b < 4; ++b) {
             const Box box = random_box(g);
             const Range r = form->range(box);
@@ -203,7 +203,7 @@ TEST_CASE("free forms: what a range has too much falls with the square of the bo
     double excess[3] = {0, 0, 0};
     for (auto seed : seeds(300)) {
         Gen g(seed);
-        const auto form = random_form(g, 12);
+        const auto form = random_free_form(g, 12);
         const Vec3 x = g.point(0.8);
         for (int level = 0; level < 3; ++level) {
             const double h = 0.08 / (1 << level);
@@ -227,7 +227,7 @@ TEST_CASE("free forms: pruned to a box they are the same there, and only what re
     for (auto seed : seeds(300)) {
         CAPTURE(seed);
         Gen g(seed);
-        const auto form = random_form(g, 80);
+        const auto form = random_free_form(g, 80);
         const Vec3 corner = g.point(1);
         const Box box{corner, corner + Vec3(0.1)};
         const FieldPtr pruned = form->prune(box);
@@ -247,10 +247,10 @@ TEST_CASE("free forms: carried along by a map, they are the form at the map's or
     for (auto seed : seeds(300)) {
         CAPTURE(seed);
         Gen g(seed);
-        const auto form = random_form(g, g.below(12));
+        const auto form = random_free_form(g, g.below(12));
         const Affine map = g.map();
         const FieldPtr there = transformed(form, map);
-        const double unit = there->at(map(form->base().centre)).value / form->at(form->base().centre).value;
+        const double unit = there->at(map(form->base().center)).value / form->at(form->base().center).value;
         for (int k = 0; k < 10; ++k) {
             const Vec3 x = g.point(1);
             REQUIRE(there->at(map(x)).value == Approx(unit * form->at(x).value).epsilon(1e-8).margin(1e-8 * unit));
@@ -264,7 +264,7 @@ TEST_CASE("free forms: along a ray the same values, within M, L and G, which are
     for (auto seed : seeds(2'000)) {
         CAPTURE(seed);
         Gen g(seed);
-        const auto form = random_form(g, g.below(g.chance(0.2) ? 80 : 12));
+        const auto form = random_free_form(g, g.below(g.chance(0.2) ? 80 : 12));
         const Vec3 o = g.point(3), d = glm::normalize(g.point(0.8) - o);
         FieldRay ray;
         ray.set(*form, o, d, 0, 6);
@@ -299,7 +299,7 @@ TEST_CASE("free forms: beyond where it is settled, a ray crosses nothing") {
         const FreeForm form(random_quadric(g),
                             {{g.between(-1, 1), random_quadric(g)}, {g.between(-1, 1), random_quadric(g)}});
         const Vec3 o = g.point(3), d = g.direction();
-        const double t = form.settled(o, d);
+        const double t = form.last_sign_change_bound(o, d);
         REQUIRE(t >= 0);
         if (!(t < 1e6)) continue;
         const bool side = plain::field(form, o + d * (1.001 * t + 1e-6)) > 0;

@@ -8,7 +8,7 @@ using namespace deburr;
 
 namespace {
 
-constexpr double negligible = 1e-14;
+constexpr double t_tolerance = 1e-14;
 
 // What is left of a density in a small box, as in a cell, and its tree.
 struct Case {
@@ -26,13 +26,13 @@ struct Case {
     }
 };
 
-Vec3 way_to(Gen& g, const Case& c, Vec3 o) {
-    const Vec3 way = glm::normalize(g.near(c.tree) - o);
-    if (!g.chance(0.3)) return way;
+Vec3 direction_to(Gen& g, const Case& c, Vec3 o) {
+    const Vec3 direction = glm::normalize(g.near(c.tree) - o);
+    if (!g.chance(0.3)) return direction;
     // Along a plane, almost.
     const Vec3 n = c.tree.half_spaces[std::size_t(g.below(int(c.tree.half_spaces.size())))].normal;
-    const Vec3 flat = way - n * glm::dot(way, n);
-    return glm::length(flat) > 1e-3 ? glm::normalize(flat + n * std::pow(10.0, g.between(-9, -1))) : way;
+    const Vec3 flat = direction - n * glm::dot(direction, n);
+    return glm::length(flat) > 1e-3 ? glm::normalize(flat + n * std::pow(10.0, g.between(-9, -1))) : direction;
 }
 
 }  // namespace
@@ -68,11 +68,11 @@ TEST_CASE("slopes between two points of a ray are within the range that the poin
         const Case c(g);
         if (!c.sum) continue;
         const Vec3 o = g.point(2);
-        const Vec3 way = way_to(g, c, o);
+        const Vec3 direction = direction_to(g, c, o);
         ProductSumRay ray;
         RayDensity plain_ray;
-        ray.set(*c.sum, o, way);
-        plain_ray.set(*c.density, o, way);
+        ray.set(*c.sum, o, direction);
+        plain_ray.set(*c.density, o, direction);
         double t0 = 0, t1 = 6;
         if (!ray.narrow(t0, t1)) continue;
         RootCounters counters;
@@ -102,10 +102,10 @@ TEST_CASE("a sum's crossings are those of the search by M, L and G, whatever the
         const Case c(g);
         if (!c.sum) continue;
         const Vec3 o = g.chance(0.3) ? g.near(c.tree) : g.point(2);
-        const Vec3 way = way_to(g, c, o);
+        const Vec3 direction = direction_to(g, c, o);
         const double t0 = g.chance(0.5) ? 0 : g.between(0, 1), t1 = g.chance(0.1) ? infinity : t0 + g.between(0, 6);
         RayDensity plain_ray;
-        plain_ray.set(*c.density, o, way);
+        plain_ray.set(*c.density, o, direction);
         std::vector<RootCrossing> want, got, coarse;
         const auto into = [](std::vector<RootCrossing>& all) {
             return [&all](RootCrossing x) {
@@ -113,21 +113,21 @@ TEST_CASE("a sum's crossings are those of the search by M, L and G, whatever the
                 return true;
             };
         };
-        RootFinder({Criterion::exact, negligible}, theirs).crossings(plain_ray, t0, std::min(t1, 1e11), into(want));
+        RootFinder({Criterion::exact, t_tolerance}, theirs).crossings(plain_ray, t0, std::min(t1, 1e11), into(want));
         ProductSumRay ray;
-        ray.set(*c.sum, o, way);
-        ray.crossings(t0, t1, negligible, false, ours, into(got));
+        ray.set(*c.sum, o, direction);
+        ray.crossings(t0, t1, t_tolerance, false, ours, into(got));
         RootCounters counters;
-        ray.crossings(t0, t1, negligible, true, counters, into(coarse));
+        ray.crossings(t0, t1, t_tolerance, true, counters, into(coarse));
         REQUIRE(coarse.size() == got.size());
         // Either may overlook a dip of 10⁻⁹; so may whoever starts on the surface.
-        const auto faint = [&](double t) {
+        const auto near_zero = [&](double t) {
             return std::abs(plain_ray.at(t).slope) < 1e-4 || std::abs(t - t0) < 1e-9 || std::abs(t - t1) < 1e-9;
         };
         if (want.size() != got.size()) {
             bool explained = false;
-            for (const RootCrossing& x : want) explained |= faint(x.t);
-            for (const RootCrossing& x : got) explained |= faint(x.t);
+            for (const RootCrossing& x : want) explained |= near_zero(x.t);
+            for (const RootCrossing& x : got) explained |= near_zero(x.t);
             ++grazing;
             REQUIRE(explained);
             continue;
@@ -160,7 +160,7 @@ TEST_CASE("a ray in the plane of a sum's flush face is done soon") {
             ray.set(*products, {5, height, 0.5}, {-1, 0, 0});
             RootCounters counters;
             int crossings = 0;
-            ray.crossings(0, 8, negligible, false, counters, [&](RootCrossing) { return ++crossings; });
+            ray.crossings(0, 8, t_tolerance, false, counters, [&](RootCrossing) { return ++crossings; });
             CHECK(counters.evaluations < 1'000'000);
             if (height >= 1) CHECK(crossings == 0);
         }

@@ -41,7 +41,7 @@ TEST_CASE("Lobb's eq. 6 accepts a segment with two roots; the exact criterion do
     // in the middle; a little longer, and they cross it.
     const RayBounds bounds{1, 1, 1};
     const SegmentEnd end{1e-12, 1};
-    CHECK(least_turning_distance(end, bounds) == Approx(1 + std::sqrt(2.0)));
+    CHECK(min_turning_distance(end, bounds) == Approx(1 + std::sqrt(2.0)));
     CHECK(lobb_turning_distance(end, bounds) == Approx(3));
 
     // The function: f″ = −1, +1, +1, −1 in turns, mirrored about its middle. For half a length of
@@ -61,7 +61,7 @@ TEST_CASE("no function within the bounds reaches a turning point beyond a root s
         Gen g(seed);
         const double L = std::pow(10.0, g.between(-1, 1)), G = std::pow(10.0, g.between(-1, 1));
         const double f0 = g.chance(0.2) ? 0.0 : g.between(-1, 1) * L * L / G, v0 = g.between(-1, 1) * L;
-        const double least = least_turning_distance({f0, v0}, {1, L, G});
+        const double least = min_turning_distance({f0, v0}, {1, L, G});
         // Full force towards the root, braked somewhere near the best moment: the family that holds
         // the optimum, and others.
         const double sign = f0 > 0 || (f0 == 0 && v0 < 0) ? 1.0 : -1.0;

@@ -8,15 +8,15 @@ namespace {
 
 constexpr double pi = 3.14159265358979323846;
 
-double quasi_truth(double degrees, int steps = 200) {
+double quasi_exact(double degrees, int steps = 200) {
     const RoundedEdge edge(degrees * pi / 180);
-    return distance_between([&](double x) { return edge.quasi(x); }, [&](double x) { return edge.truth(x); },
+    return distance_between([&](double x) { return edge.quasi(x); }, [&](double x) { return edge.exact(x); },
                             edge.width(), steps);
 }
 
-double truth_fillet(double degrees) {
+double exact_fillet(double degrees) {
     const RoundedEdge edge(degrees * pi / 180);
-    return distance_between([&](double x) { return edge.truth(x); }, [&](double x) { return edge.fillet(x); },
+    return distance_between([&](double x) { return edge.exact(x); }, [&](double x) { return edge.fillet(x); },
                             edge.width(), 200);
 }
 
@@ -30,33 +30,33 @@ TEST_CASE("Lobb figure 5: where the three curves leave the planes") {
         const auto off = [&](auto curve, double along) { return edge.plane(along * s) - (edge.*curve)(along * s); };
         CHECK(off(&RoundedEdge::quasi, edge.quasi_reach() * 1.001) == Approx(0).margin(1e-12));
         CHECK(off(&RoundedEdge::quasi, edge.quasi_reach() * 0.97) > 1e-12);
-        CHECK(off(&RoundedEdge::truth, edge.truth_reach() * 1.001) == Approx(0).margin(1e-12));
-        CHECK(off(&RoundedEdge::truth, edge.truth_reach() * 0.97) > 1e-9);
+        CHECK(off(&RoundedEdge::exact, edge.exact_reach() * 1.001) == Approx(0).margin(1e-12));
+        CHECK(off(&RoundedEdge::exact, edge.exact_reach() * 0.97) > 1e-9);
         // The fillet touches the plane there.
-        const double x = edge.truth_reach() * s, h = 1e-6;
+        const double x = edge.exact_reach() * s, h = 1e-6;
         CHECK(edge.fillet(x - h) == Approx(edge.plane(x - h)).margin(1e-9));
     }
 }
 
 TEST_CASE("Lobb 2.3.1: how far quasi-convolution, true convolution and the fillet are apart") {
     // "All three methods are virtually equivalent for right-angled edges."
-    CHECK(quasi_truth(90) < 0.01);
-    CHECK(truth_fillet(90) < 0.005);
+    CHECK(quasi_exact(90) < 0.01);
+    CHECK(exact_fillet(90) < 0.005);
     // "Virtually indistinguishable from the cylindrical fillet for the 90° and 135° cases."
-    CHECK(truth_fillet(135) < 0.025);
-    CHECK(truth_fillet(30) > 0.1);
+    CHECK(exact_fillet(135) < 0.025);
+    CHECK(exact_fillet(30) > 0.1);
     // "In the limit ... inside the planes by about one quarter of the filter radius."
-    CHECK(quasi_truth(179.5) == Approx(-displacement(std::sqrt(0.5))).epsilon(0.01));
+    CHECK(quasi_exact(179.5) == Approx(-displacement(std::sqrt(0.5))).epsilon(0.01));
     // Nearest near right angles, and farther the farther from them.
-    double last = quasi_truth(92);
+    double last = quasi_exact(92);
     for (const double degrees : {100.0, 120.0, 140.0, 160.0, 175.0}) {
-        const double here = quasi_truth(degrees);
+        const double here = quasi_exact(degrees);
         CHECK(here > last);
         last = here;
     }
-    last = quasi_truth(88);
+    last = quasi_exact(88);
     for (const double degrees : {80.0, 60.0, 40.0, 20.0}) {
-        const double here = quasi_truth(degrees);
+        const double here = quasi_exact(degrees);
         CHECK(here > last);
         last = here;
     }
@@ -65,8 +65,8 @@ TEST_CASE("Lobb 2.3.1: how far quasi-convolution, true convolution and the fille
 TEST_CASE("Lobb figure 5: at an acute edge quasi-convolution is pointier than truth, and truth than the fillet") {
     for (const double degrees : {20.0, 30.0, 45.0}) {
         const RoundedEdge edge(degrees * pi / 180);
-        CHECK(edge.quasi(0) > edge.truth(0));
-        CHECK(edge.truth(0) > edge.fillet(0));
+        CHECK(edge.quasi(0) > edge.exact(0));
+        CHECK(edge.exact(0) > edge.fillet(0));
     }
 }
 

@@ -31,7 +31,7 @@ bool contains(const std::string& text, const std::string& part) { return text.fi
 
 std::vector<const SceneFunction*> all_functions() {
     std::vector<const SceneFunction*> all;
-    for (const auto* functions : {&shape_functions(), &form_functions(), &look_functions()})
+    for (const auto* functions : {&shape_functions(), &free_form_functions(), &material_functions()})
         for (const SceneFunction& function : *functions) all.push_back(&function);
     return all;
 }
@@ -39,11 +39,10 @@ std::vector<const SceneFunction*> all_functions() {
 // The heading's beginning: "matte{", "rounded(", "x:translate(" or "d:radius(", and of an operator its sign.
 bool is_heading_of(const SceneFunction& function, const std::string& heading) {
     const std::string name = function.name;
-    switch (function.place) {
-        case SceneFunction::Place::global:
-            return heading.rfind(name + "(", 0) == 0 || heading.rfind(name + "{", 0) == 0;
-        case SceneFunction::Place::method: return heading.substr(1).rfind(":" + name + "(", 0) == 0;
-        case SceneFunction::Place::metamethod: break;
+    switch (function.kind) {
+        case SceneFunction::Kind::global: return heading.rfind(name + "(", 0) == 0 || heading.rfind(name + "{", 0) == 0;
+        case SceneFunction::Kind::method: return heading.substr(1).rfind(":" + name + "(", 0) == 0;
+        case SceneFunction::Kind::metamethod: break;
     }
     const char sign = name.back();
     return heading == fmt::format("a {} b", sign) || heading == fmt::format("{}a", sign);
@@ -121,7 +120,7 @@ std::string summary(const Scene& s) {
     for (const Solid& solid : s.solids)
         if (const auto* form = dynamic_cast<const FreeForm*>(solid.node().field().get())) {
             for (int k = 0; k < 3; ++k) all += text(form->base().A[k]);
-            all += text(form->base().b) + text(form->base().centre) + fmt::format("{} ", form->base().k);
+            all += text(form->base().b) + text(form->base().center) + fmt::format("{} ", form->base().k);
         }
     return all;
 }
@@ -163,7 +162,7 @@ TEST_CASE("docs/scenes.md has a part for every function, method and operator of 
 TEST_CASE("docs/scenes.md names no function and no method that the program does not have") {
     std::set<std::string> methods;
     for (const SceneFunction* function : all_functions())
-        if (function->place == SceneFunction::Place::method) methods.insert(function->name);
+        if (function->kind == SceneFunction::Kind::method) methods.insert(function->name);
     const std::string page = project_file("docs/scenes.md");
     const std::regex in_quotes("`[^`\n]+`"), call("(:?)\\b([a-z_][a-z_.]*)[({]");
     int calls = 0;
@@ -259,7 +258,7 @@ TEST_CASE("docs/scenes.md has the limits of a scene") {
     CHECK(contains(page, fmt::format("{} MiB of memory, {} million steps and {} seconds", limits.memory >> 20,
                                      limits.work / 1'000'000, limits.seconds)));
     CHECK(contains(page, fmt::format("{}\nMiB of parts, {} MiB printed", limits.parts >> 20, limits.output >> 20)));
-    CHECK(contains(page, fmt::format("at\nmost {},000,000 half-spaces", most_half_spaces / 1e6)));
+    CHECK(contains(page, fmt::format("at\nmost {},000,000 half-spaces", max_half_spaces / 1e6)));
 }
 
 TEST_CASE("docs/scenes.md has the arguments of every function, and what each takes") {
@@ -270,7 +269,7 @@ TEST_CASE("docs/scenes.md has the arguments of every function, and what each tak
             std::vector<Row> rows = rows_of(part.text);
             std::erase_if(rows, [](const Row& row) { return row.cell("argument").empty(); });
             const std::string name = function->name;
-            const bool method = function->place == SceneFunction::Place::method;
+            const bool method = function->kind == SceneFunction::Kind::method;
             const auto call = [&](std::size_t wrong, std::size_t more) {
                 std::string words;
                 for (std::size_t i = 0; i < rows.size() + more; ++i)

@@ -36,16 +36,16 @@ TEST_CASE("The share of a disc in a polygon is that of random points") {
     };
     std::mt19937 random(1);
     std::uniform_real_distribution<double> unit(-1, 1);
-    for (const Vec2 centre : {Vec2(0, 0), Vec2(2, 1), Vec2(1, 2.4), Vec2(3, 0.5), Vec2(4.5, 0.5), Vec2(9, 9)})
+    for (const Vec2 center : {Vec2(0, 0), Vec2(2, 1), Vec2(1, 2.4), Vec2(3, 0.5), Vec2(4.5, 0.5), Vec2(9, 9)})
         for (const double radius : {0.3, 1.0, 5.0}) {
             int hits = 0, points = 0;
             while (points < 20000) {
                 const Vec2 x(unit(random), unit(random));
                 if (glm::dot(x, x) > 1) continue;
                 ++points;
-                hits += inside(centre + radius * x);
+                hits += inside(center + radius * x);
             }
-            CHECK(disc_share(polygon, centre, radius) == Approx(hits / double(points)).margin(0.02));
+            CHECK(disc_share(polygon, center, radius) == Approx(hits / double(points)).margin(0.02));
         }
     // Half of it on a side, a quarter in a square corner, all of it inside: exactly.
     CHECK(disc_share(polygon, {1, 0}, 0.5) == Approx(0.5).epsilon(1e-13));

@@ -16,7 +16,7 @@
 namespace deburr {
 namespace {
 
-constexpr std::size_t most_pixels = 1 << 16;  // of a picture that is compared
+constexpr std::size_t max_pixels = 1 << 16;  // of a picture that is compared
 
 // A file that is in memory as long as the program runs.
 class MemoryFile {
@@ -38,7 +38,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     static const MemoryFile file;
     try {
         const Film film = read_picture(file.holding(data, size));
-        if (film.pixels.size() <= most_pixels) (void)difference(film, film, {});
+        if (film.pixels.size() <= max_pixels) (void)difference(film, film, {});
     } catch (const UsageError&) {
         // Refused, in words.
     }

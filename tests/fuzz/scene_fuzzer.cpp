@@ -16,7 +16,7 @@ namespace deburr {
 namespace {
 
 constexpr SandboxLimits limits{std::size_t(8) << 20, 100'000, 2.0};
-constexpr double most_leaves = 64;    // of a scene that is looked at
+constexpr double max_leaves = 64;     // of a scene that is looked at
 constexpr int illegality_boxes = 50;  // cells in which a sum's range is looked at
 
 void require(bool promise) {
@@ -29,10 +29,10 @@ void check_message(const std::string& message) {
                          [](char c) { return static_cast<unsigned char>(c) < ' ' || c == 127; }));
 }
 
-void look_at(const Scene& scene) {
+void visit(const Scene& scene) {
     double leaves = 0;
     for (const Solid& solid : scene.solids) leaves += solid.node().leaves;
-    if (leaves > most_leaves) return;
+    if (leaves > max_leaves) return;
     for (const Solid& solid : scene.solids) {
         const SolidTree tree = flatten(solid);
         const Box box = bounding_box(tree);
@@ -48,7 +48,7 @@ void look_at(const Scene& scene) {
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     using namespace deburr;
     try {
-        look_at(read_scene_text({reinterpret_cast<const char*>(data), size}, "f.lua", {}, limits));
+        visit(read_scene_text({reinterpret_cast<const char*>(data), size}, "f.lua", {}, limits));
     } catch (const SceneError& error) {
         check_message(error.what());
     }

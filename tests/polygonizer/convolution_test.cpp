@@ -43,9 +43,9 @@ TEST_CASE("triage and marching cubes make closed manifolds of convolved solids, 
 
 TEST_CASE("a convolved cube has the faces of a rounded one, and its edges and corners nearly") {
     const Density cube = Density::box(Vec3(0), Vec3(1));
-    const SolidTree truth = flatten(Solid::convolved(0.1, cube)), quasi = flatten(Solid::rounded(0.1, cube));
-    const Box box = polygonization_box(truth);
-    const Mesh a = triage(truth, box), b = triage(quasi, box);
+    const SolidTree exact = flatten(Solid::convolved(0.1, cube)), quasi = flatten(Solid::rounded(0.1, cube));
+    const Box box = polygonization_box(exact);
+    const Mesh a = triage(exact, box), b = triage(quasi, box);
     CHECK(a.polygons == b.polygons);
     CHECK(std::abs(volume(a) - volume(b)) < 1e-3);
     CHECK(volume(a) != volume(b));

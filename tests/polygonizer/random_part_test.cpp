@@ -51,7 +51,7 @@ TEST_CASE("Random parts by triage pass the check of what was made") {
 
 TEST_CASE("Random parts by triage within a tolerance pass the check of what was made") {
     CHECK(check_parts(100, false, [](const SolidTree& solid, const Box& box, MeshCheckOptions& options) {
-              const double radius = solid.least_radius(), tolerance = radius > 0 ? 0.05 * radius : infinity;
+              const double radius = solid.min_radius(), tolerance = radius > 0 ? 0.05 * radius : infinity;
               options.tolerance = 2 * tolerance;
               return triage(solid, box, {tolerance});
           }) > 10'000);
@@ -59,16 +59,16 @@ TEST_CASE("Random parts by triage within a tolerance pass the check of what was 
 
 TEST_CASE("Random parts by marching cubes pass the check of what was made") {
     CHECK(check_parts(20, true, [](const SolidTree& solid, const Box& box, MeshCheckOptions& options) {
-              options.least_tolerance = largest(box.hi - box.lo) / 50;
+              options.min_tolerance = largest(box.hi - box.lo) / 50;
               options.may_lean = true;
-              return marching_cubes(solid, box, options.least_tolerance);
+              return marching_cubes(solid, box, options.min_tolerance);
           }) > 10'000);
 }
 
 TEST_CASE("Random parts by the octree pass the check of what was made") {
     CHECK(check_parts(10, true, [](const SolidTree& solid, const Box& box, MeshCheckOptions& options) {
               OctreeOptions of_octree;
-              of_octree.edge = options.least_tolerance = largest(box.hi - box.lo) / 40;
+              of_octree.edge = options.min_tolerance = largest(box.hi - box.lo) / 40;
               return octree(solid, box, of_octree);
           }) > 10'000);
 }

@@ -70,7 +70,7 @@ TEST_CASE("A mesh of its solid passes the check, and each kind of damage is foun
         top->z = -3;
         const MeshCheck found = check(mesh, solid);
         CHECK(found.crossing.count > 0);
-        CHECK(glm::length(Vec2(found.crossing.place - x)) < 3);
+        CHECK(glm::length(Vec2(found.crossing.location - x)) < 3);
     }
     SECTION("a slot that is skinned over, another one, and one too many") {
         CHECK(check(mesh_of(plate(1)), solid).added.count > 0);
@@ -80,7 +80,7 @@ TEST_CASE("A mesh of its solid passes the check, and each kind of damage is foun
         CHECK(none.crossing.count == 0);
         const MeshCheck three = check(mesh_of(plate(3)), solid);
         CHECK(three.missing.count > 0);
-        CHECK(three.missing.place.x > 14);
+        CHECK(three.missing.location.x > 14);
         CHECK(three.added.count == 0);
     }
 }
@@ -93,7 +93,7 @@ TEST_CASE("A part of the solid that is not in the mesh is found, beside another 
         const SolidTree plate_only = flatten(Solid::rounded(r, Density::box(Vec3(0.0), {4, 3, 4})));
         const MeshCheck found = check(mesh_of(plate_only), both);
         CHECK(found.missing.count > 0);
-        CHECK(found.missing.place.x > 6);
+        CHECK(found.missing.location.x > 6);
         CHECK(found.added.count == 0);
         CHECK(check(mesh_of(plate_only), plate_only).faults() == 0);
     }

@@ -158,7 +158,7 @@ Polygon of_squares(Gen& g, int size, double share, double moved, bool shared_cor
 }  // namespace
 
 TEST_CASE("Polygons with holes get triangles that fill them, whatever the holes") {
-    std::size_t holes = 0, most_corners = 0;
+    std::size_t holes = 0, max_corners = 0;
     for (const auto seed : seeds(2'000)) {
         CAPTURE(seed);
         Gen g(seed);
@@ -166,11 +166,11 @@ TEST_CASE("Polygons with holes get triangles that fill them, whatever the holes"
         const Polygon polygon =
             of_squares(g, 2 + g.below(15), g.between(0.6, 0.95), grid ? 0 : g.between(0, 0.25), g.chance(0.5));
         holes += polygon.loops.size() - 1;
-        most_corners = std::max(most_corners, polygon.corners());
+        max_corners = std::max(max_corners, polygon.corners());
         check_clean(polygon, true);
     }
     CHECK(holes > 4'000);
-    CHECK(most_corners > 200);
+    CHECK(max_corners > 200);
 }
 
 TEST_CASE("A plate with many holes, in rows or anywhere, turned or not, is triangulated") {

@@ -7,7 +7,7 @@
 #include "polygonizer/mesh/metrics.hpp"
 #include "polygonizer/random_solid.hpp"
 #include "polygonizer/triage/triage.hpp"
-#include "random_form.hpp"
+#include "random_free_form.hpp"
 
 using namespace deburr;
 
@@ -79,7 +79,7 @@ TEST_CASE("A hard edge has points on both surfaces, with a normal for each") {
         check_sound(m);
         CHECK(m.metrics.topology.euler == 2);
         const SolidTree first = flatten(a), second = flatten(b);
-        const OffsetField in_a(first, Box{Vec3(-1.0), Vec3(2.0)}), in_b(second, Box{Vec3(-1.0), Vec3(2.0)});
+        const DistanceField in_a(first, Box{Vec3(-1.0), Vec3(2.0)}), in_b(second, Box{Vec3(-1.0), Vec3(2.0)});
         std::size_t on_both = 0;
         for (const Vec3& x : m.mesh.positions)
             on_both += std::abs(in_a.at(x).distance) < 1e-9 && std::abs(in_b.at(x).distance) < 1e-9;
@@ -194,7 +194,7 @@ TEST_CASE("Random free forms by octree: closed 2-manifolds, outward, on the surf
     for (int seed = 0; seed < 60; ++seed) {
         CAPTURE(seed);
         Gen g(std::uint64_t(seed) + 1);
-        Solid solid = Solid::of_field(random_form(g, 3 * (seed % 8)));
+        Solid solid = Solid::of_field(random_free_form(g, 3 * (seed % 8)));
         const Solid block = Solid::rounded(0.1, Density::box(Vec3(-0.4), Vec3(0.3, 0.5, 0.9)));
         if (seed % 4 == 1) solid = solid - block;
         if (seed % 4 == 2) solid = solid | block;

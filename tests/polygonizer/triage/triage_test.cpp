@@ -153,7 +153,7 @@ TEST_CASE("A tolerance is met all over the mesh, still closed") {
         const SolidTree tree = flatten(obj4(0.1));
         const Mesh mesh = mesh_of(tree, tolerance);
         CHECK(topology(mesh).manifold());
-        const OffsetField field(tree, field_box(mesh));
+        const DistanceField field(tree, field_box(mesh));
         double farthest = 0;
         constexpr int parts = 8;
         for (const Triangle& t : mesh.triangles)

@@ -17,7 +17,7 @@ namespace {
 class Roads {
 public:
     explicit Roads(const std::vector<Solid>& solids)
-        : bsp_(solids), embree_(solids, Criterion::exact, Search::where_needed, Accel::embree) {}
+        : bsp_(solids), embree_(solids, Criterion::exact, RootMethod::where_needed, Accel::embree) {}
 
     /// The first hit, and from there the way back and to `light`.
     void follow(const Ray& ray, double t_max, Vec3 light) {
@@ -33,11 +33,11 @@ public:
 private:
     Hit check(const Ray& ray, double t_max) {
         TraceCounters counters;
-        const Hit want = bsp_.first_hit(ray, t_max, counters), hit = embree_.first_hit(ray, t_max, counters);
+        const Hit want = bsp_.closest_hit(ray, t_max, counters), hit = embree_.closest_hit(ray, t_max, counters);
         CAPTURE(ray.origin.x, ray.origin.y, ray.origin.z, ray.direction.x, ray.direction.y, ray.direction.z, t_max,
                 want.t, hit.t);
         REQUIRE(same_bits(hit, want));
-        REQUIRE(embree_.occluded(ray, t_max, counters) == bsp_.occluded(ray, t_max, counters));
+        REQUIRE(embree_.any_hit(ray, t_max, counters) == bsp_.any_hit(ray, t_max, counters));
         ++rays;
         hits += bool(want);
         return want;
@@ -141,7 +141,7 @@ TEST_CASE("what Embree leads rays to does not depend on the number of threads") 
     }
     const auto work = [&](std::size_t threads) {
         return random_hits(
-            threads, [&] { return ImplicitTracer(solids, Criterion::exact, Search::where_needed, Accel::embree); });
+            threads, [&] { return ImplicitTracer(solids, Criterion::exact, RootMethod::where_needed, Accel::embree); });
     };
     const auto one = work(1);
     CHECK(one == work(2));

@@ -8,7 +8,7 @@ TEST_CASE("pictures and meshes of every road have the same bytes in 1 and 4 thre
     const Folder folder;
     const std::string first = DEBURR_SOURCE_DIR "/scenes/first.lua", forms = DEBURR_SOURCE_DIR "/scenes/free_form.lua";
     const std::vector<std::string> pictures[] = {
-        {"render", first, "--spp", "4"},        {"render", first, "--accel", "bsp"},
+        {"render", first, "--spp", "4"},        {"render", first, "--accel", "bvh"},
         {"render", first, "--accel", "embree"}, {"render", forms},
         {"render", first, "--via", "triage"},   {"render", forms, "--via", "octree"},
     };

@@ -172,11 +172,11 @@ TEST_CASE("a large PNG's data are in chunks of up to 1 MiB that follow each othe
 
 TEST_CASE("what writes a PNG tells how far it is") {
     const Picture picture = noise(20, 200);
-    std::vector<double> told;
-    encode_png(picture.raster(), [&](double share) { told.push_back(share); });
-    CHECK(told.size() == 4);
-    CHECK(std::is_sorted(told.begin(), told.end()));
-    CHECK((told.front() > 0 && told.back() < 1));
+    std::vector<double> reported;
+    encode_png(picture.raster(), [&](double share) { reported.push_back(share); });
+    CHECK(reported.size() == 4);
+    CHECK(std::is_sorted(reported.begin(), reported.end()));
+    CHECK((reported.front() > 0 && reported.back() < 1));
 }
 
 TEST_CASE("PNGs of nearly flat scenes are at most 2 % larger than zlib's level 6 makes them") {

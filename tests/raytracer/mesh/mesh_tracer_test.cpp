@@ -41,13 +41,13 @@ TEST_CASE("Hits lie in their triangle's plane, and leave it, however large the t
             const Vec3 target = 3.0 * Vec3(unit(random), unit(random), unit(random));
             const Vec3 on_floor = target - normal * glm::dot(normal, target);
             const Vec3 eye = on_floor + 2.0 * normal + Vec3(unit(random), unit(random), unit(random));
-            const Hit hit = tracer.first_hit({eye, glm::normalize(on_floor - eye)}, infinity, counters);
+            const Hit hit = tracer.closest_hit({eye, glm::normalize(on_floor - eye)}, infinity, counters);
             missed += !hit;
             if (!hit) continue;
             farthest = std::max(farthest, glm::distance(hit.position, on_floor));
             const Vec3 up =
                 glm::normalize(normal + 0.9 * glm::normalize(Vec3(unit(random), unit(random), unit(random))));
-            shadowed += tracer.occluded(leave(hit, up), infinity, counters);
+            shadowed += tracer.any_hit(leave(hit, up), infinity, counters);
         }
     }
     CHECK(rays == 10000);
@@ -69,7 +69,7 @@ TEST_CASE("Splitting far triangles keeps surface, normals and closedness") {
             mesh.triangles.push_back(t);
         }
         const Box near{at - Vec3(2.0), at + Vec3(3.0)};
-        const Mesh split = split_far(mesh, near);
+        const Mesh split = split_distant_triangles(mesh, near);
         CHECK(topology(split).manifold());
         CHECK(split.triangles.size() > 60);
         CHECK(split.triangles.size() < 6000);
@@ -86,7 +86,7 @@ TEST_CASE("Splitting far triangles keeps surface, normals and closedness") {
         }
         CHECK(turned == 0);
         CHECK(too_long == 0);
-        CHECK(split_far(mesh, Box{}).triangles.size() == 4);
+        CHECK(split_distant_triangles(mesh, Box{}).triangles.size() == 4);
     }
 }
 
@@ -102,16 +102,16 @@ TEST_CASE("From any distance a ray meets the mesh where double precision knows i
             const Vec3 at(0.7 * unit(random), 0.7 * unit(random), 0);  // within the square, however it is turned
             const Vec3 eye = at + glm::normalize(Vec3(unit(random), unit(random), 1)) * distance;
             const Vec3 direction = glm::normalize(at - eye);
-            const Hit hit = tracer.first_hit({eye, direction}, infinity, counters);
+            const Hit hit = tracer.closest_hit({eye, direction}, infinity, counters);
             if (!hit) {
                 ++missed;
                 continue;
             }
             farthest = std::max(farthest, glm::distance(hit.position, at) / (1e-9 + 1e-15 * distance));
             // The way back to a light so far away, and what is beyond the mesh.
-            unseen += tracer.occluded({hit.position + Vec3(0, 0, hit.offset), -direction}, distance, counters);
-            unseen += !tracer.occluded({eye, direction}, 2 * distance, counters);
-            unseen += tracer.occluded({eye, direction}, 0.5 * distance, counters);
+            unseen += tracer.any_hit({hit.position + Vec3(0, 0, hit.offset), -direction}, distance, counters);
+            unseen += !tracer.any_hit({eye, direction}, 2 * distance, counters);
+            unseen += tracer.any_hit({eye, direction}, 0.5 * distance, counters);
         }
     CHECK(rays == 1500);
     CHECK(missed == 0);

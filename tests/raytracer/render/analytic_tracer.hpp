@@ -22,11 +22,11 @@ class AnalyticTracer final : public RayTracer {
 public:
     explicit AnalyticTracer(std::vector<Shape> shapes) : shapes_(std::move(shapes)) {}
 
-    Hit first_hit(const Ray& ray, double t_max, TraceCounters& counters) const override {
+    Hit closest_hit(const Ray& ray, double t_max, TraceCounters& counters) const override {
         ++counters.rays;
         return nearest(ray, t_max, counters);
     }
-    bool occluded(const Ray& ray, double t_max, TraceCounters& counters) const override {
+    bool any_hit(const Ray& ray, double t_max, TraceCounters& counters) const override {
         ++counters.shadow_rays;
         return bool(nearest(ray, t_max, counters));
     }

@@ -29,13 +29,13 @@ TEST_CASE("every pixel of the window is rendered once, whatever its size") {
     for (const Window window : {Window{0, 0, 1, 1}, Window{0, 0, 16, 16}, Window{3, 5, 17, 33}, Window{90, 40, 10, 10},
                                 Window{0, 0, 100, 50}}) {
         CAPTURE(window.x, window.y, window.width, window.height);
-        std::atomic<std::int64_t> told{0};
-        const Rendering r = render(Film(100, 50, window), places, never, [&](std::int64_t n) { told += n; });
+        std::atomic<std::int64_t> reported{0};
+        const Rendering r = render(Film(100, 50, window), places, never, [&](std::int64_t n) { reported += n; });
         const auto pixels = std::uint64_t(window.width) * std::uint64_t(window.height);
         CHECK(r.film.complete);
         CHECK(r.film.window == window);
         CHECK(r.pixels_done == std::int64_t(pixels));
-        CHECK(told == std::int64_t(pixels));
+        CHECK(reported == std::int64_t(pixels));
         CHECK(r.counters.rays == pixels);
         for (int y = window.y; y < window.y + window.height; ++y)
             for (int x = window.x; x < window.x + window.width; ++x) REQUIRE(r.film.at(x, y).color == Vec3(x, y, 1));

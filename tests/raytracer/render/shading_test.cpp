@@ -196,7 +196,7 @@ TEST_CASE("Layers are those of the ray through the pixel's centre at any number 
             for (int x = 0; x < width; ++x) {
                 TraceCounters counters;
                 const auto [pixel, p] = seen(integrator, x, y, counters);
-                const Hit hit = tracer.first_hit(camera.ray(x + 0.5, y + 0.5), infinity, counters);
+                const Hit hit = tracer.closest_hit(camera.ray(x + 0.5, y + 0.5), infinity, counters);
                 CHECK(p.id == std::uint32_t(hit.solid + 1));
                 if (!hit) {
                     CHECK(p.z == infinity);
@@ -295,14 +295,14 @@ TEST_CASE("No pixel holds a NaN, wherever the camera and the lights are") {
 
 TEST_CASE("A tracer that returns nonsense does not spread it") {
     struct Broken final : RayTracer {
-        Hit first_hit(const Ray&, double, TraceCounters&) const override {
+        Hit closest_hit(const Ray&, double, TraceCounters&) const override {
             Hit hit;
             hit.t = 1;
             hit.solid = 0;
             hit.normal = hit.position = Vec3(std::nan(""));
             return hit;
         }
-        bool occluded(const Ray&, double, TraceCounters&) const override { return false; }
+        bool any_hit(const Ray&, double, TraceCounters&) const override { return false; }
     } broken;
     Zoo zoo;
     for (int m = 0; m < 9; ++m) {

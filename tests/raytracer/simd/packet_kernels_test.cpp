@@ -12,7 +12,7 @@ namespace {
 
 constexpr double scale = 3;
 
-double negligible(double t) { return 8 * epsilon * (scale + t); }
+double t_tolerance(double t) { return 8 * epsilon * (scale + t); }
 
 bool same_bits(double a, double b) { return std::bit_cast<std::uint64_t>(a) == std::bit_cast<std::uint64_t>(b); }
 
@@ -22,7 +22,7 @@ struct Factors {
     ConvexView view;
 
     explicit Factors(Gen& g) {
-        const int soft = g.chance(0.8) ? 1 + g.below(3) : g.below(most_packet_factors + 1),
+        const int soft = g.chance(0.8) ? 1 + g.below(3) : g.below(max_packet_factors + 1),
                   sharp = g.chance(0.7) ? 0 : g.below(3);
         for (int i = 0; i < soft + sharp; ++i) {
             const double radius = i < soft ? g.between(0.02, 0.6) : 1.0;
@@ -48,7 +48,7 @@ struct Packet {
                 rays.direction[axis][k] = d[axis];
                 rays.inverse[axis][k] = inverse[axis];
             }
-            rays.reach[k] = scale + std::max({std::abs(o.x), std::abs(o.y), std::abs(o.z)});
+            rays.coordinate_bound[k] = scale + std::max({std::abs(o.x), std::abs(o.y), std::abs(o.z)});
             rays.end[k] = g.chance(0.3) ? infinity : g.between(0, 5);
             spans.from[k] = g.chance(0.5) ? 0 : g.between(0, 1);
             spans.to[k] = spans.from[k] + (g.chance(0.1) ? 0 : g.between(0, 4));
@@ -77,7 +77,7 @@ TEST_CASE("rays of a packet cross products of half-spaces where they do alone, t
             for (int k = 0; k < RayPacket::size; ++k) {
                 if (!(p.lanes >> k & 1)) continue;
                 const ConvexCrossing c = first_crossing(factors.view, p.origin(k), p.direction(k), p.spans.from[k],
-                                                        p.spans.to[k], negligible(p.spans.from[k]), alone);
+                                                        p.spans.to[k], t_tolerance(p.spans.from[k]), alone);
                 REQUIRE((lanes >> k & 1) == (c.t < infinity));
                 if (!(c.t < infinity)) {
                     ++missed;
@@ -90,11 +90,12 @@ TEST_CASE("rays of a packet cross products of half-spaces where they do alone, t
             }
             REQUIRE(evaluations == alone);
             evaluations = alone = 0;
-            const Lanes any = functions->convex_occlusions(factors.view, p.rays, p.lanes, p.spans, scale, evaluations);
+            const Lanes any =
+                functions->convex_any_crossings(factors.view, p.rays, p.lanes, p.spans, scale, evaluations);
             for (int k = 0; k < RayPacket::size; ++k) {
                 if (!(p.lanes >> k & 1)) continue;
                 REQUIRE(bool(any >> k & 1) == any_crossing(factors.view, p.origin(k), p.direction(k), p.spans.from[k],
-                                                           p.spans.to[k], negligible(p.spans.from[k]), alone));
+                                                           p.spans.to[k], t_tolerance(p.spans.from[k]), alone));
                 occluded += any >> k & 1;
             }
             REQUIRE(evaluations == alone);

@@ -24,7 +24,7 @@ TEST_CASE("convolved solids are hit where the set begins or ends") {
             const Ray ray{origin, glm::normalize(target - origin)};
             const auto inside = [&](double t) { return tree.contains(ray.origin + t * ray.direction); };
             TraceCounters counters;
-            const double t = tracer.first_hit(ray, 6, counters).t;
+            const double t = tracer.closest_hit(ray, 6, counters).t;
             const bool start = inside(0);
             if (t < infinity) {
                 ++hits;

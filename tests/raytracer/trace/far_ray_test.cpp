@@ -19,7 +19,7 @@ struct Kind {
     bool endless = false;
 };
 
-Quadric ball_at(Vec3 centre, double radius) { return {centre, Mat3(-1 / (radius * radius)), Vec3(0.0), 1}; }
+Quadric ball_at(Vec3 center, double radius) { return {center, Mat3(-1 / (radius * radius)), Vec3(0.0), 1}; }
 
 Density box(Vec3 lo, Vec3 hi) { return Density::box(lo, hi); }
 
@@ -75,7 +75,7 @@ constexpr double beside = 8;  // the definition is asked about no more of a ray 
 constexpr int steps = 8;
 
 // The definition has no convolution; the share of a ball itself is held against others elsewhere.
-bool is_convolved(const SolidTree& tree) { return tree.leaves[0].density.nodes.back().op == Op::ball_share; }
+bool is_convolved(const SolidTree& tree) { return tree.leaves[0].density.nodes.back().op == Op::convolution; }
 
 // What the definition says of solids on a ray, beside them.
 class Expected {
@@ -182,8 +182,8 @@ struct Tracers {
     ImplicitTracer bsp, embree, searching;  // the last finds every root by M, L and G
     explicit Tracers(const Kind& kind)
         : bsp(kind.solids),
-          embree(kind.solids, Criterion::exact, Search::where_needed, Accel::embree),
-          searching(kind.solids, Criterion::exact, Search::always) {}
+          embree(kind.solids, Criterion::exact, RootMethod::where_needed, Accel::embree),
+          searching(kind.solids, Criterion::exact, RootMethod::always) {}
 
     /// Checks that the rays find the same bits alone and together, whatever leads them; how many differ.
     int differences(const std::vector<Ray>& rays, const std::vector<double>& t_max) const {
@@ -192,13 +192,13 @@ struct Tracers {
         for (const ImplicitTracer* tracer : {&bsp, &embree}) {
             Hit hits[RayPacket::size];
             bool occluded[RayPacket::size];
-            tracer->first_hits(rays, hits, counters);
-            tracer->occlusions(rays, t_max, occluded, counters);
+            tracer->closest_hits(rays, hits, counters);
+            tracer->any_hits(rays, t_max, occluded, counters);
             for (std::size_t k = 0; k < rays.size(); ++k) {
-                different += !same_bits(hits[k], bsp.first_hit(rays[k], infinity, counters));
-                different += !same_bits(hits[k], tracer->first_hit(rays[k], infinity, counters));
-                different += occluded[k] != bsp.occluded(rays[k], t_max[k], counters);
-                different += occluded[k] != tracer->occluded(rays[k], t_max[k], counters);
+                different += !same_bits(hits[k], bsp.closest_hit(rays[k], infinity, counters));
+                different += !same_bits(hits[k], tracer->closest_hit(rays[k], infinity, counters));
+                different += occluded[k] != bsp.any_hit(rays[k], t_max[k], counters);
+                different += occluded[k] != tracer->any_hit(rays[k], t_max[k], counters);
             }
         }
         return different;
@@ -222,15 +222,15 @@ TEST_CASE("rays from 10 to 1e9 sizes away hit where the definition says, to a fe
                 std::vector<double> t_max;
                 for (const Ray& ray : rays) {
                     TraceCounters counters;
-                    const Hit hit = tracers.bsp.first_hit(ray, infinity, counters);
+                    const Hit hit = tracers.bsp.closest_hit(ray, infinity, counters);
                     const double want = expected.first(ray, from, hit.t), off = rounding_along(distance, ray, hit);
                     // Up to a little before what is hit, and up to a little behind it.
                     t_max.push_back(want + (g.chance(0.5) ? 2 : -2) * off);
-                    const double searched = tracers.searching.first_hit(ray, infinity, counters).t;
+                    const double searched = tracers.searching.closest_hit(ray, infinity, counters).t;
                     const bool right = (hit.t == want || std::abs(hit.t - want) <= off) &&
                                        (searched == want || std::abs(searched - want) <= off) &&
-                                       !tracers.bsp.occluded(ray, want - 2 * off, counters) &&
-                                       tracers.bsp.occluded(ray, want + 2 * off, counters) == (want < infinity);
+                                       !tracers.bsp.any_hit(ray, want - 2 * off, counters) &&
+                                       tracers.bsp.any_hit(ray, want + 2 * off, counters) == (want < infinity);
                     ++rays_in_all;
                     if (!right && !expected.is_known(ray, from, want, off)) {
                         ++unknown;
@@ -268,7 +268,7 @@ TEST_CASE("shadow rays to and from lights 10 to 1e9 sizes away are dark where th
                 std::vector<double> t_towards, t_back;
                 for (const Ray& view : packet_from(kind, expected, 10, g)) {
                     TraceCounters counters;
-                    const Hit hit = tracers.bsp.first_hit(view, infinity, counters);
+                    const Hit hit = tracers.bsp.closest_hit(view, infinity, counters);
                     if (!hit) continue;
                     const Ray to_light = leave(hit, glm::normalize(light - hit.position));
                     // A little before the light, and before the surface.
@@ -279,8 +279,8 @@ TEST_CASE("shadow rays to and from lights 10 to 1e9 sizes away are dark where th
                     const Ray from_light{light, glm::normalize(to_light.origin - light)};
                     const double want = expected.first(to_light, 0, infinity);
                     const bool dark = want < infinity;
-                    const bool right = tracers.bsp.occluded(to_light, apart, counters) == dark &&
-                                       tracers.bsp.occluded(from_light, apart - off, counters) == dark;
+                    const bool right = tracers.bsp.any_hit(to_light, apart, counters) == dark &&
+                                       tracers.bsp.any_hit(from_light, apart - off, counters) == dark;
                     if (!right && (want < 2 * off || !expected.is_known(to_light, 0, want, off) ||
                                    !expected.is_known(from_light, distance - beside, apart - want, off))) {
                         ++unknown;
@@ -324,7 +324,7 @@ TEST_CASE("what is beside a ray's origin is hit as exactly as ever, however far 
                 }
                 TraceCounters counters;
                 for (const Ray& ray : rays) {
-                    const Hit hit = tracers.bsp.first_hit(ray, infinity, counters);
+                    const Hit hit = tracers.bsp.closest_hit(ray, infinity, counters);
                     const double want = (floor - ray.origin.y) / ray.direction.y;
                     if (distance > 100) REQUIRE(std::abs(hit.t - want) <= 4 * epsilon * want);
                 }

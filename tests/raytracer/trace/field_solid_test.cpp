@@ -23,7 +23,7 @@ TEST_CASE("placed fields and rounded polyhedra, combined, are hit where the defi
         for (int k = 0; k < 20; ++k) {
             const Vec3 o = g.chance(0.2) ? g.point(1) : g.point(4), d = glm::normalize(g.point(1) - o);
             TraceCounters counters;
-            const Hit hit = tracer.first_hit({o, d}, 100, counters);
+            const Hit hit = tracer.closest_hit({o, d}, 100, counters);
             const auto side = [&](double t) { return plain::contains(tree, o + d * t); };
             double want = plain::first_crossing(tree, o, d, 100, 100);
             // It may step over a sliver, where the definition has the last word.

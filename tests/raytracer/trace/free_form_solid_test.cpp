@@ -3,7 +3,7 @@
 
 #include "catch.hpp"
 #include "plain_definition.hpp"
-#include "random_form.hpp"
+#include "random_free_form.hpp"
 #include "raytracer/trace/implicit_tracer.hpp"
 
 using namespace deburr;
@@ -30,7 +30,7 @@ void compare(const Solid& solid, Gen& g, int rays, int steps, double reach, Agre
     for (int k = 0; k < rays; ++k) {
         const Vec3 o = g.chance(0.15) ? g.point(0.6) : g.point(4), d = glm::normalize(g.point(reach) - o);
         TraceCounters counters;
-        const Hit hit = tracer.first_hit({o, d}, 100, counters);
+        const Hit hit = tracer.closest_hit({o, d}, 100, counters);
         const double want = expected_hit(tree, o, d, hit.t, steps);
         ++a.rays;
         a.hits += want < infinity;
@@ -55,7 +55,7 @@ TEST_CASE("free forms of up to 80 perturbations are hit where the definition say
         CAPTURE(seed);
         Gen g(seed);
         const int count = seed % 5 == 0 ? 80 : g.below(25);
-        compare(Solid::of_field(random_form(g, count)), g, 40, 400, 1, a);
+        compare(Solid::of_field(random_free_form(g, count)), g, 40, 400, 1, a);
     }
     CHECK(a.hits > 2'500);
     CHECK(a.differ == 0);
@@ -67,7 +67,7 @@ TEST_CASE("free forms, mirrored, sheared and scaled unevenly, under CSG with rou
         CAPTURE(seed);
         Gen g(seed);
         const auto form = [&] {
-            const Solid s = Solid::of_field(random_form(g, g.below(8)));
+            const Solid s = Solid::of_field(random_free_form(g, g.below(8)));
             return g.chance(0.5) ? s.transformed(g.map()) : s;
         };
         const Solid first = form(), other = g.chance(0.7) ? g.solid(1) : form();
@@ -99,13 +99,13 @@ TEST_CASE("a paraboloid is there all the way to infinity") {
     for (const double h : {1e-6, 1.0, 1e3, 1e6, 1e10}) {
         TraceCounters counters;
         for (const Vec3 d : {Vec3(1, 0, 0), Vec3(0.6, 0, -0.8)}) {
-            CHECK(tracer.first_hit({{0, h, 0}, d}, infinity, counters).t == Approx(std::sqrt(h)).epsilon(1e-9));
-            CHECK(tracer.first_hit({-1e3 * d * std::sqrt(h) + Vec3(0, h, 0), d}, infinity, counters).t ==
+            CHECK(tracer.closest_hit({{0, h, 0}, d}, infinity, counters).t == Approx(std::sqrt(h)).epsilon(1e-9));
+            CHECK(tracer.closest_hit({-1e3 * d * std::sqrt(h) + Vec3(0, h, 0), d}, infinity, counters).t ==
                   Approx(999 * std::sqrt(h)).epsilon(1e-9));
         }
-        CHECK_FALSE(tracer.first_hit({{0, h, 0}, {0, 1, 0}}, infinity, counters));
-        CHECK(tracer.first_hit({{0, -h, 0}, {0, 1, 0}}, infinity, counters).t == Approx(h));
-        CHECK_FALSE(tracer.first_hit({{0, -h, 0}, {1, 0, 0}}, infinity, counters));
+        CHECK_FALSE(tracer.closest_hit({{0, h, 0}, {0, 1, 0}}, infinity, counters));
+        CHECK(tracer.closest_hit({{0, -h, 0}, {0, 1, 0}}, infinity, counters).t == Approx(h));
+        CHECK_FALSE(tracer.closest_hit({{0, -h, 0}, {1, 0, 0}}, infinity, counters));
     }
 }
 
@@ -124,8 +124,8 @@ TEST_CASE("rays along the lines of cylinders, cones and hyperboloids do not stop
         const ImplicitTracer tracer({solid, solid_of(random_ellipsoid(g, 0.1, 0.2, 0.1))});
         TraceCounters counters;
         const Vec3 o = map((kind == 1 ? Vec3(0) : ring) - 3.0 * line), d = glm::normalize(map.linear * line);
-        tracer.first_hit({o, d}, infinity, counters);
-        tracer.first_hit({o, d}, 10, counters);
+        tracer.closest_hit({o, d}, infinity, counters);
+        tracer.closest_hit({o, d}, 10, counters);
         REQUIRE(counters.segments < 5'000);
     }
 }
@@ -141,10 +141,10 @@ TEST_CASE("grazing rays: a ball is hit or missed right to a millionth of what is
             TraceCounters counters;
             for (const double side : {-1.0, 1.0}) {
                 const double y = side * radius;
-                const Hit hit = tracer.first_hit({{-5 * radius, y * (1 - gap), 0}, {1, 0, 0}}, infinity, counters);
+                const Hit hit = tracer.closest_hit({{-5 * radius, y * (1 - gap), 0}, {1, 0, 0}}, infinity, counters);
                 REQUIRE(hit);
                 CHECK(hit.t == Approx(radius * (5 - std::sqrt(2 * gap))).epsilon(1e-3 * std::sqrt(gap)));
-                CHECK_FALSE(tracer.first_hit({{-5 * radius, y * (1 + gap), 0}, {1, 0, 0}}, infinity, counters));
+                CHECK_FALSE(tracer.closest_hit({{-5 * radius, y * (1 + gap), 0}, {1, 0, 0}}, infinity, counters));
             }
         }
 }
@@ -168,11 +168,11 @@ TEST_CASE("thin sheets are seen from wherever they are looked at") {
                 const Vec3 aim(g.between(-0.6, 0.6), 0, g.between(-0.6, 0.6));
                 const Vec3 o = 5.0 * g.direction() + Vec3(0, 1e-3, 0), d = glm::normalize(aim - o);
                 TraceCounters counters;
-                const Hit hit = tracer.first_hit({o, d}, infinity, counters);
+                const Hit hit = tracer.closest_hit({o, d}, infinity, counters);
                 REQUIRE(hit);
                 REQUIRE(std::abs(glm::length(hit.normal) - 1) < 1e-9);
                 // Through the sheet to its other side, and on.
-                const Hit next = tracer.first_hit({o + d * (hit.t + 1e-9), d}, infinity, counters);
+                const Hit next = tracer.closest_hit({o + d * (hit.t + 1e-9), d}, infinity, counters);
                 REQUIRE(next);
                 REQUIRE(next.t <= thickness / std::max(1e-3, std::abs(d.y)) * 3 + 0.1);
             }
@@ -194,12 +194,12 @@ TEST_CASE("rays that leave a surface do not meet it at once, also where large te
         for (int k = 0; k < 400; ++k) {
             TraceCounters counters;
             const Vec3 o = 4.0 * g.direction();
-            const Hit hit = tracer.first_hit({o, glm::normalize(g.point(0.5) - o)}, infinity, counters);
+            const Hit hit = tracer.closest_hit({o, glm::normalize(g.point(0.5) - o)}, infinity, counters);
             if (!hit) continue;
             ++hits;
             const Vec3 d = g.direction();
             if (std::abs(glm::dot(d, hit.normal)) < 0.2) continue;
-            again += tracer.first_hit(leave(hit, d), infinity, counters).t < 1e-6;
+            again += tracer.closest_hit(leave(hit, d), infinity, counters).t < 1e-6;
             CHECK(hit.offset < 1e-7);  // far below anything to be seen
         }
     }
@@ -216,7 +216,7 @@ TEST_CASE("a form of many perturbations costs what reaches the cell") {
         std::vector<Perturbation> bumps;
         for (int k = 0; k < count; ++k) {
             Quadric q = random_ellipsoid(g, 0.3, 0.7, 0.5);
-            q.centre.x += 0.5 * k;
+            q.center.x += 0.5 * k;
             bumps.push_back({g.between(-1, 1), q});
         }
         Quadric bar;
@@ -227,7 +227,7 @@ TEST_CASE("a form of many perturbations costs what reaches the cell") {
         TraceCounters counters;
         for (int k = 0; k < 2'000; ++k) {
             const Vec3 to(g.between(0, 0.5 * count), g.between(-0.4, 0.4), g.between(-0.4, 0.4));
-            tracer.first_hit(
+            tracer.closest_hit(
                 {to + 3.0 * glm::normalize(g.direction() + Vec3(0, 2, 0)), glm::normalize(Vec3(0.1, -1, 0.1))}, 100,
                 counters);
         }

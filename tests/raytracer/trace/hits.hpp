@@ -24,10 +24,10 @@ auto random_hits(std::size_t threads, Make make) {
     double sum = 0;
     for (const auto seed : seeds(2000)) {
         Gen g(seed);
-        const Hit hit = tracer.first_hit({g.point(30), g.direction()}, infinity, counters);
+        const Hit hit = tracer.closest_hit({g.point(30), g.direction()}, infinity, counters);
         if (hit) sum += hit.t;
     }
-    return std::make_tuple(sum, counters.placements, counters.cells, counters.evaluations);
+    return std::make_tuple(sum, counters.instances, counters.cells, counters.evaluations);
 }
 
 }  // namespace deburr

@@ -31,7 +31,7 @@ Agreement compare(const std::vector<Solid>& solids, const Camera& camera, int co
         for (int x = 0; x < columns; ++x) {
             const Ray ray = pinhole.ray(x + 0.5, y + 0.5);
             TraceCounters counters;
-            const double t = tracer.first_hit(ray, t_max, counters).t;
+            const double t = tracer.closest_hit(ray, t_max, counters).t;
             double want = infinity;
             for (const SolidTree& tree : trees) {
                 const double found = plain::first_crossing(tree, ray.origin, ray.direction, t_max, steps);
@@ -53,12 +53,12 @@ Agreement compare(const std::vector<Solid>& solids, const Camera& camera, int co
 
 Camera look(Vec3 eye, Vec3 target, double fov = 40) { return {eye, target, {0, 1, 0}, fov}; }
 
-Density wheel(int sides, double radius, double y0, double y1, Vec3 centre = Vec3(0)) {
+Density wheel(int sides, double radius, double y0, double y1, Vec3 center = Vec3(0)) {
     std::vector<Density> faces{Density::half_space({0, 1, 0}, y1), Density::half_space({0, -1, 0}, -y0)};
     for (int k = 0; k < sides; ++k) {
         const double a = 6.283185307179586 * k / sides;
         const Vec3 n(std::cos(a), 0, std::sin(a));
-        faces.push_back(Density::half_space(n, radius + glm::dot(n, centre)));
+        faces.push_back(Density::half_space(n, radius + glm::dot(n, center)));
     }
     return Density::product(faces);
 }
@@ -76,7 +76,7 @@ TEST_CASE("random solids are hit where the definition says, from outside and fro
             const Vec3 o = g.chance(0.2) ? g.point(1) : g.point(4);
             const Vec3 d = glm::normalize(g.near(tree.leaves[0].density) - o);
             TraceCounters counters;
-            const double t = tracer.first_hit({o, d}, 100, counters).t;
+            const double t = tracer.closest_hit({o, d}, 100, counters).t;
             const double want = plain::first_crossing(tree, o, d, 100, 16);
             ++rays;
             hits += want < infinity;
@@ -87,7 +87,7 @@ TEST_CASE("random solids are hit where the definition says, from outside and fro
     CHECK(differ <= rays / 2'000);  // rays that graze
 }
 
-TEST_CASE("every criterion and any rays: occluded agrees with first_hit") {
+TEST_CASE("every criterion and any rays: any_hit agrees with closest_hit") {
     int blocked = 0;
     for (auto seed : seeds(300)) {
         CAPTURE(seed);
@@ -96,9 +96,9 @@ TEST_CASE("every criterion and any rays: occluded agrees with first_hit") {
         for (int k = 0; k < 20; ++k) {
             const Vec3 o = g.point(3), d = glm::normalize(g.point(0.7) - o);
             TraceCounters counters;
-            const Hit hit = tracer.first_hit({o, d}, infinity, counters);
+            const Hit hit = tracer.closest_hit({o, d}, infinity, counters);
             const double t_max = g.between(0, 6);
-            REQUIRE(tracer.occluded({o, d}, t_max, counters) == (hit.t <= t_max));
+            REQUIRE(tracer.any_hit({o, d}, t_max, counters) == (hit.t <= t_max));
             blocked += hit.t <= t_max;
             if (hit) REQUIRE(std::abs(glm::length(hit.normal) - 1) < 1e-9);
         }
@@ -131,8 +131,8 @@ TEST_CASE("a filter too small to be sampled leaves sharp faces with their normal
         for (int i = 0; i < 2'000; ++i) {
             const Vec3 o = Vec3(2, 0, 0) + g.direction() * 6.0;
             const Vec3 d = glm::normalize(Vec3(g.between(0, 4), g.between(0, 1), g.between(0, 1)) - o);
-            const Hit hit = tracer.first_hit({o, d}, infinity, counters),
-                      want = sharp.first_hit({o, d}, infinity, counters);
+            const Hit hit = tracer.closest_hit({o, d}, infinity, counters),
+                      want = sharp.closest_hit({o, d}, infinity, counters);
             REQUIRE(bool(hit) == bool(want));
             if (!hit) continue;
             REQUIRE(std::abs(hit.t - want.t) < 1e-9);
@@ -166,7 +166,7 @@ TEST_CASE("flush, touching and overlapping faces of Boolean densities are flat t
     const ImplicitTracer tracer({Solid::rounded(r, top)});
     TraceCounters counters;
     for (double x = 0.7; x <= 3.3; x += 0.01) {
-        const Hit down = tracer.first_hit({{x, 5, 0.5}, {0, -1, 0}}, infinity, counters);
+        const Hit down = tracer.closest_hit({{x, 5, 0.5}, {0, -1, 0}}, infinity, counters);
         CHECK(std::abs(down.position.y - 1) < 1e-12);
         CHECK(glm::length(down.normal - Vec3(0, 1, 0)) < 1e-9);
     }
@@ -206,12 +206,12 @@ TEST_CASE("600 tilted blocks, as 600 solids, as one union and as one Boolean den
     Gen g(600);
     std::vector<Solid> solids;
     std::vector<Density> densities;
-    std::vector<Vec3> centres;
+    std::vector<Vec3> centers;
     for (int i = 0; i < 600; ++i) {
         Affine m = g.map(false);
         for (int k = 0; k < 3; ++k) m.linear[k] *= g.between(0.05, 0.4);
         m.shift = g.point(2.5);
-        centres.push_back(m.shift);
+        centers.push_back(m.shift);
         densities.push_back(Density::box(Vec3(-0.5), Vec3(0.5)).transformed(m));
         solids.push_back(Solid::rounded(0.01, densities.back()));
     }
@@ -232,21 +232,22 @@ TEST_CASE("600 tilted blocks, as 600 solids, as one union and as one Boolean den
     int hits = 0, differ = 0, checked = 0;
     for (int i = 0; i < 3'000; ++i) {
         const Vec3 o = g.direction() * 8.0, d = glm::normalize(g.point(2) - o);
-        const Hit a = separate.first_hit({o, d}, infinity, counters), b = united.first_hit({o, d}, infinity, counters);
+        const Hit a = separate.closest_hit({o, d}, infinity, counters),
+                  b = united.closest_hit({o, d}, infinity, counters);
         hits += bool(a);
         differ += a.t != b.t && !(std::abs(a.t - b.t) < accuracy);
         if (i % 30 == 0) {
             // Only blocks within half a diagonal and the filter of the ray can matter.
             std::vector<Density> near;
-            for (std::size_t k = 0; k < centres.size(); ++k)
-                if (glm::length(glm::cross(centres[k] - o, d)) < 0.4) near.push_back(densities[k]);
+            for (std::size_t k = 0; k < centers.size(); ++k)
+                if (glm::length(glm::cross(centers[k] - o, d)) < 0.4) near.push_back(densities[k]);
             if (near.empty()) continue;
             Density there = near[0];
             for (std::size_t k = 1; k < near.size(); ++k) there = there | near[k];
             const SolidTree tree = flatten(Solid::rounded(0.01, there));
             ++checked;
             const double want = plain::first_crossing(tree, o, d, 20, 3);
-            const double t = boolean.first_hit({o, d}, infinity, counters).t;
+            const double t = boolean.closest_hit({o, d}, infinity, counters).t;
             CHECK((t == want || std::abs(t - want) < accuracy));
         }
     }
@@ -262,11 +263,11 @@ TEST_CASE("unbounded solids are hit at any distance") {
     TraceCounters counters;
     for (const double far : {10.0, 1e3, 1e6}) {
         const Vec3 o(0.5, 3, 5), d = glm::normalize(Vec3(far, -3, far));
-        const Hit hit = tracer.first_hit({o, d}, infinity, counters);
+        const Hit hit = tracer.closest_hit({o, d}, infinity, counters);
         CHECK(std::abs(hit.position.y) < 1e-9 * far);
         CHECK(hit.t == Approx(3 / -d.y).epsilon(1e-9));
     }
-    CHECK_FALSE(tracer.first_hit({{0.5, 3, 5}, glm::normalize(Vec3(0.1, 1, 0.1))}, infinity, counters));
+    CHECK_FALSE(tracer.closest_hit({{0.5, 3, 5}, glm::normalize(Vec3(0.1, 1, 0.1))}, infinity, counters));
 }
 
 TEST_CASE("bounded solids among unbounded ones are hit from near and far, pixel for pixel") {
@@ -294,11 +295,11 @@ TEST_CASE("products need no search, and a search finds the same") {
     for (auto seed : seeds(400)) {
         Gen g(seed);
         const std::vector<Solid> solids{g.solid(int(seed % 2)), g.solid(0)};
-        const ImplicitTracer tracer(solids), searching(solids, Criterion::exact, Search::always);
+        const ImplicitTracer tracer(solids), searching(solids, Criterion::exact, RootMethod::always);
         for (int k = 0; k < 40; ++k) {
             const Vec3 o = g.point(3), d = glm::normalize(g.point(0.8) - o);
-            const Hit a = tracer.first_hit({o, d}, infinity, direct),
-                      b = searching.first_hit({o, d}, infinity, by_search);
+            const Hit a = tracer.closest_hit({o, d}, infinity, direct),
+                      b = searching.closest_hit({o, d}, infinity, by_search);
             differ += a.t != b.t && !(std::abs(a.t - b.t) < 1e-9);
             if (!a || !b) continue;
             ++hits;
@@ -323,16 +324,16 @@ TEST_CASE("rays leave their own surface at any scale and place of the scene") {
             TraceCounters counters;
             for (int i = 0; i < 2'000; ++i) {
                 const Vec3 o = m(g.direction() * 5.0), d = glm::normalize(m(Vec3(0.5) + g.point(0.5)) - o);
-                const Hit hit = tracer.first_hit({o, d}, infinity, counters);
+                const Hit hit = tracer.closest_hit({o, d}, infinity, counters);
                 if (!hit || hit.solid != 0) continue;
                 // A convex solid does not see itself, however flat the ray leaves it.
                 Vec3 out = g.direction();
                 const double steep = std::pow(10.0, g.between(-6, 0));
                 out = glm::normalize(out - hit.normal * glm::dot(out, hit.normal) + hit.normal * steep);
-                const Hit next = tracer.first_hit(leave(hit, out), infinity, counters);
+                const Hit next = tracer.closest_hit(leave(hit, out), infinity, counters);
                 REQUIRE(next.solid != 0);
                 // Through it, the ray comes out on the other side, not where it went in.
-                const Hit through = tracer.first_hit(leave(hit, d), infinity, counters);
+                const Hit through = tracer.closest_hit(leave(hit, d), infinity, counters);
                 REQUIRE(through.solid == 0);
                 REQUIRE(glm::dot(through.normal, d) > 0);
                 ++left;
@@ -353,12 +354,12 @@ TEST_CASE("coincident faces of a primary CSG tree leave no film behind") {
     for (int i = 0; i < 2'000; ++i) {
         const Vec3 aim = turn(Vec3(g.between(0.3, 0.7), 1, g.between(0.3, 0.7)));
         const Vec3 d = turn.linear * Vec3(0, -1, 0);
-        const Hit hit = tracer.first_hit({aim - d * 3.0, d}, infinity, counters);
+        const Hit hit = tracer.closest_hit({aim - d * 3.0, d}, infinity, counters);
         REQUIRE(std::abs(hit.t - 3.5) < 1e-9);  // the floor of the slot
     }
     // Two blocks that touch: nothing between them for a ray inside.
     const ImplicitTracer pair({Solid::sharp(block) | Solid::sharp(Density::box({1, 0, 0}, {2, 1, 1}))});
-    CHECK(pair.first_hit({{0.5, 0.5, 0.5}, {1, 0, 0}}, infinity, counters).t == Approx(1.5));
+    CHECK(pair.closest_hit({{0.5, 0.5, 0.5}, {1, 0, 0}}, infinity, counters).t == Approx(1.5));
 }
 
 TEST_CASE("Lobb's figure 11: the six objects, by the definition") {
@@ -392,7 +393,7 @@ TEST_CASE("cost per ray grows like the logarithm of the number of solids") {
         TraceCounters counters;
         for (int i = 0; i < 2'000; ++i) {
             const Vec3 o = Vec3(0.5 * side) + g.direction() * (3.0 * side);
-            tracer.first_hit({o, glm::normalize(Vec3(0.5 * side) + g.point(0.4 * side) - o)}, infinity, counters);
+            tracer.closest_hit({o, glm::normalize(Vec3(0.5 * side) + g.point(0.4 * side) - o)}, infinity, counters);
         }
         const double cells = double(counters.cells) / 2'000;
         if (before > 0) CHECK(cells < 3 * before);

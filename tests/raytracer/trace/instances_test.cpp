@@ -1,4 +1,4 @@
-// Spaces and placements against one BSP of everything, ray by ray.
+// Prototypes and instances against one BSP of everything, ray by ray.
 #include "raytracer/trace/instances.hpp"
 
 #include "ball_field.hpp"
@@ -28,7 +28,7 @@ struct Same {
 // Rays from points around and within, towards points within, half of them parallel to an axis.
 Same same_as_one_bsp(const std::vector<Solid>& solids, Vec3 lo, Vec3 hi, int rays = 4000) {
     const ImplicitTracer tracer(solids);
-    const BspTracer plain(build_bsp(solids), Criterion::exact);
+    const SurfaceTracer plain(build_bsp(solids), Criterion::exact);
     Same all;
     int differ = 0;
     for (const auto seed : seeds(rays)) {
@@ -46,15 +46,15 @@ Same same_as_one_bsp(const std::vector<Solid>& solids, Vec3 lo, Vec3 hi, int ray
         const Ray ray{from, direction};
         const double t_max = g.chance(0.2) ? glm::length(hi - lo) * g.number() : infinity;
         TraceCounters counters;
-        const Hit hit = tracer.first_hit(ray, t_max, counters);
-        const FoundSurface want = plain.find(ray, t_max, counters);
+        const Hit hit = tracer.closest_hit(ray, t_max, counters);
+        const FoundSurface want = plain.closest_hit(ray, t_max, counters);
         const double t = want.crossing.t;
-        bool same = (hit.t < infinity) == (t < infinity) && tracer.occluded(ray, t_max, counters) == (t < infinity);
+        bool same = (hit.t < infinity) == (t < infinity) && tracer.any_hit(ray, t_max, counters) == (t < infinity);
         if (same && hit) {
             same = std::abs(hit.t - t) <= 1e-9 && glm::length(hit.normal - want.crossing.normal) <= 1e-6 &&
                    hit.solid == want.solid && hit.material == want.crossing.material;
             // A new ray that leaves the surface does not meet it again at once.
-            const Hit next = tracer.first_hit(leave(hit, hit.normal), infinity, counters);
+            const Hit next = tracer.closest_hit(leave(hit, hit.normal), infinity, counters);
             same &= !(next.t < 1e-9);
         }
         if (!same) {
@@ -83,15 +83,15 @@ TEST_CASE("equal solids share a space, however the scene came to them") {
         solids.push_back(
             Solid::rounded(0.1, cube.transformed(compose(shift(0, 6, 0), place))));  // placed, then rounded
     }
-    CHECK(statistics(solids).spaces == 2);
-    CHECK(statistics(solids).placements == 15);
+    CHECK(statistics(solids).prototypes == 2);
+    CHECK(statistics(solids).instances == 15);
     // Scaled before it is rounded it is another solid.
     solids.push_back(Solid::rounded(0.1, cube.transformed(compose(shift(0, 9, 0), scale(2, 2, 2)))));
     solids.push_back(block(0.2).transformed(shift(5, 9, 0)));
-    CHECK(statistics(solids).spaces == 4);
+    CHECK(statistics(solids).prototypes == 4);
     // So it is where it is rounded in another way.
     const Solid truly = Solid::convolved(0.1, cube);
-    CHECK(statistics({one, truly.transformed(shift(3, 0, 0)), truly.transformed(shift(6, 0, 0))}).spaces == 3);
+    CHECK(statistics({one, truly.transformed(shift(3, 0, 0)), truly.transformed(shift(6, 0, 0))}).prototypes == 3);
     const Same same = same_as_one_bsp(solids, {-1, -1, -1}, {10, 10, 1});
     CHECK(same.hits > 1000);
     CHECK(same.misses > 500);
@@ -109,8 +109,8 @@ TEST_CASE("placed by any map, over a ground plane, with materials of their own")
         solids.push_back(i % 3 ? at.material(i % 5) : at);
     }
     const BspStatistics s = statistics(solids);
-    CHECK(s.spaces == 2);
-    CHECK(s.placements == 60);
+    CHECK(s.prototypes == 2);
+    CHECK(s.instances == 60);
     CHECK(same_as_one_bsp(solids, {-2, -1, -2}, {20, 2, 20}).hits > 2000);
 }
 
@@ -121,13 +121,13 @@ TEST_CASE("operands of a union that touch or overlap stay together") {
         row = row | cube.transformed(shift(x, 0, 0));
     // Together: 0 and 1; 2.5 and 3.4; 5 and 6. Apart: 8 and 9, by more than any tolerance.
     const BspStatistics s = statistics({row, block().transformed(shift(0, 3, 0))});
-    CHECK(s.placements == 6);
+    CHECK(s.instances == 6);
     const Same same = same_as_one_bsp({row, block().transformed(shift(0, 3, 0))}, {-0.5, -0.5, -0.5}, {10.5, 1.5, 1.5});
     CHECK(same.hits > 1000);
     // From inside to outside in one go, through walls that are none.
     TraceCounters counters;
     const ImplicitTracer tracer({row, block().transformed(shift(0, 3, 0))});
-    CHECK(std::abs(tracer.first_hit({{0.5, 0.4, 0.3}, {1, 0, 0}}, infinity, counters).t - 1.5) < 1e-12);
+    CHECK(std::abs(tracer.closest_hit({{0.5, 0.4, 0.3}, {1, 0, 0}}, infinity, counters).t - 1.5) < 1e-12);
 }
 
 TEST_CASE("groups of groups, mirrored, squeezed and far from where they were made") {
@@ -143,8 +143,8 @@ TEST_CASE("groups of groups, mirrored, squeezed and far from where they were mad
         solids.push_back(wall.transformed(compose(shift(0, 0, 2 * i), home)).material(5));
     }
     const BspStatistics s = statistics(solids);
-    CHECK(s.placements > 6);
-    CHECK(s.placements < 60);
+    CHECK(s.instances > 6);
+    CHECK(s.instances < 60);
     CHECK(same_as_one_bsp(solids, {-10, -10, -1}, {10, 10, 11}).hits > 500);
 }
 
@@ -195,7 +195,7 @@ TEST_CASE("what a map squeezes too much, or nothing bounds, is in the world's ow
     std::vector<Solid> solids{Solid::sharp(Density::half_space({0, 1, 0}, 0)), block().transformed(scale(1, 1e-4, 1)),
                               block().transformed(shift(3, 0, 0)),
                               Solid::sharp(Density::box(Vec3(0), Vec3(1)) * Density::half_space({1, 0, 0}, -1))};
-    CHECK(statistics(solids).placements == 1);
+    CHECK(statistics(solids).instances == 1);
     CHECK(same_as_one_bsp(solids, {-1, -1, -1}, {4, 1, 1}).hits > 1000);
 }
 
@@ -205,9 +205,10 @@ TEST_CASE("fields are forms of their own") {
     for (int i = 0; i < 4; ++i)
         solids.push_back(ball.transformed(compose(shift(2.5 * i, 0, 0), scale(1, 0.3 + 0.2 * i, 0.8))).material(i));
     solids.push_back(block() | block().transformed(shift(0, 0, 3)) | ball.transformed(shift(0, 4, 0)));
-    CHECK(statistics(solids).placements == 7);
-    CHECK(statistics(solids).spaces == 3);
-    CHECK(statistics({ball, Solid::of_field(std::make_shared<BallField>()).transformed(shift(3, 0, 0))}).spaces == 3);
+    CHECK(statistics(solids).instances == 7);
+    CHECK(statistics(solids).prototypes == 3);
+    CHECK(statistics({ball, Solid::of_field(std::make_shared<BallField>()).transformed(shift(3, 0, 0))}).prototypes ==
+          3);
     CHECK(same_as_one_bsp(solids, {-1, -1, -1}, {9, 5, 4}).hits > 500);
 }
 
@@ -242,16 +243,16 @@ TEST_CASE("a hundred thousand placements cost a ray no more than three times wha
             solids.push_back(
                 block().transformed(compose(shift(i % side, i / side % side, i / side / side), scale(0.6, 0.6, 0.6))));
         const ImplicitTracer tracer(solids);
-        CHECK(tracer.statistics().spaces == 2);
+        CHECK(tracer.statistics().prototypes == 2);
         TraceCounters counters;
         const Vec3 size(side, side, layers);
         for (const auto seed : seeds(2000)) {
             Gen g(seed);
             const Vec3 target = size * Vec3(g.number(), g.number(), g.number());
             const Vec3 eye = 0.5 * size + 2 * glm::length(size) * g.direction();
-            tracer.first_hit({eye, glm::normalize(target - eye)}, infinity, counters);
+            tracer.closest_hit({eye, glm::normalize(target - eye)}, infinity, counters);
         }
-        return double(counters.placements + counters.cells) / 2000;
+        return double(counters.instances + counters.cells) / 2000;
     };
     const double few = placements_per_ray(5, 4), many = placements_per_ray(50, 40);
     CHECK(many <= 3 * few);
@@ -269,11 +270,11 @@ TEST_CASE("unions of unions are placed, not copied: a million blocks are 300 pla
     }
     CHECK(all.node().leaves == 6e6);
     const ImplicitTracer tracer({all});
-    CHECK(tracer.statistics().placements == 300);
+    CHECK(tracer.statistics().instances == 300);
     CHECK(tracer.statistics().half_spaces == 6);
     TraceCounters counters;
-    CHECK(std::abs(tracer.first_hit({{100, 80, 300}, {0, 0, -1}}, infinity, counters).t - 101.5) < 1e-9);
-    CHECK(!tracer.first_hit({{101, 81, 300}, {0, 0, -1}}, infinity, counters));
+    CHECK(std::abs(tracer.closest_hit({{100, 80, 300}, {0, 0, -1}}, infinity, counters).t - 101.5) < 1e-9);
+    CHECK(!tracer.closest_hit({{101, 81, 300}, {0, 0, -1}}, infinity, counters));
 }
 
 TEST_CASE("of thousands of forms those that no ray enters are not built, and the others are right") {
@@ -285,10 +286,10 @@ TEST_CASE("of thousands of forms those that no ray enters are not built, and the
     }
     const ImplicitTracer tracer(solids);
     const BspStatistics before = tracer.statistics();
-    CHECK(before.spaces == 1'501);
+    CHECK(before.prototypes == 1'501);
     CHECK(before.half_spaces < 6 * 1'001);
     TraceCounters counters;
-    for (int i = 0; i < 10; ++i) CHECK(tracer.first_hit({{100 + 2 * i, 2 * 37, 9}, {0, 0, -1}}, infinity, counters));
+    for (int i = 0; i < 10; ++i) CHECK(tracer.closest_hit({{100 + 2 * i, 2 * 37, 9}, {0, 0, -1}}, infinity, counters));
     CHECK(tracer.statistics().half_spaces == before.half_spaces + 6 * 10);
     CHECK(same_as_one_bsp(solids, {99, -1, -1}, {180, 75, 1}, 2'000).hits > 500);
 }

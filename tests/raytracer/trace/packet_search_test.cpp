@@ -19,12 +19,12 @@ struct Comparison {
         TraceCounters counters;
         std::vector<Hit> together(rays_of.size());
         const std::unique_ptr<bool[]> any(new bool[rays_of.size()]);
-        tracer.first_hits(rays_of, together.data(), counters);
-        tracer.occlusions(rays_of, t_max, any.get(), counters);
+        tracer.closest_hits(rays_of, together.data(), counters);
+        tracer.any_hits(rays_of, t_max, any.get(), counters);
         for (std::size_t k = 0; k < rays_of.size(); ++k) {
-            const bool occludes = tracer.occluded(rays_of[k], t_max[k], counters);
+            const bool occludes = tracer.any_hit(rays_of[k], t_max[k], counters);
             different +=
-                !same_bits(together[k], tracer.first_hit(rays_of[k], infinity, counters)) || any[k] != occludes;
+                !same_bits(together[k], tracer.closest_hit(rays_of[k], infinity, counters)) || any[k] != occludes;
             ++rays;
             hits += bool(together[k]);
             occluded += occludes;
@@ -51,7 +51,8 @@ TEST_CASE("rays that are traced together hit what they hit alone, to the bit: pi
                 TraceCounters counters;
                 for (int k = 0; k < 16; ++k) rays.push_back(camera.ray(x + k % 4 + 0.5, y + k / 4 + 0.5));
                 for (const Ray& ray : rays)
-                    if (const Hit hit = tracer.first_hit(ray, infinity, counters)) shadows.push_back(leave(hit, light));
+                    if (const Hit hit = tracer.closest_hit(ray, infinity, counters))
+                        shadows.push_back(leave(hit, light));
                 c.compare(tracer, rays, std::vector<double>(rays.size(), infinity));
                 std::vector<double> t_max;
                 for (std::size_t k = 0; k < shadows.size(); ++k)
@@ -65,7 +66,7 @@ TEST_CASE("rays that are traced together hit what they hit alone, to the bit: pi
 
 TEST_CASE("rays that are traced together hit what they hit alone, to the bit: whatever the solids, wherever the rays") {
     Comparison c;
-    std::size_t placements = 0;
+    std::size_t instances = 0;
     for (auto seed : seeds(300)) {
         CAPTURE(seed);
         Gen g(seed);
@@ -74,7 +75,7 @@ TEST_CASE("rays that are traced together hit what they hit alone, to the bit: wh
         if (g.chance(0.4))  // equal ones, which share a space
             for (int i = 1 + g.below(8); i > 0; --i) solids.push_back(solids[0].transformed(g.map()));
         const ImplicitTracer tracer(solids);
-        placements += tracer.statistics().placements;
+        instances += tracer.statistics().instances;
         for (int packet = 0; packet < 8; ++packet) {
             std::vector<Ray> rays;
             std::vector<double> t_max;
@@ -89,7 +90,7 @@ TEST_CASE("rays that are traced together hit what they hit alone, to the bit: wh
             c.compare(tracer, rays, t_max);
         }
     }
-    CHECK(placements > 300);
+    CHECK(instances > 300);
     CHECK(c.different == 0);
     CHECK(c.hits > c.rays / 10);
     CHECK(c.occluded > c.rays / 10);

@@ -41,9 +41,9 @@ TEST_CASE("the surface found is the same to the bit in whatever order surfaces a
         const std::vector<Solid> solids = crowd(g);
         BspTree tree = build_bsp(solids);
         const std::vector<BspNode> nodes = tree.nodes;
-        const BspTracer tracer(std::move(tree), Criterion::exact);
+        const SurfaceTracer tracer(std::move(tree), Criterion::exact);
         const Surfaces& all = tracer.surfaces();
-        std::vector<std::uint32_t> order(all.pieces.size());
+        std::vector<std::uint32_t> order(all.cell_primitives.size());
         std::iota(order.begin(), order.end(), 0);
         for (int k = 0; k < 40; ++k) {
             Vec3 from = g.chance(0.2) ? g.point(1) : g.point(4);
@@ -62,27 +62,27 @@ TEST_CASE("the surface found is the same to the bit in whatever order surfaces a
             const Ray ray{from, d};
             const double t_max = g.chance(0.3) ? g.between(0, 6) : infinity;
             TraceCounters counters;
-            const FoundSurface want = tracer.find(ray, t_max, counters);
+            const FoundSurface want = tracer.closest_hit(ray, t_max, counters);
             bool tie = false;
             for (int round = 0; round < 3; ++round) {
                 for (std::size_t i = order.size(); i > 1; --i)
                     std::swap(order[i - 1], order[std::size_t(g.below(int(i)))]);
                 SurfaceSearch<false> search(all, ray, t_max, infinity, counters, nullptr);
                 SurfaceSearch<true> any(all, ray, t_max, infinity, counters, nullptr);
-                if (g.chance(0.5)) search.look_at_planes();
+                if (g.chance(0.5)) search.visit_planes();
                 const int twice = g.below(4);  // as where two roads lead to a surface
                 for (const std::uint32_t i : order)
-                    for (int n = 0; n < (i % 4 == std::uint32_t(twice) ? 2 : 1); ++n) search.look_at(i);
-                search.look_at_planes();
-                any.look_at_planes();
-                for (std::size_t i = 0; i < order.size() && !any.enough(); ++i) any.look_at(order[i]);
+                    for (int n = 0; n < (i % 4 == std::uint32_t(twice) ? 2 : 1); ++n) search.visit(i);
+                search.visit_planes();
+                any.visit_planes();
+                for (std::size_t i = 0; i < order.size() && !any.enough(); ++i) any.visit(order[i]);
                 const FoundSurface found = search.found() ? search.surface() : FoundSurface{};
                 REQUIRE(same_bits(found, want));
                 REQUIRE(any.found() == (want.crossing.t < infinity));
                 for (const std::uint32_t i : order) {
                     if (!(want.crossing.t < infinity)) break;
                     SurfaceSearch<false> alone(all, ray, t_max, infinity, counters, nullptr);
-                    alone.look_at(i);
+                    alone.visit(i);
                     tie |= alone.found() && alone.end() == want.crossing.t && alone.surface().solid != want.solid;
                 }
             }
@@ -95,21 +95,21 @@ TEST_CASE("the surface found is the same to the bit in whatever order surfaces a
 }
 
 TEST_CASE("of crossings at one place the lower solid has it, and in one solid the lower number") {
-    struct SamePlace final : Others {
-        FoundSurface find(std::uint32_t other, const Ray&, double, double, TraceCounters&) const override {
+    struct SamePlace final : InstanceTracer {
+        FoundSurface closest_hit(std::uint32_t other, const Ray&, double, double, TraceCounters&) const override {
             const int solids[4] = {3, 2, 1, 1};
             return {{1.5, Vec3(1, 0, 0), int(other)}, solids[other]};
         }
-        bool any(std::uint32_t, const Ray&, double, TraceCounters&) const override { return true; }
+        bool any_hit(std::uint32_t, const Ray&, double, TraceCounters&) const override { return true; }
     };
     const Surfaces none;
-    const SamePlace others;
+    const SamePlace instances;
     const Ray ray{Vec3(0), Vec3(1, 0, 0)};
     std::vector<std::uint32_t> order{0, 1, 2, 3};
     do {
         TraceCounters counters;
-        SurfaceSearch<false> search(none, ray, infinity, infinity, counters, &others);
-        for (const std::uint32_t i : order) search.look_at(i);
+        SurfaceSearch<false> search(none, ray, infinity, infinity, counters, &instances);
+        for (const std::uint32_t i : order) search.visit(i);
         REQUIRE(search.found());
         CHECK(search.surface().crossing.material == 2);
     } while (std::next_permutation(order.begin(), order.end()));

@@ -8,7 +8,7 @@ namespace deburr {
 /// Of every kind, also those that are infinite; often along axes.
 inline Quadric random_quadric(Gen& g) {
     Quadric q;
-    q.centre = g.point(1);
+    q.center = g.point(1);
     q.k = g.between(-0.3, 1);
     for (int k = 0; k < 3; ++k) {
         q.A[k][k] = g.chance(0.2) ? 0 : g.chance(0.7) ? -g.between(0.3, 6) : g.between(0.3, 3);
@@ -20,7 +20,7 @@ inline Quadric random_quadric(Gen& g) {
 
 inline Quadric random_ellipsoid(Gen& g, double least, double most, double reach) {
     Quadric q;
-    q.centre = g.point(reach);
+    q.center = g.point(reach);
     q.k = 1;
     for (int k = 0; k < 3; ++k) {
         const double r = g.between(least, most);
@@ -29,12 +29,12 @@ inline Quadric random_ellipsoid(Gen& g, double least, double most, double reach)
     if (!g.chance(0.5)) return q;
     Affine turn;
     turn.linear = g.map(false).linear;
-    turn.shift = q.centre - turn.linear * q.centre;
+    turn.shift = q.center - turn.linear * q.center;
     return transformed(q, turn);
 }
 
 /// About as large as the unit ball, with bumps and dents.
-inline std::shared_ptr<const FreeForm> random_form(Gen& g, int perturbations) {
+inline std::shared_ptr<const FreeForm> random_free_form(Gen& g, int perturbations) {
     const double size = g.between(0.5, 1);
     std::vector<Perturbation> all;
     const double most = perturbations > 20 ? 0.5 : 1.0;
