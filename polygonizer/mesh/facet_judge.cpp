@@ -1,6 +1,7 @@
 #include "polygonizer/mesh/facet_judge.hpp"
 
 #include <algorithm>
+#include <limits>
 
 #include "polygonizer/mesh/facet_orientation.hpp"
 
@@ -23,6 +24,11 @@ FacetJudge::FacetJudge(const SolidTree& solid, const Mesh& mesh)
       surfaces_(solid, field_box(mesh), one_leaf_ ? &solid_ : nullptr) {
     const Box box = field_box(mesh);
     size_ = glm::length(box.hi - box.lo);
+    // Where single precision cannot tell a rounded edge from a sharp one, no file of it can be right.
+    constexpr double of_radius = 0.01, of_size = 1e-4;
+    const double radius = solid.min_radius();
+    const double farthest = std::max(largest(glm::abs(box.lo)), largest(glm::abs(box.hi)));
+    in_single_ = farthest * std::numeric_limits<float>::epsilon() < (radius > 0 ? of_radius * radius : of_size * size_);
 }
 
 FacetShape FacetJudge::shape(const Facets& facets, const Facet& f, double least) const {
@@ -41,7 +47,7 @@ FacetShape FacetJudge::shape(const Facets& facets, const Facet& f, double least)
     const double twice = glm::length(area);
     if (twice <= no_area * longest * longest) return {-1, -1, 0};
     // As a file of single precision will have it.
-    const auto rounded = [](Vec3 v) { return Vec3(glm::vec3(v)); };
+    const auto rounded = [&](Vec3 v) { return in_single_ ? Vec3(glm::vec3(v)) : v; };
     const Vec3 single = glm::cross(rounded(x[1]) - rounded(x[0]), rounded(x[2]) - rounded(x[0]));
     const double single_twice = glm::length(single);
     if (single_twice == 0) return {-1, -1, 0};
@@ -71,8 +77,7 @@ FacetShape FacetJudge::shape(const Facets& facets, const Facet& f, double least)
 
 bool FacetJudge::is_near(const Vec3 (&corners)[3], double tolerance, int only) const {
     const auto near = [&](double a, double b, double c) {
-        const double d = solid_.at(a * corners[0] + b * corners[1] + c * corners[2]).distance;
-        return !std::isfinite(d) || std::abs(d) <= tolerance;
+        return std::abs(solid_.at(a * corners[0] + b * corners[1] + c * corners[2]).distance) <= tolerance;
     };
     constexpr double third = 1.0 / 3, most = 2.0 / 3, rest = 1.0 / 6;
     if (!near(third, third, third)) return false;

@@ -39,6 +39,7 @@ private:
     bool one_leaf_;
     LeafSurfaces surfaces_;
     double size_;
+    bool in_single_;  // facets are judged as single precision rounds them, too
 };
 
 }  // namespace deburr

@@ -45,10 +45,7 @@ private:
         std::size_t k;
     };
 
-    double distance(Vec3 x) const {
-        const double d = std::abs(judge_.solid().at(x).distance);
-        return std::isfinite(d) ? d : 0;
-    }
+    double distance(Vec3 x) const { return std::abs(judge_.solid().at(x).distance); }
 
     // Of points along the edge from the surface: an edge along an S has its middle on it.
     double distance(Vec3 a, Vec3 b) const {
@@ -106,7 +103,7 @@ private:
         for (const int v : facets_.at(other).triangle.vertex)
             if (v != a && v != b) d = v;
         constexpr double much = 0.5;
-        if (distance(facets_.position(c), facets_.position(d)) > much * edge.distance) return false;
+        if (distance(facets_.position(c), facets_.position(d)) >= much * edge.distance) return false;
         const auto change = facets_.flip(f, edge.k);
         return change && is_better(*change) && apply(*change);
     }

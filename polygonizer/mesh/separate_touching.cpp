@@ -94,8 +94,11 @@ std::size_t merge_close(Mesh& mesh) {
     const auto coincide = [&](int u, int v) {
         return key_of(mesh.positions[std::size_t(u)]) == key_of(mesh.positions[std::size_t(v)]);
     };
-    // Facets of a few steps of single precision face anywhere once they are rounded.
-    const double least = few_steps(mesh);
+    // Facets of a few steps of single precision face anywhere once they are rounded. Far from the origin these steps
+    // are as large as what the mesh is there to show; then a file of single precision is wrong anyway.
+    constexpr double of_size = 1e-6;
+    const Box box = bounding_box(mesh);
+    const double least = std::min(few_steps(mesh), box.empty() ? 0 : of_size * largest(box.hi - box.lo));
     const auto are_near = [&](int u, int v) {
         return glm::distance(mesh.positions[std::size_t(u)], mesh.positions[std::size_t(v)]) < least;
     };
