@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <limits>
 #include <optional>
+#include <utility>
 
 #include "bounds/bounding_box.hpp"
 #include "polygonizer/mesh/crossing_triangles.hpp"
@@ -49,6 +50,9 @@ namespace {
 // being of first order.
 constexpr double at_points = 0.85;
 
+// The same for a mesh that is to be looked at, whose normals have to be right between its vertices.
+constexpr double at_points_of_picture = 0.4;
+
 // Makes the cuts; the cells on both sides of those that could be made.
 std::vector<int> halve(Subdivision& subdivision, const std::vector<Cut>& cuts) {
     std::vector<int> halves;
@@ -76,17 +80,22 @@ bool cut_cells(Subdivision& subdivision, const Mesh& mesh, const std::vector<Ori
     return changed;
 }
 
-void add_crossing(const Mesh& mesh, std::vector<int>& triangles, CancelFlag cancel) {
-    for (const auto& [s, t] : crossing_triangles(mesh, TriangleTree(mesh), cancel))
-        triangles.insert(triangles.end(), {s, t});
+// Adds triangles that cross others; returns how many pairs there are.
+std::size_t add_crossing(const Mesh& mesh, std::vector<int>& triangles, CancelFlag cancel) {
+    const auto pairs = crossing_triangles(mesh, TriangleTree(mesh), cancel);
+    for (const auto& [s, t] : pairs) triangles.insert(triangles.end(), {s, t});
+    return pairs.size();
 }
 
-void add_far(const Mesh& mesh, const FacetJudge& judge, double tolerance, std::vector<int>& triangles) {
+// Adds triangles that are farther from the surface than the tolerance; returns how many.
+std::size_t add_far(const Mesh& mesh, const FacetJudge& judge, double tolerance, std::vector<int>& triangles) {
+    const std::size_t before = triangles.size();
     for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
         Vec3 x[3];
         for (std::size_t k = 0; k < 3; ++k) x[k] = mesh.positions[std::size_t(mesh.triangles[t].vertex[k])];
         if (!judge.is_near(x, tolerance)) triangles.push_back(int(t));
     }
+    return triangles.size() - before;
 }
 
 // Adds boxes around the triangle's corners, as large as its shortest edge.
@@ -111,7 +120,9 @@ Mesh triage(const SolidTree& mixed, const Box& box, const TriageOptions& options
     Subdivision subdivision(solid, box);
     Mesh mesh, best;
     std::vector<Origin> origins, best_origins;
-    std::size_t min_left = std::numeric_limits<std::size_t>::max();
+    constexpr std::size_t most = std::numeric_limits<std::size_t>::max();
+    constexpr std::pair<std::size_t, std::size_t> none{0, 0};
+    std::pair<std::size_t, std::size_t> min_wrong{most, most};
     double farthest = 0;
     std::optional<FacetJudge> judge;
     // Each round halves the cells that need it.
@@ -137,7 +148,7 @@ Mesh triage(const SolidTree& mixed, const Box& box, const TriageOptions& options
         if (!judge) judge.emplace(solid, mesh);
         drop_flat_shells(mesh, origins, 10 * subdivision.complex.tolerance, judge->solid());
         if (std::isfinite(options.tolerance)) {
-            const double tolerance = at_points * options.tolerance;
+            const double tolerance = (options.decimate ? at_points : at_points_of_picture) * options.tolerance;
             const std::vector<int> left = refine(mesh, origins, *judge, tolerance, options.cancel);
             if (may_cut && !left.empty() &&
                 cut_cells(subdivision, mesh, origins, left, tolerance, max_cells, options.cancel))
@@ -156,20 +167,23 @@ Mesh triage(const SolidTree& mixed, const Box& box, const TriageOptions& options
             std::vector<Origin> mended_origins = origins;
             RepairStatistics repaired = repair(mended, mended_origins, *judge, may_split);
             drop_wrong_shells(mended, mended_origins, repaired.left);
-            add_crossing(mended, repaired.left, options.cancel);
-            if (std::isfinite(options.tolerance)) add_far(mended, *judge, options.tolerance, repaired.left);
+            // Facets that lean or face inward are the graver fault.
+            std::pair<std::size_t, std::size_t> wrong{repaired.left.size(), 0};
+            wrong.second += add_crossing(mended, repaired.left, options.cancel);
+            if (std::isfinite(options.tolerance))
+                wrong.second += add_far(mended, *judge, options.tolerance, repaired.left);
             sort_once(repaired.left);
             cuts[may_split] = cells_around(mended, mended_origins, repaired.left, subdivision);
-            if (repaired.left.size() < min_left) {
-                min_left = repaired.left.size();
+            if (wrong < min_wrong) {
+                min_wrong = wrong;
                 farthest = repaired.farthest;
                 best = std::move(mended);
                 best_left = repaired.left;
                 best_origins = std::move(mended_origins);
             }
-            if (min_left == 0) break;
+            if (min_wrong == none) break;
         }
-        if (min_left == 0 || !may_halve()) break;
+        if (min_wrong == none || !may_halve()) break;
         if (halve(subdivision, cuts[0]).empty() && halve(subdivision, cuts[1]).empty() && !thin_out) break;
         for (const int t : best_left) add_corners(best, best.triangles[std::size_t(t)], dense);
     }
