@@ -3,6 +3,7 @@
 #include "figures/figure.hpp"
 #include "figures/scene_pictures.hpp"
 #include "polygonizer/octree/octree.hpp"
+#include "raytracer/mesh/face_count.hpp"
 #include "raytracer/mesh/mesh_tracer.hpp"
 
 namespace deburr {
@@ -14,9 +15,9 @@ double size_of(const Scene& scene) {
     return largest(box.hi - box.lo);
 }
 
-// As near to as many triangles as the octree comes.
+// As near to as many triangles as the octree comes, and no more.
 Mesh mesh_of(const Scene& scene, std::size_t triangles) {
-    return mesh_scene(bounded_part(scene), {.method = MeshMethod::octree}, triangles).mesh;
+    return mesh_scene_with_faces(bounded_part(scene), {.method = MeshMethod::octree}, triangles).mesh;
 }
 
 std::string count(const Mesh& mesh) {

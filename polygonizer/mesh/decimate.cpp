@@ -31,8 +31,14 @@ double distance_to_triangle(Vec3 x, const Vec3 (&corner)[3]) {
 class Decimation {
 public:
     Decimation(Mesh& mesh, std::vector<Origin>& origins, const FacetJudge& judge, double tolerance,
-               const std::vector<Box>& dense, CancelFlag cancel)
-        : facets_(mesh, origins), judge_(judge), tolerance_(tolerance), dense_(dense), cancel_(cancel) {
+               const std::vector<Box>& dense, CancelFlag cancel, std::size_t enough)
+        : facets_(mesh, origins),
+          judge_(judge),
+          tolerance_(tolerance),
+          dense_(dense),
+          cancel_(cancel),
+          enough_(enough),
+          left_(mesh.triangles.size()) {
         for (std::size_t f = 0; f < facets_.size(); ++f) flat_normals_.push_back(flat_normal(facets_.at(int(f))));
     }
 
@@ -70,6 +76,7 @@ private:
         std::size_t gone = 0;
         for (int v = 0; v < facets_.vertices(); ++v) {
             if (v % 1024 == 0) throw_if_cancelled(cancel_);
+            if (left_ <= enough_) break;
             if (!changed_[std::size_t(v)] || facets_.around(v).empty()) continue;
             changed_[std::size_t(v)] = false;
             if (find_candidates(v, tolerance)) gone += collapse(v, tolerance);
@@ -237,6 +244,7 @@ private:
                 continue;
             if (!accept(*change, v, to, tolerance)) continue;
             if (c.half_way) spare_ = -1;
+            left_ -= change->out.size() - change->in.size();
             for (const int f : facets_.apply(*change)) {
                 flat_normals_.resize(std::max(flat_normals_.size(), std::size_t(f) + 1));
                 flat_normals_[std::size_t(f)] = flat_normal(facets_.at(f));
@@ -280,6 +288,7 @@ private:
     double tolerance_;
     const std::vector<Box>& dense_;
     CancelFlag cancel_;
+    std::size_t enough_, left_;       // triangles
     std::vector<Vec3> flat_normals_;  // of facets; 0: curved
     // Of the vertex that is looked at.
     std::vector<Candidate> candidates_;
@@ -291,9 +300,9 @@ private:
 }  // namespace
 
 std::size_t decimate(Mesh& mesh, std::vector<Origin>& origins, const FacetJudge& judge, double tolerance,
-                     const std::vector<Box>& dense, CancelFlag cancel) {
+                     const std::vector<Box>& dense, CancelFlag cancel, std::size_t enough) {
     if (mesh.triangles.empty()) return 0;
-    return Decimation(mesh, origins, judge, tolerance, dense, cancel).run();
+    return Decimation(mesh, origins, judge, tolerance, dense, cancel, enough).run();
 }
 
 }  // namespace deburr

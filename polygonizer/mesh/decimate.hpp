@@ -11,8 +11,8 @@
 namespace deburr {
 
 /// Collapses edges of a closed mesh while its distance from the surface stays below `tolerance`. Vertices in the boxes
-/// `dense` stay. Returns how many vertices went. Throws Cancelled.
+/// `dense` stay. Ends where no more than `enough` triangles are left. Returns how many vertices went. Throws Cancelled.
 std::size_t decimate(Mesh& mesh, std::vector<Origin>& origins, const FacetJudge& judge, double tolerance,
-                     const std::vector<Box>& dense = {}, CancelFlag cancel = nullptr);
+                     const std::vector<Box>& dense = {}, CancelFlag cancel = nullptr, std::size_t enough = 0);
 
 }  // namespace deburr

@@ -15,7 +15,7 @@
 #include "raytracer/cli/options.hpp"
 #include "raytracer/cli/solid_choice.hpp"
 #include "raytracer/cli/statistics.hpp"
-#include "raytracer/mesh/scene_mesh.hpp"
+#include "raytracer/mesh/face_count.hpp"
 #include "raytracer/util/errors.hpp"
 #include "raytracer/util/message.hpp"
 #include "raytracer/util/printable.hpp"
@@ -260,7 +260,7 @@ int run_mesh(const MeshCommandOptions& o) {
     Progress progress(1, Progress::standard_error(o.quiet || faces));
     SceneMesh mesh;
     try {
-        mesh = faces ? mesh_scene(scene, method, faces)
+        mesh = faces ? mesh_scene_with_faces(scene, method, faces)
                      : mesh_scene(scene, method, {nullptr, [&](double share) { progress.advance(share); }});
     } catch (...) {
         progress.stop();
@@ -329,7 +329,7 @@ Command add_mesh_command(CLI::App& program) {
         ->add_option("--hard-edges", options->hard_angle,
                      "octree: degrees between faces from which their edge is kept; default: 15")
         ->type_name("A");
-    command->add_option("--faces", options->faces, "as near to this number of triangles as the method comes")
+    command->add_option("--faces", options->faces, "at most this number of triangles, and as near to it as may be")
         ->type_name("N");
     command
         ->add_option("--unit", options->unit,

@@ -90,6 +90,7 @@ double work_of(const SolidTree& solid) {
 struct SolidMesh {
     Mesh mesh;
     std::optional<MeshMethod> method;
+    double tolerance = infinity;
     TriageStatistics triage;
     OctreeStatistics octree;
     MeshCheckOptions check_options;
@@ -107,17 +108,18 @@ SolidMesh polygonize(const SolidTree& tree, bool cut_off, const MeshSettings& se
     result.check_options.cancel = cancel;
     if (result.method == MeshMethod::octree) {
         result.mesh = by_octree(tree, box, cut_off, settings, id, cancel, result.octree);
-        result.check_options.tolerance = check_slack * octree_tolerance(tree, box, settings);
+        result.tolerance = octree_tolerance(tree, box, settings);
+        result.check_options.tolerance = check_slack * result.tolerance;
         if (!std::isfinite(result.check_options.tolerance)) result.check_options.min_tolerance = result.octree.edge;
     } else if (result.method == MeshMethod::triage) {
         need_densities(tree, id);
         const double radius = tree.min_radius();
         const double in_radii = std::min(settings.tolerance_in_radii, settings.triage_tolerance_in_radii);
         const double relative = radius > 0 ? in_radii * radius : infinity;
-        const double tolerance = settings.coarseness * std::min(settings.tolerance, relative);
-        result.mesh = triage(tree, box, {.tolerance = tolerance, .decimate = settings.decimate, .cancel = cancel},
+        result.tolerance = settings.coarseness * std::min(settings.tolerance, relative);
+        result.mesh = triage(tree, box, {.tolerance = result.tolerance, .decimate = settings.decimate, .cancel = cancel},
                              &result.triage);
-        result.check_options.tolerance = check_slack * tolerance;
+        result.check_options.tolerance = check_slack * result.tolerance;
     } else {
         const double grid = settings.coarseness * (settings.grid > 0 ? settings.grid : marching_cubes_grid(tree, box));
         if (marching_cubes_count(box, grid) > max_cubes)
@@ -219,7 +221,7 @@ std::string SceneMesh::method_names() const {
     return names;
 }
 
-SceneMesh mesh_scene(const Scene& scene, const MeshSettings& settings, const MeshWatch& watch) {
+SceneMesh mesh_parts(const Scene& scene, const MeshSettings& settings, const MeshWatch& watch) {
     SceneMesh result;
     std::vector<Box> boxes;
     for (const Solid& solid : scene.solids) {
@@ -230,7 +232,8 @@ SceneMesh mesh_scene(const Scene& scene, const MeshSettings& settings, const Mes
     const Vec3 size = result.near.hi - result.near.lo;
     const Box limit = inflated(result.near, settings.reach * std::max(largest(size), 1e-6));
     const std::size_t count = scene.solids.size();
-    const std::vector<char> wanted = wanted_solids(scene, boxes, settings, result.warnings);
+    result.wanted = wanted_solids(scene, boxes, settings, result.warnings);
+    const std::vector<char>& wanted = result.wanted;
     for (std::size_t i = 0; i < count; ++i) {
         if (finite(boxes[i]) || !wanted[i]) continue;
         // Cut off on infinite sides only; the others keep their margin.
@@ -260,49 +263,25 @@ SceneMesh mesh_scene(const Scene& scene, const MeshSettings& settings, const Mes
         result.check_options.push_back(parts[i].check_options);
         result.made_again += parts[i].made_again;
         if (settings.check) result.checks.push_back(parts[i].check.value_or(MeshCheck{}));
-        result.mesh.append(parts[i].mesh, int(i));
+        result.tolerances.push_back(parts[i].tolerance);
         result.parts.push_back(std::move(parts[i].mesh));
     }
-    separate_touching(result.mesh);
-    auto moved = result.mesh.positions.begin();
-    for (Mesh& part : result.parts)
-        for (Vec3& x : part.positions) x = *moved++;
     return result;
 }
 
-SceneMesh mesh_scene(const Scene& scene, MeshSettings settings, std::size_t faces, CancelFlag cancel) {
-    // Triangles go with the inverse square of lengths, and triage's with the inverse of its tolerance;
-    // near the wanted number the last two meshes tell better.
-    constexpr int max_rounds = 12;
-    constexpr double near_enough = 0.001, worth_a_warning = 0.01;
-    constexpr double largest_step = 16, min_slope = 0.5, greatest_slope = 4;
-    if (settings.method.value_or(MeshMethod::triage) == MeshMethod::triage && !std::isfinite(settings.tolerance))
-        settings.tolerance_in_radii = rendering_tolerance;
-    const bool check = std::exchange(settings.check, false);
-    SceneMesh best;
-    double slope = settings.method == MeshMethod::triage || !settings.method ? 1 : 2, error = infinity;
-    double last_coarseness = 0, last_count = 0;
-    for (int round = 0; round < max_rounds && error > near_enough; ++round) {
-        SceneMesh mesh = mesh_scene(scene, settings, {cancel, {}});
-        const double count = double(std::max<std::size_t>(mesh.mesh.triangles.size(), 1));
-        if (last_count > 0 && count != last_count && settings.coarseness != last_coarseness)
-            slope = std::clamp(-std::log(count / last_count) / std::log(settings.coarseness / last_coarseness),
-                               min_slope, greatest_slope);
-        last_coarseness = settings.coarseness;
-        last_count = count;
-        settings.coarseness *= std::clamp(std::pow(count / double(faces), 1 / slope), 1 / largest_step, largest_step);
-        const double off = std::abs(count - double(faces)) / double(faces);
-        if (off >= error) continue;
-        error = off;
-        best = std::move(mesh);
-    }
-    if (error > worth_a_warning)
-        best.warnings.push_back(
-            fmt::format("--faces: the nearest to {} that was found is {}", faces, best.mesh.triangles.size()));
-    for (std::size_t i = 0; check && i < best.parts.size(); ++i)
-        best.checks.push_back(
-            check_mesh(best.parts[i], best.trees[i], polygonization_box(best.trees[i]), best.check_options[i]));
-    return best;
+void join_parts(SceneMesh& mesh) {
+    mesh.mesh = {};
+    for (std::size_t i = 0; i < mesh.parts.size(); ++i) mesh.mesh.append(mesh.parts[i], int(i));
+    separate_touching(mesh.mesh);
+    auto moved = mesh.mesh.positions.begin();
+    for (Mesh& part : mesh.parts)
+        for (Vec3& x : part.positions) x = *moved++;
+}
+
+SceneMesh mesh_scene(const Scene& scene, const MeshSettings& settings, const MeshWatch& watch) {
+    SceneMesh mesh = mesh_parts(scene, settings, watch);
+    join_parts(mesh);
+    return mesh;
 }
 
 std::vector<MeshMetrics> measure_parts(const SceneMesh& mesh) {

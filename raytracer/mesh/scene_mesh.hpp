@@ -22,7 +22,9 @@ struct SceneMesh {
     OctreeStatistics octree;          // sums; the least edge, the highest level
     std::vector<MeshCheck> checks;    // solid by solid, if they were asked for
     std::vector<MeshCheckOptions> check_options;
-    std::size_t made_again = 0;  // solids that were made finer, for they had failed
+    std::vector<char> wanted;        // solid by solid: whether it was to have a mesh
+    std::vector<double> tolerances;  // solid by solid, to which they were made; infinity: none
+    std::size_t made_again = 0;      // solids that were made finer, for they had failed
     std::vector<std::string> warnings;
 
     std::string method_names() const;  // "octree, triage"
@@ -39,9 +41,11 @@ struct MeshWatch {
 /// UnsupportedError if a grid would be too fine, or if all solids are left out.
 SceneMesh mesh_scene(const Scene& scene, const MeshSettings& settings, const MeshWatch& watch = {});
 
-/// As near to `faces` triangles as the method comes, found by search over its coarseness; a warning
-/// says so if that is not within 1 %.
-SceneMesh mesh_scene(const Scene& scene, MeshSettings settings, std::size_t faces, CancelFlag cancel = nullptr);
+/// The parts alone: `mesh` is empty until join_parts().
+SceneMesh mesh_parts(const Scene& scene, const MeshSettings& settings, const MeshWatch& watch = {});
+
+/// Puts the parts together, apart by a hair where they touch.
+void join_parts(SceneMesh& mesh);
 
 std::vector<MeshMetrics> measure_parts(const SceneMesh& mesh);
 

@@ -38,7 +38,7 @@ TEST_CASE("an OBJ comes with its MTL, and neither without the other") {
     CHECK(fs::exists(folder / "b_c.mtl"));
 }
 
-TEST_CASE("--up z turns the scene's y into the files' z, and a GLB's not") {
+TEST_CASE("mesh --up z turns the scene's y into the files' z, and a GLB's not") {
     const Folder folder;
     write_file(folder / "s.lua", "return { solids = { rounded(0.1, box({-1, 2, 0}, {3, 7, 4})) } }");
     const auto box = [&](const std::string& name, const std::vector<std::string>& more) {
@@ -108,7 +108,7 @@ const char* const several = R"(return { solids = {
 
 }  // namespace
 
-TEST_CASE("%n in an output's name stands for each solid's name or number, made harmless and unique") {
+TEST_CASE("mesh: %n in an output's name stands for each solid's name or number, made harmless and unique") {
     const Folder folder;
     write_file(folder / "s.lua", several);
     const Outcome outcome = run({"mesh", folder / "s.lua", "-o", folder / "%n.stl", "-o", folder / "p-%n-%n.obj"});
@@ -139,7 +139,7 @@ TEST_CASE("%n in an output's name stands for each solid's name or number, made h
     CHECK(alone.names() == Names{"b-plate-3.obj", "plate-3.stl"});
 }
 
-TEST_CASE("--only takes solids by name or number, and says which there are") {
+TEST_CASE("mesh --only takes solids by name or number, and says which there are") {
     const Folder folder;
     write_file(folder / "s.lua", several);
     const auto mesh = [&](std::vector<std::string> only) {
@@ -178,7 +178,7 @@ TEST_CASE("solids that are all unbounded are refused, and cut off when they are 
     CHECK(run({"mesh", folder / "s.lua", "-o", folder / "a.stl", "--only", "2"}).code == 0);
 }
 
-TEST_CASE("--recentre takes the middle of the solids that are written") {
+TEST_CASE("mesh --recentre takes the middle of the solids that are written") {
     const Folder folder;
     write_file(folder / "s.lua", several);
     const Outcome outcome = run({"mesh", folder / "s.lua", "-o", folder / "a.stl", "--only", "1", "--recentre"});
