@@ -1,8 +1,11 @@
 // deburr mesh --faces: at most so many triangles, reached from either side.
 #include <algorithm>
+#include <cstdlib>
 #include <nlohmann/json.hpp>
 
 #include "catch.hpp"
+#include "polygonizer/random_part.hpp"
+#include "raytracer/mesh/face_count.hpp"
 #include "raytracer/program.hpp"
 
 using namespace deburr::test;
@@ -106,4 +109,29 @@ TEST_CASE("a mesh of a wanted number of triangles does not depend on the number 
                      folder / (std::string(threads) + ".ply")})
                     .code == 0);
     CHECK(read_file(folder / "1.ply") == read_file(folder / "4.ply"));
+}
+
+TEST_CASE("Random parts of half or twice of their triangles, or of the fewest, are closed and right") {
+    const int count = std::getenv("DEBURR_STRESS") ? std::atoi(std::getenv("DEBURR_STRESS")) : 12;
+    int reached = 0, expected = 0;
+    for (int seed = 1; seed <= count; ++seed) {
+        CAPTURE(seed);
+        deburr::Scene scene;
+        deburr::RandomPart random(seed);
+        scene.solids.push_back(random.solid());
+        expected += random.radius() > 0 ? 2 : 1;  // sharp ones need all their triangles
+        deburr::MeshSettings settings;
+        settings.triage_tolerance_in_radii = deburr::default_tolerance_in_radii;
+        const std::size_t all = mesh_scene(scene, settings).mesh.triangles.size();
+        for (const std::size_t faces : {std::size_t(12), all / 2, 2 * all}) {
+            CAPTURE(all, faces);
+            settings.check = true;
+            const deburr::SceneMesh mesh = mesh_scene_with_faces(scene, settings, faces);
+            REQUIRE(mesh.checks.size() == 1);
+            CHECK(mesh.checks[0].faults() == 0);
+            CHECK(topology(mesh.mesh).manifold());
+            reached += mesh.mesh.triangles.size() <= faces;
+        }
+    }
+    CHECK(reached >= expected);
 }
