@@ -12,8 +12,9 @@ struct Visit {
     double t0, t1;
 };
 
-// Calls cell(number, t) for the cells that the ray passes within [t0, t1], in order, t being where it
-// enters them, until one returns true.
+// Calls cell(number, t) for the cells that the ray passes within [t0, t1], t being where it enters them, in order but
+// for a ray in a wall, which passes the cells on both sides one after the other. Where one returns true, no more are
+// called that are entered there or later.
 template <class OnCell>
 void traverse(const BspTree& tree, const Ray& ray, double t0, double t1, OnCell on_cell) {
     Visit stack[128];
@@ -22,12 +23,15 @@ void traverse(const BspTree& tree, const Ray& ray, double t0, double t1, OnCell 
     for (;;) {
         const BspNode& node = tree.nodes[std::size_t(now.node)];
         if (node.axis == 3) {
-            if (on_cell(std::size_t(node.child), now.t0) || top == 0) return;
+            if (on_cell(std::size_t(node.child), now.t0))
+                while (top > 0 && stack[top - 1].t0 >= now.t0) --top;
+            if (top == 0) return;
             now = stack[--top];
             continue;
         }
         const double o = ray.origin[node.axis], d = ray.direction[node.axis];
         if (d == 0) {
+            if (o == node.split) stack[top++] = {node.child + 1, now.t0, now.t1};
             now.node = node.child + (o > node.split);
             continue;
         }
