@@ -3,8 +3,10 @@
 
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <unordered_map>
 
 #include "bounds/bounding_box.hpp"
+#include "bounds/canonical_solids.hpp"
 #include "bounds/free_form.hpp"
 #include "raytracer/cli/commands.hpp"
 #include "raytracer/cli/options.hpp"
@@ -89,6 +91,65 @@ Parts parts_of(const SolidTree& tree) {
     return parts;
 }
 
+struct SolidFacts {
+    Box box;
+    Parts parts;
+};
+
+// What solids are made of, and where. A solid that is too large to be laid out is a union that is looked at by its
+// operands, each canonical one once; its box is the hull of theirs.
+class Looking {
+public:
+    SolidFacts at(const Solid& solid) {
+        if (solid.node().leaves <= max_half_spaces) {
+            const SolidTree tree = flatten(solid);
+            return {bounding_box(tree), parts_of(tree)};
+        }
+        const CanonicalPlacement placement = canonical_.of(solid);
+        return placed(placement.map, of_canonical(placement.canonical));
+    }
+
+private:
+    static SolidFacts placed(const Affine& map, const SolidFacts& facts) {
+        if (facts.box.empty()) return facts;
+        return {facts.box.finite() ? image(map, facts.box) : Box::everything(), facts.parts};
+    }
+
+    // With a stack of its own, for unions may be long chains.
+    const SolidFacts& of_canonical(int root) {
+        std::vector<int> open{root};
+        while (!open.empty()) {
+            const int canonical = open.back();
+            const Solid solid = canonical_.solid(canonical);
+            if (known_.count(canonical)) {
+                open.pop_back();
+            } else if (solid.node().kind != SolidNode::Kind::unite) {
+                known_[canonical] = at(solid);
+            } else {
+                SolidFacts all;
+                const std::size_t before = open.size();
+                for (const Solid& child : solid.node().children()) {
+                    const CanonicalPlacement part = canonical_.of(child);
+                    const auto at = known_.find(part.canonical);
+                    if (at == known_.end()) {
+                        open.push_back(part.canonical);
+                        continue;
+                    }
+                    const SolidFacts facts = placed(part.map, at->second);
+                    if (!facts.box.empty()) all.box = hull(all.box, facts.box);
+                    all.parts.half_spaces += facts.parts.half_spaces;
+                    all.parts.quadrics += facts.parts.quadrics;
+                }
+                if (open.size() == before) known_[canonical] = all;
+            }
+        }
+        return known_.at(root);
+    }
+
+    CanonicalSolids canonical_;
+    std::unordered_map<int, SolidFacts> known_;
+};
+
 // All that info has to say; the text is made from it too.
 Json describe(const Scene& scene, Size size) {
     Json j;
@@ -101,12 +162,11 @@ Json describe(const Scene& scene, Size size) {
     j["parameters"] = scene.parameters;
     Box all;
     Parts parts;
+    Looking looking;
     j["solids"] = Json::array();
     for (std::size_t i = 0; i < scene.solids.size(); ++i) {
-        const SolidTree tree = flatten(scene.solids[i]);
-        const Box box = bounding_box(tree);
+        const auto [box, own] = looking.at(scene.solids[i]);
         all = box.empty() ? all : hull(all, box);
-        const Parts own = parts_of(tree);
         parts = {parts.half_spaces + own.half_spaces, parts.quadrics + own.quadrics};
         j["solids"].push_back({{"id", i + 1},
                                {"name", i < scene.names.size() ? scene.names[i] : ""},

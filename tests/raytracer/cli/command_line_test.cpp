@@ -374,6 +374,29 @@ TEST_CASE("statistics as a table and as JSON") {
     }
 }
 
+TEST_CASE("info counts what a union places, however often it is more than can be laid out") {
+    const Place place;
+    // Each step doubles the row: 2^24 cubes one after the other, in 100 million half-spaces.
+    write_file(place.scene,
+               "local a = sharp(cube()) for k = 0, 23 do a = a | a:translate(2^k, 0, 0) end\n"
+               "return { solids = { a:rotate(90, {0, 0, 1}), ellipsoid{} | a } }");
+    const Outcome o = run({"info", place.scene, "--json"});
+    CAPTURE(o.err);
+    REQUIRE(o.code == 0);
+    const auto j = nlohmann::json::parse(o.out);
+    CHECK(j["solids"][0]["half_spaces"] == 6.0 * (1 << 24));
+    CHECK(j["solids"][1]["half_spaces"] == 6.0 * (1 << 24));
+    CHECK(j["solids"][1]["quadrics"] == 1);
+    const auto bounds = j["solids"][0]["bounds"];
+    CHECK(std::abs(bounds["lo"][0].get<double>() + 1) < 0.1);
+    CHECK(std::abs(bounds["hi"][1].get<double>() - (1 << 24)) < 0.1);
+    CHECK(std::abs(bounds["hi"][2].get<double>() - 1) < 0.1);
+    // A mesh has triangles of each.
+    const Outcome mesh = run({"mesh", place.scene, "-o", place / "a.stl"});
+    CHECK(mesh.code == 3);
+    CHECK(mesh.err.find("deburr: expected a solid of at most 4000000 half-spaces") == 0);
+}
+
 TEST_CASE("info says what is in a scene") {
     const Place place;
     const Outcome o = run({"info", place.scene, "-D", "r=0.3"});
