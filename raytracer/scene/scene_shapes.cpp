@@ -26,24 +26,24 @@ bool is_set(const LuaValue& value) {  // something with an inside
     return as<Density>(object) || as<Solid>(object) || as<Quadric>(object);
 }
 
-const SceneObject& need_set(const LuaValue& value, const std::string& location) {
+const SceneObject& need_set(const LuaValue& value, const char* location) {
     if (!is_set(value)) expected(location, "a density or a solid", value);
     return *as_object(value);
 }
 
-const SceneObject& need_movable(const LuaValue& value, const std::string& location) {
+const SceneObject& need_movable(const LuaValue& value, const char* location) {
     const SceneObject* object = as_object(value);
     if (as<Perturbation>(object)) return *object;
     return need_set(value, location);
 }
 
-const Density& need_density(const LuaValue& value, const std::string& location) {
+const Density& need_density(const LuaValue& value, const char* location) {
     const Density* density = as_density(value);
     if (!density) expected(location, "a density", value);
     return *density;
 }
 
-const std::vector<LuaValue>& need_list(const LuaValue& value, const std::string& location, const char* of_what,
+const std::vector<LuaValue>& need_list(const LuaValue& value, const char* location, const char* of_what,
                                        std::size_t most) {
     const LuaTable* table = as_table(value);
     if (!table || !table->fields.empty()) expected(location, std::string("a list of ") + of_what, value);
@@ -199,8 +199,9 @@ SceneResult material(SceneCall& call) {
 
 SceneResult name(SceneCall& call) {
     call.at_most(2);
+    const std::string location = call.name;
     const SceneObject& self = need_set(call.argument(0), call.name);
-    const std::string& given = text(call.argument(1), call.name);
+    const std::string& given = text(call.argument(1), location);
     call.builder.memory->take_text(given.size());
     return call.make(call.builder.solid(self), std::make_shared<const std::string>(given));
 }

@@ -30,7 +30,7 @@ TEST_CASE("planes along the axes give the box that the linear programs give") {
         empty += box.empty();
         if (box.empty()) continue;
         for (int k = 0; k < 3; ++k)
-            for (const auto [got, expected] : {std::pair{box.lo[k], want.lo[k]}, {box.hi[k], want.hi[k]}}) {
+            for (const auto& [got, expected] : {std::pair{box.lo[k], want.lo[k]}, {box.hi[k], want.hi[k]}}) {
                 ++bounded;
                 CHECK(std::abs(got - expected) <= 2e-7);  // 10⁻⁹ of the largest offset, on either side
             }

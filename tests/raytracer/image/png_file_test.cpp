@@ -157,13 +157,16 @@ TEST_CASE("a PNG's rows are as they are where neighbours are often equal, else d
 TEST_CASE("a large PNG's data are in chunks of up to 1 MiB that follow each other") {
     constexpr std::size_t longest = 1 << 20;
     const auto chunks = chunks_of(checked_file(noise(1000, 900)));
-    std::string types;
+    std::vector<std::string> types;
     std::vector<std::size_t> sizes;
     for (const Chunk& c : chunks) {
-        types += c.type + " ";
+        types.push_back(c.type);
         if (c.type == "IDAT") sizes.push_back(c.data.size());
     }
-    CHECK(types == "IHDR gAMA sRGB cHRM tIME tEXt IDAT IDAT IDAT IEND ");
+    REQUIRE(types.size() == 10);
+    std::sort(types.begin() + 1, types.begin() + 6);  // libpng's order differs from version to version
+    CHECK(types ==
+          std::vector<std::string>{"IHDR", "cHRM", "gAMA", "sRGB", "tEXt", "tIME", "IDAT", "IDAT", "IDAT", "IEND"});
     REQUIRE(sizes.size() == 3);
     CHECK(sizes[0] == longest);
     CHECK(sizes[1] == longest);
