@@ -53,7 +53,7 @@ double max_told(const SolidTree& solid, const Mesh& mesh) {
 // Of the middles of triangles and edges, as far as points tell.
 double largest_distance(const Mesh& mesh, const SolidTree& solid) {
     const double reach = max_told(solid, mesh);
-    const OffsetField field(solid, inflated(field_box(mesh), reach), reach);
+    const DistanceField field(solid, inflated(field_box(mesh), reach), reach);
     double largest = 0;
     for (const Triangle& t : mesh.triangles) {
         Vec3 x[3];
@@ -308,7 +308,8 @@ SceneMesh by_cells(const Scene& scene, MeshSettings settings, std::size_t faces,
 
 SceneMesh mesh_scene_with_faces(const Scene& scene, MeshSettings settings, std::size_t faces, CancelFlag cancel) {
     const bool even_cells = settings.method == MeshMethod::octree || settings.method == MeshMethod::marching_cubes;
-    SceneMesh mesh = even_cells ? by_cells(scene, settings, faces, cancel) : by_tolerance(scene, settings, faces, cancel);
+    SceneMesh mesh =
+        even_cells ? by_cells(scene, settings, faces, cancel) : by_tolerance(scene, settings, faces, cancel);
     warn_of_count(mesh, faces);
     join_parts(mesh);
     return mesh;
