@@ -51,7 +51,7 @@ namespace {
 constexpr double at_points = 0.85;
 
 // The same for a mesh that is to be looked at, whose normals have to be right between its vertices.
-constexpr double at_points_of_picture = 0.4;
+constexpr double at_points_of_picture = 0.2;
 
 // Makes the cuts; the cells on both sides of those that could be made.
 std::vector<int> halve(Subdivision& subdivision, const std::vector<Cut>& cuts) {
