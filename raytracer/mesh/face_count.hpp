@@ -10,6 +10,7 @@ namespace deburr {
 
 /// At most `faces` triangles, and as near to that as may be; warnings say where more are left, where a tenth fewer are
 /// all that there is to have, and where the mesh is farther from the surface than its tolerance.
-SceneMesh mesh_scene_with_faces(const Scene& scene, MeshSettings settings, std::size_t faces, CancelFlag cancel = nullptr);
+SceneMesh mesh_scene_with_faces(const Scene& scene, MeshSettings settings, std::size_t faces,
+                                CancelFlag cancel = nullptr);
 
 }  // namespace deburr

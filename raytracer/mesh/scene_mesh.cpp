@@ -117,8 +117,9 @@ SolidMesh polygonize(const SolidTree& tree, bool cut_off, const MeshSettings& se
         const double in_radii = std::min(settings.tolerance_in_radii, settings.triage_tolerance_in_radii);
         const double relative = radius > 0 ? in_radii * radius : infinity;
         result.tolerance = settings.coarseness * std::min(settings.tolerance, relative);
-        result.mesh = triage(tree, box, {.tolerance = result.tolerance, .decimate = settings.decimate, .cancel = cancel},
-                             &result.triage);
+        result.mesh =
+            triage(tree, box, {.tolerance = result.tolerance, .decimate = settings.decimate, .cancel = cancel},
+                   &result.triage);
         result.check_options.tolerance = check_slack * result.tolerance;
     } else {
         const double grid = settings.coarseness * (settings.grid > 0 ? settings.grid : marching_cubes_grid(tree, box));
