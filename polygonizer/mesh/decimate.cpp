@@ -233,7 +233,10 @@ private:
             int to = c.to;
             std::optional<Change> change;
             if (c.half_way) {
-                if (spare_ < 0) spare_ = facets_.add_vertex(c.x);
+                if (spare_ < 0) {
+                    spare_ = facets_.add_vertex(c.x);
+                    changed_.resize(std::size_t(facets_.vertices()), true);
+                }
                 facets_.move(spare_, c.x);
                 change = merge(v, to, spare_);
                 to = spare_;
