@@ -75,11 +75,9 @@ DensityGrid density_grid(const DensityTree& tree, const Box& box, double step) {
             for (std::size_t i = 0; i < tree.nodes.size(); ++i) {
                 const TreeNode& n = tree.nodes[i];
                 Row& row = rows[i];
-                const auto at = [&](int c) -> Row& { return rows[std::size_t(c)]; };
+                const auto at = [&](int c) -> Row& { return rows[c]; };
                 switch (n.op) {
-                    case Op::half_space:
-                        profile_row(tree.half_spaces[std::size_t(n.a)], start, step, count, row);
-                        break;
+                    case Op::half_space: profile_row(tree.half_spaces[n.a], start, step, count, row); break;
                     case Op::product: product_rows(at(n.a), at(n.b), count, row); break;
                     case Op::sum:
                         combine_rows(at(n.a), at(n.b), count, row, [](float a, float b) { return a + b; });

@@ -28,7 +28,7 @@ SolidTree boxes(int count) {
         row.push_back(Density::box(lo, lo + Vec3(1.0)));
     }
     Density all = row[0];
-    for (int k = 1; k < count; ++k) all = all | row[std::size_t(k)];
+    for (int k = 1; k < count; ++k) all = all | row[k];
     return flatten(Solid::rounded(0.05, all));
 }
 

@@ -42,11 +42,11 @@ BallConvolution::BallConvolution(const DensityTree& tree) {
         };
         if (n.op == Op::constant) continue;
         if (n.op == Op::half_space) {
-            uses_[std::size_t(n.a)] |= n.negated ? turned(use[i]) : use[i];
+            uses_[n.a] |= n.negated ? turned(use[i]) : use[i];
             continue;
         }
         for (const int child : {n.a, n.b})
-            if (child >= 0) use[std::size_t(child)] |= n.op == Op::complement ? turned(use[i]) : use[i];
+            if (child >= 0) use[child] |= n.op == Op::complement ? turned(use[i]) : use[i];
     }
 }
 
@@ -63,7 +63,7 @@ void BallConvolution::find_equal(const DensityTree& tree) {
             function_.nodes.push_back({n.op, n.a, n.b});
             continue;
         }
-        const HalfSpace& h = tree.half_spaces[std::size_t(n.a)];
+        const HalfSpace& h = tree.half_spaces[n.a];
         const Vec3 normal = glm::normalize(carry * h.normal);
         BooleanFunction::Node node{Op::half_space};
         if (compare)
@@ -106,7 +106,7 @@ void BallConvolution::drop_idle() {
     normals_.resize(kept);
     for (BooleanFunction::Node& n : function_.nodes) {
         if (n.op != Op::half_space) continue;
-        n.a = new_index[std::size_t(n.a)];
+        n.a = new_index[n.a];
         if (n.a < 0) n = {Op::constant, n.negated};
     }
 }
@@ -179,11 +179,11 @@ Range BallConvolution::range(const std::vector<Range>& half_spaces) const {
     thread_local std::vector<Range> done;
     done.clear();
     for (const BooleanFunction::Node& n : function_.nodes) {
-        const auto at = [&](int child) { return child < 0 ? Range{} : done[std::size_t(child)]; };
+        const auto at = [&](int child) { return child < 0 ? Range{} : done[child]; };
         if (n.op == Op::constant) {
             done.push_back({double(n.a), double(n.a)});
         } else if (n.op == Op::half_space) {
-            const Range rho = half_spaces[std::size_t(n.a)];
+            const Range rho = half_spaces[n.a];
             done.push_back(n.negated ? combine(Op::complement, rho, {}) : rho);
         } else {
             done.push_back(combine(n.op, at(n.a), at(n.b)));

@@ -15,21 +15,21 @@ Box bounding_box(const BoundCsg& csg) {
     for (std::size_t i = csg.nodes.size(); i-- > 0;) {
         const BoundCsg::Node& n = csg.nodes[i];
         if (n.kind == Kind::plane || n.kind == Kind::nothing || n.kind == Kind::everything) continue;
-        negated[std::size_t(n.a)] = n.kind == Kind::complement ? !negated[i] : negated[i];
-        if (n.b >= 0) negated[std::size_t(n.b)] = negated[i];
+        negated[n.a] = n.kind == Kind::complement ? !negated[i] : negated[i];
+        if (n.b >= 0) negated[n.b] = negated[i];
     }
     std::vector<GatheredBox> all(csg.nodes.size());
     for (std::size_t i = 0; i < csg.nodes.size(); ++i) {
         const BoundCsg::Node& n = csg.nodes[i];
         const bool not_ = negated[i];
-        const auto take = [&](int child) { return std::move(all[std::size_t(child)]); };
+        const auto take = [&](int child) { return std::move(all[child]); };
         switch (n.kind) {
             case Kind::nothing:
             case Kind::everything:
                 if ((n.kind == Kind::nothing) != not_) all[i].rest = {};
                 break;
             case Kind::plane: {
-                const BoundPlane& p = csg.planes[std::size_t(n.a)];
+                const BoundPlane& p = csg.planes[n.a];
                 all[i].planes.push_back(not_ ? BoundPlane{-p.normal, -p.offset} : p);
                 break;
             }
@@ -43,7 +43,7 @@ Box bounding_box(const BoundCsg& csg) {
 
 Box bounding_box(const DensityTree& tree) {
     const int support = tree.nodes.back().support;
-    const Box box = support < 0 ? Box::everything() : tree.supports[std::size_t(support)];
+    const Box box = support < 0 ? Box::everything() : tree.supports[support];
     if (!bounds_hold(tree, Box::everything())) return box;
     return intersection(box, bounding_box(outer_bound(tree, 0.5)));
 }
@@ -88,12 +88,12 @@ Box without_empty_ends(const SolidTree& tree, Box box) {
 Box bounding_box(const SolidTree& tree) {
     std::vector<Box> all;
     for (const SolidTreeNode& n : tree.nodes) {
-        const auto at = [&](int child) { return all[std::size_t(child)]; };
+        const auto at = [&](int child) { return all[child]; };
         switch (n.op) {
             case SolidOp::nothing: all.push_back({}); break;
             case SolidOp::everything: all.push_back(Box::everything()); break;
             case SolidOp::leaf: {
-                const SolidLeaf& leaf = tree.leaves[std::size_t(n.a)];
+                const SolidLeaf& leaf = tree.leaves[n.a];
                 all.push_back(leaf.field ? leaf.field->bounding_box() : bounding_box(leaf.density));
                 break;
             }

@@ -34,7 +34,7 @@ const std::vector<NodeRange>& ranges_from(const DensityTree& tree, OfHalfSpace o
         } else if (n.op == Op::half_space) {
             const Range r = of_half_space(std::size_t(n.a));
             done[i] = {r, r.hi == 0 || r.lo == 1};
-        } else if (n.support >= 0 && misses(tree.supports[std::size_t(n.support)])) {
+        } else if (n.support >= 0 && misses(tree.supports[n.support])) {
             done[i] = {{0, 0}, true};
         } else {
             const NodeRange a = done[n.a], b = n.b < 0 ? NodeRange{} : done[n.b];
@@ -84,12 +84,12 @@ public:
     }
 
 private:
-    bool constant(int i) const { return ranges_[std::size_t(i)].constant; }
-    bool is(int i, double value) const { return constant(i) && ranges_[std::size_t(i)].lo == value; }
+    bool constant(int i) const { return ranges_[i].constant; }
+    bool is(int i, double value) const { return constant(i) && ranges_[i].lo == value; }
 
     // The child that node i equals throughout, or −1.
     int same_as(int i) const {
-        const TreeNode& n = from_.nodes[std::size_t(i)];
+        const TreeNode& n = from_.nodes[i];
         switch (n.op) {
             case Op::sum:
             case Op::disjunction:
@@ -109,35 +109,34 @@ private:
         const std::size_t count = from_.nodes.size();
         needed_.assign(count, false);
         for (int i = from_.root(); i >= 0; --i) {
-            if (std::size_t(i) + 1 == count) needed_[std::size_t(i)] = true;
-            if (!needed_[std::size_t(i)] || constant(i)) continue;
-            const TreeNode& n = from_.nodes[std::size_t(i)];
+            if (std::size_t(i) + 1 == count) needed_[i] = true;
+            if (!needed_[i] || constant(i)) continue;
+            const TreeNode& n = from_.nodes[i];
             if (n.op == Op::half_space || n.op == Op::constant) continue;
             if (const int same = same_as(i); same >= 0) {
-                needed_[std::size_t(same)] = true;
+                needed_[same] = true;
                 continue;
             }
             // 1 − b is kept as a complement, whose bounds are tighter than a difference's.
-            if (!(n.op == Op::difference && is(n.a, 1))) needed_[std::size_t(n.a)] = true;
-            if (n.b >= 0) needed_[std::size_t(n.b)] = true;
+            if (!(n.op == Op::difference && is(n.a, 1))) needed_[n.a] = true;
+            if (n.b >= 0) needed_[n.b] = true;
         }
     }
 
     int copy(int i) {
-        TreeNode n = from_.nodes[std::size_t(i)];
-        if (constant(i)) return add({Op::constant, -1, -1, ranges_[std::size_t(i)].lo, n.line});
-        if (const int same = same_as(i); same >= 0) return new_index_[std::size_t(same)];
+        TreeNode n = from_.nodes[i];
+        if (constant(i)) return add({Op::constant, -1, -1, ranges_[i].lo, n.line});
+        if (const int same = same_as(i); same >= 0) return new_index_[same];
         if (n.op == Op::half_space) {
-            to_.half_spaces.push_back(from_.half_spaces[std::size_t(n.a)]);
+            to_.half_spaces.push_back(from_.half_spaces[n.a]);
             n.a = int(to_.half_spaces.size()) - 1;
             return add(n);
         }
-        if (n.op == Op::difference && is(n.a, 1))
-            return add({Op::complement, new_index_[std::size_t(n.b)], -1, 0, n.line});
-        n.a = new_index_[std::size_t(n.a)];
-        if (n.b >= 0) n.b = new_index_[std::size_t(n.b)];
+        if (n.op == Op::difference && is(n.a, 1)) return add({Op::complement, new_index_[n.b], -1, 0, n.line});
+        n.a = new_index_[n.a];
+        if (n.b >= 0) n.b = new_index_[n.b];
         if (n.support >= 0) {
-            to_.supports.push_back(from_.supports[std::size_t(n.support)]);
+            to_.supports.push_back(from_.supports[n.support]);
             n.support = int(to_.supports.size()) - 1;
         }
         return add(n);

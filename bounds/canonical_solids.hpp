@@ -31,7 +31,7 @@ public:
     /// The solid must live as long as this does.
     CanonicalPlacement of(const Solid& solid);
     /// The first solid that had this form.
-    const Solid& solid(int canonical) const { return solids_[std::size_t(canonical)]; }
+    const Solid& solid(int canonical) const { return solids_[canonical]; }
     std::size_t size() const { return solids_.size(); }
 
 private:

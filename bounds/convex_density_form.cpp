@@ -78,22 +78,22 @@ std::optional<ConvexDensity> convex_density(const LocalDensity& density, double 
         int relevant = 0;
         for (int v = 0; v < n; ++v)
             for (int corner = 0; corner < 1 << n; ++corner)
-                if (value[std::size_t(corner)] != value[std::size_t(corner ^ 1 << v)]) relevant |= 1 << v;
+                if (value[corner] != value[corner ^ 1 << v]) relevant |= 1 << v;
         int ones = 0, zeros = 0, the_one = 0, the_zero = 0;
         for (int corner = 0; corner < 1 << n; ++corner) {
             if ((corner & ~relevant) != 0) continue;
-            (value[std::size_t(corner)] ? ones : zeros)++;
-            (value[std::size_t(corner)] ? the_one : the_zero) = corner;
+            (value[corner] ? ones : zeros)++;
+            (value[corner] ? the_one : the_zero) = corner;
         }
         if (relevant == 0 || (ones != 1 && zeros != 1)) return std::nullopt;
         result.complement = ones != 1;
         const int corner = result.complement ? the_zero : the_one;
         for (int v = 0; v < n; ++v)
-            if (relevant >> v & 1) factors.push_back({variables[std::size_t(v)], (corner >> v & 1) == 0});
+            if (relevant >> v & 1) factors.push_back({variables[v], (corner >> v & 1) == 0});
     }
     for (const bool sharp : {false, true})
         for (const auto [i, flipped] : factors) {
-            const HalfSpace& h = planes[std::size_t(i)];
+            const HalfSpace& h = planes[i];
             if ((h.radius == 0) != sharp) continue;
             result.planes.push_back(alpha_plane(h, flipped));
             result.sharp += sharp;

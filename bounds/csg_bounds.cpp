@@ -18,11 +18,11 @@ std::vector<Demand> demands(const DensityTree& tree, Demand root) {
     std::vector<Demand> all(tree.nodes.size());
     all.back() = root;
     for (int i = tree.root(); i >= 0; --i) {
-        const TreeNode& n = tree.nodes[std::size_t(i)];
-        const auto [outer, t] = all[std::size_t(i)];
+        const TreeNode& n = tree.nodes[i];
+        const auto [outer, t] = all[i];
         const auto ask = [&](Demand a, Demand b) {
-            all[std::size_t(n.a)] = a;
-            if (n.b >= 0) all[std::size_t(n.b)] = b;
+            all[n.a] = a;
+            if (n.b >= 0) all[n.b] = b;
         };
         switch (n.op) {
             case Op::product:  // theorems 1 and 5
@@ -53,11 +53,11 @@ public:
         std::vector<int> new_index(tree.nodes.size());
         for (std::size_t i = 0; i < tree.nodes.size(); ++i) {
             const TreeNode& n = tree.nodes[i];
-            const auto at = [&](int child) { return new_index[std::size_t(child)]; };
+            const auto at = [&](int child) { return new_index[child]; };
             const auto [outer, t] = asked[i];
             switch (n.op) {
                 case Op::constant: new_index[i] = constant(outer ? n.value > t : n.value >= t); break;
-                case Op::half_space: new_index[i] = plane(tree.half_spaces[std::size_t(n.a)], asked[i]); break;
+                case Op::half_space: new_index[i] = plane(tree.half_spaces[n.a], asked[i]); break;
                 case Op::product:
                 case Op::conjunction: new_index[i] = intersect(at(n.a), at(n.b)); break;
                 case Op::sum:
@@ -78,7 +78,7 @@ private:
         csg_.nodes.push_back(node);
         return int(csg_.nodes.size()) - 1;
     }
-    Kind kind(int i) const { return csg_.nodes[std::size_t(i)].kind; }
+    Kind kind(int i) const { return csg_.nodes[i].kind; }
     int constant(bool everything) { return add({everything ? Kind::everything : Kind::nothing}); }
 
     int plane(const HalfSpace& h, Demand asked) {
@@ -110,7 +110,7 @@ private:
         return add({Kind::complement, a});
     }
     // The root must come last.
-    int again(int i) { return i + 1 == int(csg_.nodes.size()) ? i : add(csg_.nodes[std::size_t(i)]); }
+    int again(int i) { return i + 1 == int(csg_.nodes.size()) ? i : add(csg_.nodes[i]); }
 
     double clear_;
     BoundCsg csg_;
@@ -121,12 +121,12 @@ private:
 bool BoundCsg::contains(Vec3 x) const {
     std::vector<char> in;
     for (const Node& n : nodes) {
-        const auto at = [&](int child) -> bool { return in[std::size_t(child)]; };
+        const auto at = [&](int child) -> bool { return in[child]; };
         switch (n.kind) {
             case Kind::nothing: in.push_back(false); break;
             case Kind::everything: in.push_back(true); break;
             case Kind::plane: {
-                const BoundPlane& p = planes[std::size_t(n.a)];
+                const BoundPlane& p = planes[n.a];
                 in.push_back(glm::dot(p.normal, x) <= p.offset);
                 break;
             }
@@ -151,7 +151,7 @@ bool bounds_hold(const DensityTree& tree, const Box& box) {
     for (std::size_t i = 0; i < tree.nodes.size(); ++i) {
         const TreeNode& n = tree.nodes[i];
         const bool leaf = n.op == Op::half_space || n.op == Op::constant;
-        const bool operands = leaf || (unit[std::size_t(n.a)] && (n.b < 0 || unit[std::size_t(n.b)]));
+        const bool operands = leaf || (unit[n.a] && (n.b < 0 || unit[n.b]));
         if (!operands) return false;
         bool is_unit = n.op != Op::constant || (n.value >= 0 && n.value <= 1);
         if (n.op == Op::sum || n.op == Op::difference) {
@@ -197,13 +197,13 @@ void SearchSpans::general(const BoundCsg& csg, Vec3 origin, Vec3 direction) {
     parts_.clear();
     for (const BoundCsg::Node& n : csg.nodes) {
         Part part{pool_.size(), 0};
-        const auto a = [&] { return parts_[std::size_t(n.a)]; };
-        const auto b = [&] { return parts_[std::size_t(n.b)]; };
+        const auto a = [&] { return parts_[n.a]; };
+        const auto b = [&] { return parts_[n.b]; };
         switch (n.kind) {
             case Kind::nothing: break;
             case Kind::everything: pool_.push_back({-infinity, infinity}); break;
             case Kind::plane: {
-                const Span s = ray_in_plane(csg.planes[std::size_t(n.a)], origin, direction);
+                const Span s = ray_in_plane(csg.planes[n.a], origin, direction);
                 if (s.lo <= s.hi) pool_.push_back(s);
                 break;
             }

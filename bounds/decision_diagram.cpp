@@ -33,12 +33,12 @@ public:
 private:
     void reach(int root) {
         reached_.assign(std::size_t(root) + 1, false);
-        reached_[std::size_t(root)] = true;
+        reached_[root] = true;
         for (int i = root; i >= 0; --i) {
-            const TreeNode& n = tree_.nodes[std::size_t(i)];
-            if (!reached_[std::size_t(i)] || n.op == Op::half_space || n.op == Op::constant) continue;
-            reached_[std::size_t(n.a)] = true;
-            if (n.b >= 0) reached_[std::size_t(n.b)] = true;
+            const TreeNode& n = tree_.nodes[i];
+            if (!reached_[i] || n.op == Op::half_space || n.op == Op::constant) continue;
+            reached_[n.a] = true;
+            if (n.b >= 0) reached_[n.b] = true;
         }
     }
 
@@ -49,13 +49,13 @@ private:
         for (std::size_t i = 0; i < reached_.size(); ++i) {
             const TreeNode& node = tree_.nodes[i];
             if (!reached_[i] || node.op != Op::half_space) continue;
-            const HalfSpace& h = tree_.half_spaces[std::size_t(node.a)];
-            Literal& literal = literals_[std::size_t(node.a)];
+            const HalfSpace& h = tree_.half_spaces[node.a];
+            Literal& literal = literals_[node.a];
             literal.family = family_of(h);
             if (std::size_t(literal.family) == offsets.size()) offsets.emplace_back();
-            const Vec3 n = diagram_.families[std::size_t(literal.family)].normal;
+            const Vec3 n = diagram_.families[literal.family].normal;
             literal.above = glm::dot(n, h.normal) < 0;
-            offsets[std::size_t(literal.family)].push_back({literal.above ? -h.offset : h.offset, node.a});
+            offsets[literal.family].push_back({literal.above ? -h.offset : h.offset, node.a});
             scale = std::max(scale, std::abs(h.offset));
         }
         for (std::size_t f = 0; f < offsets.size(); ++f) {
@@ -63,7 +63,7 @@ private:
             std::vector<double>& thresholds = diagram_.families[f].thresholds;
             for (const auto& [tau, half_space] : offsets[f]) {
                 if (thresholds.empty() || tau - thresholds.back() > same_threshold * scale) thresholds.push_back(tau);
-                literals_[std::size_t(half_space)].threshold = int(thresholds.size()) - 1;
+                literals_[half_space].threshold = int(thresholds.size()) - 1;
             }
         }
     }
@@ -85,15 +85,15 @@ private:
         for (std::size_t i = 0; i < reached_.size(); ++i) {
             if (!reached_[i]) continue;
             const TreeNode& n = tree_.nodes[i];
-            const auto child = [&](int c) { return done[std::size_t(c)]; };
+            const auto child = [&](int c) { return done[c]; };
             switch (n.op) {
                 case Op::constant: done[i] = n.value > 0.5; break;
-                case Op::half_space: done[i] = literal(literals_[std::size_t(n.a)]); break;
+                case Op::half_space: done[i] = literal(literals_[n.a]); break;
                 case Op::complement: done[i] = apply(Op::complement, child(n.a), 0); break;
                 default: done[i] = apply(n.op, child(n.a), child(n.b)); break;
             }
         }
-        diagram_.root = done[std::size_t(root)];
+        diagram_.root = done[root];
     }
 
     int literal(const Literal& l) {
@@ -133,8 +133,8 @@ private:
         if (const auto known = applied_.find(key); known != applied_.end()) return known->second;
 
         // Copies: add() may move the nodes.
-        const Decision da = diagram_.nodes[std::size_t(a)];
-        const Decision db = b < 2 ? Decision{} : diagram_.nodes[std::size_t(b)];
+        const Decision da = diagram_.nodes[a];
+        const Decision db = b < 2 ? Decision{} : diagram_.nodes[b];
         Decision node;
         node.family = db.family < 0 ? da.family : std::min(da.family, db.family);
         const bool in_a = da.family == node.family, in_b = db.family == node.family;

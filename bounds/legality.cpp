@@ -35,7 +35,7 @@ struct Candidate {
 DensityTree part_below(const DensityTree& tree, int root) {
     std::vector<int> below{root};
     for (std::size_t k = 0; k < below.size(); ++k) {
-        const TreeNode& n = tree.nodes[std::size_t(below[k])];
+        const TreeNode& n = tree.nodes[below[k]];
         if (n.op == Op::half_space || n.op == Op::constant) continue;
         below.push_back(n.a);
         if (n.b >= 0) below.push_back(n.b);
@@ -46,16 +46,16 @@ DensityTree part_below(const DensityTree& tree, int root) {
     };
     DensityTree part;
     for (const int i : below) {
-        TreeNode n = tree.nodes[std::size_t(i)];
+        TreeNode n = tree.nodes[i];
         if (n.op == Op::half_space) {
-            part.half_spaces.push_back(tree.half_spaces[std::size_t(n.a)]);
+            part.half_spaces.push_back(tree.half_spaces[n.a]);
             n.a = int(part.half_spaces.size()) - 1;
         } else if (n.op != Op::constant) {
             n.a = new_index(n.a);
             if (n.b >= 0) n.b = new_index(n.b);
         }
         if (n.support >= 0) {
-            part.supports.push_back(tree.supports[std::size_t(n.support)]);
+            part.supports.push_back(tree.supports[n.support]);
             n.support = int(part.supports.size()) - 1;
         }
         part.nodes.push_back(n);
@@ -111,8 +111,8 @@ std::vector<int> suspects(const DensityTree& tree) {
     std::vector<char> covered(tree.nodes.size(), false);
     for (const TreeNode& n : tree.nodes) {
         const auto cover = [&](int child) {
-            const TreeNode& c = tree.nodes[std::size_t(child)];
-            if (c.op == n.op && c.line == n.line) covered[std::size_t(child)] = true;
+            const TreeNode& c = tree.nodes[child];
+            if (c.op == n.op && c.line == n.line) covered[child] = true;
         };
         if (n.op == Op::sum) cover(n.b);
         if (n.op == Op::sum || n.op == Op::difference) cover(n.a);
@@ -129,7 +129,7 @@ std::vector<std::int64_t> sizes(const DensityTree& tree) {
     for (std::size_t i = 0; i < tree.nodes.size(); ++i) {
         const TreeNode& n = tree.nodes[i];
         if (n.op == Op::half_space || n.op == Op::constant) continue;
-        size[i] += size[std::size_t(n.a)] + (n.b >= 0 ? size[std::size_t(n.b)] : 0);
+        size[i] += size[n.a] + (n.b >= 0 ? size[n.b] : 0);
     }
     return size;
 }
@@ -142,13 +142,13 @@ std::vector<IllegalDensity> find_illegal(const DensityTree& tree, LegalityEffort
     const std::vector<std::int64_t> size = sizes(tree);
     const Box reach = reach_of(tree);
     for (std::size_t k = roots.size(); k-- > 0;) {  // the largest first
-        const TreeNode& n = tree.nodes[std::size_t(roots[k])];
-        if (size[std::size_t(roots[k])] > effort.nodes) continue;
-        const Box start = n.support >= 0 ? intersection(reach, tree.supports[std::size_t(n.support)]) : reach;
+        const TreeNode& n = tree.nodes[roots[k]];
+        if (size[roots[k]] > effort.nodes) continue;
+        const Box start = n.support >= 0 ? intersection(reach, tree.supports[n.support]) : reach;
         if (start.empty()) continue;
         std::int64_t share = effort.nodes / std::int64_t(k + 1);
         effort.nodes -= share;
-        share -= size[std::size_t(roots[k])];
+        share -= size[roots[k]];
         worst_of[k] = search(part_below(tree, roots[k]), start, effort.boxes, share);
         effort.nodes += share;  // what is left of it
         worst_of[k].op = n.op;

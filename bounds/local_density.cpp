@@ -28,7 +28,7 @@ void boolean_nodes(const DensityTree& tree, std::vector<char>& boolean) {
             case Op::conjunction:
             case Op::disjunction: boolean.push_back(true); break;
             case Op::constant: boolean.push_back(n.value == 0 || n.value == 1); break;
-            case Op::complement: boolean.push_back(boolean[std::size_t(n.a)]); break;
+            case Op::complement: boolean.push_back(boolean[n.a]); break;
             default: boolean.push_back(false);
         }
     }
@@ -42,7 +42,7 @@ void roots_of_boolean_parts(const DensityTree& tree, const std::vector<char>& bo
         const TreeNode& n = tree.nodes[i];
         if (boolean[i] || n.op == Op::constant || n.op == Op::half_space) continue;
         for (const int child : {n.a, n.b})
-            if (child >= 0 && boolean[std::size_t(child)]) root[std::size_t(child)] = true;
+            if (child >= 0 && boolean[child]) root[child] = true;
     }
 }
 
@@ -65,10 +65,10 @@ LocalDensity::LocalDensity(const DensityTree& tree) {
     positive.assign(tree.nodes.size(), true);
     for (std::size_t i = 0; i < tree.nodes.size(); ++i) {
         const TreeNode& n = tree.nodes[i];
-        const auto at = [&](int child) { return child < 0 ? -1 : new_index[std::size_t(child)]; };
+        const auto at = [&](int child) { return child < 0 ? -1 : new_index[child]; };
         bool operands = true;
         if (n.op != Op::half_space)
-            for (const int child : {n.a, n.b}) operands &= child < 0 || positive[std::size_t(child)];
+            for (const int child : {n.a, n.b}) operands &= child < 0 || positive[child];
         if (n.op == Op::constant)
             positive[i] = n.value >= 0;
         else if (n.op == Op::sum || n.op == Op::product)
@@ -97,9 +97,9 @@ int LocalDensity::add(Node node) {
 }
 
 int LocalDensity::add_boolean(const DensityTree& tree, int root) {
-    const TreeNode& top = tree.nodes[std::size_t(root)];
+    const TreeNode& top = tree.nodes[root];
     if (top.op == Op::half_space) {  // needs no diagram
-        half_spaces_.push_back(tree.half_spaces[std::size_t(top.a)]);
+        half_spaces_.push_back(tree.half_spaces[top.a]);
         polarity_.push_back(1);
         return add({Step::half_space, int(half_spaces_.size()) - 1});
     }
@@ -107,18 +107,18 @@ int LocalDensity::add_boolean(const DensityTree& tree, int root) {
     const DecisionDiagram diagram = build_diagram(tree, root);
     // Of the diagram, what its root reaches.
     std::vector<char> reached(diagram.nodes.size(), false);
-    reached[std::size_t(diagram.root)] = true;
+    reached[diagram.root] = true;
     for (int i = int(diagram.nodes.size()) - 1; i >= 2; --i)
-        if (reached[std::size_t(i)])
-            for (const int child : diagram.nodes[std::size_t(i)].children) reached[std::size_t(child)] = true;
+        if (reached[i])
+            for (const int child : diagram.nodes[i].children) reached[child] = true;
 
     std::vector<std::vector<int>> plane(diagram.families.size());  // of (family, threshold)
     for (std::size_t f = 0; f < plane.size(); ++f) plane[f].assign(diagram.families[f].thresholds.size(), -1);
     const auto plane_of = [&](int family, int threshold) {
-        int& index = plane[std::size_t(family)][std::size_t(threshold)];
+        int& index = plane[family][threshold];
         if (index < 0) {
-            const PlaneFamily& f = diagram.families[std::size_t(family)];
-            half_spaces_.push_back({f.normal, f.thresholds[std::size_t(threshold)], f.radius});
+            const PlaneFamily& f = diagram.families[family];
+            half_spaces_.push_back({f.normal, f.thresholds[threshold], f.radius});
             index = int(half_spaces_.size()) - 1;
         }
         return index;
@@ -139,11 +139,11 @@ int LocalDensity::add_boolean(const DensityTree& tree, int root) {
         }
         const Node node{Step::decision, int(children_.size()), int(d.thresholds.size())};
         for (const int t : d.thresholds) children_.push_back(plane_of(d.family, t));
-        for (const int c : d.children) children_.push_back(new_index[std::size_t(c)]);
+        for (const int c : d.children) children_.push_back(new_index[c]);
         new_index[i] = add(node);
     }
     find_polarities(tree, root, first);
-    return new_index[std::size_t(diagram.root)];
+    return new_index[diagram.root];
 }
 
 // Of the half-spaces from `first` on, which came from the Boolean function at `root`.
@@ -154,16 +154,16 @@ void LocalDensity::find_polarities(const DensityTree& tree, int root, std::size_
     };
     thread_local std::vector<unsigned char> of_node, of_plane;
     of_node.assign(tree.nodes.size(), 0);
-    of_node[std::size_t(root)] = rises;
+    of_node[root] = rises;
     of_plane.assign(half_spaces_.size() - first, 0);
     // Planes that the diagram took for one differ by less.
     constexpr double same_direction = 1e-8, same_radius = 1e-8, same_offset = 1e-11;
     for (int i = root; i >= 0; --i) {
-        const TreeNode& n = tree.nodes[std::size_t(i)];
-        const unsigned char polarity = of_node[std::size_t(i)];
+        const TreeNode& n = tree.nodes[i];
+        const unsigned char polarity = of_node[i];
         if (polarity == 0) continue;
         if (n.op == Op::half_space) {
-            const HalfSpace& h = tree.half_spaces[std::size_t(n.a)];
+            const HalfSpace& h = tree.half_spaces[n.a];
             for (std::size_t k = 0; k < of_plane.size(); ++k) {
                 const HalfSpace& plane = half_spaces_[first + k];
                 const double side = glm::dot(h.normal, plane.normal) < 0 ? -1 : 1;
@@ -175,7 +175,7 @@ void LocalDensity::find_polarities(const DensityTree& tree, int root, std::size_
             }
         } else if (n.op != Op::constant) {
             for (const int child : {n.a, n.b})
-                if (child >= 0) of_node[std::size_t(child)] |= n.op == Op::complement ? flipped(polarity) : polarity;
+                if (child >= 0) of_node[child] |= n.op == Op::complement ? flipped(polarity) : polarity;
         }
     }
     for (const unsigned char p : of_plane) polarity_.push_back(p == rises ? 1 : p == falls ? -1 : 0);
@@ -217,7 +217,7 @@ static T run(const std::vector<Node>& nodes, const std::vector<int>& children, L
     T* const done = memory_for<T>(nodes.size());
     for (std::size_t i = 0; i < nodes.size(); ++i) {
         const Node& n = nodes[i];
-        const auto at = [&](int child) -> const T& { return done[std::size_t(child)]; };
+        const auto at = [&](int child) -> const T& { return done[child]; };
         switch (n.step) {
             case Step::constant: done[i] = T{n.value}; break;
             case Step::half_space: done[i] = leaf(std::size_t(n.a)); break;
@@ -226,7 +226,7 @@ static T run(const std::vector<Node>& nodes, const std::vector<int>& children, L
             case Step::difference: done[i] = at(n.a) - at(n.b); break;
             case Step::complement: done[i] = T{1.0} - at(n.a); break;
             case Step::decision: {
-                const int* thresholds = &children[std::size_t(n.a)];
+                const int* thresholds = &children[n.a];
                 const int* children = thresholds + n.b;
                 T sum = at(children[n.b]);
                 for (int j = 0; j < n.b; ++j)
@@ -269,12 +269,12 @@ ValueGradient LocalDensity::gradient_at(Vec3 x) const {
 
 Range LocalDensity::range(const Box& box) const {
     if (convolution_) return convolution_->range(box);
-    return range_from([&](int i) { return density_range(half_spaces_[std::size_t(i)], box); });
+    return range_from([&](int i) { return density_range(half_spaces_[i], box); });
 }
 
 Range LocalDensity::range(std::span<const Range> half_spaces) const {
     if (convolution_) return convolution_->range({half_spaces.begin(), half_spaces.end()});
-    return range_from([&](int i) { return half_spaces[std::size_t(i)]; });
+    return range_from([&](int i) { return half_spaces[i]; });
 }
 
 template <class OfHalfSpace>
@@ -282,7 +282,7 @@ Range LocalDensity::range_from(OfHalfSpace leaf) const {
     Range* const done = memory_for<Range>(nodes_.size());
     for (std::size_t i = 0; i < nodes_.size(); ++i) {
         const Node& n = nodes_[i];
-        const auto at = [&](int child) { return done[std::size_t(child)]; };
+        const auto at = [&](int child) { return done[child]; };
         switch (n.step) {
             case Step::constant: done[i] = {n.value, n.value}; break;
             case Step::half_space: done[i] = leaf(n.a); break;
@@ -291,7 +291,7 @@ Range LocalDensity::range_from(OfHalfSpace leaf) const {
             case Step::complement: done[i] = combine(Op::complement, at(n.a), {}); break;
             case Step::product: done[i] = combine(Op::product, at(n.a), at(n.b)); break;
             case Step::decision: {
-                const int* thresholds = &children_[std::size_t(n.a)];
+                const int* thresholds = &children_[n.a];
                 const int* children = thresholds + n.b;
                 Range all = at(children[n.b]), least = all;  // the sum; the hull of the children
                 for (int j = 0; j < n.b; ++j) {
@@ -340,10 +340,10 @@ Range LocalDensity::rate_range(std::span<const Range> half_spaces, std::span<con
     RangeRate* const done = memory_for<RangeRate>(nodes_.size());
     for (std::size_t i = 0; i < nodes_.size(); ++i) {
         const Node& n = nodes_[i];
-        const auto at = [&](int child) -> const RangeRate& { return done[std::size_t(child)]; };
+        const auto at = [&](int child) -> const RangeRate& { return done[child]; };
         switch (n.step) {
             case Step::constant: done[i] = {{n.value, n.value}, {0, 0}}; break;
-            case Step::half_space: done[i] = {half_spaces[std::size_t(n.a)], rates[std::size_t(n.a)]}; break;
+            case Step::half_space: done[i] = {half_spaces[n.a], rates[n.a]}; break;
             case Step::sum: done[i] = {sum(at(n.a).value, at(n.b).value), sum(at(n.a).rate, at(n.b).rate)}; break;
             case Step::difference:
                 done[i] = {difference(at(n.a).value, at(n.b).value), difference(at(n.a).rate, at(n.b).rate)};
@@ -356,7 +356,7 @@ Range LocalDensity::rate_range(std::span<const Range> half_spaces, std::span<con
                            sum(product(at(n.a).rate, at(n.b).value), product(at(n.a).value, at(n.b).rate))};
                 break;
             case Step::decision: {
-                const int* thresholds = &children_[std::size_t(n.a)];
+                const int* thresholds = &children_[n.a];
                 const int* children = thresholds + n.b;
                 // V and V' as the head of this file has them. Averages of the children's values and rates lie within
                 // the children's, too.
@@ -459,16 +459,16 @@ RayBounds RayDensity::bounds(double t0, double t1) const {
     bounds_.resize(nodes.size());
     for (std::size_t i = 0; i < nodes.size(); ++i) {
         const auto& n = nodes[i];
-        const auto at = [&](int child) -> const RayBounds& { return bounds_[std::size_t(child)]; };
+        const auto at = [&](int child) -> const RayBounds& { return bounds_[child]; };
         switch (n.step) {
             case Step::constant: bounds_[i] = {std::abs(n.value), 0, 0}; break;
-            case Step::half_space: bounds_[i] = leaf_bounds_[std::size_t(n.a)]; break;
+            case Step::half_space: bounds_[i] = leaf_bounds_[n.a]; break;
             case Step::sum: bounds_[i] = sum_bounds(at(n.a), at(n.b)); break;
             case Step::product: bounds_[i] = product_bounds(at(n.a), at(n.b)); break;
             case Step::difference: bounds_[i] = difference_bounds(at(n.a), at(n.b), n.value != 0); break;
             case Step::complement: bounds_[i] = complement_bounds(at(n.a), n.value != 0); break;
             case Step::decision: {
-                const int* thresholds = &density_->children_[std::size_t(n.a)];
+                const int* thresholds = &density_->children_[n.a];
                 const int* children = thresholds + n.b;
                 RayBounds sum = at(children[n.b]);
                 for (int j = 0; j < n.b; ++j) {
@@ -476,7 +476,7 @@ RayBounds RayDensity::bounds(double t0, double t1) const {
                     sum = {std::max(sum.M, c.M), std::max(sum.L, c.L), std::max(sum.G, c.G)};
                 }
                 for (int j = 0; j < n.b; ++j) {
-                    const RayBounds& f = leaf_bounds_[std::size_t(thresholds[j])];
+                    const RayBounds& f = leaf_bounds_[thresholds[j]];
                     const RayBounds &c = at(children[j]), &next = at(children[j + 1]);
                     const double step = std::max(c.M, next.M);
                     sum.L += f.L * step;

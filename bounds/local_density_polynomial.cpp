@@ -22,11 +22,11 @@ std::optional<LocalDensity::Product> LocalDensity::as_product() const {
         return a;
     };
     const auto is = [&](int child, double value) {
-        const Node& n = nodes_[std::size_t(child)];
+        const Node& n = nodes_[child];
         return n.step == Step::constant && n.value == value;
     };
     for (const Node& n : nodes_) {
-        const auto at = [&](int child) { return expanded[std::size_t(child)]; };
+        const auto at = [&](int child) { return expanded[child]; };
         std::optional<Product> p;
         switch (n.step) {
             case Step::half_space: p = Product{{{n.a, false}}}; break;
@@ -35,7 +35,7 @@ std::optional<LocalDensity::Product> LocalDensity::as_product() const {
             case Step::decision: {
                 if (n.b != 1) break;
                 const int below = children_[std::size_t(n.a) + 1], above = children_[std::size_t(n.a) + 2];
-                const Product F{{{children_[std::size_t(n.a)], false}}}, G{{{children_[std::size_t(n.a)], true}}};
+                const Product F{{{children_[n.a], false}}}, G{{{children_[n.a], true}}};
                 if (is(above, 0))
                     p = times(F, at(below));
                 else if (is(below, 0))
@@ -59,21 +59,21 @@ bool LocalDensity::is_affine_in_each(const std::vector<int>& variable_of) const 
     std::vector<std::vector<int>> degree;
     for (const Node& n : nodes_) {
         std::vector<int> d(variable_of.size(), 0);
-        const auto at = [&](int child, std::size_t v) { return degree[std::size_t(child)][v]; };
+        const auto at = [&](int child, std::size_t v) { return degree[child][v]; };
         for (std::size_t v = 0; v < d.size(); ++v) {
             switch (n.step) {
                 case Step::constant: break;
-                case Step::half_space: d[v] = variable_of[std::size_t(n.a)] == int(v); break;
+                case Step::half_space: d[v] = variable_of[n.a] == int(v); break;
                 case Step::sum:
                 case Step::difference: d[v] = std::max(at(n.a, v), at(n.b, v)); break;
                 case Step::product: d[v] = at(n.a, v) + at(n.b, v); break;
                 case Step::complement: d[v] = at(n.a, v); break;
                 case Step::decision: {
-                    const int* thresholds = &children_[std::size_t(n.a)];
+                    const int* thresholds = &children_[n.a];
                     const int* children = thresholds + n.b;
                     for (int j = 0; j <= n.b; ++j) d[v] = std::max(d[v], at(children[j], v));
                     for (int j = 0; j < n.b; ++j)
-                        if (variable_of[std::size_t(thresholds[j])] == int(v)) ++d[v];
+                        if (variable_of[thresholds[j]] == int(v)) ++d[v];
                     break;
                 }
             }
@@ -126,7 +126,7 @@ public:
             }
     }
 
-    Polynomial leaf(int half_space) const { return {{1, {2 * first_[std::size_t(half_space)]}}}; }
+    Polynomial leaf(int half_space) const { return {{1, {2 * first_[half_space]}}}; }
 
     Polynomial plus(Polynomial a, const Polynomial& b, double sign) const {
         for (Monomial m : b) {
@@ -221,7 +221,7 @@ std::optional<LocalDensity::Sum> LocalDensity::as_sum(std::size_t max_terms) con
     const Polynomial one{{1, {}}};
     std::vector<Polynomial> expanded;
     for (const Node& n : nodes_) {
-        const auto at = [&](int child) -> const Polynomial& { return expanded[std::size_t(child)]; };
+        const auto at = [&](int child) -> const Polynomial& { return expanded[child]; };
         Polynomial p;
         switch (n.step) {
             case Step::constant:
@@ -233,7 +233,7 @@ std::optional<LocalDensity::Sum> LocalDensity::as_sum(std::size_t max_terms) con
             case Step::product: p = multiplier.times(at(n.a), at(n.b)); break;
             case Step::complement: p = multiplier.plus(one, at(n.a), -1); break;
             case Step::decision: {
-                const int* thresholds = &children_[std::size_t(n.a)];
+                const int* thresholds = &children_[n.a];
                 const int* children = thresholds + n.b;
                 p = at(children[n.b]);
                 for (int j = 0; j < n.b; ++j) {

@@ -26,25 +26,25 @@ using Point = std::array<double, D>;
 template <int D>
 double dot(const std::array<double, D>& a, const std::array<double, D>& x) {
     double sum = 0;
-    for (int k = 0; k < D; ++k) sum += a[std::size_t(k)] * x[std::size_t(k)];
+    for (int k = 0; k < D; ++k) sum += a[k] * x[k];
     return sum;
 }
 
 // Maximizes c·x within the constraints and |x_k| ≤ far; false if there is no such x.
 template <int D>
 bool maximize(const std::vector<Constraint<D>>& constraints, const std::array<double, D>& c, Point<D>& x) {
-    for (int k = 0; k < D; ++k) x[std::size_t(k)] = c[std::size_t(k)] < 0 ? -far : far;
+    for (int k = 0; k < D; ++k) x[k] = c[k] < 0 ? -far : far;
     for (std::size_t i = 0; i < constraints.size(); ++i) {
         const std::array<double, D>& a = constraints[i].a;  // not bound together: lambdas capture them
         const double b = constraints[i].b;
         double size = 1;
-        for (int k = 0; k < D; ++k) size = std::max(size, std::abs(x[std::size_t(k)]));
+        for (int k = 0; k < D; ++k) size = std::max(size, std::abs(x[k]));
         if (dot<D>(a, x) <= b + feasible * size) continue;
         // The optimum lies on this plane: solve for its steepest coordinate, one variable fewer.
         int pivot = 0;
         for (int k = 1; k < D; ++k)
-            if (std::abs(a[std::size_t(k)]) > std::abs(a[std::size_t(pivot)])) pivot = k;
-        const double top = a[std::size_t(pivot)];
+            if (std::abs(a[k]) > std::abs(a[pivot])) pivot = k;
+        const double top = a[pivot];
         if (std::abs(top) < 1e-14) return false;
         if constexpr (D == 1) {
             x[0] = b / top;
@@ -56,9 +56,9 @@ bool maximize(const std::vector<Constraint<D>>& constraints, const std::array<do
         } else {
             const auto project = [&](const std::array<double, D>& from, double& offset) {
                 std::array<double, D - 1> to{};
-                const double share = from[std::size_t(pivot)] / top;
+                const double share = from[pivot] / top;
                 for (int k = 0, m = 0; k < D; ++k)
-                    if (k != pivot) to[std::size_t(m++)] = from[std::size_t(k)] - share * a[std::size_t(k)];
+                    if (k != pivot) to[m++] = from[k] - share * a[k];
                 offset -= share * b;
                 return to;
             };
@@ -70,7 +70,7 @@ bool maximize(const std::vector<Constraint<D>>& constraints, const std::array<do
             }
             for (const double sign : {1.0, -1.0}) {  // |x_pivot| ≤ far
                 std::array<double, D> side{};
-                side[std::size_t(pivot)] = sign;
+                side[pivot] = sign;
                 double offset = far;
                 const auto normal = project(side, offset);
                 lower.push_back({normal, offset});
@@ -82,10 +82,10 @@ bool maximize(const std::vector<Constraint<D>>& constraints, const std::array<do
             double rest = b;
             for (int k = 0, m = 0; k < D; ++k)
                 if (k != pivot) {
-                    x[std::size_t(k)] = y[std::size_t(m)];
-                    rest -= a[std::size_t(k)] * y[std::size_t(m++)];
+                    x[k] = y[m];
+                    rest -= a[k] * y[m++];
                 }
-            x[std::size_t(pivot)] = rest / top;
+            x[pivot] = rest / top;
         }
     }
     return true;
@@ -136,10 +136,10 @@ Box polyhedron_box(const std::vector<BoundPlane>& planes) {
     for (int k = 0; k < 3; ++k)
         for (const double sign : {1.0, -1.0}) {
             std::array<double, 3> goal{};
-            goal[std::size_t(k)] = sign;
+            goal[k] = sign;
             Point<3> x;
             if (!maximize<3>(constraints, goal, x)) return {};
-            (sign > 0 ? box.hi : box.lo)[k] = side(x[std::size_t(k)], sign, scale);
+            (sign > 0 ? box.hi : box.lo)[k] = side(x[k], sign, scale);
         }
     return box;
 }

@@ -20,7 +20,7 @@ std::optional<ProductSum> ProductSum::of(const LocalDensity& density, double cle
         for (const auto& [i, flipped] : factors) {
             int& at = new_index[2 * std::size_t(i) + flipped];
             if (at < 0) {
-                const HalfSpace& h = density.half_spaces()[std::size_t(i)];
+                const HalfSpace& h = density.half_spaces()[i];
                 at = int(planes.size());
                 planes.push_back(alpha_plane(h, flipped));
                 steepest = std::max(steepest, 1 / h.radius);

@@ -23,7 +23,7 @@ void classify_nodes(const SolidTree& tree, std::vector<Side>& sides, OfLeaf of_l
             case SolidOp::nothing: sides.push_back(Side::outside); break;
             case SolidOp::everything: sides.push_back(Side::inside); break;
             case SolidOp::leaf: sides.push_back(of_leaf(n.a)); break;
-            default: sides.push_back(combine(n.op, sides[std::size_t(n.a)], sides[std::size_t(n.b)]));
+            default: sides.push_back(combine(n.op, sides[n.a], sides[n.b]));
         }
     }
 }
@@ -36,7 +36,7 @@ void mark_needed(const SolidTree& tree, const std::vector<Side>& sides, std::vec
         if (!needed[i] || sides[i] != Side::straddling) continue;
         const SolidTreeNode& n = tree.nodes[i];
         if (n.op == SolidOp::leaf) continue;
-        needed[std::size_t(n.a)] = needed[std::size_t(n.b)] = true;
+        needed[n.a] = needed[n.b] = true;
     }
 }
 
@@ -46,9 +46,9 @@ SolidTree prune(const SolidTree& tree, const Box& box) {
     std::vector<Pruned> local(tree.leaves.size());  // of densities
     std::vector<Side> sides;
     classify_nodes(tree, sides, [&](int leaf) {
-        const SolidLeaf& of = tree.leaves[std::size_t(leaf)];
+        const SolidLeaf& of = tree.leaves[leaf];
         if (of.field) return classify_field(of.field->range(box));
-        Pruned& here = local[std::size_t(leaf)];
+        Pruned& here = local[leaf];
         here = prune(of.density, box);
         return classify(here.range);
     });
@@ -64,30 +64,30 @@ SolidTree prune(const SolidTree& tree, const Box& box) {
     for (std::size_t i = 0; i < tree.nodes.size(); ++i) {
         if (!needed[i]) continue;
         SolidTreeNode n = tree.nodes[i];
-        const auto side = [&](int child) { return sides[std::size_t(child)]; };
+        const auto side = [&](int child) { return sides[child]; };
         if (sides[i] == Side::outside) {
             new_index[i] = add({SolidOp::nothing});
         } else if (sides[i] == Side::inside) {
             new_index[i] = add({SolidOp::everything});
         } else if (n.op == SolidOp::leaf) {
-            const SolidLeaf& leaf = tree.leaves[std::size_t(n.a)];
-            int& to_leaf = new_leaf_index[std::size_t(n.a)];
+            const SolidLeaf& leaf = tree.leaves[n.a];
+            int& to_leaf = new_leaf_index[n.a];
             if (to_leaf < 0) {
                 to_leaf = int(to.leaves.size());
                 if (leaf.field) {
                     to.leaves.push_back(leaf);
                     if (FieldPtr left = leaf.field->prune(box)) to.leaves.back().field = std::move(left);
                 } else {
-                    to.leaves.push_back({std::move(local[std::size_t(n.a)].tree), leaf.material, leaf.line});
+                    to.leaves.push_back({std::move(local[n.a].tree), leaf.material, leaf.line});
                 }
             }
             new_index[i] = add({SolidOp::leaf, to_leaf});
         } else if (side(n.b) != Side::straddling) {  // and does not decide it: a is left
-            new_index[i] = new_index[std::size_t(n.a)];
+            new_index[i] = new_index[n.a];
         } else if (side(n.a) != Side::straddling && n.op != SolidOp::subtract) {
-            new_index[i] = new_index[std::size_t(n.b)];
+            new_index[i] = new_index[n.b];
         } else {
-            new_index[i] = add({n.op, new_index[std::size_t(n.a)], new_index[std::size_t(n.b)]});
+            new_index[i] = add({n.op, new_index[n.a], new_index[n.b]});
         }
     }
     to.nodes.resize(std::size_t(new_index.back()) + 1);
@@ -100,9 +100,9 @@ LocalSolidSize local_size(const SolidTree& tree, const Box& box) {
     thread_local std::vector<int> sizes;
     sizes.assign(tree.leaves.size(), 0);
     classify_nodes(tree, sides, [&](int leaf) {
-        const SolidLeaf& of = tree.leaves[std::size_t(leaf)];
+        const SolidLeaf& of = tree.leaves[leaf];
         const LocalSize size = of.field ? of.field->local_size(box) : local_size(of.density, box);
-        sizes[std::size_t(leaf)] = size.half_spaces;
+        sizes[leaf] = size.half_spaces;
         if (of.field) return classify_field(size.range);
         return classify(size.range);
     });
@@ -111,7 +111,7 @@ LocalSolidSize local_size(const SolidTree& tree, const Box& box) {
     for (std::size_t i = 0; i < tree.nodes.size(); ++i)
         if (needed[i] && tree.nodes[i].op == SolidOp::leaf && sides[i] == Side::straddling) {
             ++result.leaves;
-            result.half_spaces += sizes[std::size_t(tree.nodes[i].a)];
+            result.half_spaces += sizes[tree.nodes[i].a];
         }
     return result;
 }

@@ -134,12 +134,12 @@ bool SolidTree::has_field() const {
 bool SolidTree::contains(Vec3 x) const {
     std::vector<char> in;
     for (const SolidTreeNode& n : nodes) {
-        const auto at = [&](int child) -> bool { return in[std::size_t(child)]; };
+        const auto at = [&](int child) -> bool { return in[child]; };
         switch (n.op) {
             case SolidOp::nothing: in.push_back(false); break;
             case SolidOp::everything: in.push_back(true); break;
             case SolidOp::leaf: {
-                const SolidLeaf& leaf = leaves[std::size_t(n.a)];
+                const SolidLeaf& leaf = leaves[n.a];
                 in.push_back(leaf.field ? leaf.field->at(x).value > 0 : leaf.density.at(x) > 0.5);
                 break;
             }

@@ -27,26 +27,25 @@ bool bounded_somewhere(const Box& box) {
 void find_supports(DensityTree& tree) {
     std::vector<char> whole(tree.nodes.size(), true);  // not merely a part of a larger intersection
     for (const TreeNode& n : tree.nodes)
-        if (is_intersection(n.op)) whole[std::size_t(n.a)] = whole[std::size_t(n.b)] = false;
+        if (is_intersection(n.op)) whole[n.a] = whole[n.b] = false;
 
     std::vector<GatheredBox> all(tree.nodes.size());
     std::vector<int> half_spaces(tree.nodes.size(), 0);
     for (std::size_t i = 0; i < tree.nodes.size(); ++i) {
         TreeNode& n = tree.nodes[i];
-        const auto take = [&](int child) { return std::move(all[std::size_t(child)]); };
+        const auto take = [&](int child) { return std::move(all[child]); };
         switch (n.op) {
             case Op::constant:
                 if (n.value == 0) all[i].rest = {};
                 break;
             case Op::half_space:
-                all[i].planes.push_back(edge_of(tree.half_spaces[std::size_t(n.a)], false));
+                all[i].planes.push_back(edge_of(tree.half_spaces[n.a], false));
                 half_spaces[i] = 1;
                 continue;
             case Op::complement: {
-                const TreeNode& of = tree.nodes[std::size_t(n.a)];
-                if (of.op == Op::half_space)
-                    all[i].planes.push_back(edge_of(tree.half_spaces[std::size_t(of.a)], true));
-                half_spaces[i] = half_spaces[std::size_t(n.a)];
+                const TreeNode& of = tree.nodes[n.a];
+                if (of.op == Op::half_space) all[i].planes.push_back(edge_of(tree.half_spaces[of.a], true));
+                half_spaces[i] = half_spaces[n.a];
                 continue;
             }
             case Op::convolution: all[i] = take(n.a); continue;
@@ -55,7 +54,7 @@ void find_supports(DensityTree& tree) {
             default: all[i] = unite(take(n.a), take(n.b)); break;  // a − b may be negative where b is
         }
         if (n.op == Op::constant) continue;
-        half_spaces[i] = half_spaces[std::size_t(n.a)] + half_spaces[std::size_t(n.b)];
+        half_spaces[i] = half_spaces[n.a] + half_spaces[n.b];
         if (!whole[i] || half_spaces[i] < min_half_spaces) continue;
         const Box box = all[i].box();
         all[i] = {box, {}};

@@ -24,7 +24,7 @@ void TruthTable::set(const BooleanFunction& function, const std::vector<Literal>
             std::uint64_t* to = &words_[i * many];
             const auto of = [&](int child) { return &words_[std::size_t(child) * many]; };
             if (n.op == Op::half_space) {
-                const Literal l = half_spaces[std::size_t(n.a)];
+                const Literal l = half_spaces[n.a];
                 const bool same = l.same != n.negated;
                 for (std::size_t w = 0; w < many; ++w) {
                     if (l.variable < 0)
@@ -56,21 +56,21 @@ void TruthTable::set(const BooleanFunction& function, const std::vector<Literal>
     for (std::size_t i = 0; i < nodes.size(); ++i) {
         const auto& n = nodes[i];
         if (n.op == Op::half_space) {
-            const Literal l = half_spaces[std::size_t(n.a)];
+            const Literal l = half_spaces[n.a];
             truth_[i] = l.variable < 0 ? l.same != n.negated : l.same == n.negated;
-            if (l.variable >= 0) uses_[std::size_t(l.variable)].push_back(int(i));
+            if (l.variable >= 0) uses_[l.variable].push_back(int(i));
             continue;
         }
         if (n.op != Op::constant)
             for (const int child : {n.a, n.b})
-                if (child >= 0) parent_[std::size_t(child)] = int(i);
+                if (child >= 0) parent_[child] = int(i);
         truth_[i] = of_operands(i);
     }
 }
 
 bool TruthTable::of_operands(std::size_t node) const {
     const auto& n = nodes_[node];
-    const auto at = [&](int child) -> bool { return truth_[std::size_t(child)]; };
+    const auto at = [&](int child) -> bool { return truth_[child]; };
     switch (n.op) {
         case Op::complement: return !at(n.a);
         case Op::conjunction: return at(n.a) && at(n.b);
@@ -84,13 +84,13 @@ void TruthTable::flip(int variable) {
         state_ ^= std::uint64_t(1) << variable;
         return;
     }
-    bits_[std::size_t(variable)] ^= 1;
-    for (const int use : uses_[std::size_t(variable)]) {
-        truth_[std::size_t(use)] ^= 1;
-        for (int i = parent_[std::size_t(use)]; i >= 0; i = parent_[std::size_t(i)]) {
+    bits_[variable] ^= 1;
+    for (const int use : uses_[variable]) {
+        truth_[use] ^= 1;
+        for (int i = parent_[use]; i >= 0; i = parent_[i]) {
             const bool now = of_operands(std::size_t(i));
-            if (now == bool(truth_[std::size_t(i)])) break;
-            truth_[std::size_t(i)] = now;
+            if (now == bool(truth_[i])) break;
+            truth_[i] = now;
         }
     }
 }
@@ -117,14 +117,14 @@ void mark_open(const BooleanFunction& function, const std::vector<char>& known, 
     value.resize(nodes.size());
     for (std::size_t i = 0; i < nodes.size(); ++i) {
         const auto& n = nodes[i];
-        const auto at = [&](int child) { return value[std::size_t(child)]; };
+        const auto at = [&](int child) { return value[child]; };
         const auto absorbing = [&](char by, char rest) -> char {
             if (at(n.a) == by || at(n.b) == by) return by;
             return at(n.a) == unknown || at(n.b) == unknown ? unknown : rest;
         };
         switch (n.op) {
             case Op::half_space: {
-                const char k = known[std::size_t(n.a)];
+                const char k = known[n.a];
                 value[i] = k == unknown ? unknown : char((k != 0) != n.negated);
                 break;
             }
@@ -141,11 +141,11 @@ void mark_open(const BooleanFunction& function, const std::vector<char>& known, 
         if (!needed[i] || value[i] != unknown) continue;
         const auto& n = nodes[i];
         if (n.op == Op::half_space) {
-            open[std::size_t(n.a)] = true;
+            open[n.a] = true;
             continue;
         }
         for (const int child : {n.a, n.b})
-            if (child >= 0) needed[std::size_t(child)] = true;
+            if (child >= 0) needed[child] = true;
     }
 }
 

@@ -37,7 +37,7 @@ public:
         return count_ <= max_tabulated ? words_[table_ + (state_ >> 6)] >> (state_ & 63) & 1 : bool(truth_.back());
     }
     bool operator[](int variable) const {
-        return count_ <= max_tabulated ? state_ >> variable & 1 : bool(bits_[std::size_t(variable)]);
+        return count_ <= max_tabulated ? state_ >> variable & 1 : bool(bits_[variable]);
     }
     void flip(int variable);
     void put(int variable, bool value) {

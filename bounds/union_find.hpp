@@ -12,12 +12,12 @@ public:
     std::size_t size() const { return parent_.size(); }
     /// The member that stands for i's set.
     int find(int i) {
-        const auto up = [this](int k) -> int& { return parent_[std::size_t(k)]; };
+        const auto up = [this](int k) -> int& { return parent_[k]; };
         while (up(i) != i) i = up(i) = up(up(i));
         return i;
     }
     /// Who stands for a's set will stand for both.
-    void join(int a, int b) { parent_[std::size_t(find(b))] = find(a); }
+    void join(int a, int b) { parent_[find(b)] = find(a); }
 
 private:
     std::vector<int> parent_;

@@ -47,7 +47,7 @@ void make(FigureContext& context) {
     double worst = 0, mean = 0, area = 0, off = 0;
     std::vector<double> distances;
     for (const Triangle& t : mesh.triangles) {
-        const auto corner = [&](int k) { return mesh.positions[std::size_t(t.vertex[std::size_t(k)])]; };
+        const auto corner = [&](int k) { return mesh.positions[t.vertex[k]]; };
         const Vec3 center = (corner(0) + corner(1) + corner(2)) / 3.0;
         const double size = 0.5 * glm::length(mesh.area_vector(t)), d = distance_between(at_quasi, center, 2 * r);
         distances.push_back(d);

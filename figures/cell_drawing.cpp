@@ -20,10 +20,10 @@ bool inside(const std::vector<std::vector<Vec3>>& walls, Vec3 x) {
 
 std::vector<std::vector<Vec3>> walls_of(const CellComplex& complex, int cell) {
     std::vector<std::vector<Vec3>> walls;
-    for (const int face : complex.cells[std::size_t(cell)]) {
+    for (const int face : complex.cells[cell]) {
         std::vector<Vec3> corners;
-        for (const int v : complex.corners(face)) corners.push_back(complex.vertices[std::size_t(v)]);
-        if (complex.faces[std::size_t(face)].front == cell) std::reverse(corners.begin(), corners.end());
+        for (const int v : complex.corners(face)) corners.push_back(complex.vertices[v]);
+        if (complex.faces[face].front == cell) std::reverse(corners.begin(), corners.end());
         walls.push_back(std::move(corners));
     }
     return walls;
@@ -61,13 +61,12 @@ CellDrawing::CellDrawing(const Solid& solid, Vec3 seed, Plane cut, Vec3 eye_dire
     std::map<int, int> known;
     std::map<std::pair<int, int>, int> next;  // half-edges without a twin, from one point to the next
     for (int f = 0; f < int(after.faces.size()); ++f) {
-        const auto& face = after.faces[std::size_t(f)];
+        const auto& face = after.faces[f];
         if (subspace.leaf_of(f) < 0 || face.back < 0 || subspace.origin(face.back) != cell) continue;
         std::vector<int> corners;
         for (const int v : after.corners(f)) {
             const auto [at, is_new] = known.try_emplace(v, int(points_.size()));
-            if (is_new)
-                points_.push_back({after.vertices[std::size_t(v)], place_of(after.vertices[std::size_t(v)], walls_)});
+            if (is_new) points_.push_back({after.vertices[v], place_of(after.vertices[v], walls_)});
             corners.push_back(at->second);
         }
         for (std::size_t k = 0; k < corners.size(); ++k) {

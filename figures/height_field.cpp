@@ -23,8 +23,8 @@ Mesh height_field(const std::function<double(Vec2)>& f, Vec2 lo, Vec2 hi, int co
         for (int i = 0; i < columns; ++i) {
             const int a = index(i, j), b = index(i + 1, j), c = index(i + 1, j + 1), d = index(i, j + 1);
             // A cell with a jump is flat, with a normal of its own for either half.
-            const Vec3 &pa = mesh.positions[std::size_t(a)], &pb = mesh.positions[std::size_t(b)],
-                       &pc = mesh.positions[std::size_t(c)], &pd = mesh.positions[std::size_t(d)];
+            const Vec3 &pa = mesh.positions[a], &pb = mesh.positions[b], &pc = mesh.positions[c],
+                       &pd = mesh.positions[d];
             const double jump = std::max({pa.y, pb.y, pc.y, pd.y}) - std::min({pa.y, pb.y, pc.y, pd.y});
             const bool cliff = jump > 0.5 * height;
             const auto normal = [&](Vec3 x, Vec3 y, Vec3 z) {

@@ -30,7 +30,7 @@ void make(FigureContext& context) {
         }
     // The test volume on the outline, where it is farthest from a corner's own place.
     for (const double at : {0.13, 0.42, 0.73}) {
-        const Vec2 x = lines.at(0)[std::size_t(at * double(lines[0].size()))];
+        const Vec2 x = lines.at(0)[at * double(lines[0].size())];
         plot.curves.push_back({.points = circle(x, r), .color = house::red, .width = 1.4});
         plot.curves.push_back({.points = circle(x, 0.035), .color = house::red, .kind = Curve::Kind::fill, .width = 0});
     }

@@ -20,7 +20,7 @@ CellDrawing corner_cell() {
 
 std::vector<Vec3> at(const CellDrawing& cell, const std::vector<int>& points) {
     std::vector<Vec3> all;
-    for (const int p : points) all.push_back(cell.points()[std::size_t(p)].x);
+    for (const int p : points) all.push_back(cell.points()[p].x);
     return all;
 }
 
@@ -49,7 +49,7 @@ void four_steps(FigureContext& context) {
     const CellDrawing cell = corner_cell();
     std::vector<Vec3> coarse;  // the loop before its edges are refined
     for (const int p : cell.loop())
-        if (cell.points()[std::size_t(p)].on == On::edge) coarse.push_back(cell.points()[std::size_t(p)].x);
+        if (cell.points()[p].on == On::edge) coarse.push_back(cell.points()[p].x);
     constexpr int width = 330, height = 330;
 
     Plot a = cell.plot(width, height);
@@ -86,7 +86,7 @@ void refinement(FigureContext& context) {
     std::size_t best = 0;
     double most = -1;
     const auto& loop = cell.loop();
-    const auto point = [&](std::size_t k) { return cell.points()[std::size_t(loop[k % loop.size()])]; };
+    const auto point = [&](std::size_t k) { return cell.points()[loop[k % loop.size()]]; };
     for (std::size_t k = 0; k < loop.size(); ++k) {
         if (point(k).on != On::face) continue;
         const double rise = glm::length(point(k).x - 0.5 * (point(k + loop.size() - 1).x + point(k + 1).x));

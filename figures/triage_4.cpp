@@ -17,7 +17,7 @@ constexpr std::size_t pitted_cube = 4;
 Box support_of(const SolidTree& solid) {
     const DensityTree& density = solid.leaves.at(0).density;
     const int support = density.nodes.back().support;
-    return support >= 0 ? density.supports[std::size_t(support)] : bounding_box(solid);
+    return support >= 0 ? density.supports[support] : bounding_box(solid);
 }
 
 Mesh cells_of(const Subdivision& s, const DensityTree& density, std::initializer_list<DensityClass> classes,

@@ -57,7 +57,7 @@ std::size_t triangles_near(const Mesh& mesh, Vec3 x, double reach) {
     for (const Triangle& t : mesh.triangles) {
         bool near = true;
         for (const int v : t.vertex)
-            for (int k = 0; k < 3; ++k) near &= std::abs(mesh.positions[std::size_t(v)][k] - x[k]) <= reach;
+            for (int k = 0; k < 3; ++k) near &= std::abs(mesh.positions[v][k] - x[k]) <= reach;
         n += near;
     }
     return n;

@@ -46,7 +46,7 @@ Film cloud(const FigureContext& context, const Scene& scene, const Mesh& mesh, i
     const PinholeCamera camera(scene.camera, width, height);
     std::vector<Vec3> normal(mesh.positions.size(), Vec3(0.0));
     for (const Triangle& t : mesh.triangles)
-        for (const int v : t.vertex) normal[std::size_t(v)] += mesh.area_vector(t);
+        for (const int v : t.vertex) normal[v] += mesh.area_vector(t);
     std::vector<Stroke> dots;
     for (std::size_t v = 0; v < mesh.positions.size(); ++v) {
         const Vec3 x = mesh.positions[v], eye = camera.eye();

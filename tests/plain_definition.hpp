@@ -25,7 +25,7 @@ inline double half_space(const HalfSpace& h, Vec3 x) {
 }
 
 inline bool is_boolean(const DensityTree& tree, int i) {
-    const TreeNode& n = tree.nodes[std::size_t(i)];
+    const TreeNode& n = tree.nodes[i];
     if (n.op == Op::half_space || n.op == Op::conjunction || n.op == Op::disjunction) return true;
     if (n.op == Op::constant) return n.value == 0 || n.value == 1;
     return n.op == Op::complement && is_boolean(tree, n.a);
@@ -33,9 +33,9 @@ inline bool is_boolean(const DensityTree& tree, int i) {
 
 /// The Boolean function at node i, with the truth of every half-space given.
 inline bool boolean_value(const DensityTree& tree, int i, const std::vector<char>& is_true) {
-    const TreeNode& n = tree.nodes[std::size_t(i)];
+    const TreeNode& n = tree.nodes[i];
     switch (n.op) {
-        case Op::half_space: return is_true[std::size_t(n.a)];
+        case Op::half_space: return is_true[n.a];
         case Op::complement: return !boolean_value(tree, n.a, is_true);
         case Op::conjunction: return boolean_value(tree, n.a, is_true) && boolean_value(tree, n.b, is_true);
         case Op::disjunction: return boolean_value(tree, n.a, is_true) || boolean_value(tree, n.b, is_true);
@@ -44,7 +44,7 @@ inline bool boolean_value(const DensityTree& tree, int i, const std::vector<char
 }
 
 inline void half_spaces_below(const DensityTree& tree, int i, std::vector<int>& found) {
-    const TreeNode& n = tree.nodes[std::size_t(i)];
+    const TreeNode& n = tree.nodes[i];
     if (n.op == Op::half_space)
         found.push_back(n.a);
     else if (n.op != Op::constant) {
@@ -60,13 +60,13 @@ inline double boolean(const DensityTree& tree, int root, Vec3 x) {
     std::vector<char> is_true(tree.half_spaces.size(), false);
     std::vector<int> varying;
     for (const int i : open) {
-        const double rho = half_space(tree.half_spaces[std::size_t(i)], x);
-        is_true[std::size_t(i)] = rho == 1;
+        const double rho = half_space(tree.half_spaces[i], x);
+        is_true[i] = rho == 1;
         if (rho > 0 && rho < 1) varying.push_back(i);
     }
     const auto sum = [&](auto&& self, std::vector<int> rest) -> double {
         if (rest.empty()) return boolean_value(tree, root, is_true);
-        const HalfSpace& lead = tree.half_spaces[std::size_t(rest[0])];
+        const HalfSpace& lead = tree.half_spaces[rest[0]];
         std::vector<int> others;
         struct Member {
             double tau, F;
@@ -75,7 +75,7 @@ inline double boolean(const DensityTree& tree, int root, Vec3 x) {
         };
         std::vector<Member> family;
         for (const int i : rest) {
-            const HalfSpace& h = tree.half_spaces[std::size_t(i)];
+            const HalfSpace& h = tree.half_spaces[i];
             const double along = glm::dot(h.normal, lead.normal);
             const Vec3 n = along < 0 ? -h.normal : h.normal;
             if (glm::length(n - lead.normal) < 1e-9 && std::abs(h.radius - lead.radius) <= 1e-9 * lead.radius) {
@@ -93,7 +93,7 @@ inline double boolean(const DensityTree& tree, int root, Vec3 x) {
             below = std::max(below, F);
             if (!(p > 0)) continue;
             for (std::size_t j = 0; j < family.size(); ++j)
-                is_true[std::size_t(family[j].index)] = family[j].above ? j < gap : j >= gap;
+                is_true[family[j].index] = family[j].above ? j < gap : j >= gap;
             total += p * self(self, others);
         }
         return total;
@@ -103,7 +103,7 @@ inline double boolean(const DensityTree& tree, int root, Vec3 x) {
 
 inline double density(const DensityTree& tree, int i, Vec3 x) {
     if (is_boolean(tree, i)) return boolean(tree, i, x);
-    const TreeNode& n = tree.nodes[std::size_t(i)];
+    const TreeNode& n = tree.nodes[i];
     switch (n.op) {
         case Op::sum: return density(tree, n.a, x) + density(tree, n.b, x);
         case Op::product: return density(tree, n.a, x) * density(tree, n.b, x);
@@ -139,12 +139,12 @@ inline double field(const Field& f, Vec3 x) {
 }
 
 inline bool contains(const SolidTree& tree, int i, Vec3 x) {
-    const SolidTreeNode& n = tree.nodes[std::size_t(i)];
+    const SolidTreeNode& n = tree.nodes[i];
     switch (n.op) {
         case SolidOp::nothing: return false;
         case SolidOp::everything: return true;
         case SolidOp::leaf: {
-            const SolidLeaf& leaf = tree.leaves[std::size_t(n.a)];
+            const SolidLeaf& leaf = tree.leaves[n.a];
             return leaf.field ? field(*leaf.field, x) > 0 : density(leaf.density, x) > 0.5;
         }
         case SolidOp::unite: return contains(tree, n.a, x) || contains(tree, n.b, x);

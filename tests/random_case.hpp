@@ -137,7 +137,7 @@ public:
     Vec3 near(const DensityTree& tree, double reach = 1.2) {
         Vec3 x = point(reach);
         for (int i = below(3); i >= 0; --i) {
-            const HalfSpace& h = tree.half_spaces[std::size_t(below(int(tree.half_spaces.size())))];
+            const HalfSpace& h = tree.half_spaces[below(int(tree.half_spaces.size()))];
             x -= h.normal * (h.distance(x) + between(-1, 1) * h.radius);
         }
         return x;
@@ -146,7 +146,7 @@ public:
     Vec3 tight_point(const BoundCsg& csg, bool outside) {
         Vec3 x = point();
         if (csg.planes.empty()) return x;
-        const auto plane = [&] { return csg.planes[std::size_t(below(int(csg.planes.size())))]; };
+        const auto plane = [&] { return csg.planes[below(int(csg.planes.size()))]; };
         const int count = below(3);
         for (int pass = 0; pass < 30; ++pass) {
             // Projections one after the other; few planes, far from parallel, so this converges.

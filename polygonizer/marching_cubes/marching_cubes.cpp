@@ -42,7 +42,7 @@ public:
         if (x == 0 || y == 0 || z == 0 || x + 1 == n_[0] || y + 1 == n_[1] || z + 1 == n_[2]) return -infinity;
         const Block& b = block_at(x, y, z);
         if (b.values.empty()) return b.all;
-        return b.values[std::size_t(((z % block) * block + y % block) * block + x % block)];
+        return b.values[((z % block) * block + y % block) * block + x % block];
     }
     /// Whether cubes that begin in this block may hold a surface.
     bool is_open(int bx, int by, int bz) const {
@@ -236,30 +236,28 @@ private:
             return;
         }
         Vec3 center(0.0);
-        for (const int v : loop) center += mesh_.positions[std::size_t(v)] / double(n);
+        for (const int v : loop) center += mesh_.positions[v] / double(n);
         const double reach = side_;
         const double distance = field_.distance_along_normal(center, reach);
         const SurfaceSample o = field_.at(center);
         if (distance < reach) center += o.normal * (o.distance > 0 ? distance : -distance);
         const int middle = int(mesh_.positions.size());
         mesh_.positions.push_back(center);
-        mesh_.normals.push_back(o.normal == Vec3(0.0) ? mesh_.normals[std::size_t(loop[0])] : o.normal);
-        materials_.push_back(materials_[std::size_t(loop[0])]);
+        mesh_.normals.push_back(o.normal == Vec3(0.0) ? mesh_.normals[loop[0]] : o.normal);
+        materials_.push_back(materials_[loop[0]]);
         for (std::size_t k = 0; k < n; ++k) triangle(middle, loop[k], loop[(k + 1) % n]);
     }
 
     // Cosine between a triangle and its corners' normals, times how long these are together; 0 without area.
     double outwardness(int a, int b, int c) const {
-        const auto x = [&](int v) { return mesh_.positions[std::size_t(v)]; };
-        const auto normal = [&](int v) { return mesh_.normals[std::size_t(v)]; };
+        const auto x = [&](int v) { return mesh_.positions[v]; };
+        const auto normal = [&](int v) { return mesh_.normals[v]; };
         const Vec3 area = glm::cross(x(b) - x(a), x(c) - x(a));
         const double twice = glm::length(area);
         return twice > 0 ? glm::dot(area, normal(a) + normal(b) + normal(c)) / twice : 0;
     }
 
-    void triangle(int a, int b, int c) {
-        mesh_.triangles.push_back({{a, b, c}, {a, b, c}, materials_[std::size_t(a)], 0});
-    }
+    void triangle(int a, int b, int c) { mesh_.triangles.push_back({{a, b, c}, {a, b, c}, materials_[a], 0}); }
 
     DistanceField field_;
     Box box_;

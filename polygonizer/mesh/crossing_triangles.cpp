@@ -18,8 +18,7 @@ std::vector<std::pair<int, int>> crossing_triangles(const Mesh& mesh, const Tria
         tree.visit(tree.box(int(s)), [&](int t) {
             if (t <= int(s)) return true;
             ++looked;
-            if (triangles_cross(mesh, mesh.triangles[s], mesh.triangles[std::size_t(t)], rounding))
-                pairs.push_back({int(s), t});
+            if (triangles_cross(mesh, mesh.triangles[s], mesh.triangles[t], rounding)) pairs.push_back({int(s), t});
             return true;
         });
         std::sort(pairs.begin() + std::ptrdiff_t(first), pairs.end());

@@ -77,8 +77,8 @@ private:
         for (int v = 0; v < facets_.vertices(); ++v) {
             if (v % 1024 == 0) throw_if_cancelled(cancel_);
             if (left_ <= enough_) break;
-            if (!changed_[std::size_t(v)] || facets_.around(v).empty()) continue;
-            changed_[std::size_t(v)] = false;
+            if (!changed_[v] || facets_.around(v).empty()) continue;
+            changed_[v] = false;
             if (find_candidates(v, tolerance)) gone += collapse(v, tolerance);
         }
         return gone;
@@ -94,13 +94,13 @@ private:
     }
 
     Vec3 normal_at(int f, int v) const {
-        return facets_.normal(facets_.at(f).triangle.normal[std::size_t(facets_.corner_index(f, v))]);
+        return facets_.normal(facets_.at(f).triangle.normal[facets_.corner_index(f, v)]);
     }
 
     // Whether the edge from v to u, of facets f and g, must stay a line of edges: a crease, a border of materials, the
     // rim of a flat face. Curved facets would spread over a flat face else, tilted by less than the tolerance.
     bool is_line(int f, int g, int v) const {
-        if ((flat_normals_[std::size_t(f)] == Vec3(0.0)) != (flat_normals_[std::size_t(g)] == Vec3(0.0))) return true;
+        if ((flat_normals_[f] == Vec3(0.0)) != (flat_normals_[g] == Vec3(0.0))) return true;
         return facets_.at(f).triangle.material != facets_.at(g).triangle.material ||
                glm::dot(normal_at(f, v), normal_at(g, v)) < crease;
     }
@@ -112,13 +112,13 @@ private:
         if (kind.fixed) return kind;
         const auto& fan = facets_.around(v);
         for (const int f : fan) {
-            const Vec3 n = flat_normals_[std::size_t(f)];
+            const Vec3 n = flat_normals_[f];
             if (n != Vec3(0.0) && std::none_of(kind.planes.begin(), kind.planes.end(),
                                                [&](Vec3 p) { return glm::length(p - n) < same_normal; }))
                 kind.planes.push_back(n);
         }
         for (const int f : fan) {
-            const int u = facets_.at(f).triangle.vertex[std::size_t((facets_.corner_index(f, v) + 1) % 3)];
+            const int u = facets_.at(f).triangle.vertex[(facets_.corner_index(f, v) + 1) % 3];
             const int g = facets_.across(v, u) == f ? facets_.across(u, v) : facets_.across(v, u);
             if (g < 0)
                 kind.fixed = true;
@@ -137,7 +137,7 @@ private:
         planes_ = kind.planes.size();
         const Vec3 x = facets_.position(v);
         for (const int f : facets_.around(v)) {
-            const int to = facets_.at(f).triangle.vertex[std::size_t((facets_.corner_index(f, v) + 1) % 3)];
+            const int to = facets_.at(f).triangle.vertex[(facets_.corner_index(f, v) + 1) % 3];
             if (!kind.line_ends.empty() && to != kind.line_ends[0] && to != kind.line_ends[1]) continue;
             const Vec3 d = facets_.position(to) - x;
             const auto leaves = [&](Vec3 plane) { return std::abs(glm::dot(plane, d)) > 1e-9 * judge_.size(); };
@@ -250,9 +250,9 @@ private:
             left_ -= change->out.size() - change->in.size();
             for (const int f : facets_.apply(*change)) {
                 flat_normals_.resize(std::max(flat_normals_.size(), std::size_t(f) + 1));
-                flat_normals_[std::size_t(f)] = flat_normal(facets_.at(f));
+                flat_normals_[f] = flat_normal(facets_.at(f));
                 changed_.resize(std::size_t(facets_.vertices()), true);
-                for (const int u : facets_.at(f).triangle.vertex) changed_[std::size_t(u)] = true;
+                for (const int u : facets_.at(f).triangle.vertex) changed_[u] = true;
             }
             return true;
         }
@@ -271,8 +271,7 @@ private:
     bool accept(const Change& change, int v, int to, double tolerance) const {
         double thinnest = slender;
         for (const int f : change.out)
-            if (flat_normals_[std::size_t(f)] == Vec3(0.0))
-                thinnest = std::min(thinnest, slenderness(facets_.at(f).triangle));
+            if (flat_normals_[f] == Vec3(0.0)) thinnest = std::min(thinnest, slenderness(facets_.at(f).triangle));
         for (const Facet& f : change.in) {
             if (flat_normal(f) == Vec3(0.0) && slenderness(f.triangle) < thinnest) return false;
             const FacetShape s = judge_.shape(facets_, f, upright);

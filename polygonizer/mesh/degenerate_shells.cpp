@@ -23,15 +23,15 @@ public:
             for (const std::size_t k : {1, 2}) joined_.join(t.vertex[0], t.vertex[k]);
         for (const Triangle& t : mesh.triangles) {
             const int of = joined_.find(t.vertex[0]);
-            const Vec3 area = mesh.area_vector(t), from = mesh.positions[std::size_t(of)];
-            Shell& s = shells_[std::size_t(of)];
+            const Vec3 area = mesh.area_vector(t), from = mesh.positions[of];
+            Shell& s = shells_[of];
             s.area += 0.5 * glm::length(area);
-            s.volume += glm::dot(mesh.positions[std::size_t(t.vertex[0])] - from, area) / 6;
+            s.volume += glm::dot(mesh.positions[t.vertex[0]] - from, area) / 6;
             ++s.triangles;
         }
     }
 
-    Shell& of(const Triangle& t) { return shells_[std::size_t(joined_.find(t.vertex[0]))]; }
+    Shell& of(const Triangle& t) { return shells_[joined_.find(t.vertex[0])]; }
     /// Those without triangles too.
     std::vector<Shell>& all() { return shells_; }
 
@@ -46,7 +46,7 @@ bool holds_solid(const Mesh& mesh, const Triangle& t, const DistanceField& solid
     const double size = glm::length(area);
     if (!(size > 0)) return false;
     Vec3 middle(0.0);
-    for (const int v : t.vertex) middle += mesh.positions[std::size_t(v)] / 3.0;
+    for (const int v : t.vertex) middle += mesh.positions[v] / 3.0;
     // Steps grow from a share of the triangle's size to some distances from the surface.
     constexpr double first_step = 1e-7, growth = 1.5, far = 4, widest = 0.1;
     const double side = std::sqrt(size), away = std::abs(solid.at(middle).distance);
@@ -70,7 +70,7 @@ std::size_t drop(Shells& shells, Mesh& mesh, std::vector<Origin>& origins, std::
     }
     mesh.triangles.resize(kept);
     origins.resize(kept);
-    for (int& t : wrong) t = new_index[std::size_t(t)];
+    for (int& t : wrong) t = new_index[t];
     std::erase(wrong, -1);
     return before - kept;
 }
@@ -98,7 +98,7 @@ std::size_t drop_flat_shells(Mesh& mesh, std::vector<Origin>& origins, double th
 std::size_t drop_wrong_shells(Mesh& mesh, std::vector<Origin>& origins, std::vector<int>& wrong) {
     if (wrong.empty()) return 0;
     Shells shells(mesh);
-    for (const int t : wrong) ++shells.of(mesh.triangles[std::size_t(t)]).wrong;
+    for (const int t : wrong) ++shells.of(mesh.triangles[t]).wrong;
     for (Shell& s : shells.all()) s.goes = s.thin() && 2 * s.wrong >= s.triangles;
     const std::size_t gone = drop(shells, mesh, origins, wrong);
     if (gone > 0) Facets(mesh, origins).finish();

@@ -87,7 +87,7 @@ double orientation(Vec3 a, Vec3 b, Vec3 c, Vec3 d) {
     std::array<std::array<Exact, 3>, 3> rows;
     const std::array<Vec3, 3> from{a, b, c};
     for (int i = 0; i < 3; ++i)
-        for (int k = 0; k < 3; ++k) rows[std::size_t(i)][std::size_t(k)] = sum(d[k], -from[std::size_t(i)][k]);
+        for (int k = 0; k < 3; ++k) rows[i][k] = sum(d[k], -from[i][k]);
     Expansion<192> exact;
     for (std::size_t k = 0; k < 3; ++k)
         for (const bool odd : {false, true}) {

@@ -56,9 +56,9 @@ std::vector<int> vertex_materials(const Mesh& mesh) {
     for (const Triangle& t : mesh.triangles) {
         const double size = glm::length(mesh.area_vector(t));
         for (const int v : t.vertex) {
-            if (size <= largest[std::size_t(v)]) continue;
-            largest[std::size_t(v)] = size;
-            materials[std::size_t(v)] = t.material;
+            if (size <= largest[v]) continue;
+            largest[v] = size;
+            materials[v] = t.material;
         }
     }
     return materials;
@@ -69,8 +69,7 @@ std::string ply(const Mesh& mesh, const MeshNotes& notes) {
     for (const Triangle& t : mesh.triangles) {
         const Vec3 area = mesh.area_vector(t);
         const double size = glm::length(area);
-        for (std::size_t k = 0; k < 3; ++k)
-            normals[std::size_t(t.vertex[k])] += mesh.normals[std::size_t(t.normal[k])] * size;
+        for (std::size_t k = 0; k < 3; ++k) normals[t.vertex[k]] += mesh.normals[t.normal[k]] * size;
     }
     const std::string color = "property uchar red\nproperty uchar green\nproperty uchar blue\n";
     std::string out = fmt::format(
@@ -109,7 +108,7 @@ std::string stl(const Mesh& mesh) {
     put_word(out, count_of(mesh.triangles.size()));
     for (const Triangle& t : mesh.triangles) {
         put_floats(out, single_precision_normal(mesh, t));
-        for (const int v : t.vertex) put_floats(out, mesh.positions[std::size_t(v)]);
+        for (const int v : t.vertex) put_floats(out, mesh.positions[v]);
         out += std::string(2, '\0');
     }
     return out;
@@ -164,7 +163,7 @@ std::string glb(const Mesh& mesh, const MeshNotes& notes) {
         Vec3 lo(infinity), hi(-infinity);
         std::size_t from = data.size();
         for (const auto& [v, n] : p.vertices) {
-            const Vec3 x = Vec3(glm::vec3(mesh.positions[std::size_t(v)]));
+            const Vec3 x = Vec3(glm::vec3(mesh.positions[v]));
             lo = glm::min(lo, x);
             hi = glm::max(hi, x);
             put_floats(data, x);
@@ -177,7 +176,7 @@ std::string glb(const Mesh& mesh, const MeshNotes& notes) {
                                   {"min", {lo.x, lo.y, lo.z}},
                                   {"max", {hi.x, hi.y, hi.z}}});
         from = data.size();
-        for (const auto& [v, n] : p.vertices) put_floats(data, mesh.normals[std::size_t(n)]);
+        for (const auto& [v, n] : p.vertices) put_floats(data, mesh.normals[n]);
         j["accessors"].push_back({{"bufferView", view(from, array_buffer)},
                                   {"componentType", is_float},
                                   {"count", p.vertices.size()},
@@ -242,7 +241,7 @@ std::string known_units() {
 }
 
 std::string solid_name(const MeshNotes& notes, int solid) {
-    std::string name = std::size_t(solid) < notes.names.size() ? notes.names[std::size_t(solid)] : "";
+    std::string name = std::size_t(solid) < notes.names.size() ? notes.names[solid] : "";
     for (char& c : name)
         if (static_cast<unsigned char>(c) <= ' ') c = '_';
     return name.empty() ? fmt::format("solid_{}", solid + 1) : name;

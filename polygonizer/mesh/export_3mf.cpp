@@ -96,7 +96,7 @@ void put_object(Text& text, const Mesh& mesh, const MeshObject& object, int id, 
              attribute(name.empty() ? solid_name(notes, first.solid) : name), materials_id,
              materials.at(first.material));
     for (const int v : object.positions) {
-        const Vec3 x = mesh.positions[std::size_t(v)];
+        const Vec3 x = mesh.positions[v];
         text.put("<vertex x=\"{}\" y=\"{}\" z=\"{}\"/>\n", x.x, x.y, x.z);
     }
     text.put("</vertices>\n<triangles>\n");

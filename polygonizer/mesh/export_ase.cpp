@@ -36,7 +36,7 @@ void put_object(Out to, const Mesh& mesh, const MeshObject& object, const MeshNo
         to, "\t*MESH {{\n\t\t*TIMEVALUE 0\n\t\t*MESH_NUMVERTEX {}\n\t\t*MESH_NUMFACES {}\n\t\t*MESH_VERTEX_LIST {{\n",
         object.positions.size(), object.triangles.size());
     for (std::size_t v = 0; v < object.positions.size(); ++v) {
-        const Vec3 x = mesh.positions[std::size_t(object.positions[v])];
+        const Vec3 x = mesh.positions[object.positions[v]];
         fmt::format_to(to, "\t\t\t*MESH_VERTEX {}\t{}\t{}\t{}\n", v, x.x, x.y, x.z);
     }
     fmt::format_to(to, "\t\t}}\n\t\t*MESH_FACE_LIST {{\n");
@@ -50,10 +50,10 @@ void put_object(Out to, const Mesh& mesh, const MeshObject& object, const MeshNo
     for (std::size_t i = 0; i < object.triangles.size(); ++i) {
         const Triangle& t = mesh.triangles[object.begin + i];
         const Vec3 area = mesh.area_vector(t);
-        const Vec3 face = glm::length(area) > 0 ? glm::normalize(area) : mesh.normals[std::size_t(t.normal[0])];
+        const Vec3 face = glm::length(area) > 0 ? glm::normalize(area) : mesh.normals[t.normal[0]];
         fmt::format_to(to, "\t\t\t*MESH_FACENORMAL {}\t{}\t{}\t{}\n", i, face.x, face.y, face.z);
         for (std::size_t k = 0; k < 3; ++k) {
-            const Vec3 n = mesh.normals[std::size_t(t.normal[k])];
+            const Vec3 n = mesh.normals[t.normal[k]];
             fmt::format_to(to, "\t\t\t\t*MESH_VERTEXNORMAL {}\t{}\t{}\t{}\n", object.triangles[i][k], n.x, n.y, n.z);
         }
     }

@@ -14,7 +14,7 @@ Facets::Facets(Mesh& mesh, std::vector<Origin>& origins) : mesh_(mesh), origins_
     facets_.reserve(mesh.triangles.size());
     for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
         facets_.push_back({mesh.triangles[t], origins[t]});
-        for (const int v : mesh.triangles[t].vertex) around_[std::size_t(v)].push_back(int(t));
+        for (const int v : mesh.triangles[t].vertex) around_[v].push_back(int(t));
     }
     alive_.assign(facets_.size(), true);
 }
@@ -142,9 +142,9 @@ int Facets::add_normal(Vec3 n) {
 
 std::vector<int> Facets::apply(const Change& change) {
     for (const int f : change.out) {
-        alive_[std::size_t(f)] = false;
+        alive_[f] = false;
         for (const int v : at(f).triangle.vertex) {
-            auto& list = around_[std::size_t(v)];
+            auto& list = around_[v];
             const auto at = std::find(list.begin(), list.end(), f);
             list.erase(at, at + 1);
         }
@@ -154,14 +154,14 @@ std::vector<int> Facets::apply(const Change& change) {
         int f;
         if (k < change.out.size()) {
             f = change.out[k];
-            facets_[std::size_t(f)] = change.in[k];
-            alive_[std::size_t(f)] = true;
+            facets_[f] = change.in[k];
+            alive_[f] = true;
         } else {
             f = int(facets_.size());
             facets_.push_back(change.in[k]);
             alive_.push_back(true);
         }
-        for (const int v : change.in[k].triangle.vertex) around_[std::size_t(v)].push_back(f);
+        for (const int v : change.in[k].triangle.vertex) around_[v].push_back(f);
         fresh.push_back(f);
     }
     return fresh;
@@ -174,10 +174,10 @@ void Facets::finish() {
     origins_.clear();
     const auto keep = [](int& index, std::vector<int>& new_index, std::vector<Vec3>& to,
                          const std::vector<Vec3>& from) {
-        int& p = new_index[std::size_t(index)];
+        int& p = new_index[index];
         if (p < 0) {
             p = int(to.size());
-            to.push_back(from[std::size_t(index)]);
+            to.push_back(from[index]);
         }
         index = p;
     };
@@ -198,7 +198,7 @@ void Facets::finish() {
 // Each follows v in one of the facets around it.
 Facets::Fan Facets::neighbours(int v) const {
     Fan out;
-    for (const int f : around(v)) out.push_back(at(f).triangle.vertex[std::size_t((corner_index(f, v) + 1) % 3)]);
+    for (const int f : around(v)) out.push_back(at(f).triangle.vertex[(corner_index(f, v) + 1) % 3]);
     return out;
 }
 
@@ -209,7 +209,7 @@ int Facets::nearest_normal(int v, const Facet& f) const {
     int best = -1;
     double best_dot = -infinity;
     for (const int other : around(v)) {
-        const int n = at(other).triangle.normal[std::size_t(corner_index(other, v))];
+        const int n = at(other).triangle.normal[corner_index(other, v)];
         constexpr double own = 10;  // more than any two normals differ by
         const double d = glm::dot(normal(n), wanted) + (at(other).origin.leaf == f.origin.leaf ? own : 0);
         if (d > best_dot) {

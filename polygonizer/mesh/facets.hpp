@@ -34,11 +34,11 @@ public:
     Facets(Mesh& mesh, std::vector<Origin>& origins);
 
     std::size_t size() const { return facets_.size(); }
-    bool alive(int f) const { return alive_[std::size_t(f)]; }
-    const Facet& at(int f) const { return facets_[std::size_t(f)]; }
-    const Fan& around(int vertex) const { return around_[std::size_t(vertex)]; }
-    Vec3 position(int v) const { return mesh_.positions[std::size_t(v)]; }
-    Vec3 normal(int n) const { return mesh_.normals[std::size_t(n)]; }
+    bool alive(int f) const { return alive_[f]; }
+    const Facet& at(int f) const { return facets_[f]; }
+    const Fan& around(int vertex) const { return around_[vertex]; }
+    Vec3 position(int v) const { return mesh_.positions[v]; }
+    Vec3 normal(int n) const { return mesh_.normals[n]; }
     Vec3 area_vector(const Triangle& t) const { return mesh_.area_vector(t); }
     int vertices() const { return int(mesh_.positions.size()); }
 
@@ -64,8 +64,8 @@ public:
 
     int add_vertex(Vec3 x);
     int add_normal(Vec3 n);
-    void move(int vertex, Vec3 x) { mesh_.positions[std::size_t(vertex)] = x; }
-    void set_normal(int n, Vec3 x) { mesh_.normals[std::size_t(n)] = x; }
+    void move(int vertex, Vec3 x) { mesh_.positions[vertex] = x; }
+    void set_normal(int n, Vec3 x) { mesh_.normals[n] = x; }
     /// Returns the numbers of the facets that came.
     std::vector<int> apply(const Change& change);
     /// Drops what is no longer used.

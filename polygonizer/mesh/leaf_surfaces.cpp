@@ -14,10 +14,10 @@ SurfaceSample LeafSurfaces::at(const LeafSurface& piece, Vec3 x) const {
         o.leaf = piece.leaf;
         return o;
     }
-    auto& field = fields_[std::size_t(piece.leaf)];
+    auto& field = fields_[piece.leaf];
     if (!field) {
         SolidTree alone;
-        alone.leaves.push_back(solid_.leaves[std::size_t(piece.leaf)]);
+        alone.leaves.push_back(solid_.leaves[piece.leaf]);
         alone.nodes.push_back({SolidOp::leaf, 0, -1});
         field = std::make_unique<DistanceField>(alone, box_);
     }

@@ -35,8 +35,7 @@ Topology topology(const Mesh& mesh) {
     std::vector<DirectedEdge> edges;
     for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
         for (int k = 0; k < 3; ++k) {
-            const int a = mesh.triangles[t].vertex[std::size_t(k)],
-                      b = mesh.triangles[t].vertex[std::size_t((k + 1) % 3)];
+            const int a = mesh.triangles[t].vertex[k], b = mesh.triangles[t].vertex[(k + 1) % 3];
             edges.push_back({std::min(a, b), std::max(a, b), a < b, int(t)});
         }
     std::sort(edges.begin(), edges.end(), [](const DirectedEdge& x, const DirectedEdge& y) {
@@ -44,7 +43,7 @@ Topology topology(const Mesh& mesh) {
     });
     UnionFind shells(mesh.triangles.size()), corners(3 * mesh.triangles.size());
     const auto corner = [&](int t, int v) {
-        const auto& vertex = mesh.triangles[std::size_t(t)].vertex;
+        const auto& vertex = mesh.triangles[t].vertex;
         return 3 * t + (vertex[0] == v ? 0 : vertex[1] == v ? 1 : 2);
     };
     for (std::size_t k = 0; k < edges.size();) {
@@ -63,7 +62,7 @@ Topology topology(const Mesh& mesh) {
     }
     std::vector<int> fans(mesh.positions.size(), 0);
     for (std::size_t c = 0; c < corners.size(); ++c)
-        if (corners.find(int(c)) == int(c)) ++fans[std::size_t(mesh.triangles[c / 3].vertex[c % 3])];
+        if (corners.find(int(c)) == int(c)) ++fans[mesh.triangles[c / 3].vertex[c % 3]];
     for (const int n : fans) {
         top.vertices += n > 0;
         top.nonmanifold_vertices += n > 1;
@@ -83,8 +82,7 @@ double mean_edge(const Mesh& mesh) {
     double sum = 0;
     for (const Triangle& t : mesh.triangles)
         for (std::size_t k = 0; k < 3; ++k)  // every edge in both of its triangles
-            sum += glm::length(mesh.positions[std::size_t(t.vertex[k])] -
-                               mesh.positions[std::size_t(t.vertex[(k + 1) % 3])]);
+            sum += glm::length(mesh.positions[t.vertex[k]] - mesh.positions[t.vertex[(k + 1) % 3]]);
     return mesh.triangles.empty() ? 0 : sum / (3 * double(mesh.triangles.size()));
 }
 
@@ -97,8 +95,7 @@ double volume(const Mesh& mesh) {
     if (mesh.positions.empty()) return 0;
     const Vec3 o = mesh.positions[0];
     double six = 0;
-    for (const Triangle& t : mesh.triangles)
-        six += glm::dot(mesh.positions[std::size_t(t.vertex[0])] - o, mesh.area_vector(t));
+    for (const Triangle& t : mesh.triangles) six += glm::dot(mesh.positions[t.vertex[0]] - o, mesh.area_vector(t));
     return six / 6;
 }
 

@@ -26,8 +26,8 @@ struct Mesh {
 
     /// Twice the area, outward.
     Vec3 area_vector(const Triangle& t) const {
-        const Vec3 a = positions[std::size_t(t.vertex[0])];
-        return glm::cross(positions[std::size_t(t.vertex[1])] - a, positions[std::size_t(t.vertex[2])] - a);
+        const Vec3 a = positions[t.vertex[0]];
+        return glm::cross(positions[t.vertex[1]] - a, positions[t.vertex[2]] - a);
     }
     void append(const Mesh& other, int solid);
 };

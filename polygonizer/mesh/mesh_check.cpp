@@ -47,7 +47,7 @@ private:
         return DistanceField(solid, mesh.positions.empty() ? box : hull(box, field_box(mesh)), margin);
     }
 
-    Vec3 at(int v) const { return mesh_.positions[std::size_t(v)]; }
+    Vec3 at(int v) const { return mesh_.positions[v]; }
     Vec3 middle(const Triangle& t) const { return (at(t.vertex[0]) + at(t.vertex[1]) + at(t.vertex[2])) / 3.0; }
 
     int line_at(Vec3 x) const {
@@ -74,8 +74,7 @@ private:
 
     void crossings() {
         for (const auto& [s, t] : crossing_triangles(mesh_, tree_, options_.cancel, &result_.pairs))
-            result_.crossing.add(0.5 *
-                                 (middle(mesh_.triangles[std::size_t(s)]) + middle(mesh_.triangles[std::size_t(t)])));
+            result_.crossing.add(0.5 * (middle(mesh_.triangles[s]) + middle(mesh_.triangles[t])));
     }
 
     void facets() {
@@ -91,7 +90,7 @@ private:
             Vec3 normals(0.0);
             for (std::size_t k = 0; k < 3; ++k) {
                 longest = std::max(longest, glm::distance(at(t.vertex[k]), at(t.vertex[(k + 1) % 3])));
-                normals += mesh_.normals[std::size_t(t.normal[k])];
+                normals += mesh_.normals[t.normal[k]];
             }
             const double twice = glm::length(area);
             if (twice <= flat * longest * longest) continue;

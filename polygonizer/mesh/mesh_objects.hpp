@@ -26,15 +26,15 @@ void for_each_object(const Mesh& mesh, Take take) {
             std::array<int, 3>& corners = object.triangles.emplace_back();
             for (std::size_t k = 0; k < 3; ++k) {
                 const int v = mesh.triangles[object.end].vertex[k];
-                if (number[std::size_t(v)] < 0) {
-                    number[std::size_t(v)] = int(object.positions.size());
+                if (number[v] < 0) {
+                    number[v] = int(object.positions.size());
                     object.positions.push_back(v);
                 }
-                corners[k] = number[std::size_t(v)];
+                corners[k] = number[v];
             }
         }
         take(object);
-        for (const int v : object.positions) number[std::size_t(v)] = -1;
+        for (const int v : object.positions) number[v] = -1;
         begin = object.end;
     }
 }

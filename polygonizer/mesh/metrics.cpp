@@ -31,7 +31,7 @@ void measure_edges(const Mesh& mesh, MeshMetrics& m) {
         for (std::size_t k = 0; k < 3; ++k) {
             const int a = t.vertex[k], b = t.vertex[(k + 1) % 3];
             if (a > b) continue;  // each edge once, as the mesh is closed
-            const double length = glm::length(mesh.positions[std::size_t(a)] - mesh.positions[std::size_t(b)]);
+            const double length = glm::length(mesh.positions[a] - mesh.positions[b]);
             sum += length;
             squares += length * length;
             ++count;
@@ -47,8 +47,8 @@ void measure_vertices(const Mesh& mesh, const DistanceField& field, MeshMetrics&
     std::vector<Vec3> around(mesh.normals.size(), Vec3(0.0));
     for (const Triangle& t : mesh.triangles)
         for (std::size_t k = 0; k < 3; ++k) {
-            used[std::size_t(t.vertex[k])] = true;
-            around[std::size_t(t.normal[k])] += mesh.area_vector(t);
+            used[t.vertex[k]] = true;
+            around[t.normal[k]] += mesh.area_vector(t);
         }
     for (std::size_t v = 0; v < used.size(); ++v)
         if (used[v]) distance.add(std::abs(field.at(mesh.positions[v]).distance));
@@ -79,10 +79,10 @@ MeshMetrics measure(const Mesh& mesh, const SolidTree& solid) {
         Vec3 middle(0.0), normals(0.0);
         double longest = 0;
         for (std::size_t k = 0; k < 3; ++k) {
-            const Vec3 x = mesh.positions[std::size_t(t.vertex[k])];
+            const Vec3 x = mesh.positions[t.vertex[k]];
             middle += x / 3.0;
-            normals += mesh.normals[std::size_t(t.normal[k])];
-            longest = std::max(longest, glm::length(x - mesh.positions[std::size_t(t.vertex[(k + 1) % 3])]));
+            normals += mesh.normals[t.normal[k]];
+            longest = std::max(longest, glm::length(x - mesh.positions[t.vertex[(k + 1) % 3]]));
         }
         const Vec3 area = mesh.area_vector(t);
         const double twice = glm::length(area);

@@ -35,7 +35,7 @@ std::size_t PlanarTriangulation::corner_index(int t, int vertex) const {
 }
 
 PlanarTriangulation::Side PlanarTriangulation::twin(Side s) const {
-    const int n = at(s.triangle).neighbour[std::size_t(s.k)];
+    const int n = at(s.triangle).neighbour[s.k];
     if (n < 0) return {};
     return {n, int(corner_index(n, at(s.triangle).vertex[next(std::size_t(s.k))]))};
 }
@@ -51,12 +51,12 @@ void PlanarTriangulation::set_side(int t, std::size_t k, int neighbour, int mark
 
 void PlanarTriangulation::put(int t, std::array<int, 3> vertex) {
     at(t).vertex = vertex;
-    for (const int v : vertex) around_[std::size_t(v)] = t;
+    for (const int v : vertex) around_[v] = t;
 }
 
 void PlanarTriangulation::set_mark(Side s, int mark) {
-    at(s.triangle).mark[std::size_t(s.k)] = mark;
-    if (const Side t = twin(s); t.triangle >= 0) at(t.triangle).mark[std::size_t(t.k)] = mark;
+    at(s.triangle).mark[s.k] = mark;
+    if (const Side t = twin(s); t.triangle >= 0) at(t.triangle).mark[t.k] = mark;
 }
 
 void PlanarTriangulation::start(const std::vector<Vec2>& points) {
@@ -81,7 +81,7 @@ void PlanarTriangulation::start(const std::vector<Vec2>& points) {
     order_.clear();
     constexpr double cells = 65535;
     for (int v = 0; v < n; ++v) {
-        const Vec2 x = (points[std::size_t(v)] - lo) / size * cells;
+        const Vec2 x = (points[v] - lo) / size * cells;
         order_.push_back({n > 8 ? hilbert(std::uint32_t(x.x), std::uint32_t(x.y)) : 0, v});
     }
     std::sort(order_.begin(), order_.end());
@@ -109,7 +109,7 @@ void PlanarTriangulation::insert(int v) {
     todo_.clear();
     int on = -1;
     for (int k = 0; k < 3; ++k)
-        if (orient(at(t).vertex[std::size_t(k)], at(t).vertex[next(std::size_t(k))], v) == 0) on = k;
+        if (orient(at(t).vertex[k], at(t).vertex[next(std::size_t(k))], v) == 0) on = k;
     if (on < 0)
         split_triangle(t, v);
     else
@@ -239,7 +239,7 @@ PlanarTriangulation::ConnectResult PlanarTriangulation::connect(int a, int b) {
     crossed_.clear();
     int end = b;
     while (true) {
-        const int right = at(s.triangle).vertex[std::size_t(s.k)], left = at(s.triangle).vertex[next(std::size_t(s.k))];
+        const int right = at(s.triangle).vertex[s.k], left = at(s.triangle).vertex[next(std::size_t(s.k))];
         if (mark(s) >= 0) return {ConnectResult::End::marked, -1, s};
         crossed_.push_back({right, left});
         const Side o = twin(s);
@@ -271,18 +271,18 @@ PlanarTriangulation::ConnectResult PlanarTriangulation::connect(int a, int b) {
 void PlanarTriangulation::improve(const std::vector<char>& wanted) {
     todo_.clear();
     const auto offer = [&](Side s) {
-        const int n = at(s.triangle).neighbour[std::size_t(s.k)];
-        if (n >= 0 && mark(s) < 0 && wanted[std::size_t(n)]) todo_.push_back(s);
+        const int n = at(s.triangle).neighbour[s.k];
+        if (n >= 0 && mark(s) < 0 && wanted[n]) todo_.push_back(s);
     };
     for (int t = 0; t < int(triangles_.size()); ++t)
-        if (wanted[std::size_t(t)])
+        if (wanted[t])
             for (int k = 0; k < 3; ++k)
-                if (at(t).neighbour[std::size_t(k)] > t) offer({t, k});
+                if (at(t).neighbour[k] > t) offer({t, k});
     while (!todo_.empty()) {
         const Side s = todo_.back();
         todo_.pop_back();
-        const int n = at(s.triangle).neighbour[std::size_t(s.k)];
-        if (n < 0 || mark(s) >= 0 || !wanted[std::size_t(n)] || !improves(s) || !may_flip(s)) continue;
+        const int n = at(s.triangle).neighbour[s.k];
+        if (n < 0 || mark(s) >= 0 || !wanted[n] || !improves(s) || !may_flip(s)) continue;
         flip(s);
         for (const Side fresh : {Side{s.triangle, 0}, {s.triangle, 1}, {n, 0}, {n, 2}}) offer(fresh);
     }

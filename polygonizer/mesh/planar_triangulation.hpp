@@ -36,22 +36,22 @@ public:
     ConnectResult connect(int a, int b);
     /// The side that runs from a to b; its triangle is −1 if there is none.
     Side side(int a, int b) const;
-    int mark(Side s) const { return at(s.triangle).mark[std::size_t(s.k)]; }
+    int mark(Side s) const { return at(s.triangle).mark[s.k]; }
     void set_mark(Side s, int mark);
 
     /// Flips what is not Delaunay and not marked, between triangles that are both `wanted`.
     void improve(const std::vector<char>& wanted);
 
     const std::vector<Triangle>& triangles() const { return triangles_; }
-    Vec2 point(int v) const { return points_[std::size_t(v)]; }
-    int around(int v) const { return around_[std::size_t(v)]; }  // a triangle
+    Vec2 point(int v) const { return points_[v]; }
+    int around(int v) const { return around_[v]; }  // a triangle
 
     static std::size_t next(std::size_t k) { return k == 2 ? 0 : k + 1; }
     static std::size_t before(std::size_t k) { return k == 0 ? 2 : k - 1; }
 
 private:
-    const Triangle& at(int t) const { return triangles_[std::size_t(t)]; }
-    Triangle& at(int t) { return triangles_[std::size_t(t)]; }
+    const Triangle& at(int t) const { return triangles_[t]; }
+    Triangle& at(int t) { return triangles_[t]; }
     double orient(int a, int b, int c) const;
     std::size_t corner_index(int t, int vertex) const;
     int apex(Side s) const { return at(s.triangle).vertex[before(std::size_t(s.k))]; }

@@ -52,7 +52,7 @@ public:
         const View view(normal);
         std::vector<std::vector<Vec2>> plane_points(loops.size());
         for (std::size_t k = 0; k < loops.size(); ++k)
-            for (const int v : loops[k]) plane_points[k].push_back(view(positions[std::size_t(v)]));
+            for (const int v : loops[k]) plane_points[k].push_back(view(positions[v]));
         out.triangles = loop_ears(loops, plane_points);
     }
 
@@ -71,7 +71,7 @@ private:
     static constexpr int unknown = -1, own = -2, first_touch = -3;
     static int touch_code(std::size_t touch) { return first_touch - int(touch); }
     static bool is_touch(int code) { return code <= first_touch; }
-    Touch& touch(int code) { return touches_[std::size_t(first_touch - code)]; }
+    Touch& touch(int code) { return touches_[first_touch - code]; }
 
     // Of two vertices in one point: the triangle left of which, along its side from corner k, they change.
     struct Joint {
@@ -92,7 +92,7 @@ private:
         corners_ = 0;
         for (const auto& loop : loops)
             for (const int v : loop) {
-                const Vec2 x = view(positions[std::size_t(v)]);
+                const Vec2 x = view(positions[v]);
                 found_.push_back({{x.x, x.y}, int(corners_++)});
             }
         std::sort(found_.begin(), found_.end());
@@ -100,7 +100,7 @@ private:
         for (std::size_t k = 0; k < found_.size(); ++k) {
             const auto& [x, corner] = found_[k];
             if (k == 0 || x != found_[k - 1].first) points_.push_back({x.first, x.second});
-            point_of_[std::size_t(corner)] = int(points_.size()) - 1;
+            point_of_[corner] = int(points_.size()) - 1;
         }
         vertex_at_.assign(points_.size() + 3, -1);
         several_.assign(points_.size() + 3, false);
@@ -110,10 +110,10 @@ private:
             for (std::size_t k = 0; k < loop.size(); ++k) {
                 const std::size_t n = k + 1 == loop.size() ? 0 : k + 1;
                 const int a = point_of_[first + k], b = point_of_[first + n];
-                if (int& v = vertex_at_[std::size_t(a)]; v < 0)
+                if (int& v = vertex_at_[a]; v < 0)
                     v = loop[k];
                 else if (v != loop[k])
-                    several_[std::size_t(a)] = true;
+                    several_[a] = true;
                 if (a != b)
                     sides_.push_back({a, b, loop[k], loop[n]});
                 else if (loop[k] != loop[n])
@@ -155,15 +155,15 @@ private:
     void route_through(const Edge& constraint, int point) {
         const int v = touch_code(touches_.size());
         touches_.push_back({point});
-        touched_[std::size_t(point)] = true;
+        touched_[point] = true;
         out_->triangles.push_back({constraint.first, constraint.last, v});
         constraints_.push_back({point, constraint.b, v, constraint.last});
         constraints_.push_back({constraint.a, point, constraint.first, v});
     }
 
     void cross(const Edge& constraint, Side crossed) {
-        const auto& t = plane_.triangles()[std::size_t(crossed.triangle)];
-        const int c = t.vertex[std::size_t(crossed.k)], d = t.vertex[PlanarTriangulation::next(std::size_t(crossed.k))];
+        const auto& t = plane_.triangles()[crossed.triangle];
+        const int c = t.vertex[crossed.k], d = t.vertex[PlanarTriangulation::next(std::size_t(crossed.k))];
         const auto off = [&](int point, int from, int to) {
             return distance_to_segment(plane_.point(point), plane_.point(from), plane_.point(to));
         };
@@ -173,8 +173,7 @@ private:
         constraints_.push_back(constraint);
         int k = plane_.mark(crossed);
         plane_.set_mark(crossed, -1);
-        for (; k >= 0; k = edges_[std::size_t(k)].next)
-            route_through(edges_[std::size_t(k)], of_a <= of_b ? constraint.a : constraint.b);
+        for (; k >= 0; k = edges_[k].next) route_through(edges_[k], of_a <= of_b ? constraint.a : constraint.b);
     }
 
     // How often the sides wind around each triangle: 0 far outside, and by one more left of each side.
@@ -184,19 +183,19 @@ private:
         winding_.assign(triangles.size(), not_yet);
         within_.assign(triangles.size(), false);
         const int start = plane_.around(int(points_.size()));
-        winding_[std::size_t(start)] = 0;
+        winding_[start] = 0;
         todo_ = {start};
         simple_winding_ = true;
         while (!todo_.empty()) {
             const int t = todo_.back();
             todo_.pop_back();
-            const int w = winding_[std::size_t(t)];
-            within_[std::size_t(t)] = w != 0;
+            const int w = winding_[t];
+            within_[t] = w != 0;
             simple_winding_ &= w == 0 || w == 1;
             for (std::size_t k = 0; k < 3; ++k) {
-                const int n = triangles[std::size_t(t)].neighbour[k];
-                if (n < 0 || winding_[std::size_t(n)] != not_yet) continue;
-                winding_[std::size_t(n)] = w - along({t, int(k)});
+                const int n = triangles[t].neighbour[k];
+                if (n < 0 || winding_[n] != not_yet) continue;
+                winding_[n] = w - along({t, int(k)});
                 todo_.push_back(n);
             }
         }
@@ -205,10 +204,9 @@ private:
 
     // How many sides run along this one, less those that run back.
     int along(Side s) const {
-        const int from = plane_.triangles()[std::size_t(s.triangle)].vertex[std::size_t(s.k)];
+        const int from = plane_.triangles()[s.triangle].vertex[s.k];
         int sum = 0;
-        for (int k = plane_.mark(s); k >= 0; k = edges_[std::size_t(k)].next)
-            sum += edges_[std::size_t(k)].a == from ? 1 : -1;
+        for (int k = plane_.mark(s); k >= 0; k = edges_[k].next) sum += edges_[k].a == from ? 1 : -1;
         return sum;
     }
 
@@ -221,27 +219,24 @@ private:
         const auto& triangles = plane_.triangles();
         vertices_.assign(triangles.size(), {});
         for (std::size_t t = 0; t < triangles.size(); ++t)
-            for (std::size_t k = 0; k < 3; ++k) vertices_[t][k] = vertex_at_[std::size_t(triangles[t].vertex[k])];
+            for (std::size_t k = 0; k < 3; ++k) vertices_[t][k] = vertex_at_[triangles[t].vertex[k]];
         for (std::size_t p = 0; p < points_.size(); ++p)
             if (several_[p] || touched_[p]) part(int(p));
         for (TriangleVertices& t : out_->triangles)
             for (int& v : t)
                 if (is_touch(v)) v = touched_vertex(v);
         for (std::size_t t = 0; t < triangles.size(); ++t) emit(vertices_[t], winding_[t]);
-        for (const Joint& j : joints_)
-            emit({j.right, vertices_[std::size_t(j.triangle)][j.k], j.left}, winding_[std::size_t(j.triangle)]);
+        for (const Joint& j : joints_) emit({j.right, vertices_[j.triangle][j.k], j.left}, winding_[j.triangle]);
     }
 
     int touched_vertex(int code) {
         const Touch& t = touch(code);
-        return t.vertex == own ? code : t.vertex == unknown ? vertex_at_[std::size_t(t.point)] : t.vertex;
+        return t.vertex == own ? code : t.vertex == unknown ? vertex_at_[t.point] : t.vertex;
     }
 
     // A touch of its own is no vertex: the triangles around it, of which one has the side, become others without it.
     bool drop_touches(const std::vector<Vec3>& positions, const View& view) {
-        const auto plane_point = [&](int v) {
-            return is_touch(v) ? points_[std::size_t(touch(v).point)] : view(positions[std::size_t(v)]);
-        };
+        const auto plane_point = [&](int v) { return is_touch(v) ? points_[touch(v).point] : view(positions[v]); };
         for (std::size_t k = 0; k < touches_.size(); ++k) {
             if (touches_[k].vertex != own) continue;
             std::vector<int> ring;
@@ -249,16 +244,16 @@ private:
             std::vector<Vec2> plane_points;
             for (const int v : ring) plane_points.push_back(plane_point(v));
             for (const TriangleVertices& t : small_polygon(plane_points))
-                out_->triangles.push_back({ring[std::size_t(t[0])], ring[std::size_t(t[1])], ring[std::size_t(t[2])]});
+                out_->triangles.push_back({ring[t[0]], ring[t[1]], ring[t[2]]});
         }
         return true;
     }
 
     // The vertex at `point`, or the touch there, of a side along s: of one that leaves, or of one that comes in.
     int vertex_by(Side s, int point, bool leaves) const {
-        int v = vertex_at_[std::size_t(point)];
-        for (int k = plane_.mark(s); k >= 0; k = edges_[std::size_t(k)].next) {
-            const Edge& e = edges_[std::size_t(k)];
+        int v = vertex_at_[point];
+        for (int k = plane_.mark(s); k >= 0; k = edges_[k].next) {
+            const Edge& e = edges_[k];
             if ((e.a == point) != leaves) continue;
             v = leaves ? e.first : e.last;
             if (!is_touch(v)) break;
@@ -273,7 +268,7 @@ private:
             return;
         }
         int known = is_touch(x) ? y : x;
-        if (is_touch(known)) known = vertex_at_[std::size_t(point)];
+        if (is_touch(known)) known = vertex_at_[point];
         for (int* v : {&x, &y}) {
             if (!is_touch(*v)) continue;
             if (touch(*v).vertex == unknown) touch(*v).vertex = known;
@@ -293,12 +288,12 @@ private:
         std::vector<Spoke> fan;
         int t = plane_.around(point);
         do {
-            const auto& v = triangles[std::size_t(t)].vertex;
+            const auto& v = triangles[t].vertex;
             const std::size_t k = v[0] == point ? 0 : v[1] == point ? 1 : 2;
             fan.push_back({t, k});
-            t = triangles[std::size_t(t)].neighbour[PlanarTriangulation::before(k)];
+            t = triangles[t].neighbour[PlanarTriangulation::before(k)];
         } while (t != fan[0].triangle);
-        const auto starts = [&](const Spoke& s) { return triangles[std::size_t(s.triangle)].mark[s.k] >= 0; };
+        const auto starts = [&](const Spoke& s) { return triangles[s.triangle].mark[s.k] >= 0; };
         const auto first = std::find_if(fan.begin(), fan.end(), starts);
         if (first == fan.end()) return;
         std::rotate(fan.begin(), first, fan.end());
@@ -309,12 +304,12 @@ private:
             end = begin + 1;
             while (end < fan.size() && !starts(fan[end])) ++end;
             const Spoke &right = fan[begin], &left = fan[end - 1];
-            const int w = winding_[std::size_t(right.triangle)];
+            const int w = winding_[right.triangle];
             if (w == 0) continue;
             int x = vertex_by({right.triangle, int(right.k)}, point, w > 0);
             int y = vertex_by({left.triangle, int(PlanarTriangulation::before(left.k))}, point, w < 0);
             settle(x, y, point);
-            for (std::size_t i = begin; i < end; ++i) vertices_[std::size_t(fan[i].triangle)][fan[i].k] = x;
+            for (std::size_t i = begin; i < end; ++i) vertices_[fan[i].triangle][fan[i].k] = x;
             if (x == y) continue;
             joints_.push_back({left.triangle, PlanarTriangulation::before(left.k), x, y});
             open.add(y, x, -w);
@@ -324,7 +319,7 @@ private:
 
     void fill(EdgeChain& open, int point) {
         const auto edges = open.rest();
-        const int apex = vertex_at_[std::size_t(point)];
+        const int apex = vertex_at_[point];
         for (const auto& [ends, times] : edges)
             if (ends.first != apex && ends.second != apex) emit({apex, ends.first, ends.second}, times);
     }
@@ -369,9 +364,9 @@ PolygonTriangles triangulate(const std::vector<std::vector<int>>& loops, const s
     if (loops.size() == 1 && loops[0].size() == 4) {
         const View view(normal);
         std::array<Vec2, 4> x;
-        for (std::size_t k = 0; k < 4; ++k) x[k] = view(positions[std::size_t(loops[0][k])]);
+        for (std::size_t k = 0; k < 4; ++k) x[k] = view(positions[loops[0][k]]);
         if (const int from = quadrilateral_diagonal(x); from >= 0) {
-            const auto v = [&](int k) { return loops[0][std::size_t((from + k) % 4)]; };
+            const auto v = [&](int k) { return loops[0][(from + k) % 4]; };
             result.triangles = {{v(0), v(1), v(2)}, {v(2), v(3), v(0)}};
             return result;
         }

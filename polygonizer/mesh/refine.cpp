@@ -27,14 +27,14 @@ public:
             const int f = open_.front();
             open_.pop_front();
             if (!facets_.alive(f) || facets_.at(f).origin.leaf < 0 || !is_far(f)) continue;
-            if (generation_[std::size_t(f)] >= max_generation || !improve(f)) stuck_.push_back(f);
+            if (generation_[f] >= max_generation || !improve(f)) stuck_.push_back(f);
         }
         std::vector<int> order(facets_.size(), -1), left;
         int t = 0;
         for (std::size_t f = 0; f < facets_.size(); ++f)
             if (facets_.alive(int(f))) order[f] = t++;
         for (const int f : stuck_)
-            if (facets_.alive(f)) left.push_back(order[std::size_t(f)]);
+            if (facets_.alive(f)) left.push_back(order[f]);
         facets_.finish();
         return left;
     }
@@ -110,11 +110,11 @@ private:
 
     bool apply(const Change& change) {
         int generation = 0;
-        for (const int f : change.out) generation = std::max(generation, generation_[std::size_t(f)]);
+        for (const int f : change.out) generation = std::max(generation, generation_[f]);
         for (const int fresh : facets_.apply(change)) {
             open_.push_back(fresh);
             generation_.resize(std::max(generation_.size(), std::size_t(fresh) + 1));
-            generation_[std::size_t(fresh)] = generation + 1;
+            generation_[fresh] = generation + 1;
         }
         return true;
     }

@@ -44,7 +44,7 @@ public:
 
     FacetShape shape(const Facet& f) const { return judge_.shape(facets_, f); }
     const FacetShape& shape(int f) {
-        auto& known = shapes_[std::size_t(f)];
+        auto& known = shapes_[f];
         if (!known) known = shape(facets_.at(f));
         return *known;
     }
@@ -223,7 +223,7 @@ public:
         for (const int f : facets_.around(v)) {
             const Facet& facet = facets_.at(f);
             if (facet.origin.leaf < 0) continue;
-            const int k = facet.triangle.normal[std::size_t(facets_.corner_index(f, v))];
+            const int k = facet.triangle.normal[facets_.corner_index(f, v)];
             const Vec3 old = facets_.normal(k), n = surfaces_.at(piece(facet), facets_.position(v)).normal;
             if (n != Vec3(0.0)) facets_.set_normal(k, glm::dot(n, old) < 0 ? -n : n);
         }
@@ -263,8 +263,7 @@ public:
             if (!on_seam) {
                 x = facets_.position(v);
                 if (!onto_solid(x, shortest)) {
-                    beside_[std::size_t(v)] =
-                        !(std::abs(solid_.at(facets_.position(v)).distance) <= nearly_on_surface());
+                    beside_[v] = !(std::abs(solid_.at(facets_.position(v)).distance) <= nearly_on_surface());
                     continue;
                 }
             }
@@ -291,11 +290,11 @@ private:
     std::vector<int> apply(const Change& change) {
         std::vector<int> fresh = facets_.apply(change);
         shapes_.resize(facets_.size());
-        for (const int f : fresh) shapes_[std::size_t(f)].reset();
+        for (const int f : fresh) shapes_[f].reset();
         return fresh;
     }
     // Vertices that were put in to mend are on the surface.
-    bool is_beside(int v) const { return std::size_t(v) < beside_.size() && beside_[std::size_t(v)]; }
+    bool is_beside(int v) const { return std::size_t(v) < beside_.size() && beside_[v]; }
 
     double nearly_on_surface() const { return std::min(1e-7 * judge_.size(), 5e-7); }
     double shortest() const { return 1e-5 * judge_.size(); }

@@ -37,26 +37,26 @@ struct Around {
 // Where to move each of the vertices, from the corners of their triangles.
 std::vector<Around> surroundings(const Mesh& mesh, const std::vector<int>& vertices) {
     std::vector<int> new_index(mesh.positions.size(), -1);
-    for (std::size_t k = 0; k < vertices.size(); ++k) new_index[std::size_t(vertices[k])] = int(k);
+    for (std::size_t k = 0; k < vertices.size(); ++k) new_index[vertices[k]] = int(k);
     std::vector<Around> around(vertices.size());
     std::vector<Vec3> middles(vertices.size(), Vec3(0.0));
     for (const Triangle& t : mesh.triangles) {
         const Vec3 area = mesh.area_vector(t);
         const double size = glm::length(area);
         for (std::size_t k = 0; k < 3; ++k) {
-            const int at = new_index[std::size_t(t.vertex[k])];
+            const int at = new_index[t.vertex[k]];
             if (at < 0) continue;
-            const Vec3 x = mesh.positions[std::size_t(t.vertex[k])];
-            const Vec3 p = mesh.positions[std::size_t(t.vertex[(k + 1) % 3])] - x;
-            const Vec3 q = mesh.positions[std::size_t(t.vertex[(k + 2) % 3])] - x;
+            const Vec3 x = mesh.positions[t.vertex[k]];
+            const Vec3 p = mesh.positions[t.vertex[(k + 1) % 3]] - x;
+            const Vec3 q = mesh.positions[t.vertex[(k + 2) % 3]] - x;
             const double lp = glm::length(p), lq = glm::length(q);
-            Around& a = around[std::size_t(at)];
+            Around& a = around[at];
             for (const double l : {lp, lq})
                 if (l > 0) a.shortest = std::min(a.shortest, l);
             if (!(size > 0) || !(lp > 0) || !(lq > 0)) continue;
             const double angle = std::atan2(size, glm::dot(p, q));
             a.inward -= area * (angle / size);
-            middles[std::size_t(at)] += p / lp + q / lq;
+            middles[at] += p / lp + q / lq;
         }
     }
     for (std::size_t k = 0; k < around.size(); ++k) {
@@ -91,17 +91,13 @@ bool keeps_facing(const Facets& facets, const Change& change) {
 double single_precision_step(const Mesh& mesh) { return std::max(min_separation, few_steps(mesh)); }
 
 std::size_t merge_close(Mesh& mesh) {
-    const auto coincide = [&](int u, int v) {
-        return key_of(mesh.positions[std::size_t(u)]) == key_of(mesh.positions[std::size_t(v)]);
-    };
+    const auto coincide = [&](int u, int v) { return key_of(mesh.positions[u]) == key_of(mesh.positions[v]); };
     // Facets of a few steps of single precision face anywhere once they are rounded. Far from the origin these steps
     // are as large as what the mesh is there to show; then a file of single precision is wrong anyway.
     constexpr double of_size = 1e-6;
     const Box box = bounding_box(mesh);
     const double least = std::min(few_steps(mesh), box.empty() ? 0 : of_size * largest(box.hi - box.lo));
-    const auto are_near = [&](int u, int v) {
-        return glm::distance(mesh.positions[std::size_t(u)], mesh.positions[std::size_t(v)]) < least;
-    };
+    const auto are_near = [&](int u, int v) { return glm::distance(mesh.positions[u], mesh.positions[v]) < least; };
     std::vector<std::pair<int, int>> edges;
     for (const Triangle& t : mesh.triangles)
         for (std::size_t k = 0; k < 3; ++k) {
@@ -128,13 +124,13 @@ std::size_t merge_close(Mesh& mesh) {
 std::size_t separate_touching(Mesh& mesh, double step) {
     std::vector<char> used(mesh.positions.size(), false);
     for (const Triangle& t : mesh.triangles)
-        for (const int v : t.vertex) used[std::size_t(v)] = true;
+        for (const int v : t.vertex) used[v] = true;
     constexpr double max_edge_share = 0.1;
     std::vector<int> touching = shared(mesh, used);
     const std::vector<Around> around = surroundings(mesh, touching);
     const std::vector<Vec3> start = [&] {
         std::vector<Vec3> x;
-        for (const int v : touching) x.push_back(mesh.positions[std::size_t(v)]);
+        for (const int v : touching) x.push_back(mesh.positions[v]);
         return x;
     }();
     // A second and third time by other amounts, for those whose parts lean the same way.
@@ -148,7 +144,7 @@ std::size_t separate_touching(Mesh& mesh, double step) {
             // From the second time on every other one of those that still coincide.
             if (round > 0 && k % 2 == 0) continue;
             const double length = std::min(step * shares[round], max_edge_share * around[at].shortest);
-            mesh.positions[std::size_t(left[k])] = start[at] + around[at].inward * length;
+            mesh.positions[left[k]] = start[at] + around[at].inward * length;
         }
         left = shared(mesh, used);
     }

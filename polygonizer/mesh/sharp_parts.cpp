@@ -13,10 +13,10 @@ DensityTree subtree(const DensityTree& from, int root) {
     std::vector<char> needed(std::size_t(root) + 1, false);
     needed.back() = true;
     for (int i = root; i >= 0; --i) {
-        const TreeNode& n = from.nodes[std::size_t(i)];
-        if (!needed[std::size_t(i)] || n.op == Op::half_space || n.op == Op::constant) continue;
-        needed[std::size_t(n.a)] = true;
-        if (n.b >= 0) needed[std::size_t(n.b)] = true;
+        const TreeNode& n = from.nodes[i];
+        if (!needed[i] || n.op == Op::half_space || n.op == Op::constant) continue;
+        needed[n.a] = true;
+        if (n.b >= 0) needed[n.b] = true;
     }
     DensityTree to;
     std::vector<int> new_index(needed.size(), -1);
@@ -24,14 +24,14 @@ DensityTree subtree(const DensityTree& from, int root) {
         if (!needed[i]) continue;
         TreeNode n = from.nodes[i];
         if (n.op == Op::half_space) {
-            to.half_spaces.push_back(from.half_spaces[std::size_t(n.a)]);
+            to.half_spaces.push_back(from.half_spaces[n.a]);
             n.a = int(to.half_spaces.size()) - 1;
         } else if (n.op != Op::constant) {
-            n.a = new_index[std::size_t(n.a)];
-            if (n.b >= 0) n.b = new_index[std::size_t(n.b)];
+            n.a = new_index[n.a];
+            if (n.b >= 0) n.b = new_index[n.b];
         }
         if (n.support >= 0) {
-            to.supports.push_back(from.supports[std::size_t(n.support)]);
+            to.supports.push_back(from.supports[n.support]);
             n.support = int(to.supports.size()) - 1;
         }
         new_index[i] = int(to.nodes.size());
@@ -111,7 +111,7 @@ private:
 
     int join(SolidOp op, int a, int b) {
         if (a < 0 || b < 0) return -1;
-        const SolidOp first = to_.nodes[std::size_t(a)].op, second = to_.nodes[std::size_t(b)].op;
+        const SolidOp first = to_.nodes[a].op, second = to_.nodes[b].op;
         if (op == SolidOp::intersect || op == SolidOp::subtract) {
             if (first == SolidOp::nothing) return a;
             if (op == SolidOp::intersect && second == SolidOp::nothing) return b;
@@ -148,7 +148,7 @@ SolidTree separate_sharp(const SolidTree& solid) {
     for (const SolidTreeNode& n : solid.nodes) {
         SolidTreeNode node = n;
         if (n.op == SolidOp::leaf) {
-            const SolidLeaf& leaf = solid.leaves[std::size_t(n.a)];
+            const SolidLeaf& leaf = solid.leaves[n.a];
             const std::size_t leaves = to.leaves.size(), nodes = to.nodes.size();
             const int root = Separation(to).run(leaf);
             if (root >= 0) {
@@ -160,8 +160,8 @@ SolidTree separate_sharp(const SolidTree& solid) {
             to.leaves.push_back(leaf);
             node.a = int(to.leaves.size()) - 1;
         } else if (n.a >= 0) {
-            node.a = new_index[std::size_t(n.a)];
-            node.b = new_index[std::size_t(n.b)];
+            node.a = new_index[n.a];
+            node.b = new_index[n.b];
         }
         new_index.push_back(int(to.nodes.size()));
         to.nodes.push_back(node);

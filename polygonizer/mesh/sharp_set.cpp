@@ -24,7 +24,7 @@ public:
     explicit Conversion(const DensityTree& from) : from_(from) {
         to_.half_spaces = from.half_spaces;
         for (const TreeNode& n : from.nodes) {
-            const auto at = [&](int child) { return range_[std::size_t(child)]; };
+            const auto at = [&](int child) { return range_[child]; };
             Whole r{0, 1};
             switch (n.op) {
                 case Op::constant: r = {int(n.value > 0.5), int(n.value > 0.5)}; break;
@@ -52,7 +52,7 @@ public:
             if (root < 0)
                 to_.nodes.push_back({Op::constant, -1, -1, root == everything ? 1.0 : 0.0});
             else
-                to_.nodes.push_back(TreeNode(to_.nodes[std::size_t(root)]));
+                to_.nodes.push_back(TreeNode(to_.nodes[root]));
         }
         return std::move(to_);
     }
@@ -63,7 +63,7 @@ private:
     };
 
     Whole range(int node, bool negated) const {
-        const Whole r = range_[std::size_t(node)];
+        const Whole r = range_[node];
         return negated ? Whole{-r.hi, -r.lo} : r;
     }
 
@@ -80,7 +80,7 @@ private:
     }
 
     int make(int node, int k) {
-        const TreeNode& n = from_.nodes[std::size_t(node)];
+        const TreeNode& n = from_.nodes[node];
         if (to_.nodes.size() > max_nodes) return too_many;
         const int before = node_;
         node_ = node;
@@ -146,13 +146,13 @@ private:
         if (a == too_many) return too_many;
         if (a == nothing) return everything;
         if (a == everything) return nothing;
-        if (to_.nodes[std::size_t(a)].op == Op::complement) return to_.nodes[std::size_t(a)].a;
+        if (to_.nodes[a].op == Op::complement) return to_.nodes[a].a;
         return add({Op::complement, a, -1});
     }
     int add(TreeNode node) {
         const auto key = std::make_tuple(int(node.op), node.a, node.b);
         const auto [at, fresh] = made_.try_emplace(key, int(to_.nodes.size()));
-        node.line = from_.nodes[std::size_t(node_)].line;
+        node.line = from_.nodes[node_].line;
         if (fresh) to_.nodes.push_back(node);
         return at->second;
     }

@@ -30,7 +30,7 @@ private:
             if (n[k] != n[0] && glm::length(facets_.normal(n[k]) - a) >= same_normal) return Vec3(0.0);
         return a;
     }
-    bool flat(int f) const { return normals_[std::size_t(f)] != Vec3(0.0); }
+    bool flat(int f) const { return normals_[f] != Vec3(0.0); }
 
     // Whether v is on the border of one flat face, between the two neighbours in rim_ and in line with them.
     bool straight(int v) {
@@ -41,7 +41,7 @@ private:
                 bent = true;
                 continue;
             }
-            const Vec3 n = normals_[std::size_t(f)];
+            const Vec3 n = normals_[f];
             if (plane != Vec3(0.0) && glm::length(n - plane) >= same_normal) return false;
             plane = n;
         }
@@ -67,7 +67,7 @@ private:
         for (const int to : rim_) {
             const auto change = facets_.collapse(v, to);
             if (!change || !accept(*change)) continue;
-            for (const int f : facets_.apply(*change)) normals_[std::size_t(f)] = normal_of(f);
+            for (const int f : facets_.apply(*change)) normals_[f] = normal_of(f);
             return true;
         }
         return false;

@@ -10,7 +10,7 @@ namespace {
 
 Vec3 single_precision_normal(const Mesh& mesh, const Triangle& t) {
     const auto corner = [&](std::size_t k) {
-        const Vec3 x = mesh.positions[std::size_t(t.vertex[k])];
+        const Vec3 x = mesh.positions[t.vertex[k]];
         return Vec3(single(x.x), single(x.y), single(x.z));
     };
     const Vec3 area = glm::cross(corner(1) - corner(0), corner(2) - corner(0));
@@ -23,8 +23,7 @@ SinglePrecisionLoss single_precision_loss(const Mesh& mesh) {
     loss.min_edge = mesh.triangles.empty() ? 0 : infinity;
     for (const Triangle& t : mesh.triangles) {
         for (std::size_t k = 0; k < 3; ++k) {
-            const Vec3 a = mesh.positions[std::size_t(t.vertex[k])],
-                       b = mesh.positions[std::size_t(t.vertex[(k + 1) % 3])];
+            const Vec3 a = mesh.positions[t.vertex[k]], b = mesh.positions[t.vertex[(k + 1) % 3]];
             loss.coordinate = std::max(loss.coordinate, largest(a));
             loss.min_edge = std::min(loss.min_edge, glm::distance(a, b));
         }

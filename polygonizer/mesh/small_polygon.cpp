@@ -29,7 +29,7 @@ int quadrilateral_diagonal(const std::array<Vec2, 4>& x) {
 std::vector<std::array<int, 3>> small_polygon(const std::vector<Vec2>& corners) {
     std::vector<int> ring(corners.size());
     std::iota(ring.begin(), ring.end(), 0);
-    const auto at = [&](std::size_t k) { return corners[std::size_t(ring[k % ring.size()])]; };
+    const auto at = [&](std::size_t k) { return corners[ring[k % ring.size()]]; };
     std::vector<std::array<int, 3>> triangles;
     while (ring.size() >= 3) {
         std::size_t best = ring.size();

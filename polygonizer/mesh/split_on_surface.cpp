@@ -38,8 +38,8 @@ std::optional<Change> split_on_surface(Facets& facets, const FacetJudge& judge, 
         const auto& normals = of_g.triangle.normal;
         if (of_g.origin.leaf < 0) return normals[0];
         const Vec3 n = judge.surfaces().at({of_g.origin.leaf}, x).normal;
-        const Vec3 na = facets.normal(normals[std::size_t(facets.corner_index(g, a))]);
-        const Vec3 nb = facets.normal(normals[std::size_t(facets.corner_index(g, b))]);
+        const Vec3 na = facets.normal(normals[facets.corner_index(g, a)]);
+        const Vec3 nb = facets.normal(normals[facets.corner_index(g, b)]);
         return facets.add_normal(glm::dot(n, na + nb) < 0 ? -n : n);
     };
     const int n = normal_on(f, facet);

@@ -25,12 +25,12 @@ SurfaceSample sharp_at(const DensityTree& tree, Vec3 x) {
     thread_local std::vector<SurfaceSample> done;
     done.clear();
     for (const TreeNode& n : tree.nodes) {
-        const auto at = [&](int child) -> const SurfaceSample& { return done[std::size_t(child)]; };
+        const auto at = [&](int child) -> const SurfaceSample& { return done[child]; };
         SurfaceSample o;
         switch (n.op) {
             case Op::constant: o.distance = n.value > 0.5 ? infinity : -infinity; break;
             case Op::half_space: {
-                const HalfSpace& h = tree.half_spaces[std::size_t(n.a)];
+                const HalfSpace& h = tree.half_spaces[n.a];
                 o = {-h.distance(x), h.normal, -1, n.a};
                 break;
             }
@@ -78,7 +78,7 @@ bool SignedDistance::inside(Vec3 x) const {
     thread_local std::vector<double> done;  // of the sign that at(x).distance has there
     done.clear();
     for (const SolidTreeNode& n : solid_.nodes) {
-        const auto of = [&](int child) { return done[std::size_t(child)]; };
+        const auto of = [&](int child) { return done[child]; };
         switch (n.op) {
             case SolidOp::nothing: done.push_back(-1); break;
             case SolidOp::everything: done.push_back(1); break;
@@ -115,23 +115,22 @@ std::vector<SmoothPiece> SignedDistance::pieces() const {
         const SolidTreeNode& n = solid_.nodes[i];
         if (n.op == SolidOp::nothing || n.op == SolidOp::everything) continue;
         if (n.op != SolidOp::leaf) {
-            side[std::size_t(n.a)] = side[i];
-            side[std::size_t(n.b)] = n.op == SolidOp::subtract ? -side[i] : side[i];
+            side[n.a] = side[i];
+            side[n.b] = n.op == SolidOp::subtract ? -side[i] : side[i];
             continue;
         }
         if (!sharp(n.a)) {
             all.push_back({n.a, -1, side[i]});
             continue;
         }
-        const DensityTree& density = solid_.leaves[std::size_t(n.a)].density;
+        const DensityTree& density = solid_.leaves[n.a].density;
         side_of_part.assign(density.nodes.size(), side[i]);
         for (std::size_t j = density.nodes.size(); j-- > 0;) {
             const TreeNode& part = density.nodes[j];
             if (part.op == Op::half_space) all.push_back({n.a, part.a, side_of_part[j]});
             if (part.a < 0 || part.op == Op::half_space) continue;
-            side_of_part[std::size_t(part.a)] = part.op == Op::complement ? -side_of_part[j] : side_of_part[j];
-            if (part.b >= 0)
-                side_of_part[std::size_t(part.b)] = part.op == Op::difference ? -side_of_part[j] : side_of_part[j];
+            side_of_part[part.a] = part.op == Op::complement ? -side_of_part[j] : side_of_part[j];
+            if (part.b >= 0) side_of_part[part.b] = part.op == Op::difference ? -side_of_part[j] : side_of_part[j];
         }
     }
     return all;
@@ -142,7 +141,7 @@ SurfaceSample SignedDistance::piece_at(const SmoothPiece& piece, Vec3 x) const {
     if (piece.plane < 0) {
         o = leaf_at(std::size_t(piece.leaf), x);
     } else {
-        const HalfSpace& h = solid_.leaves[std::size_t(piece.leaf)].density.half_spaces[std::size_t(piece.plane)];
+        const HalfSpace& h = solid_.leaves[piece.leaf].density.half_spaces[piece.plane];
         o = {-h.distance(x), h.normal, piece.leaf, piece.plane};
     }
     return piece.side < 0 ? negated(o) : o;
@@ -159,9 +158,9 @@ SurfaceSample SignedDistance::at(Vec3 x) const {
             case SolidOp::nothing: o.distance = -infinity; break;
             case SolidOp::everything: o.distance = infinity; break;
             case SolidOp::leaf: o = leaf_at(std::size_t(n.a), x); break;
-            case SolidOp::unite: o = greatest(done[std::size_t(n.a)], done[std::size_t(n.b)]); break;
-            case SolidOp::intersect: o = least(done[std::size_t(n.a)], done[std::size_t(n.b)]); break;
-            case SolidOp::subtract: o = least(done[std::size_t(n.a)], negated(done[std::size_t(n.b)])); break;
+            case SolidOp::unite: o = greatest(done[n.a], done[n.b]); break;
+            case SolidOp::intersect: o = least(done[n.a], done[n.b]); break;
+            case SolidOp::subtract: o = least(done[n.a], negated(done[n.b])); break;
         }
         done.push_back(o);
     }

@@ -45,10 +45,10 @@ public:
     /// If the box lies on one side: ±infinity; else 0.
     double constant_side(const Box& box) const;
 
-    int material(int leaf) const { return solid_.leaves[std::size_t(leaf)].material; }
+    int material(int leaf) const { return solid_.leaves[leaf].material; }
     /// The line of the scene that wrote the leaf, or what was put in its place.
-    int line(int leaf) const { return solid_.leaves[std::size_t(leaf)].line; }
-    bool sharp(int leaf) const { return sharp_[std::size_t(leaf)] && !solid_.leaves[std::size_t(leaf)].field; }
+    int line(int leaf) const { return solid_.leaves[leaf].line; }
+    bool sharp(int leaf) const { return sharp_[leaf] && !solid_.leaves[leaf].field; }
     std::size_t half_spaces() const;
 
 private:

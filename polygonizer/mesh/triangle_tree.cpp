@@ -27,7 +27,7 @@ TriangleTree::TriangleTree(const Mesh& mesh) : mesh_(mesh) {
     for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
         Box box;
         for (const int v : mesh.triangles[t].vertex) {
-            const Vec3 x = mesh.positions[std::size_t(v)];
+            const Vec3 x = mesh.positions[v];
             box = hull(box, Box{x, x});
         }
         boxes_.push_back(box);
@@ -41,22 +41,22 @@ void TriangleTree::build(int first, int count) {
     nodes_.push_back({{}, -1, first, count});
     Box box, middles;
     for (int k = first; k < first + count; ++k) {
-        const Box& b = boxes_[std::size_t(order_[std::size_t(k)])];
+        const Box& b = boxes_[order_[k]];
         box = hull(box, b);
         middles = hull(middles, Box{b.lo + b.hi, b.lo + b.hi});
     }
-    nodes_[std::size_t(at)].box = box;
+    nodes_[at].box = box;
     if (count <= leaf_size) return;
     const Vec3 size = middles.hi - middles.lo;
     const int axis = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
-    const auto middle = [&](int t) { return boxes_[std::size_t(t)].lo[axis] + boxes_[std::size_t(t)].hi[axis]; };
+    const auto middle = [&](int t) { return boxes_[t].lo[axis] + boxes_[t].hi[axis]; };
     const int half = count / 2;
     std::nth_element(order_.begin() + first, order_.begin() + first + half, order_.begin() + first + count,
                      [&](int s, int t) {
                          return std::pair{middle(s), s} < std::pair{middle(t), t};
                      });
     build(first, half);
-    nodes_[std::size_t(at)].second = int(nodes_.size());
+    nodes_[at].second = int(nodes_.size());
     build(first + half, count - half);
 }
 
@@ -96,11 +96,10 @@ std::optional<int> TriangleTree::winding(Vec3 x, Vec3 far) const {
         ++at;
         if (n.second >= 0) continue;
         for (int k = n.first; k < n.first + n.count; ++k) {
-            const int t = order_[std::size_t(k)];
-            if (!meets(boxes_[std::size_t(t)], x, d)) continue;
-            const auto& v = mesh_.triangles[std::size_t(t)].vertex;
-            const Vec3 a = mesh_.positions[std::size_t(v[0])], b = mesh_.positions[std::size_t(v[1])],
-                       c = mesh_.positions[std::size_t(v[2])];
+            const int t = order_[k];
+            if (!meets(boxes_[t], x, d)) continue;
+            const auto& v = mesh_.triangles[t].vertex;
+            const Vec3 a = mesh_.positions[v[0]], b = mesh_.positions[v[1]], c = mesh_.positions[v[2]];
             const double here = orientation(a, b, c, x), there = orientation(a, b, c, far);
             if (here == 0 && there == 0) continue;
             if ((here > 0 && there > 0) || (here < 0 && there < 0)) continue;
@@ -161,8 +160,8 @@ bool triangles_cross(const Mesh& mesh, const Triangle& s, const Triangle& t, dou
     TrianglePositions a, b;
     int shared = 0;
     for (std::size_t k = 0; k < 3; ++k) {
-        a[k] = mesh.positions[std::size_t(s.vertex[k])];
-        b[k] = mesh.positions[std::size_t(t.vertex[k])];
+        a[k] = mesh.positions[s.vertex[k]];
+        b[k] = mesh.positions[t.vertex[k]];
         for (const int v : t.vertex) shared += v == s.vertex[k];
     }
     // Of two that share an edge, or of which one does not reach through the other's plane, only a plane can be shared.

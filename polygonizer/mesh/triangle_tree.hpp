@@ -16,12 +16,12 @@ public:
     /// Calls visit(t) for each triangle whose box meets the given one, until that returns false.
     template <class Visit>
     bool visit(const Box& box, Visit visit, int node = 0) const {
-        if (nodes_.empty() || intersection(nodes_[std::size_t(node)].box, box).empty()) return true;
-        const Node& n = nodes_[std::size_t(node)];
+        if (nodes_.empty() || intersection(nodes_[node].box, box).empty()) return true;
+        const Node& n = nodes_[node];
         if (n.second >= 0) return this->visit(box, visit, node + 1) && this->visit(box, visit, n.second);
         for (int k = n.first; k < n.first + n.count; ++k) {
-            const int t = order_[std::size_t(k)];
-            if (!intersection(boxes_[std::size_t(t)], box).empty() && !visit(t)) return false;
+            const int t = order_[k];
+            if (!intersection(boxes_[t], box).empty() && !visit(t)) return false;
         }
         return true;
     }
@@ -29,7 +29,7 @@ public:
     /// How often the mesh, if it is closed, winds around x: 1 inside, 0 outside. None on the surface.
     std::optional<int> winding(Vec3 x) const;
 
-    const Box& box(int t) const { return boxes_[std::size_t(t)]; }
+    const Box& box(int t) const { return boxes_[t]; }
     /// Around all; empty if there is none.
     Box box() const { return nodes_.empty() ? Box{} : nodes_[0].box; }
 

@@ -96,8 +96,8 @@ public:
         std::vector<int> leaves;
         for (const int t : triangles) {
             Vec3 middle(0.0);
-            for (const int v : mesh.triangles[std::size_t(t)].vertex) {
-                const Vec3 x = mesh.positions[std::size_t(v)];
+            for (const int v : mesh.triangles[t].vertex) {
+                const Vec3 x = mesh.positions[v];
                 middle += x / 3.0;
                 leaves.push_back(tree_.find(x));
             }
@@ -147,8 +147,7 @@ private:
         std::vector<std::size_t> tips;  // that stick out of their cells
         const auto make_point = [&](const Loop& loop, bool tip_may_stick_out) {
             around.clear();
-            for (int i = loop.begin; i < loop.end; ++i)
-                around.push_back(crossings_[std::size_t(linking_.around[std::size_t(i)])]);
+            for (int i = loop.begin; i < loop.end; ++i) around.push_back(crossings_[linking_.around[i]]);
             const OctreeCell& cell = tree_.cell(loop.leaf);
             return surface_point(tree_.solid(cell), tree_.box(cell), around, hard_cosine_, tip_may_stick_out);
         };
@@ -172,7 +171,7 @@ private:
     // Points of the polygon around a crossing, outward; where an edge between loops is there twice,
     // with the point in its middle, and begun there.
     void polygon_around(int crossing, std::vector<int>& polygon, std::size_t& middles) {
-        const EdgeCrossing& x = linking_.crossings[std::size_t(crossing)];
+        const EdgeCrossing& x = linking_.crossings[crossing];
         polygon.clear();
         middles = 0;
         for (std::size_t q = 0; q < 4; ++q) {
@@ -181,7 +180,7 @@ private:
             polygon.push_back(from);
             const auto [first, last] = doubles_at_.equal_range(crossing);
             for (auto d = first; d != last; ++d) {
-                const DoubleSegment& s = linking_.doubles[std::size_t(d->second)];
+                const DoubleSegment& s = linking_.doubles[d->second];
                 if (std::minmax(s.loop_a, s.loop_b) != std::minmax(from, to)) continue;
                 polygon.push_back(int(linking_.loops.size()) + d->second);
                 ++middles;
@@ -201,7 +200,7 @@ private:
             for (const int c : {linking_.doubles[d].crossing_a, linking_.doubles[d].crossing_b})
                 doubles_at_.emplace(c, int(d));
         for (const DoubleSegment& s : linking_.doubles) {
-            const CrossingPoint &a = crossings_[std::size_t(s.crossing_a)], &b = crossings_[std::size_t(s.crossing_b)];
+            const CrossingPoint &a = crossings_[s.crossing_a], &b = crossings_[s.crossing_b];
             const Vec3 middle = 0.5 * (a.position + b.position);
             const SignedDistance& solid = tree_.solid(middle);
             const double reach = 0.5 * glm::length(a.position - b.position);
@@ -232,16 +231,16 @@ private:
     // in common; only one may take it.
     void choose_diagonal(std::vector<int>& q, int crossing) {
         if (!first_diagonal(q)) std::rotate(q.begin(), q.begin() + 1, q.end());
-        const auto& leaves = linking_.crossings[std::size_t(crossing)].leaves;
+        const auto& leaves = linking_.crossings[crossing].leaves;
         const auto size = [&](std::size_t k) { return tree_.cell(leaves[k]).size; };
         if (size(0) == size(1) && size(1) == size(2) && size(2) == size(3)) return;
         if (diagonals_.insert(std::minmax(q[0], q[2])).second) return;
         std::rotate(q.begin(), q.begin() + 1, q.end());
         if (diagonals_.insert(std::minmax(q[0], q[2])).second) return;
         // Neither is free: the crossing itself is a point between them.
-        const SignedDistance& solid = tree_.solid(crossings_[std::size_t(crossing)].position);
+        const SignedDistance& solid = tree_.solid(crossings_[crossing].position);
         const int middle = int(mesh_.points.size());
-        const Vec3 x = crossings_[std::size_t(crossing)].position;
+        const Vec3 x = crossings_[crossing].position;
         mesh_.points.push_back({x, {face_of(solid, solid.at(x))}});
         q = {middle, q[0], q[1], q[2], q[3], q[0]};
     }
@@ -263,7 +262,7 @@ private:
         const Vec3 area = mesh_.area_vector(t);
         double least = 1;
         for (const int v : t) {
-            const SurfacePoint& p = mesh_.points[std::size_t(v)];
+            const SurfacePoint& p = mesh_.points[v];
             if (p.hard()) return -1;
             least = std::min(least, glm::dot(area, p.faces[0].normal));
         }
@@ -300,7 +299,7 @@ private:
             const bool leans =
                 s.cosine < min_cosine && glm::length(mesh_.area_vector(triangle)) > sliver * longest * longest;
             if (!leans && s.distance <= std::min(options_.tolerance, has_forms_ ? off * longest : infinity)) continue;
-            for (const int leaf : linking_.crossings[std::size_t(crossing_of_[t])].leaves) leaves.push_back(leaf);
+            for (const int leaf : linking_.crossings[crossing_of_[t]].leaves) leaves.push_back(leaf);
         }
     }
 
@@ -332,8 +331,7 @@ std::optional<Vec3> first_fault(const Mesh& mesh) {
         std::size_t end = i, forward = 0;
         while (end < edges.size() && edges[end][0] == edges[i][0] && edges[end][1] == edges[i][1])
             forward += std::size_t(edges[end++][2]);
-        if (end - i != 2 || forward != 1)
-            return 0.5 * (mesh.positions[std::size_t(edges[i][0])] + mesh.positions[std::size_t(edges[i][1])]);
+        if (end - i != 2 || forward != 1) return 0.5 * (mesh.positions[edges[i][0]] + mesh.positions[edges[i][1]]);
         i = end;
     }
     return std::nullopt;

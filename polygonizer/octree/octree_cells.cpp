@@ -50,7 +50,7 @@ void CellTree::add_children(int parent) {
     throw_if_cancelled(cancel_);
     if (cells_.size() + 8 > max_cells) throw std::length_error("too many cells");
     const OctreeCell p = cell(parent);
-    cells_[std::size_t(parent)].children = int(cells_.size());
+    cells_[parent].children = int(cells_.size());
     const int half = p.size / 2;
     for (int k = 0; k < 8; ++k) {
         OctreeCell c{{p.at[0] + half * (k & 1), p.at[1] + half * (k >> 1 & 1), p.at[2] + half * (k >> 2)}, half};
@@ -92,8 +92,7 @@ int CellTree::find(const GridPoint& unit, int size) const {
 int CellTree::find(Vec3 x) const {
     GridPoint unit;
     for (int k = 0; k < 3; ++k)
-        unit[std::size_t(k)] =
-            int(std::clamp(std::floor((x[k] - origin_[k]) / unit_), 0.0, double(cells_[0].size - 1)));
+        unit[k] = int(std::clamp(std::floor((x[k] - origin_[k]) / unit_), 0.0, double(cells_[0].size - 1)));
     return find(unit);
 }
 
@@ -110,7 +109,7 @@ std::shared_ptr<const SignedDistance> CellTree::solid(const Box& box) const {
         if (next < 0) break;
         at = next;
     }
-    const auto& around = solids_[std::size_t(cell(at).solid)];
+    const auto& around = solids_[cell(at).solid];
     if (around->half_spaces() <= few) return around;
     return std::make_shared<SignedDistance>(around->within(inflated(box, sight * edge_)));
 }

@@ -38,7 +38,7 @@ public:
     static constexpr std::size_t max_cells = 100'000'000;
 
     const std::vector<OctreeCell>& cells() const { return cells_; }
-    const OctreeCell& cell(int i) const { return cells_[std::size_t(i)]; }
+    const OctreeCell& cell(int i) const { return cells_[i]; }
     /// Cuts a leaf into eight; false if it is as small as may be.
     bool split(int leaf);
     /// The cell that holds the unit cube at this corner: the leaf, or one of this size above it; −1
@@ -53,7 +53,7 @@ public:
     double unit() const { return unit_; }
     double edge() const { return edge_; }
     int level() const { return level_; }
-    const SignedDistance& solid(const OctreeCell& c) const { return *solids_[std::size_t(c.solid)]; }
+    const SignedDistance& solid(const OctreeCell& c) const { return *solids_[c.solid]; }
     /// Of the leaf at x, its neighbours at most.
     const SignedDistance& solid(Vec3 x) const { return solid(cell(find(x))); }
     /// What to evaluate throughout the box.

@@ -35,9 +35,9 @@ public:
         triangles_.resize(3 * mesh.triangles.size());
         std::vector<std::size_t> next(first_.begin(), first_.end() - 1);
         for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
-            for (const int v : mesh.triangles[t]) triangles_[next[std::size_t(v)]++] = int(t);
+            for (const int v : mesh.triangles[t]) triangles_[next[v]++] = int(t);
     }
-    const int* begin(int v) const { return triangles_.data() + first_[std::size_t(v)]; }
+    const int* begin(int v) const { return triangles_.data() + first_[v]; }
     const int* end(int v) const { return triangles_.data() + first_[std::size_t(v) + 1]; }
 
 private:
@@ -116,7 +116,7 @@ private:
     }
 
     bool follow(const PointMesh::Edge& e) {
-        if (touched_[std::size_t(e.left)] || touched_[std::size_t(e.right)]) return false;
+        if (touched_[e.left] || touched_[e.right]) return false;
         const Vec3 p = mesh_.position(e.p), q = mesh_.position(e.q);
         const double length = glm::length(p - q);
         const auto solid = tree_.solid(inflated(hull({p, p}, {q, q}), length));
@@ -131,20 +131,20 @@ private:
         if (!point) return false;
         std::array<std::pair<TriangleVertices, Vec3>, 2> before;
         for (std::size_t k = 0; k < 2; ++k) {
-            const TriangleVertices& t = mesh_.triangles[std::size_t(k ? e.right : e.left)];
+            const TriangleVertices& t = mesh_.triangles[k ? e.right : e.left];
             before[k] = {t, mesh_.area_vector(t)};
         }
         const std::size_t points = mesh_.points.size(), triangles = mesh_.triangles.size();
         mesh_.divide(e, *point);
         bool good = true;
         for (std::size_t k = 0; k < 2; ++k)
-            good &= may_become(mesh_.triangles[std::size_t(k ? e.right : e.left)], before[k].second) &&
+            good &= may_become(mesh_.triangles[k ? e.right : e.left], before[k].second) &&
                     may_become(mesh_.triangles[triangles + k], before[k].second);
         if (!good) {
             mesh_.points.resize(points);
             mesh_.triangles.resize(triangles);
-            mesh_.triangles[std::size_t(e.left)] = before[0].first;
-            mesh_.triangles[std::size_t(e.right)] = before[1].first;
+            mesh_.triangles[e.left] = before[0].first;
+            mesh_.triangles[e.right] = before[1].first;
             return false;
         }
         for (const int v : {e.p, e.q}) touch(v);
@@ -152,7 +152,7 @@ private:
     }
 
     void touch(int v) {
-        for (const int* t = fans_.begin(v); t != fans_.end(v); ++t) touched_[std::size_t(*t)] = true;
+        for (const int* t = fans_.begin(v); t != fans_.end(v); ++t) touched_[*t] = true;
     }
 
     // Whether a point, which is a corner then, lies on all faces of another and on more.
@@ -165,18 +165,18 @@ private:
     }
 
     bool move(int v, const SurfacePoint& to) {
-        SurfacePoint& point = mesh_.points[std::size_t(v)];
+        SurfacePoint& point = mesh_.points[v];
         if (point.hard() && !lies_on_all(to, point)) return false;
         const SurfacePoint was = point;
         std::vector<Vec3> before;
         for (const int* t = fans_.begin(v); t != fans_.end(v); ++t) {
-            if (touched_[std::size_t(*t)]) return false;
-            before.push_back(mesh_.area_vector(mesh_.triangles[std::size_t(*t)]));
+            if (touched_[*t]) return false;
+            before.push_back(mesh_.area_vector(mesh_.triangles[*t]));
         }
         point = to;
         std::size_t k = 0;
         for (const int* t = fans_.begin(v); t != fans_.end(v); ++t, ++k)
-            if (!may_become(mesh_.triangles[std::size_t(*t)], before[k])) {
+            if (!may_become(mesh_.triangles[*t], before[k])) {
                 point = was;
                 return false;
             }
@@ -202,8 +202,8 @@ public:
         std::vector<char> touched(mesh_.triangles.size(), false);
         std::size_t count = 0;
         for (const PointMesh::Edge& e : edges) {
-            if (touched[std::size_t(e.left)] || touched[std::size_t(e.right)] || !divide(e)) continue;
-            touched[std::size_t(e.left)] = touched[std::size_t(e.right)] = true;
+            if (touched[e.left] || touched[e.right] || !divide(e)) continue;
+            touched[e.left] = touched[e.right] = true;
             ++count;
         }
         return count;
@@ -213,8 +213,8 @@ private:
     std::vector<PointMesh::Edge> hard_edges() const {
         auto edges = mesh_.edges([&](int p, int q) { return mesh_.point(p).hard() && mesh_.point(q).hard(); });
         std::erase_if(edges, [&](const PointMesh::Edge& e) {
-            const Vec3 m = mesh_.area_vector(mesh_.triangles[std::size_t(e.left)]);
-            const Vec3 n = mesh_.area_vector(mesh_.triangles[std::size_t(e.right)]);
+            const Vec3 m = mesh_.area_vector(mesh_.triangles[e.left]);
+            const Vec3 n = mesh_.area_vector(mesh_.triangles[e.right]);
             return glm::dot(m, n) >= hard_cosine_ * glm::length(m) * glm::length(n);
         });
         return edges;
@@ -224,8 +224,8 @@ private:
         std::vector<std::array<int, 2>> other(mesh_.points.size(), {-1, -1});
         std::vector<std::size_t> count(mesh_.points.size(), 0);
         const auto note = [&](int v, int w) {
-            std::size_t& n = count[std::size_t(v)];
-            if (n < 2) other[std::size_t(v)][n] = w;
+            std::size_t& n = count[v];
+            if (n < 2) other[v][n] = w;
             ++n;
         };
         for (const PointMesh::Edge& e : edges) {
@@ -244,10 +244,9 @@ private:
 
     bool divide(const PointMesh::Edge& e) {
         const Vec3 p = mesh_.position(e.p), q = mesh_.position(e.q);
-        const double sp = wanted_[std::size_t(e.p)], sq = wanted_[std::size_t(e.q)], length = glm::length(p - q);
+        const double sp = wanted_[e.p], sq = wanted_[e.q], length = glm::length(p - q);
         if (length <= too_long * 0.5 * (sp + sq)) return false;
-        const TriangleVertices &left = mesh_.triangles[std::size_t(e.left)],
-                               &right = mesh_.triangles[std::size_t(e.right)];
+        const TriangleVertices &left = mesh_.triangles[e.left], &right = mesh_.triangles[e.right];
         const Vec3 s = (sp * q + sq * p) / (sp + sq);
         const auto solid = tree_.solid(inflated(hull(mesh_.box(left), mesh_.box(right)), length));
         const auto point = hard_edge_point(*solid, s, p, q, reach * length, hard_cosine_);

@@ -116,7 +116,7 @@ private:
         };
         std::vector<On> border;
         for (const InFace& f : face) {
-            const EdgeCrossing& x = linking_.crossings[std::size_t(f.crossing)];
+            const EdgeCrossing& x = linking_.crossings[f.crossing];
             const bool on_u = std::size_t(x.axis) == u;
             const bool far = on_u ? x.lo[v] != corner[v] : x.lo[u] != corner[u];
             const int step = on_u ? x.lo[u] - corner[u] : x.lo[v] - corner[v];
@@ -175,7 +175,7 @@ private:
     }
 
     void set_loop(int crossing, int leaf, int loop) {
-        EdgeCrossing& x = linking_.crossings[std::size_t(crossing)];
+        EdgeCrossing& x = linking_.crossings[crossing];
         for (std::size_t q = 0; q < 4; ++q)
             if (x.leaves[q] == leaf) x.loops[q] = loop;
     }
@@ -192,8 +192,8 @@ private:
         std::vector<Joined> all;
         std::vector<char> seen(std::size_t(faces_), false);
         for (const Segment& s : segments_) {
-            if (seen[std::size_t(s.face)]) continue;
-            seen[std::size_t(s.face)] = true;
+            if (seen[s.face]) continue;
+            seen[s.face] = true;
             const int a = loop_of_[2 * std::size_t(s.face)], b = loop_of_[2 * std::size_t(s.face) + 1];
             all.push_back({a, b, s.from, s.to});
         }

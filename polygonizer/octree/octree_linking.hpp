@@ -29,7 +29,7 @@ struct EdgeCrossing {
 
     GridPoint hi() const {
         GridPoint c = lo;
-        c[std::size_t(axis)] += length;
+        c[axis] += length;
         return c;
     }
 };

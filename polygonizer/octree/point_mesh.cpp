@@ -23,7 +23,7 @@ void PointMesh::divide(const Edge& e, SurfacePoint point) {
     const int v = int(points.size());
     points.push_back(std::move(point));
     for (const int side : {e.left, e.right}) {
-        TriangleVertices &near = triangles[std::size_t(side)], far = near;
+        TriangleVertices &near = triangles[side], far = near;
         std::replace(near.begin(), near.end(), e.q, v);
         std::replace(far.begin(), far.end(), e.p, v);
         triangles.push_back(far);
@@ -33,8 +33,8 @@ void PointMesh::divide(const Edge& e, SurfacePoint point) {
 void PointMesh::divide(int triangle, SurfacePoint point) {
     const int v = int(points.size());
     points.push_back(std::move(point));
-    const TriangleVertices t = triangles[std::size_t(triangle)];
-    triangles[std::size_t(triangle)][2] = v;
+    const TriangleVertices t = triangles[triangle];
+    triangles[triangle][2] = v;
     triangles.push_back({t[1], t[2], v});
     triangles.push_back({t[2], t[0], v});
 }
@@ -58,7 +58,7 @@ Mesh PointMesh::mesh(std::vector<Origin>& origins) const {
             std::size_t best = 0;
             for (std::size_t f = 1; f < faces.size(); ++f)
                 if (glm::dot(area, faces[f].normal) > glm::dot(area, faces[best].normal)) best = f;
-            triangle.normal[k] = first_normal[std::size_t(t[k])] + int(best);
+            triangle.normal[k] = first_normal[t[k]] + int(best);
             if (faces.size() < min_faces) {
                 min_faces = faces.size();
                 triangle.material = faces[best].material;

@@ -14,7 +14,7 @@ struct PointMesh {
     std::vector<TriangleVertices> triangles;
     std::size_t polygons = 0;
 
-    const SurfacePoint& point(int v) const { return points[std::size_t(v)]; }
+    const SurfacePoint& point(int v) const { return points[v]; }
     Vec3 position(int v) const { return point(v).position; }
     /// Twice the area, outward.
     Vec3 area_vector(const TriangleVertices& t) const {

@@ -51,7 +51,7 @@ private:
     bool sees(int leaf, Vec3 x, Vec3 normal, double far) const {
         constexpr double alike_enough = 0.5;  // a cosine
         for (auto loop = first_loop(leaf); loop != linking_.loops.end() && loop->leaf == leaf; ++loop) {
-            const SurfacePoint& p = mesh_.points[std::size_t(loop - linking_.loops.begin())];
+            const SurfacePoint& p = mesh_.points[loop - linking_.loops.begin()];
             if (glm::length(p.position - x) > far * tree_.unit() * tree_.cell(leaf).size) continue;
             if (p.hard()) return true;
             if (glm::dot(p.faces[0].normal, normal) > alike_enough) return true;

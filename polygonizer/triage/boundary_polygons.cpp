@@ -15,7 +15,7 @@ BoundaryPolygons::BoundaryPolygons(const Subspace& subspace, const SolidTree& so
 
 int BoundaryPolygons::material(int face, int inner, int outer) const {
     if (solid_.leaves.empty()) return 0;
-    if (const int leaf = subspace_.leaf_of(face); leaf >= 0) return solid_.leaves[std::size_t(leaf)].material;
+    if (const int leaf = subspace_.leaf_of(face); leaf >= 0) return solid_.leaves[leaf].material;
     if (!one_material_)
         for (std::size_t k = 0; k < solid_.leaves.size(); ++k) {
             const Side a = subspace_.side(inner, int(k)), b = subspace_.side(outer, int(k));
@@ -31,8 +31,8 @@ void BoundaryPolygons::collect() {
     polygon_of_.assign(complex_.faces.size(), -1);
     for (std::size_t f = 0; f < complex_.faces.size(); ++f) {
         const auto& face = complex_.faces[f];
-        const bool back = face.back >= 0 && in[std::size_t(face.back)];
-        const bool front = face.front >= 0 && in[std::size_t(face.front)];
+        const bool back = face.back >= 0 && in[face.back];
+        const bool front = face.front >= 0 && in[face.front];
         if (back == front) continue;
         Polygon p{int(f), back ? face.back : face.front, back ? face.front : face.back, subspace_.leaf_of(int(f)), 0};
         p.material = material(int(f), p.inner, p.outer);
@@ -44,7 +44,7 @@ void BoundaryPolygons::collect() {
             for (auto s = face.loop.end(); s != face.loop.begin();) steps_.push_back(*--s ^ 1);
         const Vec3 area = complex_.area_vector(int(f)) * (back ? 1.0 : -1.0);
         if (glm::length(area) > 0) p.normal = glm::normalize(area);
-        p.offset = glm::dot(p.normal, complex_.vertices[std::size_t(complex_.start(steps_[std::size_t(p.first)]))]);
+        p.offset = glm::dot(p.normal, complex_.vertices[complex_.start(steps_[p.first])]);
         polygon_of_[f] = int(polygons_.size());
         for (int k = 0; k < p.count; ++k) owner_.push_back(int(polygons_.size()));
         polygons_.push_back(p);
@@ -52,9 +52,9 @@ void BoundaryPolygons::collect() {
 }
 
 int BoundaryPolygons::half_edge(int polygon, int edge) const {
-    const Polygon& p = polygons_[std::size_t(polygon)];
+    const Polygon& p = polygons_[polygon];
     for (int h = p.first; h < p.first + p.count; ++h)
-        if (steps_[std::size_t(h)] >> 1 == edge) return h;
+        if (steps_[h] >> 1 == edge) return h;
     return -1;
 }
 
@@ -63,17 +63,17 @@ void BoundaryPolygons::pair() {
     twin_.assign(steps_.size(), -1);
     for (std::size_t h = 0; h < steps_.size(); ++h) {
         if (twin_[h] >= 0) continue;
-        const Polygon& p = polygons_[std::size_t(owner_[h])];
+        const Polygon& p = polygons_[owner_[h]];
         const int edge = steps_[h] >> 1;
         int face = p.face, cell = p.inner;
         do {
             face = complex_.across(edge, face, cell);
-            if (polygon_of_[std::size_t(face)] >= 0) break;
+            if (polygon_of_[face] >= 0) break;
             cell = complex_.neighbour(face, cell);
         } while (true);
-        const int other = half_edge(polygon_of_[std::size_t(face)], edge);
+        const int other = half_edge(polygon_of_[face], edge);
         twin_[h] = other;
-        twin_[std::size_t(other)] = int(h);
+        twin_[other] = int(h);
     }
 }
 
@@ -82,11 +82,11 @@ void BoundaryPolygons::number_vertices() {
     for (std::size_t h = 0; h < steps_.size(); ++h) {
         if (vertex_[h] >= 0) continue;
         const int fresh = int(positions_.size());
-        positions_.push_back(complex_.vertices[std::size_t(complex_.start(steps_[h]))]);
+        positions_.push_back(complex_.vertices[complex_.start(steps_[h])]);
         int at = int(h);
         do {
-            vertex_[std::size_t(at)] = fresh;
-            at = twin_[std::size_t(previous(at))];
+            vertex_[at] = fresh;
+            at = twin_[previous(at)];
         } while (at != int(h));
     }
 }

@@ -21,11 +21,11 @@ protected:
     BoundaryPolygons(const Subspace& subspace, const SolidTree& solid);
 
     int next(int h) const {
-        const Polygon& p = polygons_[std::size_t(owner_[std::size_t(h)])];
+        const Polygon& p = polygons_[owner_[h]];
         return h + 1 < p.first + p.count ? h + 1 : p.first;
     }
     int previous(int h) const {
-        const Polygon& p = polygons_[std::size_t(owner_[std::size_t(h)])];
+        const Polygon& p = polygons_[owner_[h]];
         return h > p.first ? h - 1 : p.first + p.count - 1;
     }
 

@@ -11,7 +11,7 @@ namespace deburr {
 Vec3 cell_middle(const CellComplex& complex, int cell) {
     const std::vector<int>& corners = complex.vertices_of(cell);
     Vec3 middle(0.0);
-    for (const int v : corners) middle += complex.vertices[std::size_t(v)] / double(corners.size());
+    for (const int v : corners) middle += complex.vertices[v] / double(corners.size());
     return middle;
 }
 
@@ -19,16 +19,16 @@ Mesh cell_mesh(const CellComplex& complex, int cell, double scale, Vec3 offset) 
     Mesh mesh;
     std::map<int, int> known;
     const Vec3 middle = cell_middle(complex, cell);
-    for (const int face : complex.cells[std::size_t(cell)]) {
+    for (const int face : complex.cells[cell]) {
         std::vector<int> loop;
         for (const int v : complex.corners(face)) {
             const auto [at, is_new] = known.try_emplace(v, int(mesh.positions.size()));
-            if (is_new) mesh.positions.push_back(middle + scale * (complex.vertices[std::size_t(v)] - middle) + offset);
+            if (is_new) mesh.positions.push_back(middle + scale * (complex.vertices[v] - middle) + offset);
             loop.push_back(at->second);
         }
         // Loops run counter-clockwise seen from the front cell.
         Vec3 area = complex.area_vector(face);
-        if (complex.faces[std::size_t(face)].front == cell) {
+        if (complex.faces[face].front == cell) {
             std::reverse(loop.begin(), loop.end());
             area = -area;
         }
@@ -51,7 +51,7 @@ DensityClass cell_class(const Subdivision& subdivision, int cell, int leaf, cons
     for (const HalfSpace& h : density.half_spaces) {
         Range range{1, 0};
         for (const int v : corners) {
-            const double rho = h.density(subdivision.complex.vertices[std::size_t(v)]);
+            const double rho = h.density(subdivision.complex.vertices[v]);
             range = {std::min(range.lo, rho), std::max(range.hi, rho)};
         }
         ranges.push_back(range);

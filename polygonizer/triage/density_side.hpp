@@ -55,7 +55,7 @@ Side fold(std::vector<SolidTreeNode>& solid, SideOfLeaf side_of_leaf) {
             case SolidOp::nothing: sides.push_back(Side::outside); break;
             case SolidOp::everything: sides.push_back(Side::inside); break;
             case SolidOp::leaf: sides.push_back(side_of_leaf(n.a)); break;
-            default: sides.push_back(combine(n.op, sides[std::size_t(n.a)], sides[std::size_t(n.b)]));
+            default: sides.push_back(combine(n.op, sides[n.a], sides[n.b]));
         }
     }
     const Side root = sides.back();
@@ -68,7 +68,7 @@ Side fold(std::vector<SolidTreeNode>& solid, SideOfLeaf side_of_leaf) {
     needed.back() = true;
     for (std::size_t i = solid.size(); i-- > 0;) {
         if (!needed[i] || sides[i] != Side::straddling || solid[i].op == SolidOp::leaf) continue;
-        needed[std::size_t(solid[i].a)] = needed[std::size_t(solid[i].b)] = true;
+        needed[solid[i].a] = needed[solid[i].b] = true;
     }
     std::vector<int> new_index(solid.size(), -1);
     std::vector<SolidTreeNode> to;
@@ -78,14 +78,14 @@ Side fold(std::vector<SolidTreeNode>& solid, SideOfLeaf side_of_leaf) {
         if (sides[i] != Side::straddling) {
             n = {sides[i] == Side::inside ? SolidOp::everything : SolidOp::nothing};
         } else if (n.op != SolidOp::leaf) {
-            const bool a_open = sides[std::size_t(n.a)] == Side::straddling;
-            const bool b_open = sides[std::size_t(n.b)] == Side::straddling;
+            const bool a_open = sides[n.a] == Side::straddling;
+            const bool b_open = sides[n.b] == Side::straddling;
             if (!b_open || (!a_open && n.op != SolidOp::subtract)) {
-                new_index[i] = new_index[std::size_t(b_open ? n.b : n.a)];
+                new_index[i] = new_index[b_open ? n.b : n.a];
                 continue;
             }
-            n.a = new_index[std::size_t(n.a)];
-            n.b = new_index[std::size_t(n.b)];
+            n.a = new_index[n.a];
+            n.b = new_index[n.b];
         }
         new_index[i] = int(to.size());
         to.push_back(n);

@@ -33,7 +33,7 @@ bool strips(const std::vector<Vec3>& rim, Vec3 sweep, double tolerance, Disc& di
     Vec3 chord(0.0);
     for (int i = 0; i < n; ++i)
         for (int j = 0; j < i; ++j) {
-            const Vec3 d = rim[std::size_t(i)] - rim[std::size_t(j)];
+            const Vec3 d = rim[i] - rim[j];
             const Vec3 c = d - sweep * glm::dot(sweep, d);
             if (glm::length(c) > glm::length(chord)) chord = c;
         }
@@ -43,11 +43,11 @@ bool strips(const std::vector<Vec3>& rim, Vec3 sweep, double tolerance, Disc& di
     for (const Vec3& x : rim) u.push_back(glm::dot(x, chord));
     const int low = int(std::min_element(u.begin(), u.end()) - u.begin());
     const int high = int(std::max_element(u.begin(), u.end()) - u.begin());
-    const double slack = 4 * tolerance + 1e-9 * (u[std::size_t(high)] - u[std::size_t(low)]);
+    const double slack = 4 * tolerance + 1e-9 * (u[high] - u[low]);
     // Both ways from a lowest vertex to a highest one.
     const auto walk = [&](int step, std::vector<int>& side) {
         for (int i = low;; i = (i + step + n) % n) {
-            if (!side.empty() && u[std::size_t(i)] < u[std::size_t(side.back())] - slack) return false;
+            if (!side.empty() && u[i] < u[side.back()] - slack) return false;
             side.push_back(i);
             if (i == high) return true;
         }
@@ -57,7 +57,7 @@ bool strips(const std::vector<Vec3>& rim, Vec3 sweep, double tolerance, Disc& di
 
     CellComplex::VertexList line{low};  // what the faces so far end at, from left to right
     std::size_t i = 1, j = 1;           // the next ones
-    const auto level = [&](int v) { return u[std::size_t(v)]; };
+    const auto level = [&](int v) { return u[v]; };
     const double top = level(high) - slack;
     while (true) {
         const double r = level(right[i]), l = level(left[j]), here = level(line.front()) + slack;
@@ -143,8 +143,7 @@ void fan_about_corner(const std::vector<Vec3>& rim, const LocalDensity& density,
     for (int apex = 0; apex < n; ++apex) {
         double worst = infinity;
         for (int k = 1; k + 1 < n; ++k) {
-            const Vec3 a = rim[std::size_t(apex)], b = rim[std::size_t((apex + k) % n)],
-                       c = rim[std::size_t((apex + k + 1) % n)];
+            const Vec3 a = rim[apex], b = rim[(apex + k) % n], c = rim[(apex + k + 1) % n];
             const Vec3 normal = glm::cross(b - a, c - a), g = density.gradient_at((a + b + c) / 3.0).gradient;
             const double size = glm::length(normal) * glm::length(g);
             worst = std::min(worst, size > 0 ? glm::dot(normal, g) / size : -1.0);

@@ -25,8 +25,8 @@ void worst_of_each(std::vector<Cut>& cuts) {
 Part part_of(const Mesh& mesh, const Triangle& t) {
     Part part;
     for (std::size_t k = 0; k < 3; ++k) {
-        part.x[k] = mesh.positions[std::size_t(t.vertex[k])];
-        part.normal[k] = mesh.normals[std::size_t(t.normal[k])];
+        part.x[k] = mesh.positions[t.vertex[k]];
+        part.normal[k] = mesh.normals[t.normal[k]];
     }
     return part;
 }
@@ -101,10 +101,10 @@ std::vector<Cut> cells_to_halve(const Mesh& mesh, const std::vector<Origin>& ori
                                 const Subdivision& subdivision) {
     std::vector<Cut> cuts;
     for (const int t : triangles) {
-        const Origin& origin = origins[std::size_t(t)];
+        const Origin& origin = origins[t];
         if (origin.cell < 0) continue;
         const LocalDensity& density = *subdivision.open(origin.cell, origin.leaf)->density;
-        const Triangle& triangle = mesh.triangles[std::size_t(t)];
+        const Triangle& triangle = mesh.triangles[t];
         const Plane plane = halving(part_of(mesh, triangle), density);
         if (plane.normal != Vec3(0.0)) cuts.push_back({origin.cell, glm::length(mesh.area_vector(triangle)), plane});
     }
@@ -119,7 +119,7 @@ std::vector<Cut> cells_to_halve(const Subspace& subspace, double tolerance) {
     for (int f = 0; f < int(complex.faces.size()); ++f) {
         const int leaf = subspace.leaf_of(f);
         if (leaf < 0) continue;
-        const auto& face = complex.faces[std::size_t(f)];
+        const auto& face = complex.faces[f];
         const bool back = subspace.inside(face.back);
         if (back == subspace.inside(face.front)) continue;
         const int inner = back ? face.back : face.front, cell = subspace.origin(inner);
@@ -135,7 +135,7 @@ std::vector<Cut> cells_to_halve(const Subspace& subspace, double tolerance) {
         for (const auto& t : triangles_of(loop, complex.vertices, size > 0 ? area / size : Vec3(0.0))) {
             Part part;
             for (std::size_t k = 0; k < 3; ++k) {
-                part.x[k] = complex.vertices[std::size_t(t[k])];
+                part.x[k] = complex.vertices[t[k]];
                 const Vec3 g = density.gradient_at(part.x[k]).gradient;
                 const double slope = glm::length(g);
                 part.normal[k] = slope > 0 ? g * (outward / slope) : Vec3(0.0);
@@ -152,12 +152,12 @@ std::vector<Cut> cells_around(const Mesh& mesh, const std::vector<Origin>& origi
                               const Subdivision& subdivision) {
     std::vector<char> near(mesh.positions.size(), false);
     for (const int t : triangles)
-        for (const int v : mesh.triangles[std::size_t(t)].vertex) near[std::size_t(v)] = true;
+        for (const int v : mesh.triangles[t].vertex) near[v] = true;
     std::vector<Cut> cuts;
     for (std::size_t k = 0; k < origins.size(); ++k) {
         if (origins[k].cell < 0) continue;
         const Triangle& t = mesh.triangles[k];
-        const auto count = std::count_if(t.vertex.begin(), t.vertex.end(), [&](int v) { return near[std::size_t(v)]; });
+        const auto count = std::count_if(t.vertex.begin(), t.vertex.end(), [&](int v) { return near[v]; });
         if (count < 2) continue;
         const Plane plane = halving(part_of(mesh, t), *subdivision.open(origins[k].cell, origins[k].leaf)->density);
         if (plane.normal != Vec3(0.0)) cuts.push_back({origins[k].cell, glm::length(mesh.area_vector(t)), plane});
@@ -169,11 +169,10 @@ std::vector<Cut> cells_around(const Mesh& mesh, const std::vector<Origin>& origi
 std::vector<int> with_neighbours(const CellComplex& complex, const std::vector<int>& cells) {
     std::vector<int> all = cells;
     for (const int c : cells)
-        for (const int f : complex.cells[std::size_t(c)])
-            for (const CellComplex::Step s : complex.faces[std::size_t(f)].loop)
-                for (const int around : complex.edges[std::size_t(s >> 1)].faces)
-                    for (const int beside :
-                         {complex.faces[std::size_t(around)].back, complex.faces[std::size_t(around)].front})
+        for (const int f : complex.cells[c])
+            for (const CellComplex::Step s : complex.faces[f].loop)
+                for (const int around : complex.edges[s >> 1].faces)
+                    for (const int beside : {complex.faces[around].back, complex.faces[around].front})
                         if (beside >= 0) all.push_back(beside);
     std::sort(all.begin(), all.end());
     all.erase(std::unique(all.begin(), all.end()), all.end());

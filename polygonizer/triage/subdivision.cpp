@@ -80,15 +80,15 @@ void Subdivision::visit(int cell) {
     visited_ = now;
     corners_.clear();
     along_normals_.clear();
-    for (int v : complex.vertices_of(cell)) corners_.push_back(complex.vertices[std::size_t(v)]);
+    for (int v : complex.vertices_of(cell)) corners_.push_back(complex.vertices[v]);
 }
 
 int Subdivision::add_node(int parent, int cell) {
     visit(cell);
     PartitionNode node;
     node.parent = parent;
-    node.solid = nodes[std::size_t(parent)].solid;
-    for (const OpenLeaf& leaf : nodes[std::size_t(parent)].open) {
+    node.solid = nodes[parent].solid;
+    for (const OpenLeaf& leaf : nodes[parent].open) {
         Side side;
         OpenLeaf local = localize(leaf, side);
         if (side == Side::straddling)
@@ -110,8 +110,8 @@ int Subdivision::add_node(int parent, int cell) {
 }
 
 Side Subdivision::side(int cell, int leaf) const {
-    for (int p = node_of[std::size_t(cell)]; p >= 0; p = nodes[std::size_t(p)].parent) {
-        const auto& classified = nodes[std::size_t(p)].classified;
+    for (int p = node_of[cell]; p >= 0; p = nodes[p].parent) {
+        const auto& classified = nodes[p].classified;
         const auto at = std::lower_bound(classified.begin(), classified.end(), std::pair{leaf, Side::outside});
         if (at != classified.end() && at->first == leaf) return at->second;
     }
@@ -119,7 +119,7 @@ Side Subdivision::side(int cell, int leaf) const {
 }
 
 const OpenLeaf* Subdivision::open(int cell, int leaf) const {
-    for (const OpenLeaf& o : nodes[std::size_t(node_of[std::size_t(cell)])].open)
+    for (const OpenLeaf& o : nodes[node_of[cell]].open)
         if (o.leaf == leaf) return &o;
     return nullptr;
 }
@@ -127,10 +127,10 @@ const OpenLeaf* Subdivision::open(int cell, int leaf) const {
 bool Subdivision::halve(int cell, const Plane& plane) {
     const int upper = complex.cut(cell, plane);
     if (upper < 0) return false;
-    const int parent = node_of[std::size_t(cell)];
-    refused_.push_back(refused_[std::size_t(cell)]);
+    const int parent = node_of[cell];
+    refused_.push_back(refused_[cell]);
     node_of.push_back(add_node(parent, upper));
-    node_of[std::size_t(cell)] = add_node(parent, cell);
+    node_of[cell] = add_node(parent, cell);
     return true;
 }
 
@@ -139,20 +139,20 @@ void Subdivision::subdivide(int cell) {
     while (!todo.empty()) {
         current_ = todo.back();
         todo.pop_back();
-        const int at = node_of[std::size_t(current_)];
-        if (nodes[std::size_t(at)].side != Side::straddling) continue;
+        const int at = node_of[current_];
+        if (nodes[at].side != Side::straddling) continue;
         visit(current_);
         Plane plane{};
-        if (!choose(nodes[std::size_t(at)], plane)) {
+        if (!choose(nodes[at], plane)) {
             // Cells of a filter that reaches all over the object stay large, with many half-spaces.
-            for (OpenLeaf& leaf : nodes[std::size_t(at)].open)
+            for (OpenLeaf& leaf : nodes[at].open)
                 if (!leaf.density) leaf.density = std::make_shared<LocalDensity>(*leaf.tree);
             continue;
         }
         if (halve(current_, plane))
             todo.push_back(int(complex.cells.size()) - 1);
         else
-            refused_[std::size_t(current_)].push_back(plane);
+            refused_[current_].push_back(plane);
         todo.push_back(current_);
     }
 }

@@ -68,7 +68,7 @@ void Subdivision::turn(const PartitionNode& node, Vec3 normal) {
 }
 
 bool Subdivision::is_refused(const Plane& plane) const {
-    for (const Plane& r : refused_[std::size_t(current_)])
+    for (const Plane& r : refused_[current_])
         if (r.normal == plane.normal && r.offset == plane.offset) return true;
     return false;
 }

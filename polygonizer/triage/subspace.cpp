@@ -51,15 +51,14 @@ void Subspace::polygonize() {
 void Subspace::polygonize(std::span<const int> undivided) {
     std::vector<std::pair<int, int>> open;  // leaf, and undivided cell
     for (const int c : undivided)
-        for (const OpenLeaf& o : subdivision_.nodes[std::size_t(subdivision_.node_of[std::size_t(c)])].open)
-            open.push_back({o.leaf, c});
+        for (const OpenLeaf& o : subdivision_.nodes[subdivision_.node_of[c]].open) open.push_back({o.leaf, c});
     std::sort(open.begin(), open.end());
     std::vector<int> cells;
     for (std::size_t k = 0; k < open.size();) {
         const int leaf = open[k].first;
         cells.clear();
         for (; k < open.size() && open[k].first == leaf; ++k)
-            for (int c = open[k].second; c >= 0; c = next_of_origin_[std::size_t(c)]) cells.push_back(c);
+            for (int c = open[k].second; c >= 0; c = next_of_origin_[c]) cells.push_back(c);
         std::sort(cells.begin(), cells.end());
         cut_by(leaf, cells);
     }
@@ -67,7 +66,7 @@ void Subspace::polygonize(std::span<const int> undivided) {
 
 Side Subspace::side(int cell, int leaf) const {
     if (cell == CellComplex::outside) return Side::straddling;
-    for (const auto& [l, side] : resolved_[std::size_t(cell)])
+    for (const auto& [l, side] : resolved_[cell])
         if (l == leaf) return side;
     return subdivision_.side(origin(cell), leaf);
 }
@@ -86,11 +85,11 @@ Side Subspace::side_now(int cell) {
 
 bool Subspace::inside(int cell) const {
     if (cell == CellComplex::outside) return false;
-    const PartitionNode& node = subdivision_.nodes[std::size_t(subdivision_.node_of[std::size_t(origin(cell))])];
+    const PartitionNode& node = subdivision_.nodes[subdivision_.node_of[origin(cell)]];
     if (node.side != Side::straddling) return node.side == Side::inside;
     in_.clear();
     for (const SolidTreeNode& n : node.solid) {
-        const auto at = [&](int child) { return bool(in_[std::size_t(child)]); };
+        const auto at = [&](int child) { return bool(in_[child]); };
         switch (n.op) {
             case SolidOp::nothing: in_.push_back(false); break;
             case SolidOp::everything: in_.push_back(true); break;
@@ -108,7 +107,7 @@ void Subspace::cut_by(int leaf, const std::vector<int>& open) {
     for (Signs* signs : {&vertex_signs_, &edge_signs_, &face_labels_, &sides_}) signs->forget();
     std::vector<std::pair<int, int>> to_split;  // face, open cell
     for (const int c : open)
-        for (const int f : complex_.cells[std::size_t(c)]) {
+        for (const int f : complex_.cells[c]) {
             if (face_labels_.at(f) != Sign::unknown) continue;
             const Side beyond = side_now(complex_.neighbour(f, c));
             if (beyond == Side::straddling) {
@@ -134,7 +133,7 @@ Subspace::Sign Subspace::point_sign(Vec3 x, const LocalDensity& density) const {
 Subspace::Sign Subspace::vertex_sign(int vertex, const LocalDensity& density) {
     Sign sign = vertex_signs_.at(vertex);
     if (sign == Sign::unknown) {
-        sign = point_sign(complex_.vertices[std::size_t(vertex)], density);
+        sign = point_sign(complex_.vertices[vertex], density);
         vertex_signs_.set(vertex, sign);
     }
     return sign;
@@ -143,9 +142,9 @@ Subspace::Sign Subspace::vertex_sign(int vertex, const LocalDensity& density) {
 // What cells say of an edge holds; only where all around it are undecided its ends are asked.
 Subspace::Sign Subspace::edge_sign(int edge, const LocalDensity& density) {
     bool in = false, out = false;
-    const auto& e = complex_.edges[std::size_t(edge)];
+    const auto& e = complex_.edges[edge];
     for (const int f : e.faces)
-        for (const int c : {complex_.faces[std::size_t(f)].back, complex_.faces[std::size_t(f)].front}) {
+        for (const int c : {complex_.faces[f].back, complex_.faces[f].front}) {
             const Side s = side_now(c);
             in |= s == Side::inside;
             out |= s == Side::outside;
@@ -155,21 +154,21 @@ Subspace::Sign Subspace::edge_sign(int edge, const LocalDensity& density) {
     if (a != Sign::none && b != Sign::none) return a == b ? a : Sign::unknown;  // unknown: a root
     if (a != Sign::none) return a;
     if (b != Sign::none) return b;
-    return point_sign(0.5 * (complex_.vertices[std::size_t(e.tail)] + complex_.vertices[std::size_t(e.head)]), density);
+    return point_sign(0.5 * (complex_.vertices[e.tail] + complex_.vertices[e.head]), density);
 }
 
 void Subspace::split_edges(int face, const LocalDensity& density) {
-    const auto loop = complex_.faces[std::size_t(face)].loop;
+    const auto loop = complex_.faces[face].loop;
     for (const Step s : loop) {
         const int e = s >> 1;
         if (edge_signs_.at(e) != Sign::unknown) continue;
         const Sign sign = edge_sign(e, density);
         edge_signs_.set(e, sign);
         if (sign != Sign::unknown) continue;
-        const int tail = complex_.edges[std::size_t(e)].tail, head = complex_.edges[std::size_t(e)].head;
-        const Vec3 a = complex_.vertices[std::size_t(tail)], b = complex_.vertices[std::size_t(head)];
+        const int tail = complex_.edges[e].tail, head = complex_.edges[e].head;
+        const Vec3 a = complex_.vertices[tail], b = complex_.vertices[head];
         const Vec3 root = root_between(density, a, density.at(a) - 0.5, b, density.at(b) - 0.5);
-        const Vec3 x = on_seam(complex_.edges[std::size_t(e)].faces, root, glm::length(b - a), density);
+        const Vec3 x = on_seam(complex_.edges[e].faces, root, glm::length(b - a), density);
         const int middle = complex_.split_edge(e, x);
         vertex_signs_.set(middle, Sign::none);
         edge_signs_.set(e, vertex_signs_.at(tail));
@@ -181,10 +180,10 @@ void Subspace::split_edges(int face, const LocalDensity& density) {
 void Subspace::find_loops(int cell) {
     loops_.clear();
     borders_.clear();
-    for (const int f : complex_.cells[std::size_t(cell)]) {
+    for (const int f : complex_.cells[cell]) {
         if (face_labels_.at(f) != Sign::above) continue;
-        const bool front = complex_.faces[std::size_t(f)].front == cell;
-        for (const Step s : complex_.faces[std::size_t(f)].loop) {
+        const bool front = complex_.faces[f].front == cell;
+        for (const Step s : complex_.faces[f].loop) {
             const int other = complex_.across(s >> 1, f, cell);
             if (face_labels_.at(other) == Sign::below) borders_.push_back({front ? s ^ 1 : s, other, f, false});
         }
@@ -201,7 +200,7 @@ void Subspace::find_loops(int cell) {
             int f = at->outer, e = at->step >> 1;
             for (int turns = 0; turns < 10000; ++turns) {
                 int next = -1;
-                for (const Step s : complex_.faces[std::size_t(f)].loop)
+                for (const Step s : complex_.faces[f].loop)
                     if (s >> 1 != e && (complex_.start(s) == v || complex_.end(s) == v)) next = s >> 1;
                 e = next;
                 const int beyond = complex_.across(e, f, cell);
@@ -226,7 +225,7 @@ void Subspace::find_loops(int cell) {
 
 int Subspace::owner(int face, std::span<const int> family) const {
     for (const int c : family)
-        if (complex_.faces[std::size_t(face)].back == c || complex_.faces[std::size_t(face)].front == c) return c;
+        if (complex_.faces[face].back == c || complex_.faces[face].front == c) return c;
     return family[0];
 }
 
@@ -234,21 +233,18 @@ void Subspace::span(int cell, const LocalDensity& density) {
     find_loops(cell);
     walls_.clear();
     if (!loops_.empty())
-        for (const int f : complex_.cells[std::size_t(cell)]) {
-            if (leaf_of_face_[std::size_t(f)] >= 0) continue;
+        for (const int f : complex_.cells[cell]) {
+            if (leaf_of_face_[f] >= 0) continue;
             const Vec3 area = complex_.area_vector(f);
             if (glm::length(area) <= 0) continue;
-            const Vec3 n = glm::normalize(area) * (complex_.faces[std::size_t(f)].front == cell ? -1.0 : 1.0);
-            walls_.push_back(
-                {n,
-                 glm::dot(n, complex_.vertices[std::size_t(complex_.start(complex_.faces[std::size_t(f)].loop[0]))])});
+            const Vec3 n = glm::normalize(area) * (complex_.faces[f].front == cell ? -1.0 : 1.0);
+            walls_.push_back({n, glm::dot(n, complex_.vertices[complex_.start(complex_.faces[f].loop[0])])});
         }
     CellComplex::List<4> family{cell};
     for (Loop& loop : loops_) {
         if (loop.steps.size() == 2) {  // two segments over one edge: a third vertex makes it a face
             const int e = loop.steps[0] >> 1;
-            const Vec3 x = 0.5 * (complex_.vertices[std::size_t(complex_.start(2 * e))] +
-                                  complex_.vertices[std::size_t(complex_.end(2 * e))]);
+            const Vec3 x = 0.5 * (complex_.vertices[complex_.start(2 * e)] + complex_.vertices[complex_.end(2 * e)]);
             complex_.split_edge(e, x);
             const int half = int(complex_.edges.size()) - 1;
             if (loop.steps[0] & 1)
@@ -260,26 +256,26 @@ void Subspace::span(int cell, const LocalDensity& density) {
         points_.clear();
         for (const Step s : loop.steps) {
             rim_.push_back(complex_.start(s));
-            points_.push_back(complex_.vertices[std::size_t(rim_.back())]);
+            points_.push_back(complex_.vertices[rim_.back()]);
         }
         span_loop(points_, density, walls_, complex_.tolerance, disc_);
         if (disc_.has_center) rim_.push_back(complex_.add_vertex(disc_.center));
         for (auto& face : disc_.faces)
-            for (int& corner : face) corner = rim_[std::size_t(corner)];
+            for (int& corner : face) corner = rim_[corner];
         const int fresh = complex_.split_cell(owner(loop.seed, family), loop.steps, loop.seed, disc_.faces);
         family.push_back(fresh);
         for (std::size_t f = leaf_of_face_.size(); f < complex_.faces.size(); ++f) face_labels_.set(int(f), Sign::none);
         leaf_of_face_.resize(complex_.faces.size(), leaf_);
         origin_.push_back(origin(cell));
-        resolved_.push_back(resolved_[std::size_t(cell)]);
-        next_of_origin_.push_back(next_of_origin_[std::size_t(origin(cell))]);
-        next_of_origin_[std::size_t(origin(cell))] = fresh;
+        resolved_.push_back(resolved_[cell]);
+        next_of_origin_.push_back(next_of_origin_[origin(cell)]);
+        next_of_origin_[origin(cell)] = fresh;
     }
     for (const int c : family) {
         Side side = Side::outside;
-        for (const int f : complex_.cells[std::size_t(c)])
+        for (const int f : complex_.cells[c])
             if (face_labels_.at(f) == Sign::above) side = Side::inside;
-        resolved_[std::size_t(c)].push_back({leaf_, side});
+        resolved_[c].push_back({leaf_, side});
     }
 }
 

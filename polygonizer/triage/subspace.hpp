@@ -38,11 +38,11 @@ public:
     /// Whether the cell is inside the solid; right after polygonize().
     bool inside(int cell) const;
     /// The leaf whose isosurface the face is a part of; -1 for faces on planes.
-    int leaf_of(int face) const { return leaf_of_face_[std::size_t(face)]; }
+    int leaf_of(int face) const { return leaf_of_face_[face]; }
     /// Side of the leaf throughout the cell; straddling where it was never asked.
     Side side(int cell, int leaf) const;
     /// The undivided cell of the subdivision that the cell was cut from.
-    int origin(int cell) const { return origin_[std::size_t(cell)]; }
+    int origin(int cell) const { return origin_[cell]; }
     /// The leaf where the cell was cut from, if it was undecided there.
     const OpenLeaf* open(int cell, int leaf) const { return subdivision_.open(origin(cell), leaf); }
 
@@ -71,7 +71,7 @@ private:
         }
         void set(int i, Sign sign) {
             if (std::size_t(i) >= known_.size()) known_.resize(std::size_t(i) + 1 + known_.size() / 2);
-            known_[std::size_t(i)] = {turn_, sign};
+            known_[i] = {turn_, sign};
         }
         void forget() { ++turn_; }
 

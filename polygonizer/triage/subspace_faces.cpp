@@ -8,7 +8,7 @@ namespace deburr {
 
 // Joins the places where the rim changes sign by segments [Triage §4.4.2].
 void Subspace::split_face(int face, const LocalDensity& density) {
-    const auto& loop = complex_.faces[std::size_t(face)].loop;
+    const auto& loop = complex_.faces[face].loop;
     const std::size_t n = loop.size();
     auto& signs = rim_signs_;
     signs.clear();
@@ -17,7 +17,7 @@ void Subspace::split_face(int face, const LocalDensity& density) {
     const auto first = std::find_if(signs.begin(), signs.end(), [](Sign s) { return s != Sign::none; });
     if (first == signs.end()) {
         Vec3 centroid(0.0);
-        for (const Step s : loop) centroid += complex_.vertices[std::size_t(complex_.start(s))];
+        for (const Step s : loop) centroid += complex_.vertices[complex_.start(s)];
         const Sign sign = point_sign(centroid / double(n), density);
         return face_labels_.set(face, sign == Sign::above ? sign : Sign::below);
     }
@@ -39,7 +39,7 @@ void Subspace::split_face(int face, const LocalDensity& density) {
     Sign middle = Sign::unknown;
     if (changes.size() > 2) {
         Vec3 centroid(0.0);
-        for (const int v : changes) centroid += complex_.vertices[std::size_t(v)];
+        for (const int v : changes) centroid += complex_.vertices[v];
         middle = point_sign(centroid / double(changes.size()), density);
         if (middle == Sign::none) middle = Sign::below;
     } else {
@@ -54,20 +54,20 @@ void Subspace::split_face(int face, const LocalDensity& density) {
         const std::optional<Vec3> between = refine(rest, a, b, density);
         if (!between) {
             // An arc of the rim that is as straight as the segment would leave a face of no area.
-            const auto& l = complex_.faces[std::size_t(rest)].loop;
-            const Vec3 xa = complex_.vertices[std::size_t(a)], d = complex_.vertices[std::size_t(b)] - xa;
+            const auto& l = complex_.faces[rest].loop;
+            const Vec3 xa = complex_.vertices[a], d = complex_.vertices[b] - xa;
             bool straight = true;
             std::size_t at = 0;
             while (complex_.start(l[at]) != a) at = (at + 1) % l.size();
             for (; complex_.start(l[at]) != b && straight; at = (at + 1) % l.size()) {
-                const Vec3 x = complex_.vertices[std::size_t(complex_.start(l[at]))] - xa;
+                const Vec3 x = complex_.vertices[complex_.start(l[at])] - xa;
                 straight = glm::length(glm::cross(x, d)) <= complex_.tolerance * glm::length(d);
             }
             if (straight) continue;
         }
         const std::size_t edges = complex_.edges.size(), vertices = complex_.vertices.size();
         const int cut_off = between ? complex_.split_face(rest, a, b, {&*between, 1}) : complex_.split_face(rest, a, b);
-        leaf_of_face_.resize(complex_.faces.size(), leaf_of_face_[std::size_t(rest)]);
+        leaf_of_face_.resize(complex_.faces.size(), leaf_of_face_[rest]);
         face_labels_.set(cut_off, after[k]);
         for (std::size_t e = edges; e < complex_.edges.size(); ++e) edge_signs_.set(int(e), Sign::none);
         for (std::size_t v = vertices; v < complex_.vertices.size(); ++v) vertex_signs_.set(int(v), Sign::none);
@@ -77,7 +77,7 @@ void Subspace::split_face(int face, const LocalDensity& density) {
 // A point of the surface near the segment's middle, in the face [Triage §4.4.3]; none if the segment
 // is straight, or none is found.
 std::optional<Vec3> Subspace::refine(int face, int a, int b, const LocalDensity& density) const {
-    const Vec3 xa = complex_.vertices[std::size_t(a)], xb = complex_.vertices[std::size_t(b)];
+    const Vec3 xa = complex_.vertices[a], xb = complex_.vertices[b];
     const Vec3 middle = 0.5 * (xa + xb);
     const double length = glm::length(xb - xa);
     const ValueGradient here = density.gradient_at(middle);
@@ -107,14 +107,13 @@ std::optional<Vec3> Subspace::refine(int face, int a, int b, const LocalDensity&
 // where the surfaces meet: the faces are flat, and near theirs only. Faces on planes keep it in
 // their plane. The point stays where it is if that leads farther than `reach`.
 Vec3 Subspace::on_seam(std::span<const int> faces, Vec3 start, double reach, const LocalDensity& density) const {
-    const bool seam = std::any_of(faces.begin(), faces.end(), [&](int f) {
-        return leaf_of_face_[std::size_t(f)] >= 0 && leaf_of_face_[std::size_t(f)] != leaf_;
-    });
+    const bool seam = std::any_of(faces.begin(), faces.end(),
+                                  [&](int f) { return leaf_of_face_[f] >= 0 && leaf_of_face_[f] != leaf_; });
     if (!seam) return start;
     std::vector<const LocalDensity*> surfaces{&density};
     std::vector<Vec3> planes;
     for (const int f : faces) {
-        const int leaf = leaf_of_face_[std::size_t(f)];
+        const int leaf = leaf_of_face_[f];
         if (leaf < 0) {
             const Vec3 area = complex_.area_vector(f);
             if (glm::length(area) <= 0) continue;
@@ -126,7 +125,7 @@ Vec3 Subspace::on_seam(std::span<const int> faces, Vec3 start, double reach, con
             if (!known) planes.push_back(n);
             continue;
         }
-        const int cell = complex_.faces[std::size_t(f)].back;
+        const int cell = complex_.faces[f].back;
         const OpenLeaf* open = leaf == leaf_ ? nullptr : this->open(cell, leaf);
         if (open && std::find(surfaces.begin(), surfaces.end(), open->density.get()) == surfaces.end())
             surfaces.push_back(open->density.get());
@@ -169,9 +168,9 @@ bool Subspace::search(int face, Vec3 middle, Vec3 line, Vec3 normal, double leng
     const double f = density.at(middle) - 0.5;
     double ahead = infinity, behind = -infinity;
     const Vec3 across = glm::cross(normal, line);
-    for (const Step s : complex_.faces[std::size_t(face)].loop) {
-        const Vec3 p = complex_.vertices[std::size_t(complex_.start(s))] - middle;
-        const Vec3 q = complex_.vertices[std::size_t(complex_.end(s))] - middle;
+    for (const Step s : complex_.faces[face].loop) {
+        const Vec3 p = complex_.vertices[complex_.start(s)] - middle;
+        const Vec3 q = complex_.vertices[complex_.end(s)] - middle;
         const double sp = glm::dot(across, p), sq = glm::dot(across, q);
         if ((sp < 0) == (sq < 0)) continue;
         const double t = glm::dot(line, p + (q - p) * (sp / (sp - sq)));

@@ -62,9 +62,7 @@ public:
 private:
     bool in_plane(const Polygon& p, const Polygon& plane) const {
         for (int h = p.first; h < p.first + p.count; ++h)
-            if (std::abs(glm::dot(plane.normal, positions_[std::size_t(vertex_[std::size_t(h)])]) - plane.offset) >
-                flat_slack())
-                return false;
+            if (std::abs(glm::dot(plane.normal, positions_[vertex_[h]]) - plane.offset) > flat_slack()) return false;
         return true;
     }
     double flat_slack() const { return 0.1 * complex_.tolerance; }
@@ -72,20 +70,18 @@ private:
     void join_flat() {
         group_ = UnionFind(polygons_.size());
         for (std::size_t h = 0; h < steps_.size(); ++h) {
-            const int a = group_.find(owner_[h]), b = group_.find(owner_[std::size_t(twin_[h])]);
+            const int a = group_.find(owner_[h]), b = group_.find(owner_[twin_[h]]);
             if (a == b) continue;
-            const Polygon &p = polygons_[std::size_t(a)], &q = polygons_[std::size_t(b)];
+            const Polygon &p = polygons_[a], &q = polygons_[b];
             if (p.leaf != q.leaf || p.material != q.material || p.normal == Vec3(0.0)) continue;
             if (glm::dot(p.normal, q.normal) < 1 - 1e-9) continue;
-            const Polygon& other = polygons_[std::size_t(owner_[std::size_t(twin_[h])])];
+            const Polygon& other = polygons_[owner_[twin_[h]]];
             if (!in_plane(p, p) || !in_plane(q, p) || !in_plane(other, p)) continue;
             group_.join(a, b);
         }
     }
 
-    bool is_border(int h) {
-        return group_.find(owner_[std::size_t(h)]) != group_.find(owner_[std::size_t(twin_[std::size_t(h)])]);
-    }
+    bool is_border(int h) { return group_.find(owner_[h]) != group_.find(owner_[twin_[h]]); }
 
     // Half-edges between groups, each with the next one around its group.
     void trace() {
@@ -94,21 +90,21 @@ private:
         for (std::size_t h = 0; h < steps_.size(); ++h) {
             if (!is_border(int(h))) continue;
             int n = next(int(h));
-            while (!is_border(n)) n = next(twin_[std::size_t(n)]);
+            while (!is_border(n)) n = next(twin_[n]);
             next_[h] = n;
-            before_[std::size_t(n)] = int(h);
+            before_[n] = int(h);
         }
     }
 
     static std::pair<int, int> ends(int a, int b) { return std::minmax(a, b); }
-    int head(int h) const { return vertex_[std::size_t(next_[std::size_t(h)])]; }
+    int head(int h) const { return vertex_[next_[h]]; }
 
     // Whether a half-edge leads from where h starts to the vertex.
     bool is_joined(int h, int vertex) const {
         int at = h;
         do {
             if (head(at) == vertex) return true;
-            at = next_[std::size_t(twin_[std::size_t(at)])];
+            at = next_[twin_[at]];
         } while (at != h);
         return false;
     }
@@ -117,32 +113,32 @@ private:
     void straighten() {
         std::vector<int> degree(positions_.size(), 0);
         for (std::size_t h = 0; h < steps_.size(); ++h)
-            if (next_[h] >= 0) ++degree[std::size_t(vertex_[h])];
+            if (next_[h] >= 0) ++degree[vertex_[h]];
         for (std::size_t h = 0; h < steps_.size(); ++h) {
             // h runs from a to v, n from v to b; their twins back.
             if (next_[h] < 0) continue;
             while (true) {
-                const int n = next_[h], v = vertex_[std::size_t(n)];
+                const int n = next_[h], v = vertex_[n];
                 const int a = vertex_[h], b = head(n);
-                const int hb = twin_[h], nb = twin_[std::size_t(n)];
-                if (degree[std::size_t(v)] != 2 || a == b || next_[std::size_t(nb)] != hb) break;
-                if (next_[std::size_t(next_[std::size_t(n)])] == int(h)) break;  // a triangle stays one
-                if (next_[std::size_t(next_[std::size_t(hb)])] == nb) break;
-                const Vec3 line = positions_[std::size_t(b)] - positions_[std::size_t(a)];
-                const Vec3 x = positions_[std::size_t(v)] - positions_[std::size_t(a)];
+                const int hb = twin_[h], nb = twin_[n];
+                if (degree[v] != 2 || a == b || next_[nb] != hb) break;
+                if (next_[next_[n]] == int(h)) break;  // a triangle stays one
+                if (next_[next_[hb]] == nb) break;
+                const Vec3 line = positions_[b] - positions_[a];
+                const Vec3 x = positions_[v] - positions_[a];
                 const double along = glm::dot(x, line), length2 = glm::dot(line, line);
                 if (along <= 0 || along >= length2) break;
                 if (glm::length(x - line * (along / length2)) > flat_slack()) break;
                 if (is_joined(int(h), b)) break;
                 // h and nb stay, and become each other's twins: a to b, and b to a.
-                next_[h] = next_[std::size_t(n)];
-                before_[std::size_t(next_[h])] = int(h);
-                next_[std::size_t(nb)] = next_[std::size_t(hb)];
-                before_[std::size_t(next_[std::size_t(nb)])] = nb;
-                next_[std::size_t(n)] = next_[std::size_t(hb)] = -1;
+                next_[h] = next_[n];
+                before_[next_[h]] = int(h);
+                next_[nb] = next_[hb];
+                before_[next_[nb]] = nb;
+                next_[n] = next_[hb] = -1;
                 twin_[h] = nb;
-                twin_[std::size_t(nb)] = int(h);
-                degree[std::size_t(v)] = 0;
+                twin_[nb] = int(h);
+                degree[v] = 0;
             }
         }
     }
@@ -155,28 +151,27 @@ private:
             if (!borders_.add(ends(vertex_[h], head(int(h))))) doubles.push_back(int(h));
         }
         for (const int h : doubles) {
-            const int t = twin_[std::size_t(h)], middle = int(positions_.size());
-            positions_.push_back(
-                middle_of(vertex_[std::size_t(h)], head(h), owner_[std::size_t(h)], owner_[std::size_t(t)]));
+            const int t = twin_[h], middle = int(positions_.size());
+            positions_.push_back(middle_of(vertex_[h], head(h), owner_[h], owner_[t]));
             const int second = insert_after(h, middle), back = insert_after(t, middle);
-            twin_[std::size_t(h)] = back;
-            twin_[std::size_t(back)] = h;
-            twin_[std::size_t(t)] = second;
-            twin_[std::size_t(second)] = t;
-            borders_.add(ends(vertex_[std::size_t(h)], middle));
-            borders_.add(ends(vertex_[std::size_t(t)], middle));
+            twin_[h] = back;
+            twin_[back] = h;
+            twin_[t] = second;
+            twin_[second] = t;
+            borders_.add(ends(vertex_[h], middle));
+            borders_.add(ends(vertex_[t], middle));
         }
     }
 
     // The middle of two vertices, moved to the surface of either polygon if it is bent.
     Vec3 middle_of(int a, int b, int p, int q) const {
-        Vec3 x = 0.5 * (positions_[std::size_t(a)] + positions_[std::size_t(b)]);
-        const Polygon& polygon = polygons_[std::size_t(polygons_[std::size_t(p)].leaf >= 0 ? p : q)];
+        Vec3 x = 0.5 * (positions_[a] + positions_[b]);
+        const Polygon& polygon = polygons_[polygons_[p].leaf >= 0 ? p : q];
         const LocalDensity* density = density_of(polygon);
         if (!density) return x;
         constexpr int steps = 20;  // of Newton's method, which takes 4 where the surface is near
         const Vec3 start = x;
-        const double reach = glm::length(positions_[std::size_t(a)] - positions_[std::size_t(b)]);
+        const double reach = glm::length(positions_[a] - positions_[b]);
         for (int k = 0; k < steps; ++k) {
             const ValueGradient v = density->gradient_at(x);
             const double slope2 = glm::dot(v.gradient, v.gradient);
@@ -195,14 +190,14 @@ private:
 
     int insert_after(int h, int vertex) {
         const int fresh = int(steps_.size());
-        steps_.push_back(steps_[std::size_t(h)]);
-        owner_.push_back(owner_[std::size_t(h)]);
+        steps_.push_back(steps_[h]);
+        owner_.push_back(owner_[h]);
         vertex_.push_back(vertex);
         twin_.push_back(-1);
-        next_.push_back(next_[std::size_t(h)]);
+        next_.push_back(next_[h]);
         before_.push_back(h);
-        before_[std::size_t(next_[std::size_t(h)])] = fresh;
-        next_[std::size_t(h)] = fresh;
+        before_[next_[h]] = fresh;
+        next_[h] = fresh;
         return fresh;
     }
 
@@ -255,10 +250,10 @@ private:
         int polygon = -1;  // whose corner it is
         int normal = -1;   // in the mesh
     };
-    const Corner& corner(int v) const { return corners_[std::size_t(v)]; }
+    const Corner& corner(int v) const { return corners_[v]; }
     void set_corner(int v, int polygon) {
         if (std::size_t(v) >= corners_.size()) corners_.resize(positions_.size());
-        if (corners_[std::size_t(v)].group != building_) corners_[std::size_t(v)] = {building_, polygon, -1};
+        if (corners_[v].group != building_) corners_[v] = {building_, polygon, -1};
     }
 
     // Of a vertex in the mesh. Its normals are a list.
@@ -271,15 +266,15 @@ private:
     };
 
     int corner_normal(int v, Mesh& mesh) {
-        Corner& c = corners_[std::size_t(v)];
+        Corner& c = corners_[v];
         if (c.normal >= 0) return c.normal;
-        const Polygon& p = polygons_[std::size_t(c.polygon)];
+        const Polygon& p = polygons_[c.polygon];
         if (p.leaf < 0) return c.normal = normal_number(v, p.normal, mesh);
-        MeshVertex& at = mesh_vertices_[std::size_t(v)];
+        MeshVertex& at = mesh_vertices_[v];
         const LocalDensity* density = density_of(p);
         const bool subtracted = subspace_.side(p.inner, p.leaf) == Side::outside;
         if (density && density == at.density && subtracted == at.subtracted) return c.normal = at.normal;
-        const Vec3 g = density ? density->gradient_at(positions_[std::size_t(v)]).gradient : Vec3(0.0);
+        const Vec3 g = density ? density->gradient_at(positions_[v]).gradient : Vec3(0.0);
         const double length = glm::length(g);
         if (!(length > 1e-12)) return c.normal = normal_number(v, p.normal, mesh);
         // The gradient points into the solid, or out of it where the leaf is subtracted.
@@ -291,9 +286,9 @@ private:
 
     int normal_number(int v, Vec3 n, Mesh& mesh) {
         constexpr double same_normal = 1e-6;
-        int* known = &mesh_vertices_[std::size_t(v)].first_normal;
-        for (; *known >= 0; known = &next_normal_[std::size_t(*known)])
-            if (glm::length(mesh.normals[std::size_t(*known)] - n) < same_normal) return *known;
+        int* known = &mesh_vertices_[v].first_normal;
+        for (; *known >= 0; known = &next_normal_[*known])
+            if (glm::length(mesh.normals[*known] - n) < same_normal) return *known;
         const int fresh = *known = int(mesh.normals.size());
         mesh.normals.push_back(n);
         next_normal_.push_back(-1);
@@ -306,14 +301,14 @@ private:
         for (std::size_t h = 0; h < steps_.size(); ++h) {
             if (next_[h] < 0 || done[h]) continue;
             rings.push_back({group_.find(owner_[h]), int(h)});
-            for (int at = int(h); !done[std::size_t(at)]; at = next_[std::size_t(at)]) done[std::size_t(at)] = true;
+            for (int at = int(h); !done[at]; at = next_[at]) done[at] = true;
         }
         std::sort(rings.begin(), rings.end());
         Mesh mesh;
         std::vector<std::vector<int>> loops, spare;
         for (auto ring = rings.begin(); ring != rings.end();) {
             building_ = ring->first;
-            const Polygon& plane = polygons_[std::size_t(building_)];
+            const Polygon& plane = polygons_[building_];
             while (!loops.empty()) {
                 spare.push_back(std::move(loops.back()));
                 loops.pop_back();
@@ -325,9 +320,9 @@ private:
                 loops.back().clear();
                 int h = ring->second;
                 do {
-                    loops.back().push_back(vertex_[std::size_t(h)]);
-                    set_corner(vertex_[std::size_t(h)], owner_[std::size_t(h)]);
-                    h = next_[std::size_t(h)];
+                    loops.back().push_back(vertex_[h]);
+                    set_corner(vertex_[h], owner_[h]);
+                    h = next_[h];
                 } while (h != ring->second);
             }
             ++mesh.polygons;
@@ -338,10 +333,10 @@ private:
                 Triangle triangle{};
                 triangle.material = plane.material;
                 for (std::size_t k = 0; k < 3; ++k) {
-                    int& v = mesh_vertices_[std::size_t(t[k])].number;
+                    int& v = mesh_vertices_[t[k]].number;
                     if (v < 0) {
                         v = int(mesh.positions.size());
-                        mesh.positions.push_back(positions_[std::size_t(t[k])]);
+                        mesh.positions.push_back(positions_[t[k]]);
                     }
                     triangle.vertex[k] = v;
                     triangle.normal[k] = corner_normal(t[k], mesh);

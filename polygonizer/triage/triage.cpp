@@ -92,7 +92,7 @@ std::size_t add_far(const Mesh& mesh, const FacetJudge& judge, double tolerance,
     const std::size_t before = triangles.size();
     for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
         Vec3 x[3];
-        for (std::size_t k = 0; k < 3; ++k) x[k] = mesh.positions[std::size_t(mesh.triangles[t].vertex[k])];
+        for (std::size_t k = 0; k < 3; ++k) x[k] = mesh.positions[mesh.triangles[t].vertex[k]];
         if (!judge.is_near(x, tolerance)) triangles.push_back(int(t));
     }
     return triangles.size() - before;
@@ -101,7 +101,7 @@ std::size_t add_far(const Mesh& mesh, const FacetJudge& judge, double tolerance,
 // Adds boxes around the triangle's corners, as large as its shortest edge.
 void add_corners(const Mesh& mesh, const Triangle& triangle, std::vector<Box>& boxes) {
     Vec3 x[3];
-    for (std::size_t k = 0; k < 3; ++k) x[k] = mesh.positions[std::size_t(triangle.vertex[k])];
+    for (std::size_t k = 0; k < 3; ++k) x[k] = mesh.positions[triangle.vertex[k]];
     const double shortest = std::min({glm::length(x[0] - x[1]), glm::length(x[1] - x[2]), glm::length(x[2] - x[0])});
     for (const Vec3& corner : x) boxes.push_back(inflated(Box{corner, corner}, 0.5 * shortest));
 }
@@ -185,7 +185,7 @@ Mesh triage(const SolidTree& mixed, const Box& box, const TriageOptions& options
         }
         if (min_wrong == none || !may_halve()) break;
         if (halve(subdivision, cuts[0]).empty() && halve(subdivision, cuts[1]).empty() && !thin_out) break;
-        for (const int t : best_left) add_corners(best, best.triangles[std::size_t(t)], dense);
+        for (const int t : best_left) add_corners(best, best.triangles[t], dense);
     }
     mesh = std::move(best);
     origins = std::move(best_origins);
@@ -195,7 +195,7 @@ Mesh triage(const SolidTree& mixed, const Box& box, const TriageOptions& options
         statistics->cells = subdivision.complex.cells.size();
         statistics->open_cells = 0;
         for (const int node : subdivision.node_of)
-            statistics->open_cells += subdivision.nodes[std::size_t(node)].side == Side::straddling;
+            statistics->open_cells += subdivision.nodes[node].side == Side::straddling;
     }
     return mesh;
 }

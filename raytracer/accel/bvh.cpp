@@ -20,17 +20,17 @@ BoxFrame::BoxFrame(const Box& around) : middle(0.5 * (around.lo + around.hi)) {
 
 Bvh4::Bvh4(const Builder& from, int root) {
     if (root == Builder::nothing) return;
-    box_ = from.parts_[std::size_t(root)].box;
+    box_ = from.parts_[root].box;
     frame_ = BoxFrame(box_);
     if (collapse(from, root, 0) < 0) {  // one item alone
         nodes_.push_back(node_of(from, {root}));
-        nodes_[0].child[0] = ~from.parts_[std::size_t(root)].a;
+        nodes_[0].child[0] = ~from.parts_[root].a;
     }
 }
 
 // The largest of the children is opened until there are four, or items only.
 std::int32_t Bvh4::collapse(const Builder& from, int root, int depth) {
-    const auto part = [&](int i) -> const Builder::Part& { return from.parts_[std::size_t(i)]; };
+    const auto part = [&](int i) -> const Builder::Part& { return from.parts_[i]; };
     if (part(root).b < 0) return ~part(root).a;
     if (depth >= max_depth) throw std::length_error("expected a tree of at most 150 levels");
     std::vector<int> children{part(root).a, part(root).b};
@@ -38,18 +38,18 @@ std::int32_t Bvh4::collapse(const Builder& from, int root, int depth) {
         int largest = -1;
         for (std::size_t i = 0; i < children.size(); ++i)
             if (part(children[i]).b >= 0 &&
-                (largest < 0 || half_area(part(children[i]).box) > half_area(part(children[std::size_t(largest)]).box)))
+                (largest < 0 || half_area(part(children[i]).box) > half_area(part(children[largest]).box)))
                 largest = int(i);
         if (largest < 0) break;
-        const int open = children[std::size_t(largest)];
-        children[std::size_t(largest)] = part(open).a;
+        const int open = children[largest];
+        children[largest] = part(open).a;
         children.push_back(part(open).b);
     }
     const auto number = std::int32_t(nodes_.size());
     nodes_.push_back(node_of(from, children));
     for (std::size_t i = 0; i < children.size(); ++i) {
         const std::int32_t child = collapse(from, children[i], depth + 1);
-        nodes_[std::size_t(number)].child[i] = child;
+        nodes_[number].child[i] = child;
     }
     return number;
 }
@@ -62,7 +62,7 @@ Bvh4::Node Bvh4::node_of(const Builder& from, const std::vector<int>& children) 
             n.side[k][i] = std::numeric_limits<float>::max();
             n.side[k][i + 4] = -std::numeric_limits<float>::max();
             if (i >= children.size()) continue;
-            const Box& box = from.parts_[std::size_t(children[i])].box;
+            const Box& box = from.parts_[children[i]].box;
             n.side[k][i] = float(frame_.to_local(box.lo)[k] - slack);
             n.side[k][i + 4] = float(frame_.to_local(box.hi)[k] + slack);
         }

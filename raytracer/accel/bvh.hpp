@@ -38,7 +38,7 @@ public:
         int join(int a, int b);  // of any two, also of nothing
         /// All of these, so that few rays meet many: by the surface-area heuristic.
         int join_by_area(std::vector<int> parts);
-        const Box& box(int part) const { return parts_[std::size_t(part)].box; }
+        const Box& box(int part) const { return parts_[part].box; }
 
     private:
         friend class Bvh4;
@@ -146,7 +146,7 @@ template <class Meet, class Visit>
     std::int32_t now = 0;
     for (;;) {
         if (now >= 0) {
-            const Node& n = nodes_[std::size_t(now)];
+            const Node& n = nodes_[now];
             alignas(16) float t[4];
             unsigned met = meet(n, end, t);
             if (met != 0) {
@@ -163,7 +163,7 @@ template <class Meet, class Visit>
                     stack[slot] = {n.child[k], t[k]};
                     // It is looked at soon, if not next.
                     if (n.child[k] >= 0)
-                        __builtin_prefetch(&nodes_[std::size_t(n.child[k])]);
+                        __builtin_prefetch(&nodes_[n.child[k]]);
                     else
                         fetch_item(std::uint32_t(~n.child[k]));
                 } while (met != 0);
@@ -278,7 +278,7 @@ void Bvh4::meeting(const Box& box, Visit visit) const {
     const Vec3 lo = frame_.to_local(box.lo), hi = frame_.to_local(box.hi);
     std::vector<std::int32_t> open{0};
     while (!open.empty()) {
-        const Node& n = nodes_[std::size_t(open.back())];
+        const Node& n = nodes_[open.back()];
         open.pop_back();
         for (int i = 0; i < 4; ++i) {
             bool meets = true;

@@ -99,7 +99,7 @@ int Bvh4::Builder::split(std::vector<int>& order, std::size_t first, std::size_t
         tbb::parallel_invoke(lower_half, upper_half);
     }
     to.box = hull(box(to.a), box(to.b));
-    parts_[std::size_t(slot)] = to;
+    parts_[slot] = to;
     return slot;
 }
 

@@ -30,7 +30,7 @@ struct Frame {
 Matrix44 matrix(const std::array<Coordinate, 4>& columns) {
     Matrix44 m{};
     for (std::size_t j = 0; j < 4; ++j) {
-        for (int i = 0; i < 3; ++i) m[std::size_t(i)][j] = float(columns[j].axis[i]);
+        for (int i = 0; i < 3; ++i) m[i][j] = float(columns[j].axis[i]);
         m[3][j] = float(columns[j].shift);
     }
     return m;

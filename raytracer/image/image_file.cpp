@@ -27,19 +27,19 @@ struct SrgbBytes {
     std::array<unsigned char, steps> byte{};
 
     SrgbBytes() {
-        for (int k = 1; k < 256; ++k) begin[std::size_t(k)] = linear_of_srgb((k - 0.5) / 255);
+        for (int k = 1; k < 256; ++k) begin[k] = linear_of_srgb((k - 0.5) / 255);
         begin[256] = infinity;
         int now = 0;
         for (int i = 0; i < steps; ++i) {
             while (begin[std::size_t(now) + 1] <= double(i) / steps) ++now;
-            byte[std::size_t(i)] = static_cast<unsigned char>(now);
+            byte[i] = static_cast<unsigned char>(now);
         }
     }
 
     unsigned char operator()(double linear) const {
         if (!(linear > 0)) return 0;
         if (linear >= 1) return 255;
-        const unsigned char at = byte[std::size_t(int(linear * steps))];
+        const unsigned char at = byte[int(linear * steps)];
         return at + (linear >= begin[std::size_t(at) + 1]);
     }
 };
@@ -107,7 +107,7 @@ std::vector<ImageChannel> channels(const Film& film, ImageKind kind, const Image
     for (const auto& [layer, names, type] : layer_channels) {
         if (!film.keeps(layer)) continue;
         for (int k = 0; k < components(layer); ++k)
-            list.push_back(image_channel(names[std::size_t(k)], type,
+            list.push_back(image_channel(names[k], type,
                                          [&plane = film.layer(layer), k](std::size_t i) { return plane.at(i, k); }));
     }
     return list;

@@ -34,7 +34,7 @@ std::vector<Origin> origins_of(const Mesh& mesh, const FacetJudge& judge) {
         Origin& origin = origins.emplace_back();
         if (t.normal[0] == t.normal[1] && t.normal[0] == t.normal[2]) continue;
         Vec3 middle(0.0);
-        for (const int v : t.vertex) middle += mesh.positions[std::size_t(v)] / 3.0;
+        for (const int v : t.vertex) middle += mesh.positions[v] / 3.0;
         origin.leaf = judge.solid().at(middle).leaf;
     }
     return origins;
@@ -57,7 +57,7 @@ double largest_distance(const Mesh& mesh, const SolidTree& solid) {
     double largest = 0;
     for (const Triangle& t : mesh.triangles) {
         Vec3 x[3];
-        for (std::size_t k = 0; k < 3; ++k) x[k] = mesh.positions[std::size_t(t.vertex[k])];
+        for (std::size_t k = 0; k < 3; ++k) x[k] = mesh.positions[t.vertex[k]];
         for (const Vec3& p :
              {(x[0] + x[1] + x[2]) / 3.0, 0.5 * (x[0] + x[1]), 0.5 * (x[1] + x[2]), 0.5 * (x[2] + x[0])})
             if (const double d = field.distance_along_normal(p, reach); std::isfinite(d))

@@ -98,8 +98,8 @@ Hit MeshTracer::closest_hit(const Ray& ray, double t_max, TraceCounters& counter
     Hit hit;
     if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID) return hit;
     const Triangle& t = mesh_.triangles[query.hit.primID];
-    const auto at = [&](std::size_t k) { return mesh_.positions[std::size_t(t.vertex[k])]; };
-    const auto normal = [&](std::size_t k) { return mesh_.normals[std::size_t(t.normal[k])]; };
+    const auto at = [&](std::size_t k) { return mesh_.positions[t.vertex[k]]; };
+    const auto normal = [&](std::size_t k) { return mesh_.normals[t.normal[k]]; };
     const Vec3 e1 = at(1) - at(0), e2 = at(2) - at(0);
     double u = query.hit.u, v = query.hit.v;
     meet(near, at(0), e1, e2, u, v);

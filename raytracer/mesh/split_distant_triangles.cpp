@@ -38,14 +38,14 @@ private:
     static constexpr double min_share = 1e-7;  // of the mesh's size: where single precision ends
 
     bool along_axes(const Triangle& t) const {
-        const auto at = [&](std::size_t i) { return mesh_.positions[std::size_t(t.vertex[i])]; };
+        const auto at = [&](std::size_t i) { return mesh_.positions[t.vertex[i]]; };
         for (int k = 0; k < 3; ++k)
             if (at(0)[k] == at(1)[k] && at(0)[k] == at(2)[k]) return true;
         return false;
     }
 
     void split_if_long(int a, int b) {
-        const Vec3 xa = mesh_.positions[std::size_t(a)], xb = mesh_.positions[std::size_t(b)];
+        const Vec3 xa = mesh_.positions[a], xb = mesh_.positions[b];
         if (glm::distance(xa, xb) <= size_ + distance_to_segment(middle_, xa, xb)) return;
         if (middles_.try_emplace(std::minmax(a, b), int(mesh_.positions.size())).second)
             mesh_.positions.push_back(0.5 * (xa + xb));
@@ -53,7 +53,7 @@ private:
 
     int middle_normal(int a, int b) {
         if (a == b) return a;
-        const Vec3 sum = mesh_.normals[std::size_t(a)] + mesh_.normals[std::size_t(b)];
+        const Vec3 sum = mesh_.normals[a] + mesh_.normals[b];
         if (glm::length(sum) <= 0) return a;
         mesh_.normals.push_back(glm::normalize(sum));
         return int(mesh_.normals.size()) - 1;

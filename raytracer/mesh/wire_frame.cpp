@@ -26,14 +26,14 @@ int opposite(const Triangle& t, int a, int b) {
 }
 
 bool in_one_plane(const Mesh& mesh, const MeshEdge& e) {
-    const Triangle& s = mesh.triangles[std::size_t(e.left)];
-    const Triangle& t = mesh.triangles[std::size_t(e.right)];
+    const Triangle& s = mesh.triangles[e.left];
+    const Triangle& t = mesh.triangles[e.right];
     const Vec3 m = mesh.area_vector(s), n = mesh.area_vector(t);
     if (s.material != t.material || s.solid != t.solid || glm::dot(m, n) <= 0) return false;
     // From the larger one's plane: that of a sliver is ill-defined.
     const bool first = glm::length(m) > glm::length(n);
     const Vec3 normal = glm::normalize(first ? m : n);
-    const auto at = [&](int v) { return mesh.positions[std::size_t(v)]; };
+    const auto at = [&](int v) { return mesh.positions[v]; };
     const double size = std::sqrt(glm::length(first ? m : n));
     return std::abs(glm::dot(normal, at(opposite(first ? t : s, e.a, e.b)) - at(e.a))) < flat * size;
 }
@@ -161,13 +161,13 @@ std::vector<Stroke> wire_frame(const Mesh& mesh, const std::vector<MeshEdge>& ed
                                const PinholeCamera& camera, const Window& window, WireMode mode) {
     const auto line_of = [&](std::size_t i, Line3& line) {
         const MeshEdge& e = edges[i];
-        line.a = mesh.positions[std::size_t(e.a)];
-        line.b = mesh.positions[std::size_t(e.b)];
+        line.a = mesh.positions[e.a];
+        line.b = mesh.positions[e.b];
         Vec3 normal(0.0);
         bool front = false;
         for (const int t : {e.left, e.right}) {
             if (t < 0) continue;
-            const Vec3 area = mesh.area_vector(mesh.triangles[std::size_t(t)]);
+            const Vec3 area = mesh.area_vector(mesh.triangles[t]);
             const double size = glm::length(area);
             if (size == 0) continue;
             if (glm::dot(area, camera.eye() - line.a) <= 0) continue;
@@ -229,7 +229,7 @@ Mesh flat_shaded(Mesh mesh) {
         const Vec3 area = mesh.area_vector(t);
         const double size = glm::length(area);
         const int n = int(normals.size());
-        normals.push_back(size > 0 ? area / size : mesh.normals[std::size_t(t.normal[0])]);
+        normals.push_back(size > 0 ? area / size : mesh.normals[t.normal[0]]);
         t.normal = {n, n, n};
     }
     mesh.normals = std::move(normals);

@@ -90,9 +90,9 @@ PovField::PovField(const DensityTree& tree, int line) : line_(line), half_spaces
     arithmetic.back() = true;
     const auto is_arithmetic = [](Op op) { return op == Op::sum || op == Op::product || op == Op::difference; };
     for (int i = tree.root(); i >= 0; --i) {
-        const TreeNode& n = tree.nodes[std::size_t(i)];
-        if (!arithmetic[std::size_t(i)] || !is_arithmetic(n.op)) continue;
-        arithmetic[std::size_t(n.a)] = arithmetic[std::size_t(n.b)] = true;
+        const TreeNode& n = tree.nodes[i];
+        if (!arithmetic[i] || !is_arithmetic(n.op)) continue;
+        arithmetic[n.a] = arithmetic[n.b] = true;
     }
     std::vector<int> new_index(tree.nodes.size(), -1);
     for (std::size_t i = 0; i < tree.nodes.size(); ++i) {
@@ -104,7 +104,7 @@ PovField::PovField(const DensityTree& tree, int line) : line_(line), half_spaces
         else if (n.op == Op::half_space)
             new_index[i] = add({Step::half_space, 0, n.a, -1, {}, {}});
         else if (is_arithmetic(n.op))
-            new_index[i] = add({step, 0, new_index[std::size_t(n.a)], new_index[std::size_t(n.b)], {}, {}});
+            new_index[i] = add({step, 0, new_index[n.a], new_index[n.b], {}, {}});
         else
             new_index[i] = add_boolean(tree, int(i));
     }
@@ -128,33 +128,33 @@ int PovField::add_boolean(const DensityTree& tree, int root) {
         for (const double t : family.thresholds) half_spaces_.push_back({family.normal, t, family.radius});
     }
     std::vector<char> reached(diagram.nodes.size(), false);
-    reached[std::size_t(diagram.root)] = true;
+    reached[diagram.root] = true;
     for (int i = diagram.root; i >= 2; --i)
-        if (reached[std::size_t(i)])
-            for (const int child : diagram.nodes[std::size_t(i)].children) reached[std::size_t(child)] = true;
+        if (reached[i])
+            for (const int child : diagram.nodes[i].children) reached[child] = true;
     std::vector<int> new_index(diagram.nodes.size(), -1);
     for (int i = 0; i <= diagram.root; ++i) {
-        if (!reached[std::size_t(i)]) continue;
-        const Decision& d = diagram.nodes[std::size_t(i)];
+        if (!reached[i]) continue;
+        const Decision& d = diagram.nodes[i];
         Node node{i < 2 ? Step::constant : Step::decision, double(i == 1), -1, -1, {}, {}};
-        for (const int t : d.thresholds) node.planes.push_back(first_plane[std::size_t(d.family)] + t);
-        for (const int c : d.children) node.children.push_back(new_index[std::size_t(c)]);
-        new_index[std::size_t(i)] = add(std::move(node));
+        for (const int t : d.thresholds) node.planes.push_back(first_plane[d.family] + t);
+        for (const int c : d.children) node.children.push_back(new_index[c]);
+        new_index[i] = add(std::move(node));
     }
-    return new_index[std::size_t(diagram.root)];
+    return new_index[diagram.root];
 }
 
 // Σ pⱼ cⱼ, where pⱼ = Fⱼ − Fⱼ₋₁, F₋₁ = 0 and Fₘ = 1.
 std::string PovField::decision(const Node& node, const std::vector<std::string>& done) const {
     std::string text;
     const std::size_t m = node.planes.size();
-    const auto rho = [&](std::size_t j) { return rho_of(half_spaces_[std::size_t(node.planes[j])]); };
+    const auto rho = [&](std::size_t j) { return rho_of(half_spaces_[node.planes[j]]); };
     for (std::size_t j = 0; j <= m; ++j) {
-        const Node& child = nodes_[std::size_t(node.children[j])];
+        const Node& child = nodes_[node.children[j]];
         if (child.step == Step::constant && child.value == 0) continue;
         const std::string above = j < m ? rho(j) : "1";
         std::string term = j == 0 ? above : fmt::format("({}-{})", above, rho(j - 1));
-        if (child.step != Step::constant) term += "*" + done[std::size_t(node.children[j])];
+        if (child.step != Step::constant) term += "*" + done[node.children[j]];
         text += (text.empty() ? "" : "+") + term;
     }
     return fmt::format("({})", text);
@@ -163,7 +163,7 @@ std::string PovField::decision(const Node& node, const std::vector<std::string>&
 std::string PovField::formula() const {
     std::vector<double> terms;
     for (const Node& n : nodes_) {
-        const auto at = [&](int i) { return terms[std::size_t(i)]; };
+        const auto at = [&](int i) { return terms[i]; };
         double count = n.step == Step::half_space ? 1 : 2 * double(n.planes.size());
         if (n.b >= 0) count += at(n.a) + at(n.b);
         for (const int c : n.children) count += at(c);
@@ -177,10 +177,10 @@ std::string PovField::formula() const {
     std::vector<std::string> done;
     for (const Node& n : nodes_) {
         // An arithmetic node's operands are used by it alone.
-        const auto take = [&](int i) { return std::move(done[std::size_t(i)]); };
+        const auto take = [&](int i) { return std::move(done[i]); };
         switch (n.step) {
             case Step::constant: done.push_back(fmt::format("{}", n.value)); break;
-            case Step::half_space: done.push_back(rho_of(half_spaces_[std::size_t(n.a)])); break;
+            case Step::half_space: done.push_back(rho_of(half_spaces_[n.a])); break;
             case Step::sum: done.push_back(fmt::format("({}+{})", take(n.a), take(n.b))); break;
             case Step::product: done.push_back(fmt::format("{}*{}", take(n.a), take(n.b))); break;
             case Step::difference: done.push_back(fmt::format("({}-{})", take(n.a), take(n.b))); break;
@@ -197,7 +197,7 @@ struct PovField::Slopes {
     /// Greatest component of ∇ρ along each axis.
     Vec3 greatest() const {
         Vec3 most(0.0);
-        for (int k = 0; k < 3; ++k) most[k] = std::max(-slope[std::size_t(k)].lo, slope[std::size_t(k)].hi);
+        for (int k = 0; k < 3; ++k) most[k] = std::max(-slope[k].lo, slope[k].hi);
         return most;
     }
 };
@@ -210,19 +210,19 @@ PovField::Slopes PovField::slopes(const Box& box) const {
         Slopes s{density_range(h, box), {}};
         for (int k = 0; k < 3; ++k) {
             const double c = h.normal[k] / h.radius;
-            s.slope[std::size_t(k)] = times(along, {c, c});
+            s.slope[k] = times(along, {c, c});
         }
         planes.push_back(s);
     }
     for (const Node& n : nodes_) {
         Slopes s;
-        const auto at = [&](int i) -> const Slopes& { return done[std::size_t(i)]; };
+        const auto at = [&](int i) -> const Slopes& { return done[i]; };
         const auto each = [&](auto slope) {
             for (std::size_t k = 0; k < 3; ++k) s.slope[k] = slope(at(n.a).slope[k], at(n.b).slope[k]);
         };
         switch (n.step) {
             case Step::constant: s.value = {n.value, n.value}; break;
-            case Step::half_space: s = planes[std::size_t(n.a)]; break;
+            case Step::half_space: s = planes[n.a]; break;
             case Step::sum:
                 s.value = plus(at(n.a).value, at(n.b).value);
                 each(plus);
@@ -239,8 +239,8 @@ PovField::Slopes PovField::slopes(const Box& box) const {
                 Average value;
                 std::array<Average, 3> slope;
                 for (std::size_t j = 0; j < n.children.size(); ++j) {
-                    const Range before = j > 0 ? planes[std::size_t(n.planes[j - 1])].value : Range{0, 0};
-                    const Range here = j < n.planes.size() ? planes[std::size_t(n.planes[j])].value : Range{1, 1};
+                    const Range before = j > 0 ? planes[n.planes[j - 1]].value : Range{0, 0};
+                    const Range here = j < n.planes.size() ? planes[n.planes[j]].value : Range{1, 1};
                     const Range p{std::max(0.0, here.lo - before.hi), here.hi - before.lo};
                     const Slopes& child = at(n.children[j]);
                     value.add(p, child.value);
@@ -251,7 +251,7 @@ PovField::Slopes PovField::slopes(const Box& box) const {
                 for (std::size_t j = 0; j < n.planes.size(); ++j) {
                     const Range step = minus(at(n.children[j]).value, at(n.children[j + 1]).value);
                     for (std::size_t k = 0; k < 3; ++k)
-                        s.slope[k] = plus(s.slope[k], times(planes[std::size_t(n.planes[j])].slope[k], step));
+                        s.slope[k] = plus(s.slope[k], times(planes[n.planes[j]].slope[k], step));
                 }
             }
         }

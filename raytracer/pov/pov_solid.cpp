@@ -23,14 +23,14 @@ constexpr double default_accuracy = 1e-4;
 PovCsg sharp_csg(const DensityTree& tree) {
     std::vector<PovCsg> done;
     for (const TreeNode& n : tree.nodes) {
-        const auto take = [&](int i) { return std::move(done[std::size_t(i)]); };
+        const auto take = [&](int i) { return std::move(done[i]); };
         PovCsg csg = PovCsg::nothing();
         switch (n.op) {
             case Op::constant:
                 if (n.value > 0.5) csg = PovCsg::everything();
                 break;
             case Op::half_space: {
-                const HalfSpace& h = tree.half_spaces[std::size_t(n.a)];
+                const HalfSpace& h = tree.half_spaces[n.a];
                 csg = PovCsg::plane({h.normal, h.offset});
                 break;
             }
@@ -95,7 +95,7 @@ private:
 
     PovCsg isosurface(const DensityTree& tree) {
         if (tree.nodes.back().op == Op::half_space) {  // ρ = ½ on the plane itself
-            const HalfSpace& h = tree.half_spaces[std::size_t(tree.nodes.back().a)];
+            const HalfSpace& h = tree.half_spaces[tree.nodes.back().a];
             return PovCsg::plane({h.normal, h.offset});
         }
         Box box = intersection(bounding_box(tree), bounding_box(leaf_.density));
@@ -135,13 +135,13 @@ PovSolid pov_solid(const SolidTree& solid, const PovSurface& surface, const std:
     for (const SolidTreeNode& n : solid.nodes) only_unions &= n.op != SolidOp::intersect && n.op != SolidOp::subtract;
     std::vector<PovCsg> done;
     for (const SolidTreeNode& n : solid.nodes) {
-        const auto take = [&](int i) { return std::move(done[std::size_t(i)]); };
+        const auto take = [&](int i) { return std::move(done[i]); };
         PovCsg csg = PovCsg::nothing();
         switch (n.op) {
             case SolidOp::nothing: break;
             case SolidOp::everything: csg = PovCsg::everything(); break;
             case SolidOp::leaf: {
-                const SolidLeaf& leaf = solid.leaves[std::size_t(n.a)];
+                const SolidLeaf& leaf = solid.leaves[n.a];
                 Leaves leaves(surface, leaf, !only_unions);
                 csg = leaves.csg();
                 result.cut |= leaves.cut();

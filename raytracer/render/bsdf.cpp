@@ -104,7 +104,7 @@ SurfaceLayer::SurfaceLayer(const Material& material)
     : kind_(material.kind), ggx_{material.roughness * material.roughness}, ior_(material.ior) {
     smooth_ = kind_ == Material::Kind::mirror || !(ggx_.alpha >= smooth_alpha);
     if (kind_ == Material::Kind::glass) return;
-    for (int i = 0; i <= steps; ++i) albedo_[std::size_t(i)] = integrate(double(i) * i / (double(steps) * steps));
+    for (int i = 0; i <= steps; ++i) albedo_[i] = integrate(double(i) * i / (double(steps) * steps));
     // With cosine = t² and E linear in t between nodes, 2 E cosine d cosine = 4 E t³ dt, which
     // Gauss' rule of three points integrates exactly.
     constexpr double weights[3] = {5.0 / 18, 8.0 / 18, 5.0 / 18};
@@ -133,7 +133,7 @@ double SurfaceLayer::integrate(double cosine) const {
     const bool plastic = kind_ == Material::Kind::plastic;
     double sum = 0;
     for (int i = 0; i < points; ++i) {
-        const Vec3 facet = ggx_.facet_about_z(eye, (i + 0.5) / points, turns[std::size_t(i)]);
+        const Vec3 facet = ggx_.facet_about_z(eye, (i + 0.5) / points, turns[i]);
         const double out = reflected(to_eye, facet).z;
         if (!(out > 0)) continue;
         // A white metal's Fresnel reflectance is 1.

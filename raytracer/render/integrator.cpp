@@ -58,7 +58,7 @@ Integrator::Integrator(const Scene& scene, const RayTracer& tracer, RenderSettin
     for (const Light& light : scene.lights) lights_.emplace_back(light);
 }
 
-const Material& Integrator::material(const Hit& hit) const { return scene_.materials[std::size_t(hit.material)]; }
+const Material& Integrator::material(const Hit& hit) const { return scene_.materials[hit.material]; }
 
 Vec3 Integrator::texture_color(const Hit& hit) const { return color_at(material(hit).color, hit.position, hit.normal); }
 
@@ -134,8 +134,7 @@ Vec3 Integrator::transmittance(const Hit& hit, const Incident& light, const Path
 
 Integrator::Surface::Surface(const Integrator& in, const Hit& hit, Vec3 color_here, Vec3 direction, const Path& path)
     : hit(hit),
-      bsdf(in.layers_[std::size_t(hit.material)], color_here, towards_ray(hit.normal, direction), -direction,
-           path.blur),
+      bsdf(in.layers_[hit.material], color_here, towards_ray(hit.normal, direction), -direction, path.blur),
       last(path.without_noise || path.scattered || path.depth >= in.scene_.bounces) {
     if (last) return;
     base = in.sky_.black() ? 0.0 : brightest(bsdf.base_albedo());
@@ -199,7 +198,7 @@ Vec3 Integrator::reflected_without_noise(const Bsdf& bsdf, const Hit& hit, const
 // The radiance in a denser medium is not scaled by its squared index: light seen from outside has
 // left it again.
 Vec3 Integrator::color_of_glass(const Hit& hit, Vec3 tint, Vec3 direction, const Path& path) const {
-    const SurfaceLayer& layer = layers_[std::size_t(hit.material)];
+    const SurfaceLayer& layer = layers_[hit.material];
     const Vec3 to_eye = -direction;
     const bool inside = glm::dot(hit.normal, direction) > 0;
     const Vec3 normal = inside ? -hit.normal : hit.normal;

@@ -82,7 +82,7 @@ double mean_zenith_share(double c) {
     constexpr int rings = 48, sectors = 48;
     static const auto cosines = [] {
         std::array<double, sectors> all;
-        for (int j = 0; j < sectors; ++j) all[std::size_t(j)] = std::cos(pi * (j + 0.5) / sectors);
+        for (int j = 0; j < sectors; ++j) all[j] = std::cos(pi * (j + 0.5) / sectors);
         return all;
     }();
     const double s = std::sqrt(std::max(0.0, 1 - c * c));
@@ -101,7 +101,7 @@ SkyLight::SkyLight(const Background& background) : background_(background) {
     const Vec3 none(0.0);
     black_ = background.sky ? background.horizon == none && background.zenith == none : background.color == none;
     if (!background.sky) return;
-    for (int i = 0; i <= steps; ++i) zenith_share_[std::size_t(i)] = mean_zenith_share(2.0 * i / steps - 1);
+    for (int i = 0; i <= steps; ++i) zenith_share_[i] = mean_zenith_share(2.0 * i / steps - 1);
 }
 
 Vec3 SkyLight::mean(Vec3 normal) const {

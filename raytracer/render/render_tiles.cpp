@@ -60,7 +60,7 @@ private:
         if (closed_) return;
         Film& film = result_.film;
         for (int y = 0; y < part.height; ++y)
-            std::copy_n(&work.pixels[std::size_t(y * part.width)], part.width, &film.at(part.x, part.y + y));
+            std::copy_n(&work.pixels[y * part.width], part.width, &film.at(part.x, part.y + y));
         if (with_layers_) film.set_layers(part, work.layers.data());
         const std::int64_t pixels = std::int64_t(part.width) * part.height;
         {

@@ -78,7 +78,7 @@ constexpr std::array<double, 4> window = {0.35875, 0.48829, 0.14128, 0.01168};
 double filter_area(double x) {
     const double turn = std::numbers::pi * x / filter_radius;  // from -π to π
     double sum = 0.5 * window[0] * (turn / std::numbers::pi + 1.0);
-    for (int k = 1; k < 4; ++k) sum += window[std::size_t(k)] * std::sin(k * turn) / (2 * std::numbers::pi * k);
+    for (int k = 1; k < 4; ++k) sum += window[k] * std::sin(k * turn) / (2 * std::numbers::pi * k);
     return sum / window[0];
 }
 
@@ -95,7 +95,7 @@ std::array<double, inverse_steps + 1> inverse_areas() {
             if (mid <= lo || mid >= hi) break;
             (filter_area(mid) < area ? lo : hi) = mid;
         }
-        offsets[std::size_t(i)] = hi;
+        offsets[i] = hi;
     }
     return offsets;
 }
@@ -114,7 +114,7 @@ double filter_value(double x) {
     if (std::abs(x) >= filter_radius) return 0.0;
     const double turn = std::numbers::pi * x / filter_radius;
     double sum = window[0];
-    for (int k = 1; k < 4; ++k) sum += window[std::size_t(k)] * std::cos(k * turn);
+    for (int k = 1; k < 4; ++k) sum += window[k] * std::cos(k * turn);
     return sum / (2 * filter_radius * window[0]);
 }
 

@@ -109,7 +109,7 @@ std::vector<HullFace> convex_hull(std::vector<Vec3> points) {
     FORALLfacets {
         std::vector<Vec3> corners;
         vertexT *vertex = nullptr, **vertexp = nullptr;
-        FOREACHvertex_(facet->vertices) { corners.push_back(points[std::size_t(qh_pointid(qh, vertex->point))]); }
+        FOREACHvertex_(facet->vertices) { corners.push_back(points[qh_pointid(qh, vertex->point)]); }
         std::sort(corners.begin(), corners.end(), before);
         const Vec3 outward(facet->normal[0], facet->normal[1], facet->normal[2]);
         const Vec3 normal = Triangle(corners).normal();

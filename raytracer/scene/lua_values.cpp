@@ -213,7 +213,7 @@ static bool three_numbers(const LuaValue& value) {
 Vec3 vector(const LuaValue& value, const std::string& location) {
     if (!three_numbers(value)) expected(location, "three finite numbers {x, y, z}", value);
     Vec3 v(0.0);
-    for (int k = 0; k < 3; ++k) v[k] = std::get<double>(as_table(value)->list[std::size_t(k)]);
+    for (int k = 0; k < 3; ++k) v[k] = std::get<double>(as_table(value)->list[k]);
     return v;
 }
 

@@ -117,7 +117,7 @@ public:
             item.size = local_size(*item.tree, Box::everything());
         }
         bsp_.boxes.assign(solids.size(), Box::everything());
-        for (const Item& item : items) bsp_.boxes[std::size_t(item.solid)] = inflated(item.box, margin_);
+        for (const Item& item : items) bsp_.boxes[item.solid] = inflated(item.box, margin_);
         // A floor in every cell would leave none of them empty.
         std::erase_if(items, [&](const Item& item) {
             if (item.size.half_spaces != 1) return false;

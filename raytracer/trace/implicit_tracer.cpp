@@ -31,7 +31,7 @@ private:
 struct PrototypeInstances::Entered {
     Entered(const PrototypeInstances& around, std::uint32_t number, std::size_t rays, TraceCounters& counters)
         : p(around.prototype_.instances[number]),
-          prototype(around.all_[std::size_t(p.prototype)]),
+          prototype(around.all_[p.prototype]),
           bsp(prototype.bsp),
           instances(around.all_, prototype) {
         counters.instances += rays;

@@ -197,12 +197,12 @@ private:
         std::vector<std::vector<int>> all;
         std::vector<int> cluster_of(boxes.size(), -1);
         for (std::size_t i = 0; i < boxes.size(); ++i) {
-            int& cluster = cluster_of[std::size_t(together.find(int(i)))];
+            int& cluster = cluster_of[together.find(int(i))];
             if (cluster < 0) {
                 cluster = int(all.size());
                 all.emplace_back();
             }
-            all[std::size_t(cluster)].push_back(int(i));
+            all[cluster].push_back(int(i));
         }
         return all;
     }
@@ -232,8 +232,8 @@ private:
         const double clearance =
             std::max(largest(around.lo), largest(around.hi)) * 0x1p-30;  // more than any cell's margin
         for (const std::vector<int>& members : clusters(boxes, clearance)) {
-            Part part{all[std::size_t(members[0])], solid, {}};
-            for (const int i : members) part.box = hull(part.box, boxes[std::size_t(i)]);
+            Part part{all[members[0]], solid, {}};
+            for (const int i : members) part.box = hull(part.box, boxes[i]);
             if (members.size() == all.size())
                 part.placed = root;
             else if (members.size() > 1)
@@ -243,8 +243,8 @@ private:
     }
 
     const Solid& sum(const std::vector<CanonicalPlacement>& all, const std::vector<int>& members) {
-        Solid to = solid_of(all[std::size_t(members[0])]);
-        for (std::size_t k = 1; k < members.size(); ++k) to = to | solid_of(all[std::size_t(members[k])]);
+        Solid to = solid_of(all[members[0]]);
+        for (std::size_t k = 1; k < members.size(); ++k) to = to | solid_of(all[members[k]]);
         sums_.push_back(to);  // forms look at it later
         return sums_.back();
     }
@@ -258,7 +258,7 @@ private:
     void fill(int prototype, const std::vector<Solid>& solids, int depth) {
         if (depth == max_nesting) {
             for (std::size_t i = 0; i < solids.size(); ++i)
-                put(prototype, prototypes[std::size_t(prototype)].groups[0], solids[i], int(i));
+                put(prototype, prototypes[prototype].groups[0], solids[i], int(i));
             return;
         }
         std::vector<CanonicalPlacement> roots;
@@ -276,7 +276,7 @@ private:
         const double whole = largest(around.hi - around.lo);
         for (const Part& part : parts) {
             const Mat3& linear = part.placed.map.linear;
-            PlannedPrototype& here = prototypes[std::size_t(prototype)];
+            PlannedPrototype& here = prototypes[prototype];
             if (parts.size() == 1 || !part.box.finite() ||
                 !(norm(linear) * norm(glm::inverse(linear)) < largest_condition)) {
                 put(prototype, here.groups[0], solid_of(part.placed), part.solid);
@@ -292,7 +292,7 @@ private:
                 continue;
             }
             place(prototype, part, depth);
-            prototypes[std::size_t(prototype)].boxes.push_back(part.box);
+            prototypes[prototype].boxes.push_back(part.box);
         }
     }
 
@@ -318,7 +318,7 @@ private:
         const int number = prototype_of_.at(canonical);
         const Affine map = compose(part.placed.map, centered);
         const Affine into = inverse(map);
-        prototypes[std::size_t(prototype)].instances.push_back(
+        prototypes[prototype].instances.push_back(
             {into, norm(map.linear), number, part.solid, part.placed.material, into.linear == Mat3(1.0)});
     }
 

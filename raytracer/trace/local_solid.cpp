@@ -40,7 +40,7 @@ LocalSolid::LocalSolid(int solid, const SolidTree& tree, const Box& box, const T
         SolidTreeNode n = tree.nodes[i];
         if (n.op == SolidOp::leaf) {
             std::optional<bool> constant;
-            add_leaf(tree.leaves[std::size_t(n.a)], box, tolerances, root_method, constant);
+            add_leaf(tree.leaves[n.a], box, tolerances, root_method, constant);
             if (constant)
                 n = {*constant ? SolidOp::everything : SolidOp::nothing};
             else
@@ -130,7 +130,7 @@ void LocalSolid::add_leaf(const SolidLeaf& leaf, const Box& box, const Tolerance
 std::size_t LocalSolid::half_spaces() const {
     std::size_t sum = 0;
     for (const Leaf& leaf : leaves_) {
-        const Soft* soft = leaf.soft < 0 ? nullptr : &softs_[std::size_t(leaf.soft)];
+        const Soft* soft = leaf.soft < 0 ? nullptr : &softs_[leaf.soft];
         sum += !soft ? 1 : soft->field ? std::size_t(soft->field->size()) : soft->density.half_spaces().size();
     }
     return sum;
@@ -172,7 +172,7 @@ std::optional<ConvexDensity> LocalSolid::intersection_of_leaves(unsigned positiv
             sharp.push_back({sign * leaf.normal, -sign * leaf.offset});
             continue;
         }
-        const auto& part = softs_[std::size_t(leaf.soft)].convex;
+        const auto& part = softs_[leaf.soft].convex;
         if (!part || part->complement == is_positive) return std::nullopt;
         const auto soft_end = part->planes.end() - part->sharp;
         // {P > ½} of two products is not that of their product.
@@ -189,11 +189,11 @@ std::optional<ConvexDensity> LocalSolid::intersection_of_leaves(unsigned positiv
 bool LocalSolid::evaluate(std::vector<char>& state, const std::vector<char>& inside) const {
     state.clear();
     for (const SolidTreeNode& n : nodes_) {
-        const auto at = [&](int child) -> bool { return state[std::size_t(child)]; };
+        const auto at = [&](int child) -> bool { return state[child]; };
         switch (n.op) {
             case SolidOp::nothing: state.push_back(false); break;
             case SolidOp::everything: state.push_back(true); break;
-            case SolidOp::leaf: state.push_back(inside[std::size_t(n.a)]); break;
+            case SolidOp::leaf: state.push_back(inside[n.a]); break;
             case SolidOp::unite: state.push_back(at(n.a) || at(n.b)); break;
             case SolidOp::intersect: state.push_back(at(n.a) && at(n.b)); break;
             case SolidOp::subtract: state.push_back(at(n.a) && !at(n.b)); break;

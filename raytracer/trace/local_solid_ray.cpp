@@ -233,7 +233,7 @@ SurfaceCrossing LocalSolid::first_crossing(const Vec3& origin, const Vec3& direc
             ++scratch.counters.flat;
             return {t, leaf.normal, leaf.material};
         }
-        const Soft& soft = softs_[std::size_t(leaf.soft)];
+        const Soft& soft = softs_[leaf.soft];
         if (soft.sum) {
             sum_crossings(*soft.sum, origin, direction, t0, t1, any, scratch, nullptr,
                           [&](double t, bool entering, Vec3 normal) {
@@ -268,7 +268,7 @@ SurfaceCrossing LocalSolid::first_crossing(const Vec3& origin, const Vec3& direc
         }
         bool start = false;
         scratch.error = 0;
-        soft_crossings(softs_[std::size_t(leaf.soft)], origin, direction, t0, t1, scratch, &start,
+        soft_crossings(softs_[leaf.soft], origin, direction, t0, t1, scratch, &start,
                        [&](double t, bool entering, Vec3 normal) {
                            if (normal == Vec3(0.0)) normal = normalized(scratch.density.gradient(t));
                            events.push_back({t, int(i), entering, normal, scratch.error});
@@ -287,14 +287,14 @@ SurfaceCrossing LocalSolid::first_crossing(const Vec3& origin, const Vec3& direc
         std::size_t decisive = first;
         bool now = before;
         for (; i < events.size() && events[i].t <= same; ++i) {
-            scratch.inside[std::size_t(events[i].leaf)] = events[i].entering;
+            scratch.inside[events[i].leaf] = events[i].entering;
             const bool after = evaluate(scratch.state, scratch.inside);
             if (after != now) decisive = i;
             now = after;
         }
         if (now == before) continue;
         const auto& event = events[decisive];
-        found(event.t, now, event.normal, leaves_[std::size_t(event.leaf)].material, event.error);
+        found(event.t, now, event.normal, leaves_[event.leaf].material, event.error);
         break;
     }
     return result;

@@ -57,13 +57,13 @@ public:
     }
 
 private:
-    const Ray& ray(int k) const { return rays_.rays[std::size_t(k)]; }
+    const Ray& ray(int k) const { return rays_.rays[k]; }
     double longest_distance() const { return packet_functions.longest_distance(packet_, lanes_, entry_); }
     void visit_planes() {
         if (surfaces_.infinite_planes.size() == 0) return;
         PacketSpans spans;
         for (int k = 0; k < RayPacket::size; ++k) {
-            spans.from[k] = std::size_t(k) < rays_.begin.size() ? rays_.begin[std::size_t(k)] : 0;
+            spans.from[k] = std::size_t(k) < rays_.begin.size() ? rays_.begin[k] : 0;
             spans.to[k] = packet_.t_max[k];
         }
         for (std::size_t i = 0; i < surfaces_.infinite_planes.size(); ++i)

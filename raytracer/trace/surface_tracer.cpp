@@ -21,7 +21,7 @@ void traverse(const BspTree& tree, const Ray& ray, double t0, double t1, OnCell 
     int top = 0;
     Visit now{0, t0, t1};
     for (;;) {
-        const BspNode& node = tree.nodes[std::size_t(now.node)];
+        const BspNode& node = tree.nodes[now.node];
         if (node.axis == 3) {
             if (on_cell(std::size_t(node.child), now.t0))
                 while (top > 0 && stack[top - 1].t0 >= now.t0) --top;
@@ -258,11 +258,11 @@ std::vector<Box> cells_of_locals(const BspTree& tree) {
     for (std::size_t i = 0; i < tree.nodes.size(); ++i) {
         const BspNode& n = tree.nodes[i];
         if (n.axis == 3) {
-            const BspCell& c = tree.cells[std::size_t(n.child)];
+            const BspCell& c = tree.cells[n.child];
             std::fill_n(of.begin() + c.first, c.count, cell[i]);
             continue;
         }
-        Box &lower = cell[std::size_t(n.child)], &upper = cell[std::size_t(n.child) + 1];
+        Box &lower = cell[n.child], &upper = cell[std::size_t(n.child) + 1];
         lower = upper = cell[i];
         lower.hi[n.axis] = upper.lo[n.axis] = n.split;
     }
@@ -283,10 +283,10 @@ int join_like(const BspTree& tree, Bvh4::Builder& builder, Item item) {
     for (std::size_t i = tree.nodes.size(); i-- > 0;) {
         const BspNode& n = tree.nodes[i];
         if (n.axis == 3) {
-            const BspCell& c = tree.cells[std::size_t(n.child)];
+            const BspCell& c = tree.cells[n.child];
             part[i] = list(list, c.first, c.first + c.count);
         } else {
-            part[i] = builder.join(part[std::size_t(n.child)], part[std::size_t(n.child) + 1]);
+            part[i] = builder.join(part[n.child], part[std::size_t(n.child) + 1]);
         }
     }
     return part[0];
@@ -322,7 +322,7 @@ SurfaceTracer::SurfaceTracer(std::vector<NamedBsp> bsps, const std::vector<Box>&
         surfaces_.instance_boxes.push_back(inflated(box, tolerances.margin()));
     }
     for (NamedBsp& bsp : bsps) {
-        const auto name = [&](const LocalSolid& local) { return bsp.solids[std::size_t(local.solid())]; };
+        const auto name = [&](const LocalSolid& local) { return bsp.solids[local.solid()]; };
         for (LocalSolid& plane : bsp.tree.planes) {
             const int solid = name(plane);
             planes.add(std::move(plane), Box::everything(), solid);
@@ -330,7 +330,7 @@ SurfaceTracer::SurfaceTracer(std::vector<NamedBsp> bsps, const std::vector<Box>&
         const std::vector<Box> cells = cells_of_locals(bsp.tree);
         for (std::size_t i = 0; i < cells.size(); ++i) {
             LocalSolid& local = bsp.tree.locals[i];
-            const Box around = intersection(cells[i], bsp.tree.boxes[std::size_t(local.solid())]);
+            const Box around = intersection(cells[i], bsp.tree.boxes[local.solid()]);
             const int solid = name(local);
             primitives.add(std::move(local), around, solid);
             boxes.push_back(primitives.surface_box(boxes.size(), bsp.tree.tolerances.margin()));

@@ -164,7 +164,7 @@ TEST_CASE("planes through one line, however near, are told apart or are one") {
             return plane(a, glm::dot(a, corner)) & plane(b, glm::dot(b, corner));
         };
         Density pieces = wedge(angles[0], angles[1]);
-        for (int i = 1; i < count; ++i) pieces = pieces | wedge(angles[std::size_t(i)], angles[std::size_t(i) + 1]);
+        for (int i = 1; i < count; ++i) pieces = pieces | wedge(angles[i], angles[std::size_t(i) + 1]);
         const double error = std::abs(share(pieces) - share(wedge(angles.front(), angles.back())));
         CHECK(error < (near ? 1e-8 : 1e-12));
         worst = std::max(worst, error);

@@ -114,7 +114,7 @@ TEST_CASE("a product's crossings are those of the search, whatever the ray") {
         const Vec3 aim = g.near(tree), o = g.chance(0.3) ? g.near(tree) : g.point(2);
         Vec3 direction = glm::normalize(aim - o);
         if (g.chance(0.3)) {  // along the surface, almost
-            const Vec3 n = tree.half_spaces[std::size_t(g.below(int(tree.half_spaces.size())))].normal;
+            const Vec3 n = tree.half_spaces[g.below(int(tree.half_spaces.size()))].normal;
             const Vec3 flat = direction - n * glm::dot(direction, n);
             if (glm::length(flat) > 1e-3) direction = glm::normalize(flat + n * std::pow(10.0, g.between(-9, -1)));
         }

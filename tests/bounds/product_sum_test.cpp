@@ -30,7 +30,7 @@ Vec3 direction_to(Gen& g, const Case& c, Vec3 o) {
     const Vec3 direction = glm::normalize(g.near(c.tree) - o);
     if (!g.chance(0.3)) return direction;
     // Along a plane, almost.
-    const Vec3 n = c.tree.half_spaces[std::size_t(g.below(int(c.tree.half_spaces.size())))].normal;
+    const Vec3 n = c.tree.half_spaces[g.below(int(c.tree.half_spaces.size()))].normal;
     const Vec3 flat = direction - n * glm::dot(direction, n);
     return glm::length(flat) > 1e-3 ? glm::normalize(flat + n * std::pow(10.0, g.between(-9, -1))) : direction;
 }

@@ -30,7 +30,7 @@ inline Mesh welded(const Mesh& mesh) {
     for (const Triangle& t : mesh.triangles) {
         Triangle joined = t;
         for (std::size_t k = 0; k < 3; ++k) {
-            const Vec3 x = mesh.positions[std::size_t(t.vertex[k])];
+            const Vec3 x = mesh.positions[t.vertex[k]];
             joined.vertex[k] = w.vertex({float(x.x), float(x.y), float(x.z)});
         }
         w.mesh.triangles.push_back(joined);

@@ -80,7 +80,7 @@ TEST_CASE("ASE keeps every vertex's digits, every corner's normal, and each soli
             if (word == "*MESH_VERTEX") {
                 positions.push_back(x);
             } else {
-                CHECK(x == mesh.normals[std::size_t(mesh.triangles[normals / 3].normal[normals % 3])]);
+                CHECK(x == mesh.normals[mesh.triangles[normals / 3].normal[normals % 3]]);
                 ++normals;
             }
         }
@@ -91,7 +91,7 @@ TEST_CASE("ASE keeps every vertex's digits, every corner's normal, and each soli
     REQUIRE(positions.size() == mesh.positions.size());
     for (const Triangle& t : mesh.triangles)
         for (const int v : t.vertex)
-            CHECK(std::find(positions.begin(), positions.end(), mesh.positions[std::size_t(v)]) != positions.end());
+            CHECK(std::find(positions.begin(), positions.end(), mesh.positions[v]) != positions.end());
     Assimp::Importer importer;
     const aiScene* scene = importer.ReadFileFromMemory(text.data(), text.size(), aiProcess_PreTransformVertices, "ase");
     REQUIRE(scene != nullptr);

@@ -92,7 +92,7 @@ TEST_CASE("A PLY's faces have the colours of their materials, and its vertices o
         const Color color = read<Color>(ply, faces + 16 * t + 13);
         CHECK(color == expected[m.triangles[t].material]);
         seen.insert(color);
-        for (const int v : m.triangles[t].vertex) around[std::size_t(v)].insert(color);
+        for (const int v : m.triangles[t].vertex) around[v].insert(color);
     }
     CHECK(seen.size() == 2);
     for (std::size_t v = 0; v < around.size(); ++v) CHECK(around[v].count(read<Color>(ply, vertices + 51 * v + 48)));
@@ -105,7 +105,7 @@ TEST_CASE("A GLB's accessors lie within its buffer") {
     const std::size_t bytes = j["buffers"][0]["byteLength"];
     CHECK(glb.size() == 20 + length + 8 + bytes);
     for (const auto& a : j["accessors"]) {
-        const auto& view = j["bufferViews"][std::size_t(a["bufferView"])];
+        const auto& view = j["bufferViews"][a["bufferView"]];
         const std::size_t size = std::size_t(a["count"]) * (a["type"] == "VEC3" ? 12 : 4);
         CHECK(std::size_t(view["byteLength"]) == size);
         CHECK(std::size_t(view["byteOffset"]) + size <= bytes);

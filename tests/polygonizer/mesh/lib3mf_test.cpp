@@ -140,9 +140,9 @@ TEST_CASE("lib3mf reads a 3MF back: names, vertices, triangles and colours of ev
         CHECK(object.manifold);
         for (std::size_t i = 0; i < object.triangles.size(); ++i, ++t) {
             for (std::size_t k = 0; k < 3; ++k) {
-                const Vec3 x = mesh.positions[std::size_t(mesh.triangles[t].vertex[k])];
-                const auto read = object.vertices[std::size_t(object.triangles[i][k])];
-                for (int axis = 0; axis < 3; ++axis) CHECK(read[std::size_t(axis)] == float(x[axis]));
+                const Vec3 x = mesh.positions[mesh.triangles[t].vertex[k]];
+                const auto read = object.vertices[object.triangles[i][k]];
+                for (int axis = 0; axis < 3; ++axis) CHECK(read[axis] == float(x[axis]));
             }
             CHECK(object.colors[i] == shown[mesh.triangles[t].material]);
             ++used[object.colors[i]];

@@ -133,7 +133,7 @@ TEST_CASE("Winding numbers tell inside and outside, and edges in the way do not 
         Vec3 x(g.between(-1, 21), g.between(-1, 11), g.between(-0.5, 2.5));
         // As often as not above, below and beside vertices.
         if (g.chance(0.5)) {
-            const Vec3 corner = mesh.positions[std::size_t(g.below(int(mesh.positions.size())))];
+            const Vec3 corner = mesh.positions[g.below(int(mesh.positions.size()))];
             const int axis = g.below(3);
             x[axis] = corner[axis];
             x[(axis + 1) % 3] = corner[(axis + 1) % 3];

@@ -34,7 +34,7 @@ struct Polygon {
         double sum = 0;
         for (const auto& loop : loops)
             for (std::size_t k = 0; k < loop.size(); ++k) {
-                const Vec3 a = positions[std::size_t(loop[k])], b = positions[std::size_t(loop[(k + 1) % loop.size()])];
+                const Vec3 a = positions[loop[k]], b = positions[loop[(k + 1) % loop.size()]];
                 sum += 0.5 * (a.x * b.y - a.y * b.x);
             }
         return sum;
@@ -65,7 +65,7 @@ Faults faults(const Polygon& polygon, const std::vector<std::array<int, 3>>& tri
     for (const auto& loop : polygon.loops)
         for (std::size_t k = 0; k < loop.size(); ++k) --uses[{loop[k], loop[(k + 1) % loop.size()]}];
     const auto rim = uses;
-    const auto flat = [&](int v) { return Vec2(polygon.positions[std::size_t(v)]); };
+    const auto flat = [&](int v) { return Vec2(polygon.positions[v]); };
     for (const auto& t : triangles) {
         const double twice = orientation(flat(t[0]), flat(t[1]), flat(t[2]));
         f.inverted += twice < 0;
@@ -103,7 +103,7 @@ void check_clean(const Polygon& polygon, bool touches = false) {
 // Squares that meet only in a corner make the outline touch itself there, or two loops each other.
 Polygon of_squares(Gen& g, int size, double share, double moved, bool shared_corners) {
     std::vector<std::vector<char>> full(std::size_t(size + 2), std::vector<char>(std::size_t(size + 2), false));
-    const auto at = [&](int x, int y) -> char& { return full[std::size_t(x + 1)][std::size_t(y + 1)]; };
+    const auto at = [&](int x, int y) -> char& { return full[x + 1][y + 1]; };
     for (int x = 0; x < size; ++x)
         for (int y = 0; y < size; ++y) at(x, y) = g.chance(share);
     std::vector<std::pair<int, int>> reached{{size / 2, size / 2}};

@@ -64,7 +64,7 @@ TEST_CASE("Facets of a few steps of single precision are no facets") {
     const Mesh before = mesh;
     // An edge of the cube is cut near its end.
     const int a = mesh.triangles[0].vertex[0], b = mesh.triangles[0].vertex[1], middle = int(mesh.positions.size());
-    mesh.positions.push_back(glm::mix(mesh.positions[std::size_t(a)], mesh.positions[std::size_t(b)], 5e-7));
+    mesh.positions.push_back(glm::mix(mesh.positions[a], mesh.positions[b], 5e-7));
     for (std::size_t i = 0; i < before.triangles.size(); ++i)
         for (std::size_t k = 0; k < 3; ++k) {
             const std::size_t l = (k + 1) % 3;

@@ -36,7 +36,7 @@ TEST_CASE("Legal sums and differences of sharp densities are unions and differen
     std::vector<Density> boxes;
     for (int k = 0; k < 50; ++k) boxes.push_back(Density::box(Vec3(2.0 * k, 0, 0), Vec3(2.0 * k + 1, 1, 1)));
     Density sum = boxes[0];
-    for (int k = 1; k < 50; ++k) sum = sum + boxes[std::size_t(k)];
+    for (int k = 1; k < 50; ++k) sum = sum + boxes[k];
     const DensityTree tree = flatten(sum - Density::box(Vec3(0.25), Vec3(0.75)), 0);
     CHECK(sharp_set(tree).nodes.size() < 1.25 * double(tree.nodes.size()));
 }

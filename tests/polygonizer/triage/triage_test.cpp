@@ -159,7 +159,7 @@ TEST_CASE("A tolerance is met all over the mesh, still closed") {
         for (const Triangle& t : mesh.triangles)
             for (int i = 0; i <= parts; ++i)
                 for (int j = 0; i + j <= parts; ++j) {
-                    const auto at = [&](std::size_t k) { return mesh.positions[std::size_t(t.vertex[k])]; };
+                    const auto at = [&](std::size_t k) { return mesh.positions[t.vertex[k]]; };
                     const Vec3 x =
                         (at(0) * double(i) + at(1) * double(j) + at(2) * double(parts - i - j)) / double(parts);
                     farthest = std::max(farthest, field.distance_along_normal(x, 0.1));

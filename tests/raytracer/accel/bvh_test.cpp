@@ -66,7 +66,7 @@ TEST_CASE("every box that a ray touches is visited, by either hierarchy, whereve
         const Bvh4 tree(builder, root);
         const EmbreeBvh embree(boxes);
         for (int k = 0; k < 40; ++k) {
-            const Box& aim = boxes[std::size_t(g.below(count))].box;
+            const Box& aim = boxes[g.below(count)].box;
             // At corners and edges as often as elsewhere; in walls, too.
             Vec3 target;
             for (int axis = 0; axis < 3; ++axis) {
@@ -83,7 +83,7 @@ TEST_CASE("every box that a ray touches is visited, by either hierarchy, whereve
                 entered.push_back(span.lo <= span.hi ? span.lo : infinity);
             }
             // All the way, and no further than where some box begins.
-            const double begins = entered[std::size_t(g.below(count))];
+            const double begins = entered[g.below(count)];
             for (const double until : {infinity, begins}) {
                 const auto seen = visited_by(tree, o, d, whole, until);
                 const auto by_embree = visited_by(embree, o, d, whole, until, EmbreeBvh::Order::nearest_first);

@@ -51,7 +51,7 @@ struct Read {
     float at(int x, int y, const std::string& channel) const {
         const int c = spec.channelindex(channel);
         REQUIRE(c >= 0);
-        return values[std::size_t(((y - spec.y) * spec.width + x - spec.x) * spec.nchannels + c)];
+        return values[((y - spec.y) * spec.width + x - spec.x) * spec.nchannels + c];
     }
 };
 
@@ -115,8 +115,7 @@ TEST_CASE("an EXR gives back every layer") {
             REQUIRE(r.at(x, y, "cost") == kept(ImageLayer::cost));
             REQUIRE(r.at(x, y, "A") == float(p.alpha));
             REQUIRE(std::abs(r.at(x, y, "R") - p.color.x) <= p.color.x * 0x1p-11);  // half of a half's last bit
-            REQUIRE(r.ids[std::size_t(y * 20 + x)] ==
-                    std::uint32_t(original.layer(ImageLayer::id).at(original.index(x, y))));
+            REQUIRE(r.ids[y * 20 + x] == std::uint32_t(original.layer(ImageLayer::id).at(original.index(x, y))));
         }
     CHECK(r.at(0, 0, "Z") == std::numeric_limits<float>::infinity());
     CHECK(r.at(0, 0, "N.X") == 0);
@@ -250,8 +249,7 @@ TEST_CASE("a PNG is opaque 8 bit sRGB and says so") {
     REQUIRE(input->read_image(0, 0, 0, 3, OIIO::TypeDesc::UINT8, bytes.data()));
     for (int y = 0; y < 70; ++y)
         for (int x = 0; x < 20; ++x)
-            for (int k = 0; k < 3; ++k)
-                REQUIRE(bytes[std::size_t((y * 20 + x) * 3 + k)] == srgb_byte(original.at(x, y).color[k]));
+            for (int k = 0; k < 3; ++k) REQUIRE(bytes[(y * 20 + x) * 3 + k] == srgb_byte(original.at(x, y).color[k]));
     const auto chunks = png_chunks(read_file(folder / "a.png"));
     CHECK(std::count(chunks.begin(), chunks.end(), "sRGB") == 1);
     CHECK(std::count(chunks.begin(), chunks.end(), "IEND") == 1);

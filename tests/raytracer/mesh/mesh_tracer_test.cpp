@@ -76,11 +76,9 @@ TEST_CASE("Splitting far triangles keeps surface, normals and closedness") {
         CHECK(volume(split) == Approx(volume(mesh)).epsilon(1e-12));
         std::size_t turned = 0, too_long = 0;
         for (const Triangle& t : split.triangles) {
-            turned +=
-                glm::distance(glm::normalize(split.area_vector(t)), split.normals[std::size_t(t.normal[0])]) > 1e-9;
+            turned += glm::distance(glm::normalize(split.area_vector(t)), split.normals[t.normal[0]]) > 1e-9;
             for (std::size_t k = 0; k < 3; ++k) {
-                const Vec3 a = split.positions[std::size_t(t.vertex[k])],
-                           b = split.positions[std::size_t(t.vertex[(k + 1) % 3])];
+                const Vec3 a = split.positions[t.vertex[k]], b = split.positions[t.vertex[(k + 1) % 3]];
                 too_long += glm::distance(a, b) > glm::distance(0.5 * (near.lo + near.hi), 0.5 * (a + b)) + 10;
             }
         }

@@ -56,7 +56,7 @@ TEST_CASE("Of a box seen from a corner's side nine edges are seen, and all of th
     double expected = 0;
     int seen = 0;
     for (const MeshEdge& e : mesh_edges(mesh, EdgeChoice::polygons)) {
-        const Vec3 a = mesh.positions[std::size_t(e.a)], b = mesh.positions[std::size_t(e.b)];
+        const Vec3 a = mesh.positions[e.a], b = mesh.positions[e.b];
         // Two of the hidden faces x = 0, y = 0 and z = 0 meet in a hidden edge.
         const Vec3 far = glm::max(a, b);
         if ((far.x < 1e-9) + (far.y < 1e-9) + (far.z < 1e-9) >= 2) continue;

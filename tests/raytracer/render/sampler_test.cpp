@@ -52,7 +52,7 @@ TEST_CASE("Seed, pixel, sample and dimension each change a sample, in every bit 
             product += (a.x - 0.5) * (b.x - 0.5) * 12 / n;
             product_xy += (a.x - 0.5) * (a.y - 0.5) * 12 / n;
             const auto bits = std::uint32_t(a.x * 0x1p32) ^ std::uint32_t(a.y * 0x1p32);
-            for (int k = 0; k < 32; ++k) ones[std::size_t(k)] += (bits >> k) & 1;
+            for (int k = 0; k < 32; ++k) ones[k] += (bits >> k) & 1;
         }
     CHECK(std::abs(product) < 0.02);
     CHECK(std::abs(product_xy) < 0.02);
@@ -79,7 +79,7 @@ TEST_CASE("The filter has unit area, is positive, and offsets are distributed li
         mean += x / n;
         spread += x * x / n;
         widest = std::max(widest, std::abs(x));
-        share[std::size_t((x / filter_radius + 1) * bins / 2)] += 1.0 / n;
+        share[(x / filter_radius + 1) * bins / 2] += 1.0 / n;
     }
     CHECK(std::abs(mean) < 1e-6);
     CHECK(spread == Approx(variance).epsilon(0.002));
@@ -89,7 +89,7 @@ TEST_CASE("The filter has unit area, is positive, and offsets are distributed li
         for (int k = 0; k < 100; ++k)
             expected +=
                 filter_value(filter_radius * (2 * (b + (k + 0.5) / 100) / bins - 1)) * 2 * filter_radius / (100 * bins);
-        CHECK(share[std::size_t(b)] == Approx(expected).margin(1.5 / n));
+        CHECK(share[b] == Approx(expected).margin(1.5 / n));
     }
 }
 

@@ -254,8 +254,7 @@ TEST_CASE("A block is its pixels, row by row") {
         TraceCounters together, single;
         integrator.block(block, pixels.data(), layers.data(), together);
         for (int i = 0; i < 16 * 11; ++i)
-            CHECK(same({pixels[std::size_t(i)], layers[std::size_t(i)]},
-                       seen(integrator, 5 + i % 16, 3 + i / 16, single)));
+            CHECK(same({pixels[i], layers[i]}, seen(integrator, 5 + i % 16, 3 + i / 16, single)));
         CHECK(together.rays == single.rays);
         CHECK(together.shadow_rays == single.shadow_rays);
         CHECK(together.evaluations == single.evaluations);
@@ -306,7 +305,7 @@ TEST_CASE("A tracer that returns nonsense does not spread it") {
     } broken;
     Zoo zoo;
     for (int m = 0; m < 9; ++m) {
-        std::swap(zoo.scene.materials[0], zoo.scene.materials[std::size_t(m)]);
+        std::swap(zoo.scene.materials[0], zoo.scene.materials[m]);
         TraceCounters counters;
         for (int spp : {1, 4}) CHECK(finite(seen(Integrator(zoo.scene, broken, {1, 1, spp, 0}), 0, 0, counters)));
     }

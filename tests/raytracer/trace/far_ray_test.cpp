@@ -123,11 +123,10 @@ public:
     Vec3 point(Gen& g) const {
         Vec3 x = g.point(0.8);
         if (g.chance(0.3)) return x;
-        const SolidTree& tree = trees_[std::size_t(g.below(int(trees_.size())))];
-        const std::vector<HalfSpace>& planes =
-            tree.leaves[std::size_t(g.below(int(tree.leaves.size())))].density.half_spaces;
+        const SolidTree& tree = trees_[g.below(int(trees_.size()))];
+        const std::vector<HalfSpace>& planes = tree.leaves[g.below(int(tree.leaves.size()))].density.half_spaces;
         for (int i = g.below(3); i >= 0 && !planes.empty(); --i) {
-            const HalfSpace& h = planes[std::size_t(g.below(int(planes.size())))];
+            const HalfSpace& h = planes[g.below(int(planes.size()))];
             const double nearly = g.chance(0.3) ? 0 : std::pow(10, g.between(-13, -5));
             const Vec3 y = x - h.normal * (h.distance(x) + (g.below(3) - 1) * h.radius + g.between(-1, 1) * nearly);
             if (largest(y) < 1) x = y;

@@ -54,7 +54,7 @@ TEST_CASE("the surface found is the same to the bit in whatever order surfaces a
                 d[axis] = g.chance(0.5) ? 1 : -1;
                 from = g.point(1.5);
                 for (int n = 0; n < 4; ++n) {
-                    const BspNode& node = nodes[std::size_t(g.below(int(nodes.size())))];
+                    const BspNode& node = nodes[g.below(int(nodes.size()))];
                     if (node.axis < 3 && node.axis != axis) from[node.axis] = node.split;
                 }
                 from[axis] = -4 * d[axis];
@@ -65,8 +65,7 @@ TEST_CASE("the surface found is the same to the bit in whatever order surfaces a
             const FoundSurface want = tracer.closest_hit(ray, t_max, counters);
             bool tie = false;
             for (int round = 0; round < 3; ++round) {
-                for (std::size_t i = order.size(); i > 1; --i)
-                    std::swap(order[i - 1], order[std::size_t(g.below(int(i)))]);
+                for (std::size_t i = order.size(); i > 1; --i) std::swap(order[i - 1], order[g.below(int(i))]);
                 SurfaceSearch<false> search(all, ray, t_max, infinity, counters, nullptr);
                 SurfaceSearch<true> any(all, ray, t_max, infinity, counters, nullptr);
                 if (g.chance(0.5)) search.visit_planes();
