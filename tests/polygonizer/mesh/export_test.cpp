@@ -105,7 +105,7 @@ TEST_CASE("A GLB's accessors lie within its buffer") {
     const std::size_t bytes = j["buffers"][0]["byteLength"];
     CHECK(glb.size() == 20 + length + 8 + bytes);
     for (const auto& a : j["accessors"]) {
-        const auto& view = j["bufferViews"][a["bufferView"]];
+        const auto& view = j["bufferViews"].at(a["bufferView"].get<std::size_t>());
         const std::size_t size = std::size_t(a["count"]) * (a["type"] == "VEC3" ? 12 : 4);
         CHECK(std::size_t(view["byteLength"]) == size);
         CHECK(std::size_t(view["byteOffset"]) + size <= bytes);
