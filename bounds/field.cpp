@@ -29,6 +29,24 @@ public:
         FieldPtr left = inner_->prune(image(inverse_, box));
         return left ? std::make_shared<PlacedField>(std::move(left), map_, inverse_) : nullptr;
     }
+    std::optional<DensityTree> as_density(const Box& box) const override {
+        std::optional<DensityTree> density = inner_->as_density(image(inverse_, box));
+        if (!density) return density;
+        for (HalfSpace& h : density->half_spaces) h = deburr::transformed(h, map_, true);
+        density->ball = map_.linear * density->ball;
+        return density;
+    }
+    std::vector<HalfSpace> planes() const override {
+        std::vector<HalfSpace> planes = inner_->planes();
+        for (HalfSpace& h : planes) h = deburr::transformed(h, map_, true);
+        return planes;
+    }
+    Range rate_range(const Box& box, Vec3 direction) const override {
+        const Vec3 along = inverse_.linear * direction;
+        const double speed = glm::length(along);
+        const Range rate = inner_->rate_range(image(inverse_, box), along / speed);
+        return {rate.lo * speed, rate.hi * speed};
+    }
     int size() const override { return inner_->size(); }
     LocalSize local_size(const Box& box) const override { return inner_->local_size(image(inverse_, box)); }
     FieldPtr transformed_by(const Affine& map) const override { return transformed(inner_, compose(map, map_)); }

@@ -8,6 +8,7 @@
 // (begin_ray), so that rounding stays below what the root finder allows for.
 #pragma once
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "bounds/box_range.hpp"
@@ -37,6 +38,14 @@ public:
     /// A field whose f has the same sign throughout the box, made of no more than matters there;
     /// null: this one.
     virtual FieldPtr prune(const Box&) const { return nullptr; }
+    /// The same as a density whose set ρ > ½ it is throughout the box, if one of a few half-spaces does: what the rest
+    /// of the program intersects at once. Asked for where the range straddles.
+    virtual std::optional<DensityTree> as_density(const Box&) const { return std::nullopt; }
+    /// Half-spaces along whose planes, and their parallels at ±radius, cutting space leaves less of the field on a
+    /// side; only where they are few.
+    virtual std::vector<HalfSpace> planes() const { return {}; }
+    /// Holds the rate at which f changes along the unit direction, over the finite box.
+    virtual Range rate_range(const Box&, Vec3 /*direction*/) const { return {-infinity, infinity}; }
     /// What an evaluation costs, in evaluations of a half-space's density.
     virtual int size() const { return 1; }
     /// range(box), and size() of what `prune` would leave.

@@ -1,0 +1,533 @@
+#include "bounds/mesh_convolution.hpp"
+
+#include <algorithm>
+#include <utility>
+
+namespace deburr {
+namespace {
+
+constexpr double pi = 3.14159265358979323846;
+
+// Where an edge goes through the sphere. Both triangles of the edge know it by the same key.
+struct Piercing {
+    int key;
+    Vec3 at;  // from the ball's centre, in radii
+};
+
+// The edge from a to b, as it lies in the unit ball: where it enters and where it leaves. Computed from its vertices in
+// one order, whichever triangle asks.
+struct Chord {
+    bool inside[2] = {false, false};  // its ends
+    bool enters = false, leaves = false;
+    Vec3 entry{0.0}, exit{0.0};
+};
+
+Chord chord_of(Vec3 a, Vec3 b) {
+    Chord c;
+    const Vec3 d = b - a;
+    const double aa = glm::dot(a, a), bb = glm::dot(b, b), dd = glm::dot(d, d), ad = glm::dot(a, d);
+    c.inside[0] = aa < 1;
+    c.inside[1] = bb < 1;
+    if (c.inside[0] && c.inside[1]) return c;
+    // The point nearest to the centre, and half of the chord.
+    const double s = -ad / dd;
+    const Vec3 foot = a + s * d;
+    const double square = 1 - glm::dot(foot, foot);
+    const bool both_out = !c.inside[0] && !c.inside[1];
+    if (both_out && !(s > 0 && s < 1 && square > 0)) return c;
+    const double half = std::sqrt(std::max(0.0, square) / dd);
+    if (!c.inside[0]) {
+        c.enters = true;
+        c.entry = foot - std::min(half, std::max(s, 0.0)) * d;
+    }
+    if (!c.inside[1]) {
+        c.leaves = true;
+        c.exit = foot + std::min(half, std::max(1 - s, 0.0)) * d;
+    }
+    return c;
+}
+
+// Memory that evaluations use again and again.
+struct Scratch {
+    struct Arc {
+        int from, to;  // keys
+    };
+    std::vector<Arc> arcs;
+    std::vector<char> seen;
+};
+
+// Closed curves that the arcs make up.
+int count_loops(Scratch& scratch) {
+    auto& arcs = scratch.arcs;
+    std::sort(arcs.begin(), arcs.end(), [](const auto& a, const auto& b) { return a.from < b.from; });
+    scratch.seen.assign(arcs.size(), false);
+    int loops = 0;
+    for (std::size_t i = 0; i < arcs.size(); ++i) {
+        if (scratch.seen[i]) continue;
+        ++loops;
+        for (std::size_t at = i; !scratch.seen[at];) {
+            scratch.seen[at] = true;
+            const auto next = std::lower_bound(arcs.begin(), arcs.end(), arcs[at].to,
+                                               [](const auto& arc, int key) { return arc.from < key; });
+            if (next == arcs.end()) break;
+            at = std::size_t(next - arcs.begin());
+        }
+    }
+    return loops;
+}
+
+// The part of one triangle that lies in the unit ball around the origin.
+class Sector {
+public:
+    Sector(const ClosedMesh& mesh, int t, Vec3 x, double r) : mesh_(mesh), t_(t), normal_(mesh.plane(t).normal) {
+        for (int k = 0; k < 3; ++k) corner_[k] = (mesh.corner(t, k) - x) / r;
+        h_ = (mesh.plane(t).offset - glm::dot(normal_, x)) / r;
+    }
+
+    // False if the ball does not meet the triangle.
+    bool find(Scratch& scratch) {
+        foot_ = h_ * normal_;
+        square_ = std::max(0.0, 1 - h_ * h_);  // of the circle's radius
+        int events = 0;
+        for (int k = 0; k < 3; ++k) {
+            const int l = (k + 1) % 3;
+            const ClosedMesh::Corners& v = mesh_.triangles()[t_];
+            const bool up = v[k] < v[l];
+            Chord c = up ? chord_of(corner_[k], corner_[l]) : chord_of(corner_[l], corner_[k]);
+            // Keys by the direction from the lesser vertex on: 0 enters, 1 leaves.
+            const int id = 2 * mesh_.edge_id(t_, k);
+            int entry_key = id, exit_key = id + 1;
+            if (!up) {
+                std::swap(c.inside[0], c.inside[1]);
+                std::swap(c.enters, c.leaves);
+                std::swap(c.entry, c.exit);
+                std::swap(entry_key, exit_key);
+            }
+            const bool has_part = c.inside[0] || c.inside[1] || c.enters;
+            if (!has_part) continue;
+            const Vec3 from = c.inside[0] ? corner_[k] : c.entry, to = c.inside[1] ? corner_[l] : c.exit;
+            twice_area_ += cross(from - foot_, to - foot_);
+            if (c.enters) event_[events++] = {{entry_key, c.entry}, k, true};
+            if (c.leaves) {
+                event_[events++] = {{exit_key, c.exit}, k, false};
+                turn_ += turning(k, c.exit);
+            }
+            any_ = true;
+        }
+        if (events == 0) {
+            if (any_) return true;  // all of the triangle
+            if (square_ == 0) return false;
+            for (int k = 0; k < 3; ++k)
+                if (cross(corner_[k] - foot_, corner_[(k + 1) % 3] - foot_) <= 0) return false;
+            arcs_ = 2 * pi;
+            ++loops_;
+            twice_area_ = square_ * arcs_;
+            return true;
+        }
+        // From where the border leaves to where it comes back, around by the circle.
+        for (int i = 0; i < events; ++i) {
+            if (event_[i].enters) continue;
+            const Event &out = event_[i], &in = event_[(i + 1) % events];
+            const double angle = arc(out, in);
+            arcs_ += angle;
+            twice_area_ += square_ * angle;
+            // Seen with the solid on the left it runs the other way.
+            scratch.arcs.push_back({in.piercing.key, out.piercing.key});
+        }
+        return true;
+    }
+
+    double h() const { return h_; }
+    double area() const { return 0.5 * twice_area_; }  // in squared radii
+    double arcs() const { return arcs_; }
+    double turn() const { return turn_; }
+    int loops() const { return loops_; }
+
+private:
+    struct Event {
+        Piercing piercing;
+        int edge;
+        bool enters;
+    };
+
+    double cross(Vec3 a, Vec3 b) const { return glm::dot(normal_, glm::cross(a, b)); }
+    double angle(Vec3 a, Vec3 b) const {
+        return std::atan2(cross(a - foot_, b - foot_), glm::dot(a - foot_, b - foot_));
+    }
+
+    // Counter-clockwise. Where it is short, or nearly all of the circle, the border tells which: beyond the circle the
+    // two go around the same.
+    double arc(const Event& out, const Event& in) const {
+        const double direct = angle(out.piercing.at, in.piercing.at);
+        constexpr double sure = 1e-3;
+        if (std::abs(direct) > sure) return direct < 0 ? direct + 2 * pi : direct;
+        double around = 0;
+        Vec3 at = out.piercing.at;
+        int k = out.edge;
+        do {
+            k = (k + 1) % 3;
+            around += angle(at, corner_[k]);
+            at = corner_[k];
+        } while (k != in.edge);
+        around += angle(at, in.piercing.at);
+        return around > pi ? direct + 2 * pi : direct;
+    }
+
+    // Where the solid's border on the sphere passes from this triangle to the next, across edge k at y: its turn to the
+    // left.
+    double turning(int k, Vec3 y) const {
+        const ClosedMesh::Plane &here = mesh_.plane(t_), &there = mesh_.plane(mesh_.across(t_, k).triangle);
+        if (here.id == there.id) return 0;
+        const double length = glm::dot(y, y);
+        return std::atan2(
+            glm::dot(y, glm::cross(here.normal, there.normal)) * std::sqrt(length),
+            glm::dot(here.normal, there.normal) * length - glm::dot(y, here.normal) * glm::dot(y, there.normal));
+    }
+
+    const ClosedMesh& mesh_;
+    int t_;
+    Vec3 normal_;
+    Vec3 corner_[3];
+    double h_;
+    Vec3 foot_{0.0};
+    double square_ = 0, twice_area_ = 0, arcs_ = 0, turn_ = 0;
+    Event event_[6];
+    bool any_ = false;
+    int loops_ = 0;
+};
+
+}  // namespace
+
+ValueGradient ball_share(const ClosedMesh& mesh, std::span<const int> triangles, Vec3 x, double r) {
+    thread_local Scratch scratch;
+    scratch.arcs.clear();
+    double share = 0;
+    int loops = 0;
+    Vec3 areas(0.0);
+    for (const int t : triangles) {
+        const ClosedMesh::Ball& ball = mesh.ball(t);
+        const Vec3 away = ball.center - x;
+        const double reach = ball.radius + r;
+        if (glm::dot(away, away) >= reach * reach) continue;
+        Sector sector(mesh, t, x, r);
+        if (!sector.find(scratch)) continue;
+        areas += sector.area() * mesh.plane(t).normal;
+        share += (sector.h() * (sector.area() + sector.arcs()) - sector.turn()) / (4 * pi);
+        loops += sector.loops();
+    }
+    if (!scratch.arcs.empty()) loops += count_loops(scratch);
+    share -= 0.5 * loops;
+    share -= std::floor(share);
+    // What is left is a multiple of 1, which decides between nothing and all.
+    constexpr double near_whole = 1e-7;
+    if (share < near_whole || share > 1 - near_whole) {
+        const bool in = triangles.empty() ? mesh.contains(x) : mesh.contains(x, triangles);
+        const double off = share < 0.5 ? share : share - 1;
+        share = in ? std::min(1.0, 1 + off) : std::max(0.0, off);
+    }
+    return {share, areas * (-3 / (4 * pi * r))};
+}
+
+ValueGradient ball_share(const ClosedMesh& mesh, Vec3 x, double r) {
+    thread_local std::vector<int> near;
+    near.clear();
+    mesh.near({x, x}, r, near);
+    return ball_share(mesh, near, x, r);
+}
+
+namespace {
+
+// Of a tetrahedron's worth of triangles more or less, shares are off by less than RootFinder::rounding of this.
+constexpr double noise_scale = 64;
+
+constexpr double sharp_radius = 0x1p-26;  // of the mesh's size
+
+bool same_plane(const ClosedMesh::Plane& a, const ClosedMesh::Plane& b, double scale) {
+    if (a.id == b.id) return true;
+    return glm::dot(a.normal, b.normal) > 0 && largest(a.normal - b.normal) <= 4 * epsilon &&
+           std::abs(a.offset - b.offset) <= 8 * epsilon * scale;
+}
+
+// At least the distance of the box from a convex set whose nearest point to any is `nearest`: from one to the other
+// and back, a few times.
+template <class Nearest>
+double distance_bound(const Box& box, Vec3 start, Nearest nearest) {
+    double distance = infinity;
+    Vec3 on = start;
+    for (int k = 0; k < 8; ++k) {
+        const Vec3 in = glm::clamp(on, box.lo, box.hi);
+        distance = std::min(distance, glm::distance(in, on));
+        on = nearest(in);
+    }
+    return std::min(distance, glm::distance(on, glm::clamp(on, box.lo, box.hi)));
+}
+
+double distance_bound(Vec3 a, Vec3 b, const Box& box) {
+    return distance_bound(box, 0.5 * (a + b), [&](Vec3 x) {
+        const Vec3 d = b - a;
+        return a + std::clamp(glm::dot(x - a, d) / glm::dot(d, d), 0.0, 1.0) * d;
+    });
+}
+
+// What one triangle adds to bounds on the share's derivatives, in radii: where |h| is between these, and the sphere
+// may cut it.
+struct Steepness {
+    double area = 0;    // |D|
+    double across = 0;  // |h| φ: φ, the angle of the arcs that bound D
+    double along = 0;   // length of the sum of the unit vectors along them
+};
+
+Steepness steepness(double area, double perimeter, double least_h, double greatest_h, bool may_be_cut) {
+    if (least_h >= 1) return {};
+    const double widest = 1 - least_h * least_h, h = std::min(greatest_h, 1.0), narrowest = std::sqrt(1 - h * h);
+    Steepness s;
+    s.area = std::min(area, pi * widest);
+    if (!may_be_cut) return s;
+    // Arcs in a triangle are no longer than its border.
+    s.across = h * (perimeter < 2 * pi * narrowest ? perimeter / narrowest : 2 * pi);
+    s.along = std::min(2 * std::sqrt(widest), perimeter);
+    return s;
+}
+
+}  // namespace
+
+MeshField::MeshField(ClosedMeshPtr mesh, double radius)
+    : mesh_(std::move(mesh)), radius_(radius), sharp_(radius == 0), box_(mesh_->bounding_box()) {
+    const double size = box_.empty() ? 1 : largest(box_.hi - box_.lo);
+    if (sharp_) radius_ = sharp_radius * size;
+}
+
+MeshField::MeshField(Part, const MeshField& of, std::vector<int> triangles)
+    : mesh_(of.mesh_),
+      radius_(of.radius_),
+      sharp_(of.sharp_),
+      whole_(false),
+      triangles_(std::move(triangles)),
+      box_(of.box_) {}
+
+std::span<const int> MeshField::near(const Box& box, std::vector<int>& memory) const {
+    memory.clear();
+    if (whole_) {
+        mesh_->near(box, radius_, memory);
+    } else {
+        for (const int t : triangles_)
+            if (mesh_->reaches(t, box, radius_)) memory.push_back(t);
+    }
+    return memory;
+}
+
+// Of points that no triangle is near.
+bool MeshField::is_inside(Vec3 x) const {
+    return box_.contains(x) && (whole_ ? mesh_->contains(x) : mesh_->contains(x, triangles_));
+}
+
+ValueGradient MeshField::at(Vec3 x) const {
+    thread_local std::vector<int> memory;
+    const std::span<const int> found = near({x, x}, memory);
+    if (found.empty()) return {is_inside(x) ? 0.5 : -0.5};
+    ValueGradient v = ball_share(*mesh_, found, x, radius_);
+    v.value -= 0.5;
+    return v;
+}
+
+Range MeshField::range(const Box& box) const {
+    thread_local std::vector<int> memory;
+    return range(box, near(box, memory));
+}
+
+Range MeshField::range(const Box& box, std::span<const int> triangles) const {
+    const Box seen = intersection(box, inflated(box_, radius_));
+    if (seen.empty()) return {-0.5, -0.5};
+    const Vec3 center = 0.5 * (seen.lo + seen.hi), half = 0.5 * (seen.hi - seen.lo);
+    if (triangles.empty()) {
+        const double f = is_inside(center) ? 0.5 : -0.5;
+        return seen.lo == box.lo && seen.hi == box.hi ? Range{f, f} : Range{-0.5, f};
+    }
+    const double reach = glm::length(half) / radius_;
+    constexpr double steepest = 0.75;  // what the largest disc changes by
+    if (steepest * reach > 1) return {-0.5, 0.5};
+    const ValueGradient v = ball_share(*mesh_, triangles, center, radius_);
+    double off = steepest * reach, curvature = 0;
+    for (const int t : triangles) {
+        const double h = std::abs(mesh_->plane(t).offset - glm::dot(mesh_->plane(t).normal, center)) / radius_;
+        const ClosedMesh::Ball& ball = mesh_->ball(t);
+        const double farthest = (glm::distance(center, ball.center) + ball.radius) / radius_ + reach;
+        const Steepness s =
+            steepness(0, mesh_->perimeter(t) / radius_, std::max(0.0, h - reach), h + reach, farthest >= 1);
+        curvature += 0.5 * (s.across + std::sqrt(s.across * s.across + s.along * s.along));
+    }
+    curvature *= 3 / (4 * pi);
+    off = std::min(off, glm::dot(glm::abs(v.gradient), half) + 0.5 * curvature * reach * reach);
+    off += 64 * epsilon;
+    return {std::max(-0.5, v.value - 0.5 - off), std::min(0.5, v.value - 0.5 + off)};
+}
+
+Range MeshField::rate_range(const Box& box, Vec3 direction) const {
+    thread_local std::vector<int> memory;
+    const std::span<const int> found = near(box, memory);
+    if (found.empty()) return {0, 0};
+    const Vec3 center = 0.5 * (box.lo + box.hi);
+    const double reach = 0.5 * glm::length(box.hi - box.lo) / radius_;
+    const double rate = glm::dot(ball_share(*mesh_, found, center, radius_).gradient, direction);
+    double curvature = 0;
+    for (const int t : found) {
+        const ClosedMesh::Plane& plane = mesh_->plane(t);
+        const double h = std::abs(plane.offset - glm::dot(plane.normal, center)) / radius_;
+        const ClosedMesh::Ball& ball = mesh_->ball(t);
+        const double farthest = (glm::distance(center, ball.center) + ball.radius) / radius_ + reach;
+        const Steepness s =
+            steepness(0, mesh_->perimeter(t) / radius_, std::max(0.0, h - reach), h + reach, farthest >= 1);
+        // d(∇f·n)/dx = Σ (n·N) ∇|D|, and |∇|D|| ≤ |h| φ + the arcs' sum.
+        curvature += std::abs(glm::dot(plane.normal, direction)) * std::hypot(s.across, s.along);
+    }
+    const double off = curvature * (3 / (4 * pi)) * reach / radius_;
+    return {rate - off, rate + off};
+}
+
+FieldPtr MeshField::prune(const Box& box) const {
+    std::vector<int> found;
+    near(box, found);
+    if (found.empty() || (!whole_ && found.size() == triangles_.size())) return nullptr;
+    found.shrink_to_fit();
+    return FieldPtr(new MeshField(Part{}, *this, std::move(found)));
+}
+
+std::optional<DensityTree> MeshField::as_density(const Box& box) const {
+    thread_local std::vector<int> memory;
+    const std::span<const int> found = near(box, memory);
+    if (found.empty()) return std::nullopt;
+    const double scale = std::max(largest(box_.lo), largest(box_.hi));
+    const ClosedMesh::Plane *a = &mesh_->plane(found[0]), *b = nullptr;
+    for (const int t : found) {
+        const ClosedMesh::Plane& plane = mesh_->plane(t);
+        if (same_plane(plane, *a, scale) || (b && same_plane(plane, *b, scale))) continue;
+        if (b) return std::nullopt;
+        b = &plane;
+    }
+    const auto half_space = [&](const ClosedMesh::Plane& p) {
+        return HalfSpace{p.normal, p.offset, sharp_ ? 0 : radius_};
+    };
+    if (!b) {
+        // Where none of it surely reaches there may be nothing.
+        const bool reached = std::any_of(found.begin(), found.end(), [&](int t) {
+            return distance_bound(box, mesh_->ball(t).center, [&](Vec3 x) { return mesh_->nearest(t, x); }) < radius_;
+        });
+        if (!reached) return std::nullopt;
+        return DensityTree{{half_space(*a)}, {{Op::half_space, 0}}, {}};
+    }
+    // They meet in edges of one kind, one of which is surely near.
+    bool convex = false, concave = false, meet = false;
+    for (const int t : found) {
+        if (!same_plane(mesh_->plane(t), *a, scale)) continue;
+        for (int k = 0; k < 3; ++k) {
+            const ClosedMesh::Neighbour& other = mesh_->across(t, k);
+            if (same_plane(mesh_->plane(other.triangle), *a, scale)) continue;
+            if (!std::binary_search(found.begin(), found.end(), other.triangle)) continue;
+            const Vec3 beyond = mesh_->corner(other.triangle, (other.edge + 2) % 3);
+            (glm::dot(a->normal, beyond) < a->offset ? convex : concave) = true;
+            meet = meet || distance_bound(mesh_->corner(t, k), mesh_->corner(t, (k + 1) % 3), box) < radius_;
+        }
+    }
+    if (!meet || convex == concave) return std::nullopt;
+    DensityTree wedge{{half_space(*a), half_space(*b)},
+                      {{Op::half_space, 0}, {Op::half_space, 1}, {convex ? Op::conjunction : Op::disjunction, 0, 1}},
+                      {}};
+    if (!sharp_) {
+        wedge.nodes.push_back({Op::convolution, wedge.root()});
+        wedge.ball = Mat3(radius_);
+    }
+    return wedge;
+}
+
+std::vector<HalfSpace> MeshField::planes() const {
+    constexpr std::size_t few = 32;
+    std::vector<HalfSpace> found;
+    std::vector<int> ids;
+    const auto add = [&](int t) {
+        const ClosedMesh::Plane& plane = mesh_->plane(t);
+        if (std::find(ids.begin(), ids.end(), plane.id) != ids.end()) return;
+        ids.push_back(plane.id);
+        found.push_back({plane.normal, plane.offset, radius_});
+    };
+    const std::size_t count = triangle_count();
+    for (std::size_t i = 0; i < count && found.size() < few; ++i) add(whole_ ? int(i) : triangles_[i]);
+    return found;
+}
+
+int MeshField::size() const {
+    // A triangle costs about as much as this many half-spaces.
+    constexpr double triangle = 4;
+    return int(std::min(1e9, std::max(1.0, triangle * double(triangle_count()))));
+}
+
+LocalSize MeshField::local_size(const Box& box) const {
+    thread_local std::vector<int> memory;
+    const std::span<const int> found = near(box, memory);
+    return {range(box, found), std::max(1, 4 * int(found.size()))};
+}
+
+double MeshField::last_sign_change_bound(Vec3 origin, Vec3 direction) const {
+    return leaves_box(inflated(box_, radius_), origin, direction);
+}
+
+void MeshField::begin_ray(FieldRay& ray) const {
+    ray.noise_scale = noise_scale;
+    ray.numbers.clear();
+    const Vec3 a = ray.origin + ray.t0 * ray.direction, b = ray.origin + ray.t1 * ray.direction;
+    const auto add = [&](int t) {
+        const ClosedMesh::Ball& ball = mesh_->ball(t);
+        if (distance_to_segment(ball.center, a, b) <= (ball.radius + radius_) * (1 + 16 * epsilon))
+            ray.numbers.push_back(t);
+    };
+    if (whole_) {
+        thread_local std::vector<int> memory;
+        const Box along{glm::min(a, b), glm::max(a, b)};
+        memory.clear();
+        mesh_->near(along, radius_, memory);
+        for (const int t : memory) add(t);
+    } else {
+        for (const int t : triangles_) add(t);
+    }
+}
+
+ValueSlope MeshField::at(const FieldRay& ray, double t) const {
+    thread_local std::vector<int> triangles;
+    triangles.clear();
+    const Vec3 x = ray.origin + t * ray.direction;
+    for (const double number : ray.numbers) {
+        const ClosedMesh::Ball& ball = mesh_->ball(int(number));
+        const Vec3 away = x - ball.center;
+        const double reach = ball.radius + radius_;
+        if (glm::dot(away, away) <= reach * reach) triangles.push_back(int(number));
+    }
+    if (triangles.empty()) return {(is_inside(x) ? 0.5 : -0.5) / noise_scale, 0};
+    const ValueGradient v = ball_share(*mesh_, triangles, x, radius_);
+    return {(v.value - 0.5) / noise_scale, glm::dot(v.gradient, ray.direction) / noise_scale};
+}
+
+RayBounds MeshField::bounds(const FieldRay& ray, double t0, double t1) const {
+    const double speed = glm::length(ray.direction);
+    const Vec3 a = ray.origin + t0 * ray.direction, b = ray.origin + t1 * ray.direction, u = ray.direction / speed;
+    double slope = 0, curvature = 0;
+    for (const double number : ray.numbers) {
+        const int t = int(number);
+        const ClosedMesh::Ball& ball = mesh_->ball(t);
+        if (distance_to_segment(ball.center, a, b) >= ball.radius + radius_) continue;
+        const double farthest = std::max(glm::distance(ball.center, a), glm::distance(ball.center, b)) + ball.radius;
+        const ClosedMesh::Plane& plane = mesh_->plane(t);
+        const double ha = (plane.offset - glm::dot(plane.normal, a)) / radius_,
+                     hb = (plane.offset - glm::dot(plane.normal, b)) / radius_;
+        const double greatest = std::max(std::abs(ha), std::abs(hb));
+        const double least = ha * hb <= 0 ? 0 : std::min(std::abs(ha), std::abs(hb));
+        const Steepness s = steepness(mesh_->area(t) / (radius_ * radius_), mesh_->perimeter(t) / radius_, least,
+                                      greatest, farthest >= radius_);
+        const double along = std::abs(glm::dot(plane.normal, u)), across = std::sqrt(std::max(0.0, 1 - along * along));
+        slope += along * s.area;
+        curvature += along * (along * s.across + across * s.along);
+    }
+    const double unit = 3 / (4 * pi) / noise_scale;
+    const double rate = speed / radius_;
+    return {0.5 / noise_scale, unit * std::min(slope, pi) * rate, unit * curvature * rate * rate};
+}
+
+}  // namespace deburr

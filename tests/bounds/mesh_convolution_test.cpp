@@ -1,0 +1,307 @@
+#include "bounds/mesh_convolution.hpp"
+
+#include "bounds/root_finder.hpp"
+#include "catch.hpp"
+#include "random_case.hpp"
+
+using namespace deburr;
+
+namespace {
+
+constexpr double pi = 3.14159265358979323846;
+
+using Corners = ClosedMesh::Corners;
+
+struct Shape {
+    std::vector<Vec3> vertices;
+    std::vector<Corners> triangles;
+
+    ClosedMesh mesh() const { return {vertices, triangles}; }
+    // The polygon, counter-clockwise, raised from z0 to z1; `fan` triangulates it.
+    static Shape prism(const std::vector<Vec2>& outline, const std::vector<Corners>& fan, double z0, double z1) {
+        Shape s;
+        const int n = int(outline.size());
+        for (const double z : {z0, z1})
+            for (const Vec2 p : outline) s.vertices.push_back({p.x, p.y, z});
+        for (const Corners& t : fan) {
+            s.triangles.push_back({t[2], t[1], t[0]});
+            s.triangles.push_back({t[0] + n, t[1] + n, t[2] + n});
+        }
+        for (int i = 0; i < n; ++i) {
+            const int j = (i + 1) % n;
+            s.triangles.push_back({i, j, j + n});
+            s.triangles.push_back({i, j + n, i + n});
+        }
+        return s;
+    }
+    static Shape box(Vec3 lo, Vec3 hi) {
+        return prism({{lo.x, lo.y}, {hi.x, lo.y}, {hi.x, hi.y}, {lo.x, hi.y}}, {{0, 1, 2}, {0, 2, 3}}, lo.z, hi.z);
+    }
+    static Shape l_prism() {
+        return prism({{0, 0}, {2, 0}, {2, 1}, {1, 1}, {1, 2}, {0, 2}}, {{0, 1, 2}, {0, 2, 3}, {0, 3, 4}, {0, 4, 5}}, 0,
+                     1);
+    }
+    // A sphere of rings × 2 rings quadrilaterals.
+    static Shape sphere(double radius, int rings) {
+        Shape s;
+        const int sides = 2 * rings;
+        s.vertices.push_back({0, 0, radius});
+        for (int i = 1; i < rings; ++i)
+            for (int k = 0; k < sides; ++k) {
+                const double u = pi * i / rings, v = 2 * pi * k / sides;
+                s.vertices.push_back(radius * Vec3(std::sin(u) * std::cos(v), std::sin(u) * std::sin(v), std::cos(u)));
+            }
+        s.vertices.push_back({0, 0, -radius});
+        const int last = int(s.vertices.size()) - 1;
+        for (int k = 0; k < sides; ++k) {
+            const int l = (k + 1) % sides;
+            s.triangles.push_back({0, 1 + k, 1 + l});
+            s.triangles.push_back({last, last - sides + l, last - sides + k});
+            for (int i = 0; i + 2 < rings; ++i) {
+                const int a = 1 + i * sides, b = a + sides;
+                s.triangles.push_back({a + k, b + k, b + l});
+                s.triangles.push_back({a + k, b + l, a + l});
+            }
+        }
+        return s;
+    }
+    void rotate(Gen& g) {
+        const Mat3 turn = g.map(false).linear;
+        for (Vec3& v : vertices) v = turn * v;
+    }
+};
+
+Density l_density() { return Density::box({0, 0, 0}, {2, 1, 1}) | Density::box({0, 0, 0}, {1, 2, 1}); }
+
+// Places that are not in general position: on vertices, edges, faces, and where the sphere touches these.
+Vec3 adversarial(Gen& g, const ClosedMesh& mesh, double r) {
+    const int t = g.below(int(mesh.size()));
+    const Vec3 a = mesh.corner(t, 0), b = mesh.corner(t, 1), c = mesh.corner(t, 2), n = mesh.plane(t).normal;
+    const double u = g.between(0, 1), v = g.between(0, 1 - u);
+    Vec3 x = g.chance(0.3) ? a : g.chance(0.4) ? a + u * (b - a) : a + u * (b - a) + v * (c - a);
+    switch (g.below(5)) {
+        case 0: x += g.chance(0.5) ? r * n : -r * n; break;
+        case 1: x += r * n + r * g.normal() * std::pow(10.0, g.between(-12, -3)); break;
+        case 2: x += r * g.normal() * std::pow(10.0, g.between(-16, 0)); break;
+        case 3: x += r * g.between(-1, 1) * n; break;
+        default: break;
+    }
+    return x;
+}
+
+}  // namespace
+
+TEST_CASE("the share of a ball in a mesh is the convolution of the polyhedron that it bounds") {
+    int varied = 0;
+    for (auto seed : seeds(20'000)) {
+        CAPTURE(seed);
+        Gen g(seed);
+        const bool bent = g.chance(0.5), special = g.chance(0.5);
+        const Shape shape = bent ? Shape::l_prism() : Shape::box({0, 0, 0}, {2, 1, 1});
+        const Density density = bent ? l_density() : Density::box({0, 0, 0}, {2, 1, 1});
+        const ClosedMesh mesh = shape.mesh();
+        const double r = std::pow(10.0, special ? g.between(-6, 0.7) : g.between(-1, 0.7));
+        const Vec3 x = special ? adversarial(g, mesh, r) : Vec3(g.between(-1, 3), g.between(-1, 3), g.between(-1, 2));
+        const ValueGradient expected = flatten_convolved(density, r).gradient_at(x), got = ball_share(mesh, x, r);
+        CAPTURE(x.x, x.y, x.z, r, got.value, expected.value);
+        // Where the sphere touches an edge or a plane, rounding of 10⁻¹⁶ is a chord of 10⁻⁸.
+        CHECK(std::abs(got.value - expected.value) <= (special ? 2e-8 : 1e-12));
+        CHECK(r * largest(got.gradient - expected.gradient) <= (special ? 1e-7 : 1e-11));
+        varied += expected.value > 0 && expected.value < 1;
+    }
+    CHECK(varied > 10'000);
+}
+
+TEST_CASE("the share does not depend on how a solid's faces are triangulated") {
+    for (auto seed : seeds(3'000)) {
+        CAPTURE(seed);
+        Gen g(seed);
+        Shape coarse = Shape::l_prism(), fine = coarse;
+        // Each triangle is split at a point within, or on an edge where its neighbour is split too.
+        for (int k = 0; k < 30; ++k) {
+            const std::size_t t = std::size_t(g.below(int(fine.triangles.size())));
+            const Corners c = fine.triangles[t];
+            const double u = g.between(0.05, 0.9), v = g.between(0.05, 0.95 - u);
+            const int m = int(fine.vertices.size());
+            fine.vertices.push_back(fine.vertices[c[0]] * (1 - u - v) + fine.vertices[c[1]] * u +
+                                    fine.vertices[c[2]] * v);
+            fine.triangles[t] = {c[0], c[1], m};
+            fine.triangles.push_back({c[1], c[2], m});
+            fine.triangles.push_back({c[2], c[0], m});
+        }
+        const ClosedMesh a = coarse.mesh(), b = fine.mesh();
+        CHECK(a.planes() == 8);
+        CHECK(b.planes() == 8);
+        const double r = std::pow(10.0, g.between(-1, 0.5));
+        const Vec3 x = g.near(flatten_convolved(l_density(), r), r);
+        CHECK(std::abs(ball_share(a, x, r).value - ball_share(b, x, r).value) <= 1e-12);
+    }
+}
+
+TEST_CASE("the share near a finely tessellated sphere is that of two balls") {
+    const double radius = 1;
+    const ClosedMesh mesh = Shape::sphere(radius, 200).mesh();
+    int inside = 0;
+    for (auto seed : seeds(300)) {
+        CAPTURE(seed);
+        Gen g(seed);
+        const double r = g.between(0.05, 0.95), k = r / radius, a = g.between(-1, 1);
+        const Vec3 x = g.normal() * (radius + a * r);
+        const double expected = (1 - a) * (1 - a) * (4 * (2 + a) - k * (1 - a) * (3 + a)) / (16 * (1 + k * a));
+        if (radius + a * r < 0) continue;
+        CHECK(std::abs(ball_share(mesh, x, r).value - expected) <= 4e-4 / r);
+        ++inside;
+    }
+    CHECK(inside > 200);
+}
+
+TEST_CASE("a fan of a thousand triangles around a vertex has the share of its solid") {
+    // A cone over a polygon of a thousand sides, and the same as a plain cone's share by thin slices.
+    Shape cone;
+    const int sides = 1000;
+    cone.vertices = {{0, 0, 1}, {0, 0, 0}};
+    for (int k = 0; k < sides; ++k)
+        cone.vertices.push_back({std::cos(2 * pi * k / sides), std::sin(2 * pi * k / sides), 0});
+    for (int k = 0; k < sides; ++k) {
+        const int a = 2 + k, b = 2 + (k + 1) % sides;
+        cone.triangles.push_back({0, a, b});
+        cone.triangles.push_back({1, b, a});
+    }
+    const ClosedMesh mesh = cone.mesh();
+    // The ball around the apex, no larger than the slant: a sector of half-angle 45°.
+    const double sector = (1 - std::sqrt(0.5)) / 2;
+    for (const double r : {0.1, 0.3, 0.7}) CHECK(std::abs(ball_share(mesh, {0, 0, 1}, r).value - sector) < 1e-5);
+    // All of it.
+    const double volume = 0.5 * sides * std::sin(2 * pi / sides) / 3;
+    CHECK(std::abs(ball_share(mesh, {0, 0, 0}, 5).value - volume / (4 * pi / 3 * 125)) < 1e-14);
+    CHECK(std::abs(mesh.volume() - volume) < 1e-12);
+}
+
+TEST_CASE("shares of a cavity and of what fills it add up") {
+    Shape outer = Shape::box({-1, -1, -1}, {1, 1, 1}), inner = Shape::box({-0.5, -0.4, -0.3}, {0.5, 0.4, 0.3});
+    Shape shell = outer;
+    for (const Corners& t : inner.triangles) shell.triangles.push_back({t[0] + 8, t[2] + 8, t[1] + 8});
+    shell.vertices.insert(shell.vertices.end(), inner.vertices.begin(), inner.vertices.end());
+    const ClosedMesh a = outer.mesh(), b = inner.mesh(), c = shell.mesh();
+    for (auto seed : seeds(5'000)) {
+        CAPTURE(seed);
+        Gen g(seed);
+        const double r = std::pow(10.0, g.between(-1.5, 0.5));
+        const Vec3 x = g.chance(0.3) ? adversarial(g, c, r) : g.point(1.3);
+        CHECK(std::abs(ball_share(c, x, r).value + ball_share(b, x, r).value - ball_share(a, x, r).value) <= 3e-8);
+    }
+}
+
+namespace {
+
+Shape random_shape(Gen& g) {
+    Shape shape = g.chance(0.4)   ? Shape::l_prism()
+                  : g.chance(0.5) ? Shape::box({0, 0, 0}, {g.between(0.1, 2), 1, 1})
+                                  : Shape::sphere(1, 3 + g.below(6));
+    if (g.chance(0.7)) shape.rotate(g);
+    return shape;
+}
+
+}  // namespace
+
+TEST_CASE("the gradient is that of the share, and M, L and G bound it along every ray") {
+    int varied = 0;
+    double tightest = 0;
+    for (auto seed : seeds(4'000)) {
+        CAPTURE(seed);
+        Gen g(seed);
+        const auto mesh = std::make_shared<ClosedMesh>(random_shape(g).mesh());
+        const double r = std::pow(10.0, g.between(-1, 0.3));
+        const MeshField field(mesh, r);
+        const int t = g.below(int(mesh->size()));
+        const Vec3 on = (mesh->corner(t, 0) + mesh->corner(t, 1) + mesh->corner(t, 2)) / 3.0;
+        const Vec3 start = on + r * g.between(0, 1) * g.normal(), u = g.normal() * g.between(0.5, 2);
+        const double length = r * std::pow(10.0, g.between(-2, 0.3));
+        FieldRay ray;
+        ray.set(field, start, u, 0, length);
+        const RayBounds b = ray.bounds(0, length);
+        const double unit = ray.noise_scale;
+        constexpr int steps = 24;
+        double before = 0, slope_before = 0;
+        for (int i = 0; i <= steps; ++i) {
+            const double at = length * i / steps, h = length / steps;
+            const ValueSlope v = ray.at(at);
+            const ValueGradient w = field.at(start + at * u);
+            CHECK(std::abs(v.value * unit - w.value) <= 1e-12);
+            CHECK(std::abs(v.slope * unit - glm::dot(w.gradient, u)) <= 1e-10 / r);
+            CHECK(std::abs(v.value) <= b.M * (1 + 1e-12));
+            CHECK(std::abs(v.slope) <= b.L * (1 + 1e-9) + 1e-14);
+            if (i > 0) {
+                // What lies between, by its mean.
+                CHECK(std::abs(v.value - before) <= b.L * h * (1 + 1e-9) + 1e-14);
+                CHECK(std::abs(v.slope - slope_before) <= b.G * h * (1 + 1e-9) + 1e-12 / r);
+                CHECK(std::abs(v.value - before - 0.5 * h * (v.slope + slope_before)) <= 0.25 * b.G * h * h + 1e-12);
+                if (b.G > 0) tightest = std::max(tightest, std::abs(v.slope - slope_before) / (b.G * h));
+                varied += v.value != before;
+            }
+            before = v.value;
+            slope_before = v.slope;
+        }
+    }
+    CHECK(varied > 30'000);
+    CHECK(tightest > 0.5);
+}
+
+TEST_CASE("ranges over boxes hold the share and its rate, and what is pruned to a box is the same there") {
+    int straddling = 0, decided = 0, dense = 0, falling = 0;
+    for (auto seed : seeds(6'000)) {
+        CAPTURE(seed);
+        Gen g(seed);
+        const auto mesh = std::make_shared<ClosedMesh>(random_shape(g).mesh());
+        const double r = std::pow(10.0, g.between(-1, 0));
+        FieldPtr field = std::make_shared<MeshField>(mesh, r);
+        Affine map;
+        if (g.chance(0.3)) {
+            map = g.map();
+            field = transformed(field, map);
+        }
+        const int t = g.below(int(mesh->size()));
+        Vec3 center = map((mesh->corner(t, 0) + mesh->corner(t, 1) + mesh->corner(t, 2)) / 3.0);
+        center += r * g.between(0, 1.5) * g.normal();
+        const Vec3 half =
+            r * std::pow(10.0, g.between(-2, 0.5)) * Vec3(g.between(0.1, 1), g.between(0.1, 1), g.between(0.1, 1));
+        const Box box{center - half, center + half};
+        const FieldPtr local = field->prune(box) ? field->prune(box) : field;
+        const Box inner{center - 0.7 * half, center + 0.6 * half};
+        const Range range = local->range(inner), wide = field->range(box);
+        const Vec3 n = g.normal();
+        const Range rates = local->rate_range(inner, n);
+        const auto density = local->as_density(inner);
+        const std::optional<LocalDensity> as_density = density ? std::optional<LocalDensity>(*density) : std::nullopt;
+        dense += density.has_value();
+        falling += rates.hi < 0 || rates.lo > 0;
+        (classify_field(range) == Side::straddling ? straddling : decided) += 1;
+        for (int k = 0; k < 12; ++k) {
+            const Vec3 x = inner.lo + Vec3(g.between(0, 1), g.between(0, 1), g.between(0, 1)) * (inner.hi - inner.lo);
+            const ValueGradient v = field->at(x), w = local->at(x);
+            CHECK(std::abs(v.value - w.value) <= 1e-9);
+            CHECK(v.value >= range.lo - 1e-9);
+            CHECK(v.value <= range.hi + 1e-9);
+            CHECK(v.value >= wide.lo - 1e-9);
+            CHECK(v.value <= wide.hi + 1e-9);
+            CHECK(glm::dot(v.gradient, n) >= rates.lo - 1e-7 / r);
+            CHECK(glm::dot(v.gradient, n) <= rates.hi + 1e-7 / r);
+            if (as_density) CHECK(std::abs(as_density->at(x) - 0.5 - v.value) <= 1e-8);
+        }
+    }
+    CHECK(straddling > 500);
+    CHECK(decided > 500);
+    CHECK(dense > 500);
+    CHECK(falling > 300);
+}
+
+TEST_CASE("an open mesh is told with the number of its open edges, and where one is") {
+    Shape box = Shape::box({0, 0, 0}, {1, 1, 1});
+    box.triangles.pop_back();
+    try {
+        box.mesh();
+        CHECK(false);
+    } catch (const NotClosed& error) {
+        CHECK(error.count == 3);
+    }
+}
