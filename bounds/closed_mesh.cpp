@@ -381,4 +381,13 @@ bool ClosedMesh::contains(Vec3 x) const {
     return is_inside(x, best);
 }
 
+ClosedMeshPtr transformed(const ClosedMesh& mesh, const Affine& map) {
+    std::vector<Vec3> vertices;
+    for (const Vec3& v : mesh.vertices()) vertices.push_back(map(v));
+    std::vector<ClosedMesh::Corners> triangles = mesh.triangles();
+    if (glm::determinant(map.linear) < 0)
+        for (ClosedMesh::Corners& t : triangles) std::swap(t[1], t[2]);
+    return std::make_shared<ClosedMesh>(std::move(vertices), std::move(triangles));
+}
+
 }  // namespace deburr

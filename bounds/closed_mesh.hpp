@@ -114,4 +114,7 @@ private:
 
 using ClosedMeshPtr = std::shared_ptr<const ClosedMesh>;
 
+/// The mesh carried along by a regular map; one that mirrors turns its triangles, so that they face outward still.
+ClosedMeshPtr transformed(const ClosedMesh& mesh, const Affine& map);
+
 }  // namespace deburr

@@ -36,6 +36,13 @@ public:
         density->ball = map_.linear * density->ball;
         return density;
     }
+    bool is_polyhedral() const override { return inner_->is_polyhedral(); }
+    // Along the direction in which the map shrinks it most.
+    double filter_radius() const override {
+        const Mat3 square = glm::transpose(map_.linear) * map_.linear;
+        const Vec3 v = eigensystem(square).values;
+        return inner_->filter_radius() * std::sqrt(std::max(0.0, std::min({v.x, v.y, v.z})));
+    }
     std::vector<HalfSpace> planes() const override {
         std::vector<HalfSpace> planes = inner_->planes();
         for (HalfSpace& h : planes) h = deburr::transformed(h, map_, true);

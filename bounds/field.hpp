@@ -41,6 +41,10 @@ public:
     /// The same as a density whose set ρ > ½ it is throughout the box, if one of a few half-spaces does: what the rest
     /// of the program intersects at once. Asked for where the range straddles.
     virtual std::optional<DensityTree> as_density(const Box&) const { return std::nullopt; }
+    /// Whether it is a rounded polyhedron, with flat faces and a filter's radius: triage can follow it.
+    virtual bool is_polyhedral() const { return false; }
+    /// The radius of the filter that rounds it; 0: none.
+    virtual double filter_radius() const { return 0; }
     /// Half-spaces along whose planes, and their parallels at ±radius, cutting space leaves less of the field on a
     /// side; only where they are few.
     virtual std::vector<HalfSpace> planes() const { return {}; }

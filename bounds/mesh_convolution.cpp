@@ -456,14 +456,14 @@ std::vector<HalfSpace> MeshField::planes() const {
 
 int MeshField::size() const {
     // A triangle costs about as much as this many half-spaces.
-    constexpr double triangle = 4;
+    constexpr double triangle = 2;
     return int(std::min(1e9, std::max(1.0, triangle * double(triangle_count()))));
 }
 
 LocalSize MeshField::local_size(const Box& box) const {
     thread_local std::vector<int> memory;
     const std::span<const int> found = near(box, memory);
-    return {range(box, found), std::max(1, 4 * int(found.size()))};
+    return {range(box, found), std::max(1, 2 * int(found.size()))};
 }
 
 double MeshField::last_sign_change_bound(Vec3 origin, Vec3 direction) const {

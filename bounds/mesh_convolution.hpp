@@ -33,8 +33,6 @@ public:
     MeshField(ClosedMeshPtr mesh, double radius);
 
     const ClosedMesh& mesh() const { return *mesh_; }
-    /// As it was given.
-    double radius() const { return sharp_ ? 0 : radius_; }
     /// How many triangles may matter here.
     std::size_t triangle_count() const { return whole_ ? mesh_->size() : triangles_.size(); }
 
@@ -44,6 +42,8 @@ public:
     Box bounding_box() const override { return box_; }
     FieldPtr prune(const Box& box) const override;
     std::optional<DensityTree> as_density(const Box& box) const override;
+    bool is_polyhedral() const override { return true; }
+    double filter_radius() const override { return sharp_ ? 0 : radius_; }
     std::vector<HalfSpace> planes() const override;
     int size() const override;
     LocalSize local_size(const Box& box) const override;

@@ -47,9 +47,14 @@ SolidTree prune(const SolidTree& tree, const Box& box) {
     std::vector<Side> sides;
     classify_nodes(tree, sides, [&](int leaf) {
         const SolidLeaf& of = tree.leaves[leaf];
-        if (of.field) return classify_field(of.field->range(box));
         Pruned& here = local[leaf];
-        here = prune(of.density, box);
+        if (of.field) {
+            const std::optional<DensityTree> density = of.field->as_density(box);
+            if (!density) return classify_field(of.field->range(box));
+            here = prune(*density, box);
+        } else {
+            here = prune(of.density, box);
+        }
         return classify(here.range);
     });
     std::vector<char> needed;
@@ -74,7 +79,7 @@ SolidTree prune(const SolidTree& tree, const Box& box) {
             int& to_leaf = new_leaf_index[n.a];
             if (to_leaf < 0) {
                 to_leaf = int(to.leaves.size());
-                if (leaf.field) {
+                if (leaf.field && local[n.a].tree.nodes.empty()) {
                     to.leaves.push_back(leaf);
                     if (FieldPtr left = leaf.field->prune(box)) to.leaves.back().field = std::move(left);
                 } else {
@@ -101,10 +106,11 @@ LocalSolidSize local_size(const SolidTree& tree, const Box& box) {
     sizes.assign(tree.leaves.size(), 0);
     classify_nodes(tree, sides, [&](int leaf) {
         const SolidLeaf& of = tree.leaves[leaf];
-        const LocalSize size = of.field ? of.field->local_size(box) : local_size(of.density, box);
+        const std::optional<DensityTree> density = of.field ? of.field->as_density(box) : std::nullopt;
+        const bool is_field = of.field && !density;
+        const LocalSize size = is_field ? of.field->local_size(box) : local_size(density ? *density : of.density, box);
         sizes[leaf] = size.half_spaces;
-        if (of.field) return classify_field(size.range);
-        return classify(size.range);
+        return is_field ? classify_field(size.range) : classify(size.range);
     });
     mark_needed(tree, sides, needed);
     LocalSolidSize result{sides.back(), 0, 0};

@@ -121,14 +121,18 @@ SingularPlacement::SingularPlacement(int of_line)
 
 double SolidTree::min_radius() const {
     double least = infinity;
-    for (const SolidLeaf& leaf : leaves)
+    for (const SolidLeaf& leaf : leaves) {
         for (const HalfSpace& h : leaf.density.half_spaces)
             if (h.radius > 0) least = std::min(least, h.radius);
+        const double radius = leaf.field ? leaf.field->filter_radius() : 0;
+        if (radius > 0) least = std::min(least, radius);
+    }
     return least < infinity ? least : 0;
 }
 
-bool SolidTree::has_field() const {
-    return std::any_of(leaves.begin(), leaves.end(), [](const SolidLeaf& leaf) { return leaf.field != nullptr; });
+bool SolidTree::has_free_form() const {
+    return std::any_of(leaves.begin(), leaves.end(),
+                       [](const SolidLeaf& leaf) { return leaf.field && !leaf.field->is_polyhedral(); });
 }
 
 bool SolidTree::contains(Vec3 x) const {

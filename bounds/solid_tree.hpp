@@ -30,8 +30,8 @@ struct SolidTree {
     int root() const { return int(nodes.size()) - 1; }
     /// The least radius > 0; 0 if all is sharp.
     double min_radius() const;
-    /// Is there a leaf that is no density?
-    bool has_field() const;
+    /// Is there a leaf that is neither a density nor a rounded mesh?
+    bool has_free_form() const;
     /// The definition: [Lobb figure 4, PointInObject].
     bool contains(Vec3 x) const;
 };

@@ -57,7 +57,7 @@ public:
         : options_(options),
           hard_cosine_(std::cos(options.hard_angle * radians)),
           tree_(solid, box, edge, spare_levels, options.cancel),
-          has_forms_(solid.has_field()),
+          has_forms_(solid.has_free_form()),
           looks_for_thin_(has_forms_) {}
 
     Mesh run(OctreeStatistics& statistics, std::vector<Origin>& origins) {

@@ -89,7 +89,7 @@ public:
     /// Before it is thinned out further.
     void save() {
         saved_.push_back({mesh_, origins_, reached_});
-        if (judge_ && solid_.has_field()) look_far();
+        if (judge_ && solid_.has_free_form()) look_far();
     }
     /// Back to what was saved last, which is saved no longer; false: nothing is.
     bool restore() {

@@ -44,7 +44,7 @@ Box finite_part(const Scene& scene, const std::vector<Box>& boxes) {
 
 // Triage follows half-spaces: what has none it cannot see.
 void need_densities(const SolidTree& solid, std::size_t id) {
-    if (solid.has_field())
+    if (solid.has_free_form())
         throw UnsupportedError(fmt::format(
             "--method triage: expected rounded polyhedra, got a free form in solid {}; use octree or marching-cubes",
             id));
@@ -54,7 +54,7 @@ double octree_tolerance(const SolidTree& tree, const Box& box, const MeshSetting
     const double radius = tree.min_radius();
     const double relative =
         radius > 0 ? settings.tolerance_in_radii * radius : settings.tolerance_in_sizes * largest(box.hi - box.lo);
-    return std::min(settings.tolerance, tree.has_field() || radius > 0 ? relative : infinity);
+    return std::min(settings.tolerance, tree.has_free_form() || radius > 0 ? relative : infinity);
 }
 
 Mesh by_octree(const SolidTree& tree, const Box& box, bool cut_off, const MeshSettings& settings, std::size_t id,
@@ -104,7 +104,7 @@ SolidMesh polygonize(const SolidTree& tree, bool cut_off, const MeshSettings& se
     SolidMesh result;
     const Box box = polygonization_box(tree);
     if (box.empty()) return result;
-    result.method = settings.method.value_or(tree.has_field() ? MeshMethod::octree : MeshMethod::triage);
+    result.method = settings.method.value_or(tree.has_free_form() ? MeshMethod::octree : MeshMethod::triage);
     result.check_options.cancel = cancel;
     if (result.method == MeshMethod::octree) {
         result.mesh = by_octree(tree, box, cut_off, settings, id, cancel, result.octree);

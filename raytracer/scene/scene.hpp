@@ -71,10 +71,12 @@ struct Scene {
     Camera camera;
     std::vector<Light> lights;
     Background background;
-    Vec3 ambient{0.0};                // constant radiance from all around, seen by diffuse surfaces only
-    std::vector<Material> materials;  // never empty: index 0 is for solids that name none
-    std::vector<Solid> solids;        // separate objects; ids are 1, 2, … in this order
-    std::vector<std::string> names;   // of the solids, "" where they have none
+    Vec3 ambient{0.0};                     // constant radiance from all around, seen by diffuse surfaces only
+    std::vector<Material> materials;       // never empty: index 0 is for solids that name none
+    std::vector<Solid> solids;             // separate objects; ids are 1, 2, … in this order
+    std::vector<std::string> names;        // of the solids, "" where they have none
+    std::vector<std::string> model_files;  // paths that it was read from besides
+    std::vector<std::string> notes;        // what was mended in these, a line each
 };
 
 }  // namespace deburr

@@ -12,8 +12,8 @@
 namespace deburr {
 
 std::string kind_of(const SceneObject& object) {
-    static constexpr const char* kinds[] = {"a density",  "a solid", "a quadric", "a perturbation",
-                                            "a material", "a light", "a texture", "a sky"};
+    static constexpr const char* kinds[] = {"a density", "a solid",   "a quadric", "a perturbation", "a material",
+                                            "a light",   "a texture", "a sky",     "a model"};
     static_assert(std::size(kinds) == std::variant_size_v<decltype(object.is)>);
     return kinds[object.is.index()];
 }
@@ -68,6 +68,7 @@ const SceneObject* SceneBuilder::keep(SceneObject object) {
 Solid SceneBuilder::solid(const SceneObject& object) {
     if (const auto* solid = as<Solid>(&object)) return *solid;
     keep_parts(node_block<SolidNode>);
+    if (const auto* model = as<PlacedModel>(&object)) return solid(*model, 0, object.line);
     if (const auto* quadric = as<Quadric>(&object)) return solid_of_free_form("quadric", *quadric, {}, object.line);
     return Solid::sharp(*as<Density>(&object), object.line);
 }
@@ -249,7 +250,8 @@ void open_scene_functions(lua_State* lua) {
     const int meta = lua_gettop(lua);
     lua_newtable(lua);
     const int methods = lua_gettop(lua);
-    for (const auto* functions : {&shape_functions(), &free_form_functions(), &material_functions()})
+    for (const auto* functions :
+         {&shape_functions(), &free_form_functions(), &material_functions(), &model_functions()})
         for (const SceneFunction& function : *functions) {
             push_function(lua, function);
             switch (function.kind) {

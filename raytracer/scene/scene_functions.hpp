@@ -11,16 +11,25 @@
 #include <variant>
 #include <vector>
 
+#include "bounds/closed_mesh.hpp"
 #include "bounds/free_form.hpp"
 #include "raytracer/scene/lua_values.hpp"
 #include "raytracer/scene/memory_meter.hpp"
 #include "raytracer/scene/scene.hpp"
+#include "raytracer/scene/scene_files.hpp"
 
 struct lua_State;
 
 namespace deburr {
 
 using SceneName = std::shared_ptr<const std::string>;
+
+/// A closed mesh from a file, where the scene has moved it.
+struct PlacedModel {
+    ClosedMeshPtr mesh;
+    Affine map;
+    std::string file;  // as the scene names it
+};
 
 /// What a scene's function made. A scene has a million of them where it places a block that often, so what is large and
 /// rare is kept elsewhere.
@@ -31,7 +40,7 @@ struct SceneObject {
     using Kept = std::conditional_t<is_handle<T>, T, std::shared_ptr<const T>>;
 
     std::variant<Kept<Density>, Kept<Solid>, Kept<Quadric>, Kept<Perturbation>, Kept<Material>, Kept<Light>,
-                 Kept<Texture>, Kept<Background>>
+                 Kept<Texture>, Kept<Background>, Kept<PlacedModel>>
         is;
     SceneName name;  // of a solid; null: none
     int line = 0;    // of the scene, where it was made
@@ -62,8 +71,8 @@ using SceneResult = std::variant<Argument, const SceneObject*, bool, double, lon
 class SceneBuilder {
 public:
     /// `max_part_bytes`: see SandboxLimits::parts.
-    SceneBuilder(const std::map<std::string, std::string>& defines, std::size_t max_part_bytes)
-        : defines_(defines), max_part_bytes_(max_part_bytes) {}
+    SceneBuilder(const std::map<std::string, std::string>& defines, SceneFiles files, std::size_t max_part_bytes)
+        : defines_(defines), files_(std::move(files)), max_part_bytes_(max_part_bytes) {}
 
     template <class T>
     const SceneObject* make(T object, int line, SceneName name = nullptr) {
@@ -76,6 +85,13 @@ public:
     }
     /// The solid that `object` is or, for a density or a quadric, means.
     Solid solid(const SceneObject& object);
+    /// The model of a file, which is read once. Throws std::runtime_error, SceneError and UnsupportedError.
+    const ClosedMeshPtr& model(const std::string& file);
+    /// The model rounded by a ball of this radius; 0: as it stands.
+    Solid solid(const PlacedModel& model, double radius, int line);
+    /// Files that were read, and what was mended in them: "part.stl: turned 12 facets that faced inward".
+    const std::vector<std::string>& notes() const { return notes_; }
+    const std::vector<std::string>& files() const { return files_read_; }
     /// The place of a material in materials(); each has one, however often it is used.
     int index_of(const SceneObject* material);
     /// param(): the value that the command line gives in place of `fallback`, if any.
@@ -95,6 +111,7 @@ public:
     void borrow(std::size_t bytes);
 
     MemoryMeter* memory = nullptr;  // of the sandbox
+    bool is_unsupported = false;    // the scene failed for a file that is right but not supported
 
     // What the latest call from Lua left, kept here so that it outlives every C++ frame.
     SceneResult result;
@@ -107,6 +124,9 @@ private:
     const SceneObject* keep(SceneObject object);
 
     const std::map<std::string, std::string>& defines_;
+    const SceneFiles files_;
+    std::map<std::string, ClosedMeshPtr> models_;  // by name
+    std::vector<std::string> notes_, files_read_;
     std::map<std::string, std::string> parameters_;
     std::deque<SceneObject> objects_;
     std::vector<Material> materials_{Material{}};
@@ -143,7 +163,8 @@ struct SceneFunction {
 };
 
 /// The tables of functions: shapes, operators and placements; quadrics and free forms; materials,
-/// textures and lights.
+/// textures and lights; models.
+const std::vector<SceneFunction>& model_functions();
 const std::vector<SceneFunction>& shape_functions();
 const std::vector<SceneFunction>& free_form_functions();
 const std::vector<SceneFunction>& material_functions();

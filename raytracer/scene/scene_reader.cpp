@@ -12,6 +12,7 @@
 #include "bounds/canonical_solids.hpp"
 #include "raytracer/scene/scene_functions.hpp"
 #include "raytracer/scene/source_lines.hpp"
+#include "raytracer/util/errors.hpp"
 #include "raytracer/util/printable.hpp"
 
 namespace deburr {
@@ -84,7 +85,7 @@ void read_solids(const LuaValue& value, SceneBuilder& builder, Scene& scene) {
     for (const LuaValue& item : table->list) {
         const std::string location = fmt::format("solids[{}]", scene.solids.size() + 1);
         const SceneObject* object = as_object(item);
-        if (!as<Solid>(object) && !as<Density>(object) && !as<Quadric>(object))
+        if (!as<Solid>(object) && !as<Density>(object) && !as<Quadric>(object) && !as<PlacedModel>(object))
             expected(location, "a solid or a density", item);
         scene.solids.push_back(builder.solid(*object));
         const std::string name = object->name ? *object->name : "";
@@ -175,15 +176,22 @@ void check_text(const std::string& text, const std::string& file) {
 }  // namespace
 
 Scene read_scene_text(const std::string& given, const std::string& file,
-                      const std::map<std::string, std::string>& defines, const SandboxLimits& limits) {
+                      const std::map<std::string, std::string>& defines, const SandboxLimits& limits,
+                      const std::vector<std::string>& model_folders) {
     check_text(given, file);
     std::string text = given;
     if (text.compare(0, 3, "\xEF\xBB\xBF") == 0) text.erase(0, 3);  // byte order mark
     if (text.compare(0, 1, "#") == 0) text.insert(0, "--");         // #!, as the lua command allows
 
-    SceneBuilder builder(defines, limits.parts);
+    SceneBuilder builder(defines, SceneFiles(file, model_folders), limits.parts);
     Sandbox sandbox(limits, &builder);
-    lua_State* lua = sandbox.run(text, file, open_scene_functions);
+    lua_State* lua = nullptr;
+    try {
+        lua = sandbox.run(text, file, open_scene_functions);
+    } catch (const SceneError& error) {
+        if (builder.is_unsupported) throw UnsupportedError(error.what());
+        throw;
+    }
     builder.memory = &sandbox.memory();
     Scene scene;
     scene.file = file;
@@ -207,12 +215,14 @@ Scene read_scene_text(const std::string& given, const std::string& file,
     }
     scene.parameters = builder.parameters();
     scene.materials = builder.materials();
+    scene.notes = builder.notes();
+    scene.model_files = builder.files();
     return scene;
 }
 
 Scene read_scene(const std::string& file, const std::map<std::string, std::string>& defines,
-                 const SandboxLimits& limits) {
-    return read_scene_text(file_text(file), file, defines, limits);
+                 const SandboxLimits& limits, const std::vector<std::string>& model_folders) {
+    return read_scene_text(file_text(file), file, defines, limits, model_folders);
 }
 
 }  // namespace deburr

@@ -12,12 +12,14 @@
 
 namespace deburr {
 
-/// `defines` are the command line's parameters, each of which the scene must ask for.
+/// `defines` are the command line's parameters, each of which the scene must ask for; `model_folders`, where model()
+/// looks besides the scene's own.
 Scene read_scene(const std::string& file, const std::map<std::string, std::string>& defines = {},
-                 const SandboxLimits& limits = {});
+                 const SandboxLimits& limits = {}, const std::vector<std::string>& model_folders = {});
 
 /// The same for a text that is already in memory; `file` is for messages.
 Scene read_scene_text(const std::string& text, const std::string& file,
-                      const std::map<std::string, std::string>& defines = {}, const SandboxLimits& limits = {});
+                      const std::map<std::string, std::string>& defines = {}, const SandboxLimits& limits = {},
+                      const std::vector<std::string>& model_folders = {});
 
 }  // namespace deburr

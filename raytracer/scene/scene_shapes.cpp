@@ -23,7 +23,7 @@ const Density* as_density(const LuaValue& value) { return as<Density>(as_object(
 
 bool is_set(const LuaValue& value) {  // something with an inside
     const SceneObject* object = as_object(value);
-    return as<Density>(object) || as<Solid>(object) || as<Quadric>(object);
+    return as<Density>(object) || as<Solid>(object) || as<Quadric>(object) || as<PlacedModel>(object);
 }
 
 const SceneObject& need_set(const LuaValue& value, const char* location) {
@@ -39,6 +39,8 @@ const SceneObject& need_movable(const LuaValue& value, const char* location) {
 
 const Density& need_density(const LuaValue& value, const char* location) {
     const Density* density = as_density(value);
+    if (!density && as<PlacedModel>(as_object(value)))
+        expected(location, "a density; convolved(r, m) rounds a model, sharp(m) leaves it as it is", value);
     if (!density) expected(location, "a density", value);
     return *density;
 }
@@ -128,6 +130,8 @@ SceneResult rounded(SceneCall& call) {
 SceneResult convolved(SceneCall& call) {
     call.at_most(2);
     const double radius = number_above(call.argument(0), call.location("radius"), 0);
+    if (const auto* model = as<PlacedModel>(as_object(call.argument(1))))
+        return call.make(call.builder.solid(*model, radius, call.line));
     const Density& density = need_density(call.argument(1), call.name);
     if (density.has_radius())
         throw BadValue(call.name,
@@ -137,6 +141,8 @@ SceneResult convolved(SceneCall& call) {
 
 SceneResult sharp(SceneCall& call) {
     call.at_most(1);
+    if (const auto* model = as<PlacedModel>(as_object(call.argument(0))))
+        return call.make(call.builder.solid(*model, 0, call.line));
     return call.make(Solid::sharp(need_density(call.argument(0), call.name), call.line));
 }
 
@@ -210,6 +216,8 @@ SceneResult transform(SceneCall& call, const Affine& map) {
     const SceneObject& self = need_movable(call.argument(0), call.name);
     if (const auto* density = as<Density>(&self)) return call.make(density->transformed(map));
     if (const auto* quadric = as<Quadric>(&self)) return call.make(ordinary(transformed(*quadric, map), call.name));
+    if (const auto* model = as<PlacedModel>(&self))
+        return call.make(PlacedModel{model->mesh, compose(map, model->map), model->file});
     if (const auto* p = as<Perturbation>(&self))
         return call.make(Perturbation{p->factor, ordinary(transformed(p->quadric, map), call.name)});
     return call.make(as<Solid>(&self)->transformed(map), self.name);

@@ -1,0 +1,392 @@
+#include "raytracer/model/closed_surface.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+#include <numeric>
+#include <utility>
+
+#include "bounds/union_find.hpp"
+#include "polygonizer/mesh/crossing_triangles.hpp"
+
+namespace deburr {
+namespace {
+
+using Corners = ClosedMesh::Corners;
+
+struct Surface {
+    std::vector<Vec3> vertices;
+    std::vector<Corners> triangles;
+};
+
+std::string place(Vec3 x) { return fmt::format("{{{:.6g}, {:.6g}, {:.6g}}}", x.x, x.y, x.z); }
+
+std::string count_of(std::size_t n, const char* what) { return fmt::format("{} {}{}", n, what, n == 1 ? "" : "s"); }
+
+double size_of(const std::vector<Vec3>& vertices) {
+    Box box;
+    for (const Vec3& v : vertices) box = hull(box, Box{v, v});
+    return box.empty() ? 0 : largest(box.hi - box.lo);
+}
+
+// Numbers vertices anew: those for which `same` holds of neighbours in the order by coordinates are one.
+Surface welded(const TriangleSoup& soup) {
+    Surface to;
+    std::vector<int> order(soup.vertices.size()), number(soup.vertices.size());
+    std::iota(order.begin(), order.end(), 0);
+    const auto key = [&](int i) {
+        const Vec3 v = soup.vertices[i] + 0.0;  // −0 is 0
+        return std::tuple(v.x, v.y, v.z);
+    };
+    std::sort(order.begin(), order.end(), [&](int a, int b) { return key(a) != key(b) ? key(a) < key(b) : a < b; });
+    // In the order in which the file has them, so that equal files give equal meshes whatever their vertices' values.
+    std::vector<int> first(soup.vertices.size());
+    for (std::size_t i = 0; i < order.size(); ++i)
+        first[order[i]] = i > 0 && key(order[i]) == key(order[i - 1]) ? first[order[i - 1]] : order[i];
+    for (std::size_t i = 0; i < first.size(); ++i)
+        if (first[i] == int(i)) {
+            number[i] = int(to.vertices.size());
+            to.vertices.push_back(soup.vertices[i] + 0.0);
+        }
+    for (const auto& t : soup.triangles)
+        to.triangles.push_back({number[first[t[0]]], number[first[t[1]]], number[first[t[2]]]});
+    return to;
+}
+
+void drop_collapsed(Surface& surface) {
+    std::erase_if(surface.triangles, [](const Corners& t) { return t[0] == t[1] || t[1] == t[2] || t[2] == t[0]; });
+}
+
+// Equal triangles count once, and a pair back to back not at all. Returns how many went.
+std::size_t drop_doubles(Surface& surface) {
+    struct Key {
+        Corners sorted;
+        bool even;  // orientation
+        int at;
+    };
+    std::vector<Key> keys;
+    for (std::size_t t = 0; t < surface.triangles.size(); ++t) {
+        Corners c = surface.triangles[t];
+        std::rotate(c.begin(), std::min_element(c.begin(), c.end()), c.end());
+        const bool even = c[1] < c[2];
+        if (!even) std::swap(c[1], c[2]);
+        keys.push_back({c, even, int(t)});
+    }
+    std::sort(keys.begin(), keys.end(),
+              [](const Key& a, const Key& b) { return a.sorted != b.sorted ? a.sorted < b.sorted : a.at < b.at; });
+    std::vector<char> gone(surface.triangles.size(), false);
+    for (std::size_t i = 0; i < keys.size();) {
+        std::size_t end = i;
+        bool any[2] = {false, false};
+        for (; end < keys.size() && keys[end].sorted == keys[i].sorted; ++end) any[keys[end].even] = true;
+        for (std::size_t k = i; k < end; ++k) gone[keys[k].at] = (any[0] && any[1]) || k > i;
+        i = end;
+    }
+    std::vector<Corners> left;
+    for (std::size_t t = 0; t < gone.size(); ++t)
+        if (!gone[t]) left.push_back(surface.triangles[t]);
+    const std::size_t dropped = surface.triangles.size() - left.size();
+    surface.triangles = std::move(left);
+    return dropped;
+}
+
+struct HalfEdge {
+    int lo, hi, triangle, k;
+    bool up;
+};
+
+std::vector<HalfEdge> sorted_edges(const Surface& surface) {
+    std::vector<HalfEdge> edges;
+    for (std::size_t t = 0; t < surface.triangles.size(); ++t)
+        for (int k = 0; k < 3; ++k) {
+            const int a = surface.triangles[t][k], b = surface.triangles[t][(k + 1) % 3];
+            edges.push_back({std::min(a, b), std::max(a, b), int(t), k, a < b});
+        }
+    std::sort(edges.begin(), edges.end(), [](const HalfEdge& a, const HalfEdge& b) {
+        return std::tie(a.lo, a.hi, a.triangle, a.k) < std::tie(b.lo, b.hi, b.triangle, b.k);
+    });
+    return edges;
+}
+
+// Calls visit(first, last) for the half-edges of each edge.
+template <class Visit>
+void each_edge(const std::vector<HalfEdge>& edges, Visit visit) {
+    for (std::size_t i = 0; i < edges.size();) {
+        std::size_t end = i + 1;
+        while (end < edges.size() && edges[end].lo == edges[i].lo && edges[end].hi == edges[i].hi) ++end;
+        visit(&edges[i], &edges[i] + (end - i));
+        i = end;
+    }
+}
+
+struct Openness {
+    std::size_t open = 0;      // edges with an odd number of triangles
+    std::size_t unturned = 0;  // even, but not as many one way as the other
+    Vec3 place{0.0};
+    std::vector<int> rim;  // vertices of open edges
+};
+
+Openness openness(const Surface& surface) {
+    Openness o;
+    each_edge(sorted_edges(surface), [&](const HalfEdge* first, const HalfEdge* last) {
+        const auto count = last - first;
+        if (count % 2 != 0) {
+            if (o.open++ == 0) o.place = 0.5 * (surface.vertices[first->lo] + surface.vertices[first->hi]);
+            o.rim.insert(o.rim.end(), {first->lo, first->hi});
+        } else {
+            o.unturned += std::count_if(first, last, [](const HalfEdge& e) { return e.up; }) * 2 != count;
+        }
+    });
+    std::sort(o.rim.begin(), o.rim.end());
+    o.rim.erase(std::unique(o.rim.begin(), o.rim.end()), o.rim.end());
+    return o;
+}
+
+// Joins vertices of open edges that are within `distance` of one another.
+void weld_rim(Surface& surface, const std::vector<int>& rim, double distance) {
+    std::vector<int> order = rim;
+    std::sort(order.begin(), order.end(), [&](int a, int b) {
+        return surface.vertices[a].x != surface.vertices[b].x ? surface.vertices[a].x < surface.vertices[b].x : a < b;
+    });
+    UnionFind same(surface.vertices.size());
+    for (std::size_t i = 0; i < order.size(); ++i)
+        for (std::size_t k = i + 1; k < order.size(); ++k) {
+            const Vec3 d = surface.vertices[order[k]] - surface.vertices[order[i]];
+            if (d.x > distance) break;
+            if (glm::dot(d, d) <= distance * distance)
+                same.join(std::min(order[i], order[k]), std::max(order[i], order[k]));
+        }
+    for (Corners& t : surface.triangles)
+        for (int& v : t) v = same.find(v);
+    drop_collapsed(surface);
+}
+
+// Triangles that hang together, by the edges that two of them share.
+std::vector<int> shells_of(const Surface& surface, int& count) {
+    UnionFind joined(surface.triangles.size());
+    each_edge(sorted_edges(surface), [&](const HalfEdge* first, const HalfEdge* last) {
+        if (last - first == 2) joined.join(first[0].triangle, first[1].triangle);
+    });
+    std::vector<int> shell(surface.triangles.size()), number(surface.triangles.size(), -1);
+    count = 0;
+    for (std::size_t t = 0; t < shell.size(); ++t) {
+        int& n = number[joined.find(int(t))];
+        if (n < 0) n = count++;
+        shell[t] = n;
+    }
+    return shell;
+}
+
+// Turns triangles so that neighbours agree; returns how many, or −1 where a shell has one side only.
+long turn_alike(Surface& surface) {
+    std::vector<std::array<int, 3>> neighbour(surface.triangles.size(), {-1, -1, -1});
+    std::vector<std::array<char, 3>> agrees(surface.triangles.size(), {true, true, true});
+    each_edge(sorted_edges(surface), [&](const HalfEdge* first, const HalfEdge* last) {
+        if (last - first != 2) return;
+        for (int i = 0; i < 2; ++i) {
+            neighbour[first[i].triangle][first[i].k] = first[1 - i].triangle;
+            agrees[first[i].triangle][first[i].k] = first[0].up != first[1].up;
+        }
+    });
+    std::vector<signed char> turned(surface.triangles.size(), -1);
+    std::vector<int> todo;
+    long total = 0;
+    for (std::size_t seed = 0; seed < turned.size(); ++seed) {
+        if (turned[seed] >= 0) continue;
+        turned[seed] = 0;
+        todo.assign(1, int(seed));
+        std::vector<int> all;
+        while (!todo.empty()) {
+            const int t = todo.back();
+            todo.pop_back();
+            all.push_back(t);
+            for (int k = 0; k < 3; ++k) {
+                const int next = neighbour[t][k];
+                if (next < 0) continue;
+                const auto wanted = static_cast<signed char>(agrees[t][k] ? turned[t] : 1 - turned[t]);
+                if (turned[next] < 0) {
+                    turned[next] = wanted;
+                    todo.push_back(next);
+                } else if (turned[next] != wanted) {
+                    return -1;
+                }
+            }
+        }
+        // The lesser part is what is wrong.
+        const auto flipped = std::count_if(all.begin(), all.end(), [&](int t) { return turned[t] == 1; });
+        const bool other = 2 * flipped > long(all.size());
+        for (const int t : all)
+            if ((turned[t] == 1) != other) std::swap(surface.triangles[t][1], surface.triangles[t][2]);
+        total += other ? long(all.size()) - flipped : flipped;
+    }
+    return total;
+}
+
+Mesh as_mesh(const Surface& surface) {
+    Mesh mesh;
+    mesh.positions = surface.vertices;
+    for (const Corners& t : surface.triangles) mesh.triangles.push_back({t, {0, 0, 0}});
+    return mesh;
+}
+
+// Shells as solids of their own, to see which lies in which.
+struct Shell {
+    std::vector<int> triangles;
+    std::unique_ptr<ClosedMesh> mesh;  // faces outward
+    int sign = 1;                      // −1: faced inward
+};
+
+std::vector<Shell> shells(const Surface& surface) {
+    int count = 0;
+    const std::vector<int> shell_of = shells_of(surface, count);
+    std::vector<Shell> all;
+    all.resize(std::size_t(count));
+    for (std::size_t t = 0; t < shell_of.size(); ++t) all[shell_of[t]].triangles.push_back(int(t));
+    for (Shell& shell : all) {
+        double six = 0;
+        const Vec3 o = surface.vertices[surface.triangles[shell.triangles[0]][0]];
+        std::vector<Corners> own;
+        for (const int t : shell.triangles) {
+            const Corners& c = surface.triangles[t];
+            six += glm::dot(surface.vertices[c[0]] - o,
+                            glm::cross(surface.vertices[c[1]] - o, surface.vertices[c[2]] - o));
+            own.push_back(c);
+        }
+        shell.sign = six < 0 ? -1 : 1;
+        if (six < 0)
+            for (Corners& c : own) std::swap(c[1], c[2]);
+        try {
+            shell.mesh = std::make_unique<ClosedMesh>(surface.vertices, std::move(own));
+        } catch (const NotClosed&) {  // it hangs together with others at edges of four triangles
+        }
+    }
+    return all;
+}
+
+bool holds(const Shell& outer, const Shell& inner) {
+    if (!outer.mesh || !inner.mesh || outer.mesh->size() == 0 || inner.mesh->size() == 0) return false;
+    const Box a = outer.mesh->bounding_box(), b = inner.mesh->bounding_box();
+    for (int k = 0; k < 3; ++k)
+        if (b.lo[k] < a.lo[k] || b.hi[k] > a.hi[k]) return false;
+    // They do not cross, but may touch in a point: the middles of a few triangles decide.
+    int in = 0, asked = 0;
+    const int step = std::max(1, int(inner.mesh->size()) / 5);
+    for (int t = 0; t < int(inner.mesh->size()); t += step, ++asked)
+        in += outer.mesh->contains((inner.mesh->corner(t, 0) + inner.mesh->corner(t, 1) + inner.mesh->corner(t, 2)) /
+                                   3.0);
+    return 2 * in > asked;
+}
+
+// Turns shells so that the solid is where it must be; `trusted`: what the file says of the sides counts.
+void settle_shells(Surface& surface, bool trusted, std::vector<std::string>& mended) {
+    std::vector<Shell> all = shells(surface);
+    constexpr std::size_t most = 2'000;  // their pairs are looked at
+    if (all.size() > most) return;
+    std::size_t turned = 0, dropped = 0;
+    const bool inside_out = std::all_of(all.begin(), all.end(), [](const Shell& s) { return s.sign < 0; });
+    std::vector<char> gone(surface.triangles.size(), false);
+    for (std::size_t i = 0; i < all.size(); ++i) {
+        int outside = 0, depth = 0;
+        for (std::size_t j = 0; j < all.size(); ++j)
+            if (j != i && holds(all[j], all[i])) {
+                ++depth;
+                outside += inside_out || !trusted ? 0 : all[j].sign;
+            }
+        const auto turn = [&] {
+            turned += all[i].triangles.size();
+            for (const int t : all[i].triangles) std::swap(surface.triangles[t][1], surface.triangles[t][2]);
+        };
+        const int sign = inside_out ? 1 : all[i].sign;
+        if (!trusted || inside_out) {
+            const int wanted = depth % 2 == 0 ? 1 : -1;
+            if (all[i].sign != wanted) turn();
+        } else if (outside <= 0 && sign < 0) {
+            turn();
+        } else if ((outside >= 1) == (outside + sign >= 1)) {
+            ++dropped;
+            for (const int t : all[i].triangles) gone[t] = true;
+        }
+    }
+    if (turned > 0) mended.push_back(fmt::format("turned {} that faced inward", count_of(turned, "facet")));
+    if (dropped == 0) return;
+    mended.push_back(fmt::format("dropped {} within the solid", count_of(dropped, "shell")));
+    std::vector<Corners> left;
+    for (std::size_t t = 0; t < gone.size(); ++t)
+        if (!gone[t]) left.push_back(surface.triangles[t]);
+    surface.triangles = std::move(left);
+}
+
+void check_crossing(const Surface& surface) {
+    const Mesh mesh = as_mesh(surface);
+    const auto pairs = crossing_triangles(mesh, TriangleTree(mesh));
+    if (pairs.empty()) return;
+    int count = 0;
+    const std::vector<int> shell_of = shells_of(surface, count);
+    const bool between_shells = std::all_of(
+        pairs.begin(), pairs.end(), [&](const auto& pair) { return shell_of[pair.first] != shell_of[pair.second]; });
+    const Triangle& t = mesh.triangles[pairs[0].first];
+    const Vec3 at = (mesh.positions[t.vertex[0]] + mesh.positions[t.vertex[1]] + mesh.positions[t.vertex[2]]) / 3.0;
+    throw UnsoundSurface(fmt::format(
+        "expected a surface that does not cross itself, got {} of crossing triangles, one near {}; {}",
+        count_of(pairs.size(), "pair"), place(at),
+        between_shells
+            ? "unite the overlapping bodies in the program that made them, or put each into a file of its own "
+              "and write model(a) | model(b) in a scene"
+            : "repair it in the program that made it"));
+}
+
+}  // namespace
+
+ClosedSurface closed_surface(const TriangleSoup& soup) {
+    ClosedSurface result;
+    for (const Vec3& v : soup.vertices)
+        for (int k = 0; k < 3; ++k)
+            if (!std::isfinite(v[k])) throw UnsoundSurface("expected coordinates, got one that is not a number");
+    if (soup.triangles.empty()) throw UnsoundSurface("expected a solid's surface, got no triangles");
+    Surface surface = welded(soup);
+    drop_collapsed(surface);
+    if (const std::size_t doubles = drop_doubles(surface))
+        result.mended.push_back(
+            fmt::format("dropped {} that {} there twice", count_of(doubles, "facet"), doubles == 1 ? "is" : "are"));
+    Openness open = openness(surface);
+    const double size = size_of(surface.vertices);
+    for (const double tolerance : {1e-7, 1e-6, 1e-5}) {
+        if (open.open == 0) break;
+        Surface joined = surface;
+        weld_rim(joined, open.rim, tolerance * size);
+        const Openness now = openness(joined);
+        if (now.open >= open.open) continue;
+        if (now.open == 0)
+            result.mended.push_back(
+                fmt::format("joined vertices that lie within {:.2g} of one another", tolerance * size));
+        surface = std::move(joined);
+        open = now;
+    }
+    if (open.open > 0)
+        throw UnsoundSurface(
+            fmt::format("expected a closed surface, got one with {}, one near {}; close it in the program that made it",
+                        count_of(open.open, "open edge"), place(open.place)));
+    bool trusted = true;
+    if (open.unturned > 0) {
+        const long turned = turn_alike(surface);
+        if (turned < 0)
+            throw UnsoundSurface("expected a surface with an inside and an outside, got one that has a single side");
+        result.mended.push_back(fmt::format("turned {} that faced inward", count_of(std::size_t(turned), "facet")));
+        trusted = false;
+    }
+    check_crossing(surface);
+    settle_shells(surface, trusted, result.mended);
+    try {
+        result.mesh = std::make_shared<ClosedMesh>(std::move(surface.vertices), std::move(surface.triangles));
+    } catch (const NotClosed& error) {
+        throw UnsoundSurface(fmt::format(
+            "expected a surface with an inside and an outside, got {} whose triangles do not pair up, one near {}",
+            count_of(error.count, "edge"), place(error.place)));
+    }
+    if (!(result.mesh->size() > 0 && result.mesh->volume() > 0))
+        throw UnsoundSurface("expected a solid's surface, got one that encloses nothing");
+    return result;
+}
+
+}  // namespace deburr

@@ -1,0 +1,73 @@
+#include "raytracer/model/model_format.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+#include <cstdint>
+#include <cstring>
+#include <filesystem>
+
+#include "raytracer/scene/lua_sandbox.hpp"
+#include "raytracer/util/printable.hpp"
+
+namespace deburr {
+namespace {
+
+constexpr const char* extensions[] = {".stl", ".obj", ".ply", ".off", ".3mf", ".glb", ".gltf", ".scad", ".csg"};
+
+std::string extension(const std::string& path) {
+    std::string end = std::filesystem::path(path).extension().string();
+    std::transform(end.begin(), end.end(), end.begin(), [](unsigned char c) { return char(std::tolower(c)); });
+    return end;
+}
+
+[[noreturn]] void fail(const std::string& path, const std::string& what) { throw SceneError(one_line(what, path)); }
+
+// 80 bytes of any text, a count, and 50 bytes a facet.
+constexpr std::size_t stl_header = 84, stl_facet = 50;
+
+std::size_t stl_count(const std::string& bytes) {
+    std::uint32_t count = 0;
+    if (bytes.size() >= stl_header) std::memcpy(&count, bytes.data() + 80, 4);
+    return count;
+}
+
+}  // namespace
+
+bool is_model_path(const std::string& path) {
+    const std::string end = extension(path);
+    return std::find(std::begin(extensions), std::end(extensions), end) != std::end(extensions);
+}
+
+bool is_openscad_path(const std::string& path) {
+    const std::string end = extension(path);
+    return end == ".scad" || end == ".csg";
+}
+
+std::string model_format(const std::string& bytes, const std::string& path) {
+    const auto starts = [&](const char* sign) { return bytes.compare(0, std::strlen(sign), sign) == 0; };
+    if (bytes.empty()) fail(path, fmt::format("{}: expected a model, got an empty file", file_mark));
+    if (starts("glTF")) return "glb";
+    if (starts("PK\x03\x04")) return "3mf";
+    if (starts("ply")) return "ply";
+    const std::string end = extension(path);
+    if (starts("OFF") || starts("COFF") || starts("NOFF") || starts("CNOFF")) return "off";
+    if (end == ".obj") return "obj";
+    if (end == ".gltf") return "gltf";
+    const std::size_t count = stl_count(bytes);
+    if (bytes.size() >= stl_header && bytes.size() == stl_header + stl_facet * count) return "stl";
+    const bool is_text = bytes.find('\0') == std::string::npos;
+    if (is_text && starts("solid") && bytes.find("facet") != std::string::npos) {
+        if (bytes.find("endsolid") == std::string::npos)
+            fail(path,
+                 fmt::format("{}: expected STL text that ends with endsolid, got one that is cut off", file_mark));
+        return "stl";
+    }
+    if (end == ".stl" && !is_text && bytes.size() >= stl_header)
+        fail(path, fmt::format("{}: expected {} bytes for the {} facets that it claims, got {}", file_mark,
+                               stl_header + stl_facet * count, count, bytes.size()));
+    fail(path, fmt::format("{}: expected a model (STL, OBJ, PLY, OFF, 3MF, GLB), got something else", file_mark));
+}
+
+}  // namespace deburr

@@ -1,0 +1,24 @@
+// What the module for models (util/module.hpp) does: it calls Assimp, which reads STL, OBJ, PLY, OFF, 3MF and glTF.
+#pragma once
+#include <array>
+#include <string>
+#include <vector>
+
+#include "bounds/vec.hpp"
+
+namespace deburr {
+
+/// Triangles as a file has them: nothing is joined, checked or turned.
+struct TriangleSoup {
+    std::vector<Vec3> vertices;
+    std::vector<std::array<int, 3>> triangles;
+};
+
+/// Reads the bytes of a file of this format, a name such as "stl". Throws std::runtime_error with the library's words.
+using ModelReader = TriangleSoup(const std::string& bytes, const std::string& format);
+
+/// What the module gives, by this name.
+using ModelModuleEntry = ModelReader*();
+constexpr const char* model_module_entry = "deburr_model_module";
+
+}  // namespace deburr
