@@ -91,6 +91,8 @@ LocalDensity::LocalDensity(const DensityTree& tree) {
     for (const HalfSpace& h : half_spaces_) has_sharp_ |= h.radius == 0;
 }
 
+LocalDensity::LocalDensity(FieldPtr field) : field_(std::move(field)), half_spaces_(field_->planes()) {}
+
 int LocalDensity::add(Node node) {
     nodes_.push_back(node);
     return int(nodes_.size()) - 1;
@@ -245,11 +247,17 @@ ValueGradient DensityTree::gradient_at(Vec3 x) const {
 }
 
 double LocalDensity::at(Vec3 x) const {
+    if (field_) return field_->at(x).value + 0.5;
     if (convolution_) return gradient_at(x).value;
     return run<double>(nodes_, children_, [&](std::size_t i) { return half_spaces_[i].density(x); });
 }
 
 ValueGradient LocalDensity::gradient_at(Vec3 x) const {
+    if (field_) {
+        ValueGradient v = field_->at(x);
+        v.value += 0.5;
+        return v;
+    }
     if (convolution_) {
         thread_local std::vector<double> alpha, slope;
         alpha.clear();
@@ -268,11 +276,16 @@ ValueGradient LocalDensity::gradient_at(Vec3 x) const {
 }
 
 Range LocalDensity::range(const Box& box) const {
+    if (field_) {
+        const Range f = field_->range(box);
+        return {f.lo + 0.5, f.hi + 0.5};
+    }
     if (convolution_) return convolution_->range(box);
     return range_from([&](int i) { return density_range(half_spaces_[i], box); });
 }
 
 Range LocalDensity::range(std::span<const Range> half_spaces) const {
+    if (field_) return {0, 1};
     if (convolution_) return convolution_->range({half_spaces.begin(), half_spaces.end()});
     return range_from([&](int i) { return half_spaces[i]; });
 }
@@ -328,6 +341,7 @@ struct RangeRate {
 }  // namespace
 
 Range LocalDensity::rate_range(std::span<const Range> half_spaces, std::span<const Range> rates) const {
+    if (field_) return {-infinity, infinity};
     if (convolution_) {
         Range all;
         for (std::size_t i = 0; i < rates.size(); ++i) {

@@ -12,6 +12,7 @@
 #include "bounds/ball_convolution.hpp"
 #include "bounds/box_range.hpp"
 #include "bounds/density_tree.hpp"
+#include "bounds/field.hpp"
 #include "bounds/ray_bounds.hpp"
 
 namespace deburr {
@@ -19,6 +20,11 @@ namespace deburr {
 class LocalDensity {
 public:
     explicit LocalDensity(const DensityTree& tree);
+    /// A rounded mesh: ρ = f + ½. Its half-spaces are the field's planes, of which only at(), gradient_at() and the
+    /// ranges over boxes make something else than a guess.
+    explicit LocalDensity(FieldPtr field);
+    /// Null for a density of half-spaces.
+    const Field* field() const { return field_.get(); }
 
     /// The half-spaces that matter, each with its normal as the expression needs it.
     const std::vector<HalfSpace>& half_spaces() const { return half_spaces_; }
@@ -78,6 +84,7 @@ private:
     int add_boolean(const DensityTree& tree, int root);
     void find_polarities(const DensityTree& tree, int root, std::size_t first);
 
+    FieldPtr field_;
     std::shared_ptr<const BallConvolution> convolution_;  // of a true convolution, which needs no nodes
     std::vector<HalfSpace> half_spaces_;
     std::vector<Node> nodes_;  // operands first, the root last

@@ -6,7 +6,7 @@
 namespace deburr {
 
 std::optional<LocalDensity::Product> LocalDensity::as_product() const {
-    if (convolution_) return std::nullopt;
+    if (convolution_ || field_) return std::nullopt;
     std::vector<std::optional<Product>> expanded;
     const auto complement = [](std::optional<Product> p) {
         if (!p) return p;
@@ -54,7 +54,7 @@ std::optional<LocalDensity::Product> LocalDensity::as_product() const {
 }
 
 bool LocalDensity::is_affine_in_each(const std::vector<int>& variable_of) const {
-    if (convolution_) return false;
+    if (convolution_ || field_) return false;
     // Degrees, node by node, variable by variable.
     std::vector<std::vector<int>> degree;
     for (const Node& n : nodes_) {
@@ -216,7 +216,7 @@ private:
 
 std::optional<LocalDensity::Sum> LocalDensity::as_sum(std::size_t max_terms) const {
     constexpr std::size_t max_half_spaces = 64;  // all pairs of them are compared
-    if (convolution_ || half_spaces_.size() > max_half_spaces) return std::nullopt;
+    if (convolution_ || field_ || half_spaces_.size() > max_half_spaces) return std::nullopt;
     const Multiplier multiplier(half_spaces_);
     const Polynomial one{{1, {}}};
     std::vector<Polynomial> expanded;

@@ -68,7 +68,10 @@ const LocalDensity& SignedDistance::density(std::size_t leaf) const {
 // Of the sign that leaf_at(x).distance has.
 double SignedDistance::leaf_value(std::size_t leaf, Vec3 x) const {
     if (sharp_[leaf]) return sharp_at(solid_.leaves[leaf].density, x).distance;
-    if (const Field* field = solid_.leaves[leaf].field.get()) return field->at(x).value;
+    if (const Field* field = solid_.leaves[leaf].field.get()) {
+        const double f = field->at(x).value;
+        return field->is_polyhedral() ? above_level(f + 0.5) : f;
+    }
     return above_level(density(leaf).at(x));
 }
 
@@ -98,7 +101,8 @@ SurfaceSample SignedDistance::leaf_at(std::size_t leaf, Vec3 x) const {
         o = sharp_at(solid_.leaves[leaf].density, x);
     } else {
         const ValueGradient v = field ? field->at(x) : density(leaf).gradient_at(x);
-        const double slope = glm::length(v.gradient), f = field ? v.value : above_level(v.value);
+        const double slope = glm::length(v.gradient),
+                     f = field && !field->is_polyhedral() ? v.value : above_level(field ? v.value + 0.5 : v.value);
         if (slope > 0)
             o = {f / slope, -v.gradient / slope};
         else

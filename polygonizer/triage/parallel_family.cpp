@@ -11,13 +11,14 @@ constexpr double same_direction = 1e-9;  // sine of the angle between normals
 
 bool is_parallel_family(const LocalDensity& density) {
     const auto& planes = density.half_spaces();
-    if (planes.empty()) return false;
+    if (planes.empty() || density.field()) return false;
     for (const HalfSpace& h : planes)
         if (glm::length(glm::cross(h.normal, planes[0].normal)) > same_direction) return false;
     return true;
 }
 
 bool is_swept(const LocalDensity& density, Vec3& direction) {
+    if (density.field()) return false;
     const auto& planes = density.half_spaces();
     double best = same_direction;
     for (const HalfSpace& h : planes) {

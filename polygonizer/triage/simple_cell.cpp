@@ -52,6 +52,11 @@ bool falling_direction(const LocalDensity& density, const std::vector<Vec3>& cor
 bool is_simple(const LocalDensity& density, const std::vector<Vec3>& corners, double tolerance) {
     Vec3 direction;
     if (!falling_direction(density, corners, direction)) return false;
+    if (const Field* field = density.field()) {
+        Box box;
+        for (const Vec3& x : corners) box = hull(box, Box{x, x});
+        return field->rate_range(box, direction).hi <= 0;
+    }
     thread_local std::vector<Range> rho, rates;
     rho.clear();
     rates.clear();

@@ -9,11 +9,29 @@
 
 namespace deburr {
 
+namespace {
+
+// What a field's planes are asked for: where to cut.
+DensityTree planes_of(const Field& field) {
+    DensityTree tree = DensityTree::constant(0);
+    tree.half_spaces = field.planes();
+    return tree;
+}
+
+std::shared_ptr<const LocalDensity> density_of(const OpenLeaf& leaf) {
+    return leaf.field ? std::make_shared<LocalDensity>(leaf.field) : std::make_shared<LocalDensity>(*leaf.tree);
+}
+
+}  // namespace
+
 Subdivision::Subdivision(const SolidTree& solid, const Box& box) : complex(box, 1e-9 * glm::length(box.hi - box.lo)) {
     PartitionNode whole;
     whole.solid = solid.nodes;
-    for (std::size_t k = 0; k < solid.leaves.size(); ++k)
-        whole.open.push_back({int(k), std::make_shared<DensityTree>(solid.leaves[k].density), nullptr});
+    for (std::size_t k = 0; k < solid.leaves.size(); ++k) {
+        const SolidLeaf& leaf = solid.leaves[k];
+        whole.open.push_back({int(k), std::make_shared<DensityTree>(leaf.field ? planes_of(*leaf.field) : leaf.density),
+                              nullptr, leaf.field});
+    }
     nodes.push_back(std::move(whole));
     refused_.emplace_back();
     node_of.push_back(0);
@@ -48,8 +66,36 @@ void Subdivision::range_over_cell(const std::vector<HalfSpace>& half_spaces) {
     }
 }
 
+// A rounded mesh within corners_: a density of half-spaces as soon as few of its planes reach.
+OpenLeaf Subdivision::localize_field(const OpenLeaf& leaf, Side& side) {
+    Box box;
+    for (const Vec3& x : corners_) box = hull(box, Box{x, x});
+    // What touches the cell within rounding does not reach it.
+    const Vec3 half = 0.5 * (box.hi - box.lo), slack = glm::min(Vec3(4 * complex.tolerance), half);
+    box = {box.lo + slack, box.hi - slack};
+    OpenLeaf local = leaf;
+    if (std::optional<DensityTree> density = leaf.field->as_density(box)) {
+        local.field = nullptr;
+        local.tree = std::make_shared<DensityTree>(std::move(*density));
+        local.density = nullptr;
+        return localize(local, side);
+    }
+    const Range f = leaf.field->range(box);
+    side = classify_with_slack({f.lo + 0.5, f.hi + 0.5});
+    if (side != Side::straddling) return local;
+    if (FieldPtr left = leaf.field->prune(box)) {
+        local.field = std::move(left);
+        local.tree = std::make_shared<DensityTree>(planes_of(*local.field));
+        local.density = nullptr;
+    }
+    if (!local.density && (leaf.density || local.tree->half_spaces.size() <= 2 * many))
+        local.density = density_of(local);
+    return local;
+}
+
 // The leaf within corners_.
 OpenLeaf Subdivision::localize(const OpenLeaf& leaf, Side& side) {
+    if (leaf.field) return localize_field(leaf, side);
     range_over_cell(leaf.tree->half_spaces);
     Pruned pruned = prune_further(*leaf.tree, ranges_, is_classified_with_slack);
     side = classify_with_slack(pruned.range);
@@ -146,7 +192,7 @@ void Subdivision::subdivide(int cell) {
         if (!choose(nodes[at], plane)) {
             // Cells of a filter that reaches all over the object stay large, with many half-spaces.
             for (OpenLeaf& leaf : nodes[at].open)
-                if (!leaf.density) leaf.density = std::make_shared<LocalDensity>(*leaf.tree);
+                if (!leaf.density) leaf.density = density_of(leaf);
             continue;
         }
         if (halve(current_, plane))

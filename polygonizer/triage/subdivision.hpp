@@ -22,8 +22,9 @@ namespace deburr {
 /// A rounded density in a place where it is neither inside nor outside.
 struct OpenLeaf {
     int leaf = 0;                                 // in SolidTree::leaves
-    std::shared_ptr<const DensityTree> tree;      // pruned to the place
+    std::shared_ptr<const DensityTree> tree;      // pruned to the place; of a rounded mesh, its planes alone
     std::shared_ptr<const LocalDensity> density;  // of it; null while it has many half-spaces
+    FieldPtr field = {};                          // a rounded mesh that is no density of few planes here, pruned
 };
 
 /// A node of the binary space partition.
@@ -90,6 +91,7 @@ private:
     void range_over_cell(const std::vector<HalfSpace>& half_spaces);
     int add_node(int parent, int cell);
     OpenLeaf localize(const OpenLeaf& leaf, Side& side);
+    OpenLeaf localize_field(const OpenLeaf& leaf, Side& side);
     bool choose(const PartitionNode& node, Plane& plane);
     bool choose_own(const PartitionNode& node, Plane& plane);
     bool choose_neutral(const PartitionNode& node, const Extents& cell, Plane& plane) const;
