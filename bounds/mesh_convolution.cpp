@@ -30,11 +30,12 @@ Chord chord_of(Vec3 a, Vec3 b) {
     c.inside[1] = bb < 1;
     if (c.inside[0] && c.inside[1]) return c;
     // The point nearest to the centre, and half of the chord.
+    const bool both_out = !c.inside[0] && !c.inside[1];
+    if (both_out && !(ad < 0 && -ad < dd)) return c;
     const double s = -ad / dd;
     const Vec3 foot = a + s * d;
     const double square = 1 - glm::dot(foot, foot);
-    const bool both_out = !c.inside[0] && !c.inside[1];
-    if (both_out && !(s > 0 && s < 1 && square > 0)) return c;
+    if (both_out && !(square > 0)) return c;
     const double half = std::sqrt(std::max(0.0, square) / dd);
     if (!c.inside[0]) {
         c.enters = true;
@@ -47,12 +48,35 @@ Chord chord_of(Vec3 a, Vec3 b) {
     return c;
 }
 
+// The sum of angles in (−π, π] whose sines and cosines are given up to a factor > 0.
+class AngleSum {
+public:
+    void add(double sine, double cosine) {
+        const double re = re_ * cosine - im_ * sine, im = re_ * sine + im_ * cosine;
+        const bool was_upper = im_ > 0 || (im_ == 0 && re_ > 0), is_upper = im > 0 || (im == 0 && re > 0);
+        // By less than half of a turn to the left from the upper half plane into the lower, or the other way around.
+        const double size = std::max(std::abs(re), std::abs(im));
+        if (!(size > 0)) return;
+        const bool left = sine > 0 || (sine == 0 && cosine < 0);
+        if (left && was_upper && !is_upper) ++turns_;
+        if (sine < 0 && !was_upper && is_upper) --turns_;
+        re_ = re / size;
+        im_ = im / size;
+    }
+    double value() const { return (im_ == 0 && re_ < 0 ? -pi : std::atan2(im_, re_)) + 2 * pi * turns_; }
+
+private:
+    double re_ = 1, im_ = 0;
+    int turns_ = 0;
+};
+
 // Memory that evaluations use again and again.
 struct Scratch {
     struct Arc {
         int from, to;  // keys
     };
     std::vector<Arc> arcs;
+    AngleSum turn;  // of the solid's border on the sphere, where it passes from one triangle to the next
     std::vector<char> seen;
 };
 
@@ -80,7 +104,7 @@ int count_loops(Scratch& scratch) {
 class Sector {
 public:
     Sector(const ClosedMesh& mesh, int t, Vec3 x, double r) : mesh_(mesh), t_(t), normal_(mesh.plane(t).normal) {
-        for (int k = 0; k < 3; ++k) corner_[k] = (mesh.corner(t, k) - x) / r;
+        for (int k = 0; k < 3; ++k) corner_[k] = (mesh.corner(t, k) - x) * (1 / r);
         h_ = (mesh.plane(t).offset - glm::dot(normal_, x)) / r;
     }
 
@@ -110,7 +134,7 @@ public:
             if (c.enters) event_[events++] = {{entry_key, c.entry}, k, true};
             if (c.leaves) {
                 event_[events++] = {{exit_key, c.exit}, k, false};
-                turn_ += turning(k, c.exit);
+                add_turn(k, c.exit, scratch.turn);
             }
             any_ = true;
         }
@@ -140,7 +164,6 @@ public:
     double h() const { return h_; }
     double area() const { return 0.5 * twice_area_; }  // in squared radii
     double arcs() const { return arcs_; }
-    double turn() const { return turn_; }
     int loops() const { return loops_; }
 
 private:
@@ -175,13 +198,11 @@ private:
 
     // Where the solid's border on the sphere passes from this triangle to the next, across edge k at y: its turn to the
     // left.
-    double turning(int k, Vec3 y) const {
+    void add_turn(int k, Vec3 y, AngleSum& turn) const {
         const ClosedMesh::Plane &here = mesh_.plane(t_), &there = mesh_.plane(mesh_.across(t_, k).triangle);
-        if (here.id == there.id) return 0;
-        const double length = glm::dot(y, y);
-        return std::atan2(
-            glm::dot(y, glm::cross(here.normal, there.normal)) * std::sqrt(length),
-            glm::dot(here.normal, there.normal) * length - glm::dot(y, here.normal) * glm::dot(y, there.normal));
+        if (here.id == there.id) return;
+        turn.add(glm::dot(y, glm::cross(here.normal, there.normal)),
+                 glm::dot(here.normal, there.normal) - glm::dot(y, here.normal) * glm::dot(y, there.normal));
     }
 
     const ClosedMesh& mesh_;
@@ -190,7 +211,7 @@ private:
     Vec3 corner_[3];
     double h_;
     Vec3 foot_{0.0};
-    double square_ = 0, twice_area_ = 0, arcs_ = 0, turn_ = 0;
+    double square_ = 0, twice_area_ = 0, arcs_ = 0;
     Event event_[6];
     bool any_ = false;
     int loops_ = 0;
@@ -201,22 +222,27 @@ private:
 ValueGradient ball_share(const ClosedMesh& mesh, std::span<const int> triangles, Vec3 x, double r) {
     thread_local Scratch scratch;
     scratch.arcs.clear();
+    scratch.turn = {};
     double share = 0;
     int loops = 0;
     Vec3 areas(0.0);
     for (const int t : triangles) {
         const ClosedMesh::Ball& ball = mesh.ball(t);
+        const ClosedMesh::Plane& plane = mesh.plane(t);
         const Vec3 away = ball.center - x;
         const double reach = ball.radius + r;
         if (glm::dot(away, away) >= reach * reach) continue;
+        // Beyond rounding no edge of it can pierce the sphere.
+        const double rounding = 1e-9 * r + 16 * epsilon * std::abs(plane.offset);
+        if (std::abs(plane.offset - glm::dot(plane.normal, x)) > r + rounding) continue;
         Sector sector(mesh, t, x, r);
         if (!sector.find(scratch)) continue;
-        areas += sector.area() * mesh.plane(t).normal;
-        share += (sector.h() * (sector.area() + sector.arcs()) - sector.turn()) / (4 * pi);
+        areas += sector.area() * plane.normal;
+        share += sector.h() * (sector.area() + sector.arcs());
         loops += sector.loops();
     }
     if (!scratch.arcs.empty()) loops += count_loops(scratch);
-    share -= 0.5 * loops;
+    share = (share - scratch.turn.value()) / (4 * pi) - 0.5 * loops;
     share -= std::floor(share);
     // What is left is a multiple of 1, which decides between nothing and all.
     constexpr double near_whole = 1e-7;
@@ -289,6 +315,31 @@ Steepness steepness(double area, double perimeter, double least_h, double greate
     return s;
 }
 
+// How far the box reaches from its middle in directions in which the share changes: where all planes have a direction in
+// common it is the same along that.
+double reach_across(const ClosedMesh& mesh, std::span<const int> triangles, Vec3 half) {
+    constexpr double same_direction = 1e-9;  // sine of the angle between normals
+    const Vec3 first = mesh.plane(triangles[0]).normal;
+    Vec3 sweep(0.0);
+    for (const int t : triangles) {
+        const Vec3 n = mesh.plane(t).normal;
+        if (sweep == Vec3(0.0)) {
+            const Vec3 common = glm::cross(first, n);
+            const double sine = glm::length(common);
+            if (sine > same_direction) sweep = common / sine;
+        } else if (std::abs(glm::dot(sweep, n)) > same_direction) {
+            return glm::length(half);
+        }
+    }
+    if (sweep == Vec3(0.0)) return glm::dot(glm::abs(first), half);
+    double square = 0;
+    for (int corner = 0; corner < 4; ++corner) {
+        const Vec3 d(half.x, (corner & 1) != 0 ? -half.y : half.y, (corner & 2) != 0 ? -half.z : half.z);
+        square = std::max(square, glm::dot(d, d) - glm::dot(d, sweep) * glm::dot(d, sweep));
+    }
+    return std::sqrt(square);
+}
+
 }  // namespace
 
 MeshField::MeshField(ClosedMeshPtr mesh, double radius)
@@ -323,8 +374,11 @@ bool MeshField::is_inside(Vec3 x) const {
 
 ValueGradient MeshField::at(Vec3 x) const {
     thread_local std::vector<int> memory;
-    const std::span<const int> found = near({x, x}, memory);
-    if (found.empty()) return {is_inside(x) ? 0.5 : -0.5};
+    std::span<const int> found = triangles_;
+    if (whole_) {
+        found = near({x, x}, memory);
+        if (found.empty()) return {is_inside(x) ? 0.5 : -0.5};
+    }
     ValueGradient v = ball_share(*mesh_, found, x, radius_);
     v.value -= 0.5;
     return v;
@@ -343,15 +397,16 @@ Range MeshField::range(const Box& box, std::span<const int> triangles) const {
         const double f = is_inside(center) ? 0.5 : -0.5;
         return seen.lo == box.lo && seen.hi == box.hi ? Range{f, f} : Range{-0.5, f};
     }
-    const double reach = glm::length(half) / radius_;
+    const double reach = reach_across(*mesh_, triangles, half) / radius_;
     constexpr double steepest = 0.75;  // what the largest disc changes by
     if (steepest * reach > 1) return {-0.5, 0.5};
     const ValueGradient v = ball_share(*mesh_, triangles, center, radius_);
     double off = steepest * reach, curvature = 0;
+    const double away = glm::length(half);
     for (const int t : triangles) {
         const double h = std::abs(mesh_->plane(t).offset - glm::dot(mesh_->plane(t).normal, center)) / radius_;
         const ClosedMesh::Ball& ball = mesh_->ball(t);
-        const double farthest = (glm::distance(center, ball.center) + ball.radius) / radius_ + reach;
+        const double farthest = (glm::distance(center, ball.center) + ball.radius + away) / radius_;
         const Steepness s =
             steepness(0, mesh_->perimeter(t) / radius_, std::max(0.0, h - reach), h + reach, farthest >= 1);
         curvature += 0.5 * (s.across + std::sqrt(s.across * s.across + s.along * s.along));
@@ -367,14 +422,15 @@ Range MeshField::rate_range(const Box& box, Vec3 direction) const {
     const std::span<const int> found = near(box, memory);
     if (found.empty()) return {0, 0};
     const Vec3 center = 0.5 * (box.lo + box.hi);
-    const double reach = 0.5 * glm::length(box.hi - box.lo) / radius_;
+    const double reach = reach_across(*mesh_, found, 0.5 * (box.hi - box.lo)) / radius_;
     const double rate = glm::dot(ball_share(*mesh_, found, center, radius_).gradient, direction);
     double curvature = 0;
+    const double away = 0.5 * glm::length(box.hi - box.lo);
     for (const int t : found) {
         const ClosedMesh::Plane& plane = mesh_->plane(t);
         const double h = std::abs(plane.offset - glm::dot(plane.normal, center)) / radius_;
         const ClosedMesh::Ball& ball = mesh_->ball(t);
-        const double farthest = (glm::distance(center, ball.center) + ball.radius) / radius_ + reach;
+        const double farthest = (glm::distance(center, ball.center) + ball.radius + away) / radius_;
         const Steepness s =
             steepness(0, mesh_->perimeter(t) / radius_, std::max(0.0, h - reach), h + reach, farthest >= 1);
         // d(∇f·n)/dx = Σ (n·N) ∇|D|, and |∇|D|| ≤ |h| φ + the arcs' sum.

@@ -47,6 +47,20 @@ bool falling_direction(const LocalDensity& density, const std::vector<Vec3>& cor
     return false;
 }
 
+// Whether the field only falls in the direction, over the box: by its rate over the whole of it, or over its eighths.
+bool falls(const Field& field, const Box& box, Vec3 direction, int depth) {
+    const Range rate = field.rate_range(box, direction);
+    if (rate.hi <= 0) return true;
+    if (depth == 0 || rate.lo + rate.hi >= 0) return false;
+    const Vec3 middle = 0.5 * (box.lo + box.hi);
+    for (int part = 0; part < 8; ++part) {
+        Box eighth = box;
+        for (int k = 0; k < 3; ++k) ((part >> k & 1) != 0 ? eighth.lo : eighth.hi)[k] = middle[k];
+        if (!falls(field, eighth, direction, depth - 1)) return false;
+    }
+    return true;
+}
+
 }  // namespace
 
 bool is_simple(const LocalDensity& density, const std::vector<Vec3>& corners, double tolerance) {
@@ -55,7 +69,8 @@ bool is_simple(const LocalDensity& density, const std::vector<Vec3>& corners, do
     if (const Field* field = density.field()) {
         Box box;
         for (const Vec3& x : corners) box = hull(box, Box{x, x});
-        return field->rate_range(box, direction).hi <= 0;
+        constexpr int depth = 1;
+        return falls(*field, box, direction, depth);
     }
     thread_local std::vector<Range> rho, rates;
     rho.clear();
