@@ -186,7 +186,7 @@ void ClosedMesh::find_neighbours() {
 void ClosedMesh::join_planes() {
     double scale = 0;
     for (const Vec3& v : vertices_) scale = std::max(scale, largest(v));
-    const double tolerance = 16 * epsilon * scale;
+    const double tolerance = 256 * epsilon * scale;
     UnionFind faces(triangles_.size());
     std::vector<int> largest_of(triangles_.size());
     std::iota(largest_of.begin(), largest_of.end(), 0);

@@ -315,8 +315,8 @@ Steepness steepness(double area, double perimeter, double least_h, double greate
     return s;
 }
 
-// How far the box reaches from its middle in directions in which the share changes: where all planes have a direction in
-// common it is the same along that.
+// How far the box reaches from its middle in directions in which the share changes: where all planes have a direction
+// in common it is the same along that.
 double reach_across(const ClosedMesh& mesh, std::span<const int> triangles, Vec3 half) {
     constexpr double same_direction = 1e-9;  // sine of the angle between normals
     const Vec3 first = mesh.plane(triangles[0]).normal;
@@ -338,6 +338,24 @@ double reach_across(const ClosedMesh& mesh, std::span<const int> triangles, Vec3
         square = std::max(square, glm::dot(d, d) - glm::dot(d, sweep) * glm::dot(d, sweep));
     }
     return std::sqrt(square);
+}
+
+// Calls visit(triangle, least, greatest) with what |D| can be, in squared radii, for balls whose centres are within
+// `reach` radii of x: such a ball holds one that is smaller by this, and lies in one that is larger.
+template <class Visit>
+void each_area_range(const ClosedMesh& mesh, std::span<const int> triangles, Vec3 x, double r, double reach,
+                     Visit visit) {
+    thread_local Scratch scratch;
+    const auto area = [&](int t, double of) {
+        if (of <= 0 || std::abs(mesh.plane(t).offset - glm::dot(mesh.plane(t).normal, x)) >= of) return 0.0;
+        scratch.arcs.clear();
+        Sector sector(mesh, t, x, of);
+        return sector.find(scratch) ? sector.area() * (of / r) * (of / r) : 0.0;
+    };
+    for (const int t : triangles) {
+        const double greatest = area(t, (1 + reach) * r);
+        if (greatest > 0) visit(t, area(t, (1 - reach) * r), std::min(greatest, pi));
+    }
 }
 
 }  // namespace
@@ -413,6 +431,15 @@ Range MeshField::range(const Box& box, std::span<const int> triangles) const {
     }
     curvature *= 3 / (4 * pi);
     off = std::min(off, glm::dot(glm::abs(v.gradient), half) + 0.5 * curvature * reach * reach);
+    if (reach < 1) {
+        Vec3 lo(0.0), hi(0.0);  // of Σ n |D|
+        each_area_range(*mesh_, triangles, center, radius_, reach, [&](int t, double least, double greatest) {
+            const Vec3 n = mesh_->plane(t).normal;
+            lo += glm::min(n * least, n * greatest);
+            hi += glm::max(n * least, n * greatest);
+        });
+        off = std::min(off, 3 / (4 * pi * radius_) * glm::dot(glm::max(glm::abs(lo), glm::abs(hi)), half));
+    }
     off += 64 * epsilon;
     return {std::max(-0.5, v.value - 0.5 - off), std::min(0.5, v.value - 0.5 + off)};
 }
@@ -437,7 +464,18 @@ Range MeshField::rate_range(const Box& box, Vec3 direction) const {
         curvature += std::abs(glm::dot(plane.normal, direction)) * std::hypot(s.across, s.along);
     }
     const double off = curvature * (3 / (4 * pi)) * reach / radius_;
-    return {rate - off, rate + off};
+    Range rates{rate - off, rate + off};
+    if (reach < 1) {
+        Range sum;  // of Σ n·direction |D|
+        each_area_range(*mesh_, found, center, radius_, reach, [&](int t, double least, double greatest) {
+            const double along = glm::dot(mesh_->plane(t).normal, direction);
+            sum.lo += std::min(along * least, along * greatest);
+            sum.hi += std::max(along * least, along * greatest);
+        });
+        const double unit = 3 / (4 * pi * radius_), slack = 1e-12 * unit;
+        rates = {std::max(rates.lo, -unit * sum.hi - slack), std::min(rates.hi, -unit * sum.lo + slack)};
+    }
+    return rates;
 }
 
 FieldPtr MeshField::prune(const Box& box) const {

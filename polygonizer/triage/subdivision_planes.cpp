@@ -82,7 +82,10 @@ Subdivision::Extents Subdivision::extents(const PartitionNode& node) const {
         e.half_spaces += leaf.tree->half_spaces.size();
         e.all_small &= leaf.density != nullptr;
         for (const HalfSpace& h : leaf.tree->half_spaces) {
-            across += glm::abs(h.normal);
+            // A rounded mesh is the same along a direction only where all of its planes have it exactly.
+            constexpr double exactly = 1e-9;
+            const Vec3 n = glm::abs(h.normal);
+            across += leaf.field ? Vec3(n.x > exactly, n.y > exactly, n.z > exactly) : n;
             if (h.radius > 0) e.radius = std::min(e.radius, h.radius);
         }
     }

@@ -9,6 +9,7 @@
 
 #include "bounds/union_find.hpp"
 #include "polygonizer/mesh/crossing_triangles.hpp"
+#include "raytracer/model/flat_faces.hpp"
 
 namespace deburr {
 namespace {
@@ -377,6 +378,7 @@ ClosedSurface closed_surface(const TriangleSoup& soup) {
     }
     check_crossing(surface);
     settle_shells(surface, trusted, result.mended);
+    flatten_faces(surface.vertices, surface.triangles);
     try {
         result.mesh = std::make_shared<ClosedMesh>(std::move(surface.vertices), std::move(surface.triangles));
     } catch (const NotClosed& error) {
