@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "bounds/closed_mesh.hpp"
+
 namespace deburr {
 namespace {
 
@@ -37,6 +39,10 @@ public:
         return density;
     }
     bool is_polyhedral() const override { return inner_->is_polyhedral(); }
+    std::shared_ptr<const ClosedMesh> sharp_mesh() const override {
+        const auto mesh = inner_->sharp_mesh();
+        return mesh ? deburr::transformed(*mesh, map_) : nullptr;
+    }
     // Along the direction in which the map shrinks it most.
     double filter_radius() const override {
         const Mat3 square = glm::transpose(map_.linear) * map_.linear;

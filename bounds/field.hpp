@@ -16,6 +16,7 @@
 
 namespace deburr {
 
+class ClosedMesh;
 class Field;
 class FieldRay;
 using FieldPtr = std::shared_ptr<const Field>;
@@ -45,6 +46,8 @@ public:
     virtual bool is_polyhedral() const { return false; }
     /// The radius of the filter that rounds it; 0: none.
     virtual double filter_radius() const { return 0; }
+    /// The closed mesh that it is the inside of, with no rounding; or null.
+    virtual std::shared_ptr<const ClosedMesh> sharp_mesh() const { return nullptr; }
     /// Half-spaces along whose planes, and their parallels at ±radius, cutting space leaves less of the field on a
     /// side; only where they are few.
     virtual std::vector<HalfSpace> planes() const { return {}; }

@@ -44,6 +44,7 @@ public:
     std::optional<DensityTree> as_density(const Box& box) const override;
     bool is_polyhedral() const override { return true; }
     double filter_radius() const override { return sharp_ ? 0 : radius_; }
+    std::shared_ptr<const ClosedMesh> sharp_mesh() const override { return sharp_ && whole_ ? mesh_ : nullptr; }
     std::vector<HalfSpace> planes() const override;
     int size() const override;
     LocalSize local_size(const Box& box) const override;

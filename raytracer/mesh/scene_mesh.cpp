@@ -8,6 +8,7 @@
 
 #include "bounds/bounding_box.hpp"
 #include "polygonizer/marching_cubes/marching_cubes.hpp"
+#include "polygonizer/mesh/model_mesh.hpp"
 #include "polygonizer/mesh/separate_touching.hpp"
 #include "polygonizer/octree/octree_cells.hpp"
 #include "raytracer/util/errors.hpp"
@@ -104,6 +105,12 @@ SolidMesh polygonize(const SolidTree& tree, bool cut_off, const MeshSettings& se
     SolidMesh result;
     const Box box = polygonization_box(tree);
     if (box.empty()) return result;
+    if (const auto model = closed_mesh_of(tree)) {  // whatever the method: it is exact
+        result.mesh = mesh_of(*model, tree.leaves[tree.nodes[0].a].material);
+        result.tolerance = 0;
+        result.check_options.cancel = cancel;
+        return result;
+    }
     result.method = settings.method.value_or(tree.has_free_form() ? MeshMethod::octree : MeshMethod::triage);
     result.check_options.cancel = cancel;
     if (result.method == MeshMethod::octree) {
