@@ -190,12 +190,6 @@ void Subdivision::subdivide(int cell) {
         visit(current_);
         Plane plane{};
         if (!choose(nodes[at], plane)) {
-            {
-                std::size_t planes = 0, fields = 0;
-                for (auto& l : nodes[at].open) planes += l.tree->half_spaces.size(), fields += l.field != nullptr;
-                Extents e = extents(nodes[at]);
-                std::fprintf(stderr, "CELL %zu %zu %.3f simple %d shows %d %.3f %.3f %.3f\n", fields, planes, e.size / e.radius, is_simple_cell(nodes[at]), shows_surface(nodes[at]), e.box.lo.x, e.box.lo.y, e.box.lo.z);
-            }
             // Cells of a filter that reaches all over the object stay large, with many half-spaces.
             for (OpenLeaf& leaf : nodes[at].open)
                 if (!leaf.density) leaf.density = density_of(leaf);

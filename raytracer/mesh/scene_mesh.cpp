@@ -122,7 +122,13 @@ SolidMesh polygonize(const SolidTree& tree, bool cut_off, const MeshSettings& se
         need_densities(tree, id);
         const double radius = tree.min_radius();
         const double in_radii = std::min(settings.tolerance_in_radii, settings.triage_tolerance_in_radii);
-        const double relative = radius > 0 ? in_radii * radius : infinity;
+        // The papers' meshes without a tolerance are of half-spaces, whose planes part them; a model's triangles do
+        // not.
+        constexpr double coarsest_of_model = 0.25;
+        const bool of_model = std::any_of(tree.leaves.begin(), tree.leaves.end(),
+                                          [](const SolidLeaf& leaf) { return leaf.field != nullptr; });
+        const double most = of_model ? std::min(in_radii, coarsest_of_model) : in_radii;
+        const double relative = radius > 0 ? most * radius : infinity;
         result.tolerance = settings.coarseness * std::min(settings.tolerance, relative);
         result.mesh =
             triage(tree, box, {.tolerance = result.tolerance, .decimate = settings.decimate, .cancel = cancel},

@@ -285,21 +285,30 @@ void settle_shells(Surface& surface, bool trusted, std::vector<std::string>& men
     constexpr std::size_t most = 2'000;  // their pairs are looked at
     if (all.size() > most) return;
     std::size_t turned = 0, dropped = 0;
-    const bool inside_out = std::all_of(all.begin(), all.end(), [](const Shell& s) { return s.sign < 0; });
+    double six = 0;
+    const Vec3 origin = surface.vertices[surface.triangles[0][0]];
+    for (const Corners& c : surface.triangles)
+        six += glm::dot(surface.vertices[c[0]] - origin,
+                        glm::cross(surface.vertices[c[1]] - origin, surface.vertices[c[2]] - origin));
+    if (trusted && six < 0) {  // all of it is inside out
+        for (Corners& c : surface.triangles) std::swap(c[1], c[2]);
+        for (Shell& shell : all) shell.sign = -shell.sign;
+        turned = surface.triangles.size();
+    }
     std::vector<char> gone(surface.triangles.size(), false);
     for (std::size_t i = 0; i < all.size(); ++i) {
         int outside = 0, depth = 0;
         for (std::size_t j = 0; j < all.size(); ++j)
             if (j != i && holds(all[j], all[i])) {
                 ++depth;
-                outside += inside_out || !trusted ? 0 : all[j].sign;
+                outside += all[j].sign;
             }
         const auto turn = [&] {
             turned += all[i].triangles.size();
             for (const int t : all[i].triangles) std::swap(surface.triangles[t][1], surface.triangles[t][2]);
         };
-        const int sign = inside_out ? 1 : all[i].sign;
-        if (!trusted || inside_out) {
+        const int sign = all[i].sign;
+        if (!trusted) {
             const int wanted = depth % 2 == 0 ? 1 : -1;
             if (all[i].sign != wanted) turn();
         } else if (outside <= 0 && sign < 0) {

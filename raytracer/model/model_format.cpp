@@ -56,7 +56,10 @@ std::string model_format(const std::string& bytes, const std::string& path) {
     if (end == ".obj") return "obj";
     if (end == ".gltf") return "gltf";
     const std::size_t count = stl_count(bytes);
-    if (bytes.size() >= stl_header && bytes.size() == stl_header + stl_facet * count) return "stl";
+    if (bytes.size() >= stl_header && bytes.size() == stl_header + stl_facet * count) {
+        if (count == 0) fail(path, fmt::format("{}: expected facets, got none", file_mark));
+        return "stl";
+    }
     const bool is_text = bytes.find('\0') == std::string::npos;
     if (is_text && starts("solid") && bytes.find("facet") != std::string::npos) {
         if (bytes.find("endsolid") == std::string::npos)

@@ -117,7 +117,9 @@ void cut(Box& box, const AlphaPlane& p, bool two_sided) {
         const double s = p.slope[k];
         if (s == 0) continue;
         const Extent others = extent(p.slope, box, k);
-        const double most = (-p.base - others.lo) / s, least = (-p.base - others.hi) / s;
+        // Rounded outward: where the plane is nearly along the axis, rounding is far along it.
+        const double rounding = 4 * epsilon * (std::abs(p.base) + std::max(std::abs(others.lo), std::abs(others.hi)));
+        const double most = (-p.base - others.lo + rounding) / s, least = (-p.base - others.hi - rounding) / s;
         if (std::isfinite(most))
             (s > 0 ? box.hi[k] : box.lo[k]) = s > 0 ? std::min(box.hi[k], most) : std::max(box.lo[k], most);
         if (two_sided && std::isfinite(least))

@@ -2,74 +2,16 @@
 
 #include "bounds/root_finder.hpp"
 #include "catch.hpp"
+#include "closed_shapes.hpp"
 #include "random_case.hpp"
 
 using namespace deburr;
+using test::Shape;
 
 namespace {
 
-constexpr double pi = 3.14159265358979323846;
-
 using Corners = ClosedMesh::Corners;
-
-struct Shape {
-    std::vector<Vec3> vertices;
-    std::vector<Corners> triangles;
-
-    ClosedMesh mesh() const { return {vertices, triangles}; }
-    // The polygon, counter-clockwise, raised from z0 to z1; `fan` triangulates it.
-    static Shape prism(const std::vector<Vec2>& outline, const std::vector<Corners>& fan, double z0, double z1) {
-        Shape s;
-        const int n = int(outline.size());
-        for (const double z : {z0, z1})
-            for (const Vec2 p : outline) s.vertices.push_back({p.x, p.y, z});
-        for (const Corners& t : fan) {
-            s.triangles.push_back({t[2], t[1], t[0]});
-            s.triangles.push_back({t[0] + n, t[1] + n, t[2] + n});
-        }
-        for (int i = 0; i < n; ++i) {
-            const int j = (i + 1) % n;
-            s.triangles.push_back({i, j, j + n});
-            s.triangles.push_back({i, j + n, i + n});
-        }
-        return s;
-    }
-    static Shape box(Vec3 lo, Vec3 hi) {
-        return prism({{lo.x, lo.y}, {hi.x, lo.y}, {hi.x, hi.y}, {lo.x, hi.y}}, {{0, 1, 2}, {0, 2, 3}}, lo.z, hi.z);
-    }
-    static Shape l_prism() {
-        return prism({{0, 0}, {2, 0}, {2, 1}, {1, 1}, {1, 2}, {0, 2}}, {{0, 1, 2}, {0, 2, 3}, {0, 3, 4}, {0, 4, 5}}, 0,
-                     1);
-    }
-    // A sphere of rings × 2 rings quadrilaterals.
-    static Shape sphere(double radius, int rings) {
-        Shape s;
-        const int sides = 2 * rings;
-        s.vertices.push_back({0, 0, radius});
-        for (int i = 1; i < rings; ++i)
-            for (int k = 0; k < sides; ++k) {
-                const double u = pi * i / rings, v = 2 * pi * k / sides;
-                s.vertices.push_back(radius * Vec3(std::sin(u) * std::cos(v), std::sin(u) * std::sin(v), std::cos(u)));
-            }
-        s.vertices.push_back({0, 0, -radius});
-        const int last = int(s.vertices.size()) - 1;
-        for (int k = 0; k < sides; ++k) {
-            const int l = (k + 1) % sides;
-            s.triangles.push_back({0, 1 + k, 1 + l});
-            s.triangles.push_back({last, last - sides + l, last - sides + k});
-            for (int i = 0; i + 2 < rings; ++i) {
-                const int a = 1 + i * sides, b = a + sides;
-                s.triangles.push_back({a + k, b + k, b + l});
-                s.triangles.push_back({a + k, b + l, a + l});
-            }
-        }
-        return s;
-    }
-    void rotate(Gen& g) {
-        const Mat3 turn = g.map(false).linear;
-        for (Vec3& v : vertices) v = turn * v;
-    }
-};
+constexpr double pi = test::pi;
 
 Density l_density() { return Density::box({0, 0, 0}, {2, 1, 1}) | Density::box({0, 0, 0}, {1, 2, 1}); }
 
