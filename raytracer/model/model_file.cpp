@@ -16,10 +16,10 @@
 #include "raytracer/model/closed_surface.hpp"
 #include "raytracer/model/model_format.hpp"
 #include "raytracer/model/openscad.hpp"
-#include "raytracer/scene/lua_sandbox.hpp"
 #include "raytracer/util/errors.hpp"
 #include "raytracer/util/module.hpp"
 #include "raytracer/util/printable.hpp"
+#include "raytracer/util/scene_error.hpp"
 
 namespace deburr {
 namespace {

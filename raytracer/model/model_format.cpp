@@ -8,8 +8,8 @@
 #include <cstring>
 #include <filesystem>
 
-#include "raytracer/scene/lua_sandbox.hpp"
 #include "raytracer/util/printable.hpp"
+#include "raytracer/util/scene_error.hpp"
 
 namespace deburr {
 namespace {

@@ -15,9 +15,9 @@
 #include <sstream>
 #include <vector>
 
-#include "raytracer/scene/lua_sandbox.hpp"
 #include "raytracer/util/errors.hpp"
 #include "raytracer/util/printable.hpp"
+#include "raytracer/util/scene_error.hpp"
 
 extern char** environ;
 

@@ -25,16 +25,11 @@
 #include <string>
 
 #include "raytracer/scene/memory_meter.hpp"
+#include "raytracer/util/scene_error.hpp"
 
 struct lua_State;
 
 namespace deburr {
-
-/// what() is one line that starts with the file's name and, where known, the line.
-class SceneError : public std::runtime_error {
-public:
-    using std::runtime_error::runtime_error;
-};
 
 struct SandboxLimits {
     std::size_t memory = std::size_t(256) << 20;  // bytes
@@ -101,14 +96,7 @@ private:
     lua_State* lua_;
 };
 
-/// Stands for the file's name in messages and positions inside the interpreter, which would cut
-/// long names.
-constexpr char file_mark = '\1';
-
 /// Line of the scene that is being executed; 0 if there is none.
 int current_line(lua_State* lua);
-
-/// One printable line: marks become the file's name, and that goes first if it is not there.
-std::string one_line(const std::string& message, const std::string& file);
 
 }  // namespace deburr

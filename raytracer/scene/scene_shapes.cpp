@@ -132,7 +132,8 @@ SceneResult convolved(SceneCall& call) {
     const double radius = number_above(call.argument(0), call.location("radius"), 0);
     if (const auto* model = as<PlacedModel>(as_object(call.argument(1))))
         return call.make(call.builder.solid(*model, radius, call.line));
-    const Density& density = need_density(call.argument(1), call.name);
+    if (!as_density(call.argument(1))) expected(call.name, "a density or a model", call.argument(1));
+    const Density& density = *as_density(call.argument(1));
     if (density.has_radius())
         throw BadValue(call.name,
                        "expected a density without radii, got one with :radius(); one ball rounds all of it");
@@ -143,7 +144,8 @@ SceneResult sharp(SceneCall& call) {
     call.at_most(1);
     if (const auto* model = as<PlacedModel>(as_object(call.argument(0))))
         return call.make(call.builder.solid(*model, 0, call.line));
-    return call.make(Solid::sharp(need_density(call.argument(0), call.name), call.line));
+    if (!as_density(call.argument(0))) expected(call.name, "a density or a model", call.argument(0));
+    return call.make(Solid::sharp(*as_density(call.argument(0)), call.line));
 }
 
 // Operators.

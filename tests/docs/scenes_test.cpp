@@ -8,7 +8,9 @@
 
 #include "bounds/free_form.hpp"
 #include "catch.hpp"
+#include "closed_shapes.hpp"
 #include "docs/page.hpp"
+#include "raytracer/folder.hpp"
 #include "raytracer/scene/lua_sandbox.hpp"
 #include "raytracer/scene/scene_functions.hpp"
 #include "raytracer/scene/scene_reader.hpp"
@@ -19,8 +21,10 @@ using namespace deburr::test;
 namespace {
 
 std::string error_of(const std::string& scene) {
+    static const Folder models;  // where the page's files would be
+    write_file(models / "bracket.stl", Shape::l_prism().stl());
     try {
-        read_scene_text(scene, "s.lua", {});
+        read_scene_text(scene, "s.lua", {}, {}, {models / ""});
     } catch (const SceneError& error) {
         return error.what();
     }

@@ -30,7 +30,8 @@ std::map<std::string, Folders> allowed_includes() {
     for (const char* method : {"triage", "octree", "marching_cubes"}) may[std::string("polygonizer/") + method] = mesh;
     may["raytracer/util"] = {};
     may["raytracer/simd"] = {"bounds"};
-    may["raytracer/scene"] = {"bounds", "raytracer/util"};
+    may["raytracer/model"] = {"bounds", "polygonizer/mesh", "raytracer/util"};
+    may["raytracer/scene"] = {"bounds", "raytracer/model", "raytracer/util"};
     may["raytracer/image"] = {"bounds", "raytracer/scene", "raytracer/util"};
     may["raytracer/accel"] = {"bounds", "raytracer/simd", "raytracer/util"};
     may["raytracer/trace"] = {"bounds", "raytracer/accel", "raytracer/simd", "raytracer/util"};

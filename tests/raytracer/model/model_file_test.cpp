@@ -6,8 +6,8 @@
 #include "raytracer/folder.hpp"
 #include "raytracer/model/closed_surface.hpp"
 #include "raytracer/model/flat_faces.hpp"
-#include "raytracer/scene/lua_sandbox.hpp"
 #include "raytracer/util/errors.hpp"
+#include "raytracer/util/scene_error.hpp"
 
 using namespace deburr;
 using test::Shape;
