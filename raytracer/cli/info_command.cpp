@@ -29,6 +29,7 @@ const char* name_of(Material::Kind kind) {
         case Material::Kind::metal: return "metal";
         case Material::Kind::mirror: return "mirror";
         case Material::Kind::glass: return "glass";
+        case Material::Kind::pbr: return "pbr";
     }
     return "";
 }
@@ -38,6 +39,7 @@ const char* name_of(Light::Kind kind) {
         case Light::Kind::point: return "point";
         case Light::Kind::directional: return "directional";
         case Light::Kind::area: return "area";
+        case Light::Kind::sphere: return "sphere";
     }
     return "";
 }

@@ -130,6 +130,12 @@ Criterion parse_criterion(std::string_view option, std::string_view text) {
     expected(option, "exact or lobb", text);
 }
 
+IntegratorKind parse_integrator(std::string_view option, std::string_view text) {
+    if (text == "path") return IntegratorKind::path;
+    if (text == "preview") return IntegratorKind::preview;
+    expected(option, "path or preview", text);
+}
+
 Accel parse_accel(std::string_view option, std::string_view text) {
     if (text == "bvh" || text == "bsp") return Accel::bvh;  // bsp: the older name
     if (text == "embree") return Accel::embree;

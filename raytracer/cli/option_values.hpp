@@ -11,6 +11,7 @@
 #include "raytracer/image/film.hpp"
 #include "raytracer/image/image_format.hpp"
 #include "raytracer/mesh/mesh_settings.hpp"
+#include "raytracer/render/integrator.hpp"
 #include "raytracer/trace/trace_settings.hpp"
 
 namespace deburr {
@@ -35,6 +36,7 @@ void check_pixels(std::string_view option, const Window& window);
 /// Names with commas between them.
 std::vector<ImageLayer> parse_layers(std::string_view option, std::string_view text);
 Criterion parse_criterion(std::string_view option, std::string_view text);
+IntegratorKind parse_integrator(std::string_view option, std::string_view text);
 Accel parse_accel(std::string_view option, std::string_view text);
 /// The name of a method that makes meshes.
 MeshMethod parse_mesh_method(const std::string& option, const std::string& name);

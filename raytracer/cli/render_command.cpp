@@ -37,6 +37,7 @@ struct RenderOptions : Options {
     int bits = 8;  // of a PNG
     bool alpha = false;
     std::optional<Accel> accel;
+    IntegratorKind integrator = IntegratorKind::automatic;
 };
 
 // Boxes to look at for each sum and difference before rendering; `info` looks longer.
@@ -238,7 +239,7 @@ int run_render(const RenderOptions& o) {
         build_mesh(o, frame, *world);
     const bool cost = std::count(o.layers.begin(), o.layers.end(), ImageLayer::cost) > 0;
     world->integrator.emplace(scene, *world->tracer,
-                              RenderSettings{size.width, size.height, spp, o.seed, cost, !o.alpha});
+                              RenderSettings{size.width, size.height, spp, o.seed, cost, !o.alpha, o.integrator});
 
     clock.begin("trace");
     const std::atomic<bool>& stop = catch_interrupts(!o.quiet);
@@ -288,6 +289,13 @@ Command add_render_command(CLI::App& program) {
             "implicit only: find surfaces by our own BVH over BSP cells or by Embree's, with the same picture; "
             "default: bvh")
         ->type_name("bvh|embree");
+    command
+        ->add_option_function<std::string>(
+            "--integrator",
+            [options](const std::string& text) { options->integrator = parse_integrator("--integrator", text); },
+            "path finds all light; preview has no noise, shadows and polished reflections; default: path from two "
+            "samples per pixel on, preview with one")
+        ->type_name("path|preview");
     command
         ->add_option("--tolerance", options->tolerance,
                      "meshes only: the mesh's tolerance, as for mesh; default: 0.03 of each solid's least radius")

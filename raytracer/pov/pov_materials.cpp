@@ -90,7 +90,7 @@ std::string pov_light(const Light& light, const Scene& scene) {
     const double fade = fade_part * std::max(epsilon, glm::length(light.position - target));
     const double strength = 1 / (2 * fade * fade);
     const std::string falls = fmt::format("fade_distance {} fade_power 2", fade);
-    if (light.kind == Light::Kind::point)
+    if (light.kind == Light::Kind::point || light.kind == Light::Kind::sphere)
         return fmt::format("light_source {{ {}, {} {} }}\n", pov_vector(light.position),
                            pov_color(color * strength / (4 * pi)), falls);
     // A Lambertian emitter's intensity along its normal is power/π.
@@ -104,7 +104,7 @@ std::string pov_material(const Material& m) {
     const bool smooth = alpha < smooth_alpha;
     const double f0 = fresnel_dielectric(1.0, m.ior);
     std::string finish, interior, paint = pigment(m.color);
-    switch (m.kind) {
+    switch (preview_kind(m)) {
         case Material::Kind::matte: finish = "diffuse 1 ambient 1"; break;
         case Material::Kind::plastic:
             finish = fmt::format("diffuse 1 ambient 1 {}", smooth ? "" : highlight(alpha, f0));
@@ -119,6 +119,7 @@ std::string pov_material(const Material& m) {
             finish = "diffuse 0 ambient 0 reflection { 0, 1 fresnel } conserve_energy";
             interior = fmt::format(" interior {{ ior {} }}", m.ior);
             break;
+        case Material::Kind::pbr: break;  // looks like one of the others
     }
     return fmt::format("material {{ texture {{ {} finish {{ {} }} }}{} }}\n", paint, finish, interior);
 }

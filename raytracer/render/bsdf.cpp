@@ -80,28 +80,23 @@ double Ggx::density(double cos_out, double cos_half) const {
     return distribution(cos_half) / (2 * (cos_out + std::sqrt(a2 + (1 - a2) * cos_out * cos_out)));
 }
 
-// The visible normals of a hemisphere are halfway between `to_eye` and a spherical cap that is
-// uniform; those of GGX are a stretched hemisphere's.
-inline Vec3 Ggx::facet_about_z(Vec3 eye, double u, Vec2 turn) const {
-    const double z = (1 - u) * (1 + eye.z) - eye.z;
-    const double r = std::sqrt(glm::clamp(1 - z * z, 0.0, 1.0));
-    const Vec3 half = Vec3(r * turn.x, r * turn.y, z) + eye;
-    const Vec3 facet(alpha * half.x, alpha * half.y, std::max(0.0, half.z));
-    const double length = glm::length(facet);
-    return length > 0 ? facet / length : Vec3(0, 0, 1);
-}
-
 Vec3 Ggx::facet(Vec3 to_eye, Vec3 normal, Vec2 u) const {
     const Frame frame(normal);
     return frame.to_world(facet_about_z(stretched(frame.to_local(to_eye)), u.x, turn_by(u.y)));
 }
 
+Material::Kind preview_kind(const Material& m) {
+    if (m.kind != Material::Kind::pbr) return m.kind;
+    if (m.metallic >= 0.5) return Material::Kind::metal;
+    return m.transmission >= 0.5 ? Material::Kind::glass : Material::Kind::plastic;
+}
+
 bool SurfaceLayer::same(const Material& a, const Material& b) {
-    return a.kind == b.kind && a.roughness == b.roughness && a.ior == b.ior;
+    return preview_kind(a) == preview_kind(b) && a.roughness == b.roughness && a.ior == b.ior;
 }
 
 SurfaceLayer::SurfaceLayer(const Material& material)
-    : kind_(material.kind), ggx_{material.roughness * material.roughness}, ior_(material.ior) {
+    : kind_(preview_kind(material)), ggx_{material.roughness * material.roughness}, ior_(material.ior) {
     smooth_ = kind_ == Material::Kind::mirror || !(ggx_.alpha >= smooth_alpha);
     if (kind_ == Material::Kind::glass) return;
     for (int i = 0; i <= steps; ++i) albedo_[i] = integrate(double(i) * i / (double(steps) * steps));
@@ -158,15 +153,14 @@ Vec3 SurfaceLayer::fresnel(Vec3 color, double cosine) const {
     }
 }
 
-Bsdf::Bsdf(const SurfaceLayer& layer, Vec3 color, Vec3 normal, Vec3 to_eye, double min_alpha)
+Bsdf::Bsdf(const SurfaceLayer& layer, Vec3 color, Vec3 normal, Vec3 to_eye)
     : layer_(layer),
       color_(color),
       base_(color),
       normal_(normal),
       to_eye_(to_eye),
       cos_eye_(std::max(glm::dot(normal, to_eye), min_cosine)),
-      albedo_eye_(layer.kind() == Material::Kind::matte ? 0.0 : layer.albedo(cos_eye_)),
-      ggx_{std::max(min_alpha, layer.ggx().alpha)} {
+      albedo_eye_(layer.kind() == Material::Kind::matte ? 0.0 : layer.albedo(cos_eye_)) {
     if (layer.kind() == Material::Kind::mirror) base_ = Vec3(0.0);
     if (layer.kind() == Material::Kind::metal && layer.smooth()) base_ = Vec3(0.0);
     if (layer.kind() == Material::Kind::metal && !layer.smooth()) {
@@ -192,39 +186,10 @@ Bsdf::Value Bsdf::value(Vec3 to_light) const {
     v.base = base_ * (cos_light * (1 - albedo_eye_) * (1 - layer_.albedo(cos_light)) * layer_.base_share());
     if (layer_.smooth()) return v;
     const Vec3 half = glm::normalize(to_eye_ + to_light);
-    v.layer = layer_.fresnel(color_, glm::dot(half, to_light)) *
-              (ggx_.distribution(glm::dot(half, normal_)) * ggx_.visibility(cos_light, cos_eye_) * cos_light);
+    v.layer =
+        layer_.fresnel(color_, glm::dot(half, to_light)) *
+        (layer_.ggx().distribution(glm::dot(half, normal_)) * layer_.ggx().visibility(cos_light, cos_eye_) * cos_light);
     return v;
-}
-
-double Bsdf::layer_density(Vec3 to_light) const {
-    if (layer_.smooth()) return infinity;
-    const Vec3 half = glm::normalize(to_eye_ + to_light);
-    return ggx_.density(cos_eye_, glm::dot(half, normal_));
-}
-
-bool Bsdf::sample_layer(Vec2 u, Vec3& to_light, Vec3& weight) const {
-    if (layer_.kind() == Material::Kind::matte) return false;
-    if (layer_.smooth()) {
-        to_light = reflected(to_eye_, normal_);
-        weight = layer_.fresnel(color_, cos_eye_);
-        return true;
-    }
-    const Vec3 facet = ggx_.facet(to_eye_, normal_, u);
-    to_light = glm::normalize(reflected(to_eye_, facet));
-    const double cos_light = glm::dot(to_light, normal_);
-    if (!(cos_light > 0)) return false;
-    weight = layer_.fresnel(color_, glm::dot(facet, to_light)) * ggx_.shadowing(cos_light, cos_eye_);
-    return true;
-}
-
-Vec3 Bsdf::sample_base(Vec2 u, Vec3& to_light) const {
-    to_light = cosine_direction(normal_, u);
-    const double mean = layer_.mean_albedo();
-    if (layer_.kind() == Material::Kind::matte) return base_;
-    if (!(mean < 1)) return Vec3(0.0);
-    const double cos_light = glm::dot(normal_, to_light);
-    return base_ * ((1 - albedo_eye_) * (1 - layer_.albedo(cos_light)) / (1 - mean));
 }
 
 }  // namespace deburr

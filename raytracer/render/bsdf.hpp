@@ -1,8 +1,9 @@
-// How surfaces scatter light: matte, plastic, metal and mirror, as a layer over a base; glass is
-// Fresnel's and Snell's laws, used by the integrator.
+// How surfaces scatter light in previews: matte, plastic, metal and mirror, as a layer over a base; glass is
+// Fresnel's and Snell's laws, used by the integrator. And what the path integrator's materials (scattering.hpp) share
+// with them.
 //
 // The layer is a GGX microfacet surface [Walter et al. 2007] with Smith's height-correlated
-// masking [Heitz 2014], sampled by its visible normals [Dupuy & Benyoub 2023]; a plastic's reflects
+// masking [Heitz 2014], sampled (by paths) by its visible normals [Dupuy & Benyoub 2023]; a plastic's reflects
 // by Fresnel's equations, a metal's by Schlick's approximation with its colour as F0. What the
 // layer does not reflect at once, 1 − E where E is its directional albedo, goes to the base, which
 // scatters it in the form that keeps reciprocity [Kelemen & Szirmay-Kalos 2001]
@@ -51,10 +52,22 @@ struct Ggx {
     double density(double cos_out, double cos_half) const;
     /// A facet's normal, as often as `to_eye` sees it.
     Vec3 facet(Vec3 to_eye, Vec3 normal, Vec2 u) const;
-    /// The same about z, for the cosine and sine of 2π u.y and for stretched(to_eye).
-    Vec3 facet_about_z(Vec3 stretched_eye, double u, Vec2 turn) const;
+    /// The same about z, for the cosine and sine of 2π u.y and for stretched(to_eye). The visible normals of a
+    /// hemisphere are halfway between `to_eye` and a spherical cap that is uniform; those of GGX are a stretched
+    /// hemisphere's.
+    Vec3 facet_about_z(Vec3 stretched_eye, double u, Vec2 turn) const {
+        const double z = (1 - u) * (1 + stretched_eye.z) - stretched_eye.z;
+        const double r = std::sqrt(glm::clamp(1 - z * z, 0.0, 1.0));
+        const Vec3 half = Vec3(r * turn.x, r * turn.y, z) + stretched_eye;
+        const Vec3 facet(alpha * half.x, alpha * half.y, std::max(0.0, half.z));
+        const double length = glm::length(facet);
+        return length > 0 ? facet / length : Vec3(0, 0, 1);
+    }
     Vec3 stretched(Vec3 to_eye) const { return glm::normalize(Vec3(alpha * to_eye.x, alpha * to_eye.y, to_eye.z)); }
 };
+
+/// The material's kind; of a pbr the one of the others that it looks like most.
+Material::Kind preview_kind(const Material& material);
 
 /// What all points of a material have in common.
 class SurfaceLayer {
@@ -89,21 +102,13 @@ private:
 /// from the surface.
 class Bsdf {
 public:
-    /// The layer is no sharper than `min_alpha`, but for its albedo; smooth ones stay smooth.
-    Bsdf(const SurfaceLayer& layer, Vec3 color, Vec3 normal, Vec3 to_eye, double min_alpha = 0);
+    Bsdf(const SurfaceLayer& layer, Vec3 color, Vec3 normal, Vec3 to_eye);
 
     struct Value {
         Vec3 base{0.0}, layer{0.0};
     };
     /// Times the cosine of `to_light`; without the layer if that is smooth.
     Value value(Vec3 to_light) const;
-    /// Per solid angle, with which sample_layer finds `to_light`; infinity if smooth.
-    double layer_density(Vec3 to_light) const;
-
-    /// Direction and value/density; false where there is none.
-    bool sample_layer(Vec2 u, Vec3& to_light, Vec3& weight) const;
-    Vec3 sample_base(Vec2 u, Vec3& to_light) const;
-
     /// What they return of a uniformly white world; the layer of a metal by approximation.
     Vec3 base_albedo() const;
     Vec3 layer_albedo() const;
@@ -116,7 +121,6 @@ private:
     const SurfaceLayer& layer_;
     Vec3 color_, base_, normal_, to_eye_;
     double cos_eye_, albedo_eye_;
-    Ggx ggx_;
 };
 
 }  // namespace deburr

@@ -3,32 +3,23 @@
 // Every random number is a function of (seed, pixel, sample, dimension), so a pixel's value depends
 // on neither threads, tiles nor crop.
 //
-// What is computed, by the number of samples per pixel:
+// There are two integrators. `path` (path_integrator.hpp) finds all light, with noise that samples take away. `preview`
+// has no noise unless area lights bring it, and finds
 //
-//   lights      At any number, every surface but smooth mirrors and glass gets the light of every
-//               source, each with its shadow rays (point, directional: one; area: `samples` of
-//               them, stratified). Glass lets light pass straight on, tinted and weakened by
-//               Fresnel: its shadows are soft in tone but have no caustics.
-//   ambient     At any number: seen by diffuse surfaces from all around, never hidden.
-//   one sample  has no noise unless area lights bring it, and costs matte, plastic and rough metal
-//               one camera ray and the shadow rays. The background lights diffuse surfaces as if
-//               nothing hid it; plastic and rough metal reflect the background, blurred by
-//               roughness, and no objects. Mirrors, polished metal and glass are traced, glass both
-//               ways.
-//   more        Every sample follows one path, two from plastic or glass at its start. A
-//               reflection is sampled and traced for every material, weighed against area lights by
-//               multiple importance sampling. In a rough reflection the highlights of other rough
-//               surfaces are blurred, or they would be noise. Where there is a background,
-//               diffuse surfaces send a ray to find out what they see of it; a surface it meets
-//               instead is shaded as with one sample, so light is scattered diffusely at most
-//               twice. In the open, where no surface sees another, that agrees with one sample;
-//               in corners it darkens and colours.
+//   lights      Every surface but smooth mirrors and glass gets the light of every source, each with its shadow rays
+//               (point, directional: one; area, sphere: `samples` of them, stratified). Glass lets light pass straight
+//               on, tinted and weakened by Fresnel: its shadows are soft in tone but have no caustics. Lights are seen
+//               in polished surfaces only.
+//   ambient     seen by diffuse surfaces from all around, never hidden.
+//   background  The background lights diffuse surfaces as if nothing hid it; plastic and rough metal reflect the
+//               background, blurred by roughness, and no objects. Mirrors, polished metal and glass are traced, glass
+//               both ways and as if it were polished, with at most Scene::bounces rays; beyond, the background stands
+//               in for what was not traced.
 //
-// A path has at most Scene::bounces rays after the camera's; beyond, the background stands in for
-// what was not traced. Area lights are seen in reflections only (lights.hpp), and by glass only
-// where the camera sees the glass.
+// A preview has one sample a pixel, through its centre, or several through its filter, each of them as said.
 #pragma once
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 #include "raytracer/image/film.hpp"
@@ -40,13 +31,22 @@
 
 namespace deburr {
 
+enum class IntegratorKind { automatic, preview, path };
+
 struct RenderSettings {
     int width = 0, height = 0;  // of the whole picture
     int spp = 1;                // 1: one ray through the pixel's centre
     std::uint64_t seed = 0;
     bool cost = true;        // PixelLayers::cost is asked for: then no two pixels' rays are traced together
     bool background = true;  // false: where the camera sees it, colours are 0, so that alpha has weighed the others
+    IntegratorKind integrator = IntegratorKind::automatic;  // a preview with one sample, else paths
+
+    bool uses_paths() const {
+        return integrator == IntegratorKind::path || (integrator == IntegratorKind::automatic && spp > 1);
+    }
 };
+
+class PathIntegrator;
 
 class Integrator {
 public:
@@ -62,7 +62,7 @@ private:
     struct Surface;
     class CameraRays;
     Vec3 color_along(const Ray& ray, const Path& path) const;
-    Vec3 lights_seen(const Ray& ray, double t_max, const Path& path) const;
+    Vec3 lights_seen(const Ray& ray, double t_max) const;
     // `color_here`, `tint`: the material's at the hit.
     Vec3 color_from(const Hit& hit, Vec3 color_here, Vec3 direction, const Path& path) const;
     Vec3 color_of_glass(const Hit& hit, Vec3 tint, Vec3 direction, const Path& path) const;
@@ -70,8 +70,8 @@ private:
     Vec3 lit(const Surface& surface, const Path& path) const;
     static Incident incident(const LightSource& source, const Hit& hit, const Sampler& sampler, std::uint32_t dimension,
                              int k, int samples);
-    Vec3 scattered(const Surface& surface, const Incident& light, int samples) const;
-    Vec3 reflected_without_noise(const Bsdf& bsdf, const Hit& hit, const Path& path) const;
+    Vec3 scattered(const Surface& surface, const Incident& light) const;
+    Vec3 reflected_light(const Bsdf& bsdf, const Hit& hit, const Path& path) const;
     Vec3 transmittance(const Hit& hit, const Incident& light, const Path& path) const;
     const Material& material(const Hit& hit) const;
     Vec3 texture_color(const Hit& hit) const;
@@ -83,7 +83,8 @@ private:
     std::vector<SurfaceLayer> layers_;  // of the materials
     std::vector<LightSource> lights_;
     SkyLight sky_;
-    bool glass_ = false;  // is there any
+    bool glass_ = false;                           // is there any
+    std::shared_ptr<const PathIntegrator> paths_;  // null: a preview
 };
 
 }  // namespace deburr

@@ -2,6 +2,7 @@
 #include <memory>
 
 #include "raytracer/render/integrator_path.hpp"
+#include "raytracer/render/path_integrator.hpp"
 
 namespace deburr {
 namespace {
@@ -75,11 +76,7 @@ private:
         m_.seen_by.clear();
     }
 
-    Path path(std::uint32_t i) const {
-        Path path{.sampler = m_.uses[i].sampler, .counters = counters_};
-        path.without_noise = in_.settings_.spp <= 1;
-        return path;
-    }
+    Path path(std::uint32_t i) const { return {.sampler = m_.uses[i].sampler, .counters = counters_}; }
 
     void take(std::uint32_t i) {
         const Hit& hit = m_.hits[i];
@@ -100,11 +97,11 @@ private:
         const Vec3 albedo = in_.texture_color(hit);
         pixels_[use.pixel].alpha += 1.0;
         if (layers) layers->albedo += finite_or_zero(albedo);
-        if (in_.material(hit).kind == Material::Kind::glass) {
+        if (in_.layers_[hit.material].kind() == Material::Kind::glass) {
             m_.colors[i] = in_.color_of_glass(hit, albedo, direction, path(i));
             return;
         }
-        m_.surfaces.emplace_back(in_, hit, albedo, direction, path(i));
+        m_.surfaces.emplace_back(in_, hit, albedo, direction);
         m_.seen_by.push_back(i);
     }
 
@@ -134,7 +131,7 @@ private:
             const Surface& surface = m_.surfaces[j];
             const Incident light =
                 incident(source, surface.hit, m_.uses[m_.seen_by[j]].sampler, number, k, source.samples());
-            const Vec3 scattered = in_.scattered(surface, light, source.samples());
+            const Vec3 scattered = in_.scattered(surface, light);
             if (!(brightest(scattered) > 0)) continue;
             m_.shadows.push_back(leave(surface.hit, light.direction));
             m_.t_max.push_back(light.distance);
@@ -153,6 +150,7 @@ private:
 };
 
 void Integrator::block(const Window& block, Pixel* pixels, PixelLayers* layers, TraceCounters& counters) const {
+    if (paths_) return paths_->block(block, pixels, layers, counters);
     const std::size_t count = std::size_t(block.width) * std::size_t(block.height);
     std::fill_n(pixels, count, Pixel{});
     if (layers) std::fill_n(layers, count, PixelLayers{});

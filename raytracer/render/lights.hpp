@@ -1,7 +1,6 @@
 // Light that comes straight from its source: point, directional and area lights, and the sky.
 //
-// Radiometry as in scene.hpp. An area light shines from one side only. It is a rectangle of light
-// and not an object: it casts no shadow, hides nothing, and is seen by nothing but reflections.
+// Radiometry as in scene.hpp. An area light shines from one side only, a sphere light outward.
 #pragma once
 #include <array>
 
@@ -20,31 +19,47 @@ struct Incident {
     double density = infinity;  // of the direction, per solid angle; infinity: there is only one
 };
 
+/// Density per solid angle of the directions in the cone around a ball, as seen from a distance d > r of its center.
+double cone_density(double r, double d);
+/// One of them, evenly distributed for an even `u`.
+Vec3 cone_direction(Vec3 to_center, double r, double d, Vec2 u);
+
 class LightSource {
 public:
     explicit LightSource(const Light& light);
 
     /// Incidents per shading point: 1 where there is only one.
     int samples() const { return samples_; }
-    bool extended() const { return kind_ == Light::Kind::area; }
-    /// At `point`, from the place `u` of the light (area: uniform over it). Irradiance 0 where the
-    /// light does not shine.
+    bool extended() const { return kind_ == Light::Kind::area || kind_ == Light::Kind::sphere; }
+    /// Whether the camera sees it and it hides what is behind it: extended ones alone.
+    bool visible() const { return visible_; }
+    /// At `point`, from the place `u` of the light (area: uniform over it; sphere: over the cone that it fills).
+    /// Irradiance 0 where the light does not shine.
     Incident at(Vec3 point, Vec2 u) const;
 
     struct Emission {
         Vec3 radiance{0.0};
-        double density = 0.0;  // with which at() would have found the ray's direction
+        double density = 0.0;  // with which at() would have found the ray's direction; 0: it would not
+        double t = infinity;   // where the light is met; infinity: it is not
     };
-    /// What the ray sees of the light itself at a distance in (0, t_max): area lights only.
+    /// What the ray sees of the light itself at a distance in (0, t_max): extended lights only. An area light is black
+    /// from behind, a sphere from within.
     Emission seen(const Ray& ray, double t_max) const;
+    /// Irradiance that the light gives at most at a point with nothing in between, by a rough estimate; 0 only where
+    /// at() finds nothing. For choosing among lights.
+    double importance(Vec3 point) const;
 
 private:
     Light::Kind kind_;
     int samples_ = 1;
     Vec3 position_, direction_;  // direction_: area: its normal
     Vec3 u_, v_;
-    Vec3 emitted_;  // point: radiant intensity; directional: irradiance; area: radiance
-    double area_ = 0.0;
+    Vec3 emitted_;  // point: radiant intensity; directional: irradiance; extended: radiance
+    double area_ = 0.0, radius_ = 0.0;
+    bool visible_ = false;
+
+    Incident at_sphere(Vec3 point, Vec2 u) const;
+    Emission sphere_seen(const Ray& ray, double t_max) const;
 };
 
 /// The background, and the light that a diffuse surface gets from it.

@@ -191,6 +191,12 @@ double number_between(const LuaValue& value, const std::string& location, double
     return std::get<double>(value);
 }
 
+bool boolean(const LuaValue& value, const std::string& location) {
+    const bool* flag = std::get_if<bool>(&value);
+    if (!flag) expected(location, "true or false", value);
+    return *flag;
+}
+
 int integer(const LuaValue& value, const std::string& location, int least, int most) {
     const double* x = std::get_if<double>(&value);
     if (!x || !(*x >= least && *x <= most) || *x != std::floor(*x))

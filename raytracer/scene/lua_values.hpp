@@ -74,6 +74,7 @@ double number_at_least(const LuaValue& value, const std::string& location, doubl
 double number_above(const LuaValue& value, const std::string& location, double limit);
 double number_between(const LuaValue& value, const std::string& location, double least, double most);
 int integer(const LuaValue& value, const std::string& location, int least, int most);
+bool boolean(const LuaValue& value, const std::string& location);
 const std::string& text(const LuaValue& value, const std::string& location);
 Vec3 vector(const LuaValue& value, const std::string& location);
 /// Of length 1; {0, 0, 0} is refused. Exact for a multiple of an axis.

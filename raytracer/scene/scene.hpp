@@ -1,7 +1,7 @@
 // A scene: solids, materials, lights, a camera and a picture's size, as plain data.
 //
 // Units: lengths are the scene's own; colours are linear Rec. 709; power is in watts, so a point
-// light's radiant intensity is power·color/4π, an area light's radiance power·color/(π·area), and
+// light's radiant intensity is power·color/4π, an area or sphere light's radiance power·color/(π·area), and
 // a directional light's `power` is the irradiance on a surface that faces it.
 #pragma once
 #include <map>
@@ -27,22 +27,27 @@ struct Texture {
 };
 
 struct Material {
-    enum class Kind { matte, plastic, metal, mirror, glass };
+    enum class Kind { matte, plastic, metal, mirror, glass, pbr };
     Kind kind = Kind::matte;
     Texture color;
     double roughness = 0.2;  // GGX: α = roughness², 0 smooth; not used by matte, mirror
-    double ior = 1.5;        // plastic, glass
+    double ior = 1.5;        // plastic, glass, pbr
+    Vec3 emission{0.0};      // radiance that the outside of the surface sends out
+    // pbr: shares from 0 to 1, by glTF's names
+    double metallic = 0.0, transmission = 0.0, clearcoat = 0.0, clearcoat_roughness = 0.0;
 };
 
 struct Light {
-    enum class Kind { point, directional, area };
+    enum class Kind { point, directional, area, sphere };
     Kind kind = Kind::point;
-    Vec3 position{0.0};           // point; area: its centre
+    Vec3 position{0.0};           // point; area, sphere: its centre
     Vec3 direction{0, -1, 0};     // directional: the way the light travels, unit
     Vec3 u{1, 0, 0}, v{0, 0, 1};  // area: its two sides; it shines towards u × v
     Vec3 color{1.0};
     double power = 1.0;
-    int samples = 1;  // area: shadow rays per shading point
+    int samples = 1;      // area, sphere: shadow rays per shading point
+    double radius = 1.0;  // sphere
+    bool visible = true;  // area, sphere: the camera sees it, and it hides what is behind it
 };
 
 struct Camera {
@@ -66,8 +71,9 @@ struct Scene {
     std::string file;                               // as the user named it
     std::map<std::string, std::string> parameters;  // every param() the scene read, with its value
     int width = 600, height = 380;
-    int spp = 1;      // samples per pixel
-    int bounces = 4;  // depth of mirror and glass paths
+    int spp = 1;           // samples per pixel
+    int bounces = 4;       // depth of mirror and glass paths in previews
+    bool caustics = false;            // true: highlights and light through glass fall exactly where they do
     Camera camera;
     std::vector<Light> lights;
     Background background;

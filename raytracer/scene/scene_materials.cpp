@@ -37,29 +37,36 @@ void read_texture(const Fields& fields, Texture& texture) {
 // What reflects or refracts light shows the colour of its surface only by tinting it.
 const Texture untinted{Texture::Kind::constant, Vec3(1), Vec3(1), 1, {1, 0, 0}, {0, 0, 0}};
 
+void read_share(const Fields& fields, const char* name, double& share) {
+    if (const auto* given = fields.find(name)) share = number_between(*given, fields.location(name), 0, 1);
+}
+
+void read_emission(const Fields& fields, Material& m) { read_color(fields, "emission", m.emission, infinity); }
+
 SceneResult matte(SceneCall& call) {
-    const Fields fields(fields_argument(call), call.name, {"color"});
+    const Fields fields(fields_argument(call), call.name, {"color", "emission"});
     Material m;
     read_texture(fields, m.color);
+    read_emission(fields, m);
     return call.make(m);
 }
 
 SceneResult plastic(SceneCall& call) {
-    const Fields fields(fields_argument(call), call.name, {"color", "roughness", "ior"});
+    const Fields fields(fields_argument(call), call.name, {"color", "roughness", "ior", "emission"});
     Material m{Material::Kind::plastic, {}, 0.2, 1.5};
     read_texture(fields, m.color);
-    if (const auto* given = fields.find("roughness"))
-        m.roughness = number_between(*given, fields.location("roughness"), 0, 1);
+    read_share(fields, "roughness", m.roughness);
+    read_emission(fields, m);
     if (const auto* given = fields.find("ior")) m.ior = number_between(*given, fields.location("ior"), 1, largest_ior);
     return call.make(m);
 }
 
 SceneResult metal(SceneCall& call) {
-    const Fields fields(fields_argument(call), call.name, {"color", "roughness"});
+    const Fields fields(fields_argument(call), call.name, {"color", "roughness", "emission"});
     Material m{Material::Kind::metal, {}, 0.2, 1.5};
     read_texture(fields, m.color);
-    if (const auto* given = fields.find("roughness"))
-        m.roughness = number_between(*given, fields.location("roughness"), 0, 1);
+    read_share(fields, "roughness", m.roughness);
+    read_emission(fields, m);
     return call.make(m);
 }
 
@@ -74,9 +81,24 @@ SceneResult glass(SceneCall& call) {
     const Fields fields(fields_argument(call), call.name, {"color", "roughness", "ior"});
     Material m{Material::Kind::glass, untinted, 0, 1.5};
     read_texture(fields, m.color);
-    if (const auto* given = fields.find("roughness"))
-        m.roughness = number_between(*given, fields.location("roughness"), 0, 1);
+    read_share(fields, "roughness", m.roughness);
     if (const auto* given = fields.find("ior")) m.ior = number_between(*given, fields.location("ior"), 1, largest_ior);
+    return call.make(m);
+}
+
+SceneResult pbr(SceneCall& call) {
+    const Fields fields(
+        fields_argument(call), call.name,
+        {"color", "metallic", "roughness", "ior", "transmission", "clearcoat", "clearcoat_roughness", "emission"});
+    Material m{Material::Kind::pbr, {}, 0.5, 1.5};
+    read_texture(fields, m.color);
+    read_share(fields, "metallic", m.metallic);
+    read_share(fields, "roughness", m.roughness);
+    if (const auto* given = fields.find("ior")) m.ior = number_between(*given, fields.location("ior"), 1, largest_ior);
+    read_share(fields, "transmission", m.transmission);
+    read_share(fields, "clearcoat", m.clearcoat);
+    read_share(fields, "clearcoat_roughness", m.clearcoat_roughness);
+    read_emission(fields, m);
     return call.make(m);
 }
 
@@ -111,6 +133,13 @@ void read_power(const Fields& fields, Light& light) {
     if (const auto* given = fields.find("power")) light.power = number_at_least(*given, fields.location("power"), 0);
 }
 
+void read_extended(const Fields& fields, Light& light) {
+    if (const auto* given = fields.find("samples"))
+        light.samples = integer(*given, fields.location("samples"), 1, max_shadow_rays);
+    if (const auto* given = fields.find("visible")) light.visible = boolean(*given, fields.location("visible"));
+    read_power(fields, light);
+}
+
 SceneResult point_light(SceneCall& call) {
     const Fields fields(fields_argument(call), call.name, {"position", "color", "power"});
     Light light;
@@ -129,7 +158,8 @@ SceneResult directional_light(SceneCall& call) {
 }
 
 SceneResult area_light(SceneCall& call) {
-    const Fields fields(fields_argument(call), call.name, {"position", "u", "v", "color", "power", "samples"});
+    const Fields fields(fields_argument(call), call.name,
+                        {"position", "u", "v", "color", "power", "samples", "visible"});
     Light light;
     light.kind = Light::Kind::area;
     light.position = vector(fields.get("position"), fields.location("position"));
@@ -139,9 +169,18 @@ SceneResult area_light(SceneCall& call) {
     if (!(area > 0 && std::isfinite(area)))
         throw BadValue(fields.location("v"),
                        "expected a side that spans an area with u, got " + described(fields.get("v")));
-    if (const auto* given = fields.find("samples"))
-        light.samples = integer(*given, fields.location("samples"), 1, max_shadow_rays);
-    read_power(fields, light);
+    read_extended(fields, light);
+    return call.make(light);
+}
+
+SceneResult sphere_light(SceneCall& call) {
+    const Fields fields(fields_argument(call), call.name,
+                        {"position", "radius", "color", "power", "samples", "visible"});
+    Light light;
+    light.kind = Light::Kind::sphere;
+    light.position = vector(fields.get("position"), fields.location("position"));
+    light.radius = number_above(fields.get("radius"), fields.location("radius"), 0);
+    read_extended(fields, light);
     return call.make(light);
 }
 
@@ -164,11 +203,13 @@ const std::vector<SceneFunction>& material_functions() {
         {Kind::global, "metal", "", metal},
         {Kind::global, "mirror", "", mirror},
         {Kind::global, "glass", "", glass},
+        {Kind::global, "pbr", "", pbr},
         {Kind::global, "checker", "", checker},
         {Kind::global, "wood", "", wood},
         {Kind::global, "point_light", "", point_light},
         {Kind::global, "directional_light", "", directional_light},
         {Kind::global, "area_light", "", area_light},
+        {Kind::global, "sphere_light", "", sphere_light},
         {Kind::global, "sky", "", sky},
     };
     return functions;

@@ -26,7 +26,7 @@ constexpr int max_bounces = 1'000;
 constexpr double min_sine = 1e-6;
 
 void read_image(const LuaValue& value, Scene& scene) {
-    const Fields fields(value, "image", {"width", "height", "spp", "bounces"});
+    const Fields fields(value, "image", {"width", "height", "spp", "bounces", "caustics"});
     const auto read = [&](const char* name, int& number, int least, int most) {
         if (const auto* given = fields.find(name)) number = integer(*given, fields.location(name), least, most);
     };
@@ -34,6 +34,7 @@ void read_image(const LuaValue& value, Scene& scene) {
     read("height", scene.height, 1, largest_side);
     read("spp", scene.spp, 1, max_samples);
     read("bounces", scene.bounces, 0, max_bounces);
+    if (const auto* given = fields.find("caustics")) scene.caustics = boolean(*given, fields.location("caustics"));
 }
 
 void read_camera(const LuaValue& value, Camera& camera) {

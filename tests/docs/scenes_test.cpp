@@ -91,11 +91,9 @@ std::vector<FieldTable> field_tables() {
 /// What a table of `owner` needs beside the field `name` to be read.
 std::string fields_beside(const FieldTable& table, const std::string& name) {
     if (table.owner == "quadric") return name == "xy" ? "c = 0.5, xz = 1, " : "xy = 1, ";
-    const std::map<std::string, std::string> values = {{"solids", "{ cube() }"},
-                                                       {"position", "{0, 5, 0}"},
-                                                       {"direction", "{1, -2, -1}"},
-                                                       {"u", "{1, 0, 0}"},
-                                                       {"v", "{0, 0, 1}"}};
+    const std::map<std::string, std::string> values = {{"solids", "{ cube() }"},     {"position", "{0, 5, 0}"},
+                                                       {"direction", "{1, -2, -1}"}, {"radius", "1"},
+                                                       {"u", "{1, 0, 0}"},           {"v", "{0, 0, 1}"}};
     std::string fields;
     for (const Row& row : table.rows)
         if (const std::string other = quoted(row.cell("field")); row.cell("default") == "required" && other != name)
@@ -113,14 +111,15 @@ std::string summary(const Scene& s) {
     std::string all = fmt::format("{} {} {} {} ", s.width, s.height, s.spp, s.bounces) + text(s.camera.eye) +
                       text(s.camera.target) + text(s.camera.up) + fmt::format("{} ", s.camera.fov) + text(s.ambient) +
                       text(s.background.color) + text(s.background.horizon) + text(s.background.zenith) +
-                      fmt::format("{} ", s.background.sky);
+                      fmt::format("{} {} ", s.background.sky, s.caustics);
     for (const Light& l : s.lights)
         all += fmt::format("{} ", int(l.kind)) + text(l.position) + text(l.direction) + text(l.u) + text(l.v) +
-               text(l.color) + fmt::format("{} {} ", l.power, l.samples);
+               text(l.color) + fmt::format("{} {} {} {} ", l.power, l.samples, l.radius, l.visible);
     for (const Material& m : s.materials)
         all += fmt::format("{} {} {} ", int(m.kind), m.roughness, m.ior) +
                fmt::format("{} {} ", int(m.color.kind), m.color.scale) + text(m.color.a) + text(m.color.b) +
-               text(m.color.axis) + text(m.color.origin);
+               text(m.color.axis) + text(m.color.origin) + text(m.emission) +
+               fmt::format("{} {} {} {} ", m.metallic, m.transmission, m.clearcoat, m.clearcoat_roughness);
     for (const Solid& solid : s.solids)
         if (const auto* form = dynamic_cast<const FreeForm*>(solid.node().field().get())) {
             for (int k = 0; k < 3; ++k) all += text(form->base().A[k]);
@@ -218,7 +217,7 @@ TEST_CASE("docs/scenes.md has the fields that the program knows, and no others")
         };
         CHECK(split(on_page) == split(error.substr(from, error.find(end) - from)));
     }
-    CHECK(tables.size() == 3 + 6 + 5 + 2 + 4);  // scene, quadrics, materials, textures, lights with the sky
+    CHECK(tables.size() == 3 + 6 + 6 + 2 + 5);  // scene, quadrics, materials, textures, lights with the sky
 }
 
 TEST_CASE("docs/scenes.md says of every field what the program says that it takes") {

@@ -19,7 +19,7 @@ TEST_CASE("help prints commands and topics; of a command the same as its --help"
     const Outcome all = run({"help"});
     CHECK(all.code == 0);
     CHECK(contains(all.out, "  render "));
-    CHECK(contains(all.out, "  materials    matte plastic metal mirror glass\n"));
+    CHECK(contains(all.out, "  materials    matte plastic metal mirror glass pbr\n"));
     for (const char* command : {"render", "mesh", "compare", "info", "export-pov", "figures", "help"}) {
         CAPTURE(command);
         CHECK(run({"help", command}).out == run({command, "--help"}).out);

@@ -1,0 +1,67 @@
+// What the path integrator takes light from by sampling: lights, solids that glow, and the environment.
+//
+// A solid of any shape is sampled by the cone around the ball that holds it: a direction that misses the solid brings
+// nothing, so no mesh of it is needed and the estimate is unbiased. Solids that are unbounded, or too large to be
+// bounded in time, are found by reflections alone.
+#pragma once
+#include <optional>
+#include <vector>
+
+#include "raytracer/render/lights.hpp"
+
+namespace deburr {
+
+class Emitters {
+public:
+    explicit Emitters(const Scene& scene);
+
+    std::size_t size() const { return lights_.size() + balls_.size(); }
+    /// Whether one direction alone leads to it: then reflections do not find it.
+    bool single(std::size_t i) const { return i < lights_.size() && !lights_[i].extended(); }
+    /// About as much light as it gives at a point; 0 only where it gives none that at() finds.
+    double importance(std::size_t i, Vec3 point) const;
+    double importance(Vec3 point) const;
+
+    struct Sample : Incident {
+        int solid = -1;  // ≥ 0: the ray has to find what this solid emits; irradiance is then 1/density
+    };
+    Sample at(std::size_t i, Vec3 point, Vec2 u) const;
+
+    /// An emitter that a ray meets.
+    struct Met {
+        Vec3 radiance{0.0};
+        double density = 0.0;  // with which at() would have found the direction; 0: it would not
+        double t = infinity;
+        std::size_t emitter = 0;
+    };
+    /// The nearest visible light at a distance in (0, t_max), which hides what is behind it.
+    Met met(const Ray& ray, double t_max) const;
+    /// Whether a visible light other than `emitter` is there.
+    bool hidden(const Ray& ray, double t_max, std::size_t emitter) const;
+    /// Calls each(met) for the invisible ones.
+    template <class Each>
+    void for_each_invisible(const Ray& ray, double t_max, Each each) const {
+        for (const std::size_t i : invisible_) {
+            const LightSource::Emission e = lights_[i].seen(ray, t_max);
+            if (e.density > 0) each(Met{e.radiance, e.density, e.t, i});
+        }
+    }
+    /// The emitter that samples a solid, and the density with which it finds a direction to it from `point`.
+    struct OfSolid {
+        std::size_t emitter;
+        double density;
+    };
+    std::optional<OfSolid> of_solid(int solid, Vec3 point) const;
+
+private:
+    struct Ball {
+        int solid;
+        Vec3 center;
+        double radius, emitted;
+    };
+    std::vector<LightSource> lights_;
+    std::vector<Ball> balls_;
+    std::vector<std::size_t> visible_, invisible_;  // extended lights
+};
+
+}  // namespace deburr
