@@ -14,6 +14,7 @@
 #include "raytracer/cli/options.hpp"
 #include "raytracer/cli/statistics.hpp"
 #include "raytracer/image/image_file.hpp"
+#include "raytracer/image/surroundings_file.hpp"
 #include "raytracer/mesh/mesh_tracer.hpp"
 #include "raytracer/mesh/scene_mesh.hpp"
 #include "raytracer/mesh/wire_frame.hpp"
@@ -223,6 +224,7 @@ int run_render(const RenderOptions& o) {
     clock.begin("read");
     const auto world = std::make_shared<World>();
     const Scene& scene = world->scene = load_scene(o);
+    load_surroundings(world->scene);
     const Frame frame = frame_of(o, scene);
     const auto [size, window, spp] = frame;
     for (const std::string& path : o.outputs) check_writable(path);

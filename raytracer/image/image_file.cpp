@@ -13,10 +13,10 @@
 #include "raytracer/util/whole_file.hpp"
 
 namespace deburr {
-namespace {
 
-// The linear value whose place on the transfer curve is v.
 double linear_of_srgb(double v) { return v <= 0.04045 ? v / 12.92 : std::pow((v + 0.055) / 1.055, 2.4); }
+
+namespace {
 
 // Where bytes begin, and, for even steps of the linear value, the byte that a step begins with. The curve
 // rises by 12.92 at most, so that a step has room for the beginning of one byte more.

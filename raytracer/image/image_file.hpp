@@ -49,6 +49,8 @@ void write_raster(const std::string& path, const ImageRaster& image, int threads
 
 /// The sRGB transfer curve [IEC 61966-2-1], 8 bit; less than 0 and NaN give 0.
 unsigned char srgb_byte(double linear);
+/// Back from a place on the curve, from 0 to 1.
+double linear_of_srgb(double value);
 /// The same, 16 bit.
 std::uint16_t srgb_word(double linear);
 

@@ -52,7 +52,7 @@ std::string highlight(double alpha, double f0) {
 }  // namespace
 
 std::string pov_settings(const Scene& scene) {
-    const SkyLight sky(scene.background);
+    const SkyLight sky(scene.lighting());
     const Vec3 ambient = scene.ambient + sky.mean({0, 1, 0});
     return fmt::format("global_settings {{ assumed_gamma 1.0 max_trace_level {} ambient_light {} }}\n",
                        std::max(2, scene.bounces + 1), pov_color(ambient));

@@ -14,15 +14,14 @@ double mean_of(Vec3 c) { return (c.x + c.y + c.z) / 3; }
 
 }  // namespace
 
-Emitters::Emitters(const Scene& scene) {
+Emitters::Emitters(const Scene& scene, const SkyLight& sky) : sky_(sky) {
     for (const Light& light : scene.lights) {
         const LightSource& source = lights_.emplace_back(light);
         if (source.extended()) (source.visible() ? visible_ : invisible_).push_back(lights_.size() - 1);
     }
     bool any = false;
     for (const Material& m : scene.materials) any = any || mean_of(m.emission) > 0;
-    if (!any) return;
-    for (std::size_t i = 0; i < scene.solids.size(); ++i) {
+    for (std::size_t i = 0; any && i < scene.solids.size(); ++i) {
         if (scene.solids[i].node().leaves > max_leaves_bounded) continue;
         const SolidTree tree = flatten(scene.solids[i]);
         double emitted = 0;
@@ -33,10 +32,14 @@ Emitters::Emitters(const Scene& scene) {
         if (box.empty() || !box.finite()) continue;
         balls_.push_back({int(i), 0.5 * (box.lo + box.hi), 0.5 * glm::length(box.hi - box.lo), emitted});
     }
+    first_sky_ = lights_.size() + balls_.size();
+    sun_ = first_sky_ + (sky.sampled() ? 1 : 0);
 }
 
 double Emitters::importance(std::size_t i, Vec3 point) const {
     if (i < lights_.size()) return lights_[i].importance(point);
+    if (i >= sun_) return mean_of(sky_.sun().irradiance());
+    if (i >= first_sky_) return std::numbers::pi * mean_of(sky_.average());
     const Ball& ball = balls_[i - lights_.size()];
     const Vec3 to_center = ball.center - point;
     const double square = glm::dot(to_center, to_center), r2 = ball.radius * ball.radius;
@@ -51,8 +54,16 @@ double Emitters::importance(Vec3 point) const {
 
 Emitters::Sample Emitters::at(std::size_t i, Vec3 point, Vec2 u) const {
     if (i < lights_.size()) return {lights_[i].at(point, u), -1};
-    const Ball& ball = balls_[i - lights_.size()];
     Sample sample;
+    if (i >= first_sky_) {
+        const bool sun = i >= sun_;
+        sample.direction = sun ? sky_.sun().at(u) : sky_.sample(u);
+        sample.density = sun ? sky_.sun().density() : sky_.density(sample.direction);
+        if (sample.density > 0)
+            sample.irradiance = (sun ? sky_.sun().radiance : sky_.towards(sample.direction)) / sample.density;
+        return sample;
+    }
+    const Ball& ball = balls_[i - lights_.size()];
     const Vec3 to_center = ball.center - point;
     const double d = glm::length(to_center);
     if (!(d > ball.radius)) return sample;

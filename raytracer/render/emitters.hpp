@@ -13,9 +13,10 @@ namespace deburr {
 
 class Emitters {
 public:
-    explicit Emitters(const Scene& scene);
+    /// Keeps a reference to the sky.
+    Emitters(const Scene& scene, const SkyLight& sky);
 
-    std::size_t size() const { return lights_.size() + balls_.size(); }
+    std::size_t size() const { return sun_ + (sky_.sun().shines() ? 1 : 0); }
     /// Whether one direction alone leads to it: then reflections do not find it.
     bool single(std::size_t i) const { return i < lights_.size() && !lights_[i].extended(); }
     /// About as much light as it gives at a point; 0 only where it gives none that at() finds.
@@ -52,6 +53,12 @@ public:
         double density;
     };
     std::optional<OfSolid> of_solid(int solid, Vec3 point) const;
+    /// What a ray that hits nothing meets: the sky and, if it is there, the sun. Either may be missing.
+    template <class Each>
+    void for_each_at_infinity(Vec3 direction, Each each) const {
+        each(Met{sky_.towards(direction), sky_.sampled() ? sky_.density(direction) : 0.0, infinity, first_sky_});
+        if (sky_.sun().covers(direction)) each(Met{sky_.sun().radiance, sky_.sun().density(), infinity, sun_});
+    }
 
 private:
     struct Ball {
@@ -62,6 +69,8 @@ private:
     std::vector<LightSource> lights_;
     std::vector<Ball> balls_;
     std::vector<std::size_t> visible_, invisible_;  // extended lights
+    const SkyLight& sky_;
+    std::size_t first_sky_ = 0, sun_ = 0;  // emitters: the sky, if it is sampled, and the sun after it
 };
 
 }  // namespace deburr

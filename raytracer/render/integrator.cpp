@@ -28,7 +28,8 @@ Integrator::Integrator(const Scene& scene, const RayTracer& tracer, RenderSettin
       tracer_(tracer),
       settings_(settings),
       camera_(scene.camera, settings.width, settings.height),
-      sky_(scene.background) {
+      seen_(scene.background),
+      sky_(scene.lighting()) {
     if (settings.uses_paths()) {
         paths_ = std::make_shared<const PathIntegrator>(scene, tracer, settings);
         return;
@@ -44,6 +45,12 @@ Integrator::Integrator(const Scene& scene, const RayTracer& tracer, RenderSettin
         glass_ = glass_ || layers_.back().kind() == Material::Kind::glass;
     }
     for (const Light& light : scene.lights) lights_.emplace_back(light);
+    if (!sky_.sun().shines()) return;
+    Light sun;
+    sun.kind = Light::Kind::directional;
+    sun.direction = -sky_.sun().direction;
+    sun.color = sky_.sun().irradiance();
+    lights_.emplace_back(sun);
 }
 
 const Material& Integrator::material(const Hit& hit) const { return scene_.materials[hit.material]; }

@@ -82,7 +82,7 @@ private:
     PinholeCamera camera_;
     std::vector<SurfaceLayer> layers_;  // of the materials
     std::vector<LightSource> lights_;
-    SkyLight sky_;
+    SkyLight seen_, sky_;                          // by the camera; by all else
     bool glass_ = false;                           // is there any
     std::shared_ptr<const PathIntegrator> paths_;  // null: a preview
 };

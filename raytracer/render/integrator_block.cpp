@@ -91,7 +91,7 @@ private:
         }
         if (!use.sample) return;
         if (!hit) {
-            m_.colors[i] = in_.settings_.background ? in_.sky_.towards(direction) : Vec3(0.0);
+            m_.colors[i] = in_.settings_.background ? in_.seen_.towards(direction) : Vec3(0.0);
             return;
         }
         const Vec3 albedo = in_.texture_color(hit);

@@ -1,6 +1,9 @@
 #include "raytracer/render/lights.hpp"
 
+#include <algorithm>
 #include <numbers>
+
+#include "raytracer/render/daylight.hpp"
 
 namespace deburr {
 
@@ -169,18 +172,131 @@ double mean_zenith_share(double c) {
 }  // namespace
 
 SkyLight::SkyLight(const Background& background) : background_(background) {
-    const Vec3 none(0.0);
-    black_ = background.sky ? background.horizon == none && background.zenith == none : background.color == none;
+    if (!background.file.empty() || background.by_day()) {
+        picture_ = background.by_day() ? daylight(background) : background.picture;
+        if (background.by_day()) {
+            sun_.direction = glm::normalize(background.sun);
+            const double half = 0.5 * background.sun_size * pi / 180;
+            sun_.depth = 2 * std::pow(std::sin(0.5 * half), 2);
+            sun_.radiance = sun_irradiance(background) * sun_.density();
+            if (!(sun_.radiance.x + sun_.radiance.y + sun_.radiance.z > 0)) sun_.depth = 0;
+        } else {
+            cos_rotate_ = std::cos(background.rotate * pi / 180);
+            sin_rotate_ = std::sin(background.rotate * pi / 180);
+        }
+        if (picture_) prepare_picture();
+        return;
+    }
     if (!background.sky) return;
     for (int i = 0; i <= steps; ++i) zenith_share_[i] = mean_zenith_share(2.0 * i / steps - 1);
 }
 
 Vec3 SkyLight::mean(Vec3 normal) const {
+    if (picture_) {
+        // Bands are weakened by 1, 2/3 and 1/4 [Ramamoorthi & Hanrahan 2001, eq. 8, over π].
+        const auto& [one, x, y, z, xy, yz, zx, xx_yy, zz] = harmonics_;
+        const Vec3 n = normal;
+        const Vec3 sum = one + 2.0 * (x * n.x + y * n.y + z * n.z) +
+                         0.25 * (15.0 * (xy * n.x * n.y + yz * n.y * n.z + zx * n.z * n.x) +
+                                 3.75 * xx_yy * (n.x * n.x - n.y * n.y) + 1.25 * zz * (3 * n.z * n.z - 1));
+        return background_.scale * glm::max(sum, Vec3(0.0));
+    }
     if (!background_.sky) return background_.color;
     const double at = glm::clamp(0.5 * (normal.y + 1), 0.0, 1.0) * steps;
     const auto i = at < steps ? std::size_t(at) : std::size_t(steps - 1);  // the last for no number, too
     const double share = glm::mix(zenith_share_[i], zenith_share_[i + 1], at - double(i));
     return glm::mix(background_.horizon, background_.zenith, share);
+}
+
+Vec3 SkyLight::Sun::at(Vec2 u) const {
+    const double down = u.x * depth, cosine = 1 - down;
+    const double sine = std::sqrt(std::max(0.0, down * (1 + cosine)));
+    const Vec3 other = std::abs(direction.x) < 0.5 ? Vec3(1, 0, 0) : Vec3(0, 1, 0);
+    const Vec3 x = glm::normalize(glm::cross(direction, other)), y = glm::cross(direction, x);
+    return glm::normalize(sine * std::cos(2 * pi * u.y) * x + sine * std::sin(2 * pi * u.y) * y + cosine * direction);
+}
+
+Vec2 SkyLight::place_of(Vec3 d) const {
+    const double x = cos_rotate_ * d.x - sin_rotate_ * d.z, z = sin_rotate_ * d.x + cos_rotate_ * d.z;
+    const double u = 0.5 + std::atan2(x, -z) / (2 * pi);
+    return {u - std::floor(u), std::acos(glm::clamp(d.y, -1.0, 1.0)) / pi};
+}
+
+Vec3 SkyLight::direction_of(Vec2 place) const {
+    const double phi = 2 * pi * (place.x - 0.5), theta = pi * place.y;
+    const double x = std::sin(theta) * std::sin(phi), z = -std::sin(theta) * std::cos(phi);
+    return {cos_rotate_ * x + sin_rotate_ * z, std::cos(theta), -sin_rotate_ * x + cos_rotate_ * z};
+}
+
+// Between the centres of four pixels.
+Vec3 SkyLight::picture_towards(Vec3 direction) const {
+    const Vec2 place = place_of(direction);
+    const int width = picture_->width, height = picture_->height;
+    const double x = place.x * width - 0.5, y = place.y * height - 0.5;
+    if (!std::isfinite(x + y)) return Vec3(0.0);
+    const double left = std::floor(x), top = std::floor(y);
+    const auto pixel = [&](double column, double row) {
+        const int i = (int(column) + width) % width, j = std::clamp(int(row), 0, height - 1);
+        const float* rgb = &picture_->rgb[3 * (std::size_t(j) * width + i)];
+        return Vec3(rgb[0], rgb[1], rgb[2]);
+    };
+    const Vec3 upper = glm::mix(pixel(left, top), pixel(left + 1, top), x - left);
+    const Vec3 lower = glm::mix(pixel(left, top + 1), pixel(left + 1, top + 1), x - left);
+    return background_.scale * glm::mix(upper, lower, y - top);
+}
+
+void SkyLight::prepare_picture() {
+    const int width = picture_->width, height = picture_->height;
+    rows_.assign(std::size_t(height) + 1, 0.0);
+    columns_.assign(std::size_t(height) * (width + 1), 0.0);
+    double area = 0;
+    for (int j = 0; j < height; ++j) {
+        const double weight = std::cos(pi * j / height) - std::cos(pi * (j + 1) / height);  // of the row's solid angle
+        double* column = &columns_[std::size_t(j) * (width + 1)];
+        for (int i = 0; i < width; ++i) {
+            const float* rgb = &picture_->rgb[3 * (std::size_t(j) * width + i)];
+            const Vec3 color(rgb[0], rgb[1], rgb[2]);
+            column[i + 1] = column[i] + (color.x + color.y + color.z) / 3;
+            const Vec3 d = direction_of({(i + 0.5) / width, (j + 0.5) / height});
+            const double polynomials[9] = {
+                1, d.x, d.y, d.z, d.x * d.y, d.y * d.z, d.z * d.x, d.x * d.x - d.y * d.y, 3 * d.z * d.z - 1};
+            for (int k = 0; k < 9; ++k) harmonics_[k] += weight * polynomials[k] * color;
+        }
+        area += weight * width;
+        rows_[j + 1] = rows_[j] + weight * column[width];
+    }
+    for (Vec3& h : harmonics_) h /= area;
+    total_ = rows_[height] / area;
+}
+
+namespace {
+
+// The interval of a running sum in which `at` falls, and how far into it from 0 to 1.
+std::pair<int, double> interval(const double* sums, int count, double at) {
+    const int i = std::clamp(int(std::upper_bound(sums, sums + count + 1, at) - sums) - 1, 0, count - 1);
+    const double width = sums[i + 1] - sums[i];
+    return {i, width > 0 ? glm::clamp((at - sums[i]) / width, 0.0, 1.0) : 0.5};
+}
+
+}  // namespace
+
+Vec3 SkyLight::sample(Vec2 u) const {
+    const int width = picture_->width, height = picture_->height;
+    const auto [row, down] = interval(rows_.data(), height, u.y * rows_[height]);
+    const double* columns = &columns_[std::size_t(row) * (width + 1)];
+    const auto [column, right] = interval(columns, width, u.x * columns[width]);
+    // Even in solid angle within the row.
+    const double cosine = glm::mix(std::cos(pi * row / height), std::cos(pi * (row + 1) / height), down);
+    return direction_of({(column + right) / width, std::acos(glm::clamp(cosine, -1.0, 1.0)) / pi});
+}
+
+double SkyLight::density(Vec3 direction) const {
+    if (!picture_ || !(total_ > 0)) return 0.0;
+    const Vec2 place = place_of(direction);
+    const int width = picture_->width, height = picture_->height;
+    const int i = std::clamp(int(place.x * width), 0, width - 1), j = std::clamp(int(place.y * height), 0, height - 1);
+    const double* columns = &columns_[std::size_t(j) * (width + 1)];
+    return (columns[i + 1] - columns[i]) / (total_ * 4 * pi);
 }
 
 }  // namespace deburr

@@ -3,6 +3,7 @@
 // Radiometry as in scene.hpp. An area light shines from one side only, a sphere light outward.
 #pragma once
 #include <array>
+#include <numbers>
 
 #include "raytracer/render/sampler.hpp"
 #include "raytracer/scene/scene.hpp"
@@ -62,23 +63,56 @@ private:
     Emission sphere_seen(const Ray& ray, double t_max) const;
 };
 
-/// The background, and the light that a diffuse surface gets from it.
+/// The background, and the light that surfaces get from it.
 class SkyLight {
 public:
     explicit SkyLight(const Background& background);
 
-    bool black() const { return black_; }
-    Vec3 towards(Vec3 direction) const { return background_.towards(direction); }
-    /// Mean radiance, weighted by the cosine, over the hemisphere around a unit normal:
+    /// Without the sun.
+    Vec3 towards(Vec3 direction) const {
+        return picture_ ? picture_towards(direction) : background_.towards(direction);
+    }
+    /// Mean radiance, weighted by the cosine, over the hemisphere around a unit normal, without the sun:
     /// irradiance/π of a surface that sees nothing but sky. Off by less than 10⁻³ of zenith −
-    /// horizon.
+    /// horizon; of a picture, by spherical harmonics of three orders [Ramamoorthi & Hanrahan 2001].
     Vec3 mean(Vec3 normal) const;
 
+    /// The sun by day: a disc far away.
+    struct Sun {
+        Vec3 direction{0, 1, 0}, radiance{0.0};
+        double depth = 0;  // 1 − cosine of its radius
+
+        bool shines() const { return depth > 0; }
+        double density() const { return 1 / (2 * std::numbers::pi * depth); }
+        bool covers(Vec3 towards) const { return shines() && glm::dot(towards, direction) >= 1 - depth; }
+        Vec3 at(Vec2 u) const;
+        Vec3 irradiance() const { return radiance / density(); }
+    };
+    const Sun& sun() const { return sun_; }
+
+    /// Whether directions are sampled by brightness: of pictures and by day.
+    bool sampled() const { return picture_ != nullptr; }
+    Vec3 sample(Vec2 u) const;
+    /// Per solid angle, of what sample() finds.
+    double density(Vec3 direction) const;
+    /// Over all directions.
+    Vec3 average() const { return harmonics_[0]; }
+
 private:
+    Vec3 picture_towards(Vec3 direction) const;
+    Vec2 place_of(Vec3 direction) const;  // in the picture, from 0 to 1
+    Vec3 direction_of(Vec2 place) const;
+    void prepare_picture();
+
     static constexpr int steps = 64;
     Background background_;
-    bool black_;
     std::array<double, steps + 1> zenith_share_{};  // by normal.y, from -1 to 1
+    std::shared_ptr<const Surroundings> picture_;
+    double cos_rotate_ = 1, sin_rotate_ = 0;
+    std::vector<double> rows_, columns_;  // shares of all rows above; in each row, of all columns before
+    double total_ = 0;
+    std::array<Vec3, 9> harmonics_{};  // means of polynomials of the direction over all of them
+    Sun sun_;
 };
 
 }  // namespace deburr

@@ -57,7 +57,9 @@ PathIntegrator::PathIntegrator(const Scene& scene, const RayTracer& tracer, cons
       tracer_(tracer),
       settings_(settings),
       camera_(scene.camera, settings.width, settings.height),
-      emitters_(scene) {
+      seen_(scene.background),
+      sky_(scene.lighting()),
+      emitters_(scene, sky_) {
     materials_.resize(scene.caustics ? 1 : blurs);
     for (std::size_t blur = 0; blur < materials_.size(); ++blur)
         for (const Material& m : scene.materials) materials_[blur].emplace_back(m, tables_, blur_alphas[blur]);
@@ -210,9 +212,18 @@ private:
         path.color += path.throughput * material.emission * weight;
     }
 
-    Vec3 background(const Path& path) const {
-        if (depth_ == 0 && !in_.settings_.background) return Vec3(0.0);
-        return in_.scene_.background.towards(path.ray.direction);
+    void take_background(Path& path) const {
+        const Vec3 direction = path.ray.direction;
+        if (depth_ == 0) {
+            if (!in_.settings_.background) return;
+            path.color += in_.seen_.towards(direction);
+            if (in_.seen_.sun().covers(direction)) path.color += in_.seen_.sun().radiance;
+            return;
+        }
+        in_.emitters_.for_each_at_infinity(direction, [&](const Emitters::Met& met) {
+            if (met.density > 0 && is_counted_already(path)) return;
+            path.color += path.throughput * met.radiance * reflection_weight(path, met.emitter, met.density);
+        });
     }
 
     // Light that arrives at a path's end, and the way on; false if there is none.
@@ -228,7 +239,7 @@ private:
             return false;
         }
         if (!hit) {
-            path.color += path.throughput * background(path);
+            take_background(path);
             return false;
         }
         const Material& material = in_.scene_.materials[hit.material];

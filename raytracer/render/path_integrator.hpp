@@ -39,6 +39,7 @@ private:
     PinholeCamera camera_;
     AlbedoTables tables_;
     std::vector<std::vector<ScatteringMaterial>> materials_;  // by blur (path_integrator.cpp), then by material
+    SkyLight seen_, sky_;                                     // by the camera; by all else
     Emitters emitters_;
     bool glass_ = false;  // there is some
 };

@@ -5,6 +5,8 @@
 // a directional light's `power` is the irradiance on a surface that faces it.
 #pragma once
 #include <map>
+#include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -55,12 +57,27 @@ struct Camera {
     double fov = 40.0;  // vertical, degrees
 };
 
+/// A picture of all that surrounds a scene, linear, by longitude and latitude: its middle lies towards -z, its top at
+/// y.
+struct Surroundings {
+    int width = 0, height = 0;
+    std::vector<float> rgb;  // row by row from the top
+};
+
 /// What rays that hit nothing see; also the ambient light.
 struct Background {
     bool sky = false;  // a gradient from horizon to zenith, by direction.y
     Vec3 color{0.0};   // one colour where there is no sky
     Vec3 horizon{0.8, 0.85, 0.9}, zenith{0.3, 0.5, 0.8};
+    // A clear sky by day, in place of the gradient, with a sun in this direction; {0, 0, 0}: none
+    Vec3 sun{0.0};
+    double turbidity = 3.0, sun_size = 0.533;     // haze; degrees across
+    std::string file;                             // of a picture, in place of the others; "": none
+    std::shared_ptr<const Surroundings> picture;  // what is in it, once it was read
+    double scale = 1.0, rotate = 0.0;             // of picture and day; degrees about y
 
+    bool by_day() const { return sun != Vec3(0.0); }
+    /// Neither of a picture nor by day.
     Vec3 towards(Vec3 unit_direction) const {
         if (!sky) return color;
         return glm::mix(horizon, zenith, std::sqrt(glm::max(0.0, unit_direction.y)));
@@ -71,13 +88,17 @@ struct Scene {
     std::string file;                               // as the user named it
     std::map<std::string, std::string> parameters;  // every param() the scene read, with its value
     int width = 600, height = 380;
-    int spp = 1;           // samples per pixel
-    int bounces = 4;       // depth of mirror and glass paths in previews
-    bool caustics = false;            // true: highlights and light through glass fall exactly where they do
+    int spp = 1;            // samples per pixel
+    int bounces = 4;        // depth of mirror and glass paths in previews
+    bool caustics = false;  // true: highlights and light through glass fall exactly where they do
     Camera camera;
     std::vector<Light> lights;
     Background background;
-    Vec3 ambient{0.0};                     // constant radiance from all around, seen by diffuse surfaces only
+    std::optional<Background>
+        environment;    // what gives light in place of the background, which then only the camera sees
+    Vec3 ambient{0.0};  // constant radiance from all around, seen by diffuse surfaces only
+    const Background& lighting() const { return environment ? *environment : background; }
+
     std::vector<Material> materials;       // never empty: index 0 is for solids that name none
     std::vector<Solid> solids;             // separate objects; ids are 1, 2, … in this order
     std::vector<std::string> names;        // of the solids, "" where they have none

@@ -92,6 +92,8 @@ public:
     /// Files that were read, and what was mended in them: "part.stl: turned 12 facets that faced inward".
     const std::vector<std::string>& notes() const { return notes_; }
     const std::vector<std::string>& files() const { return files_read_; }
+    /// The path of the scene's file of this name. Throws as SceneFiles does.
+    std::string path_of(const std::string& file);
     /// The place of a material in materials(); each has one, however often it is used.
     int index_of(const SceneObject* material);
     /// param(): the value that the command line gives in place of `fallback`, if any.

@@ -184,12 +184,41 @@ SceneResult sphere_light(SceneCall& call) {
     return call.make(light);
 }
 
+void read_scale(const Fields& fields, Background& background) {
+    if (const auto* given = fields.find("scale"))
+        background.scale = number_at_least(*given, fields.location("scale"), 0);
+}
+
 SceneResult sky(SceneCall& call) {
-    const Fields fields(fields_argument(call), call.name, {"horizon", "zenith"});
+    const Fields fields(fields_argument(call), call.name,
+                        {"horizon", "zenith", "sun", "turbidity", "sun_size", "scale"});
     Background background;
     background.sky = true;
     read_color(fields, "horizon", background.horizon, infinity);
     read_color(fields, "zenith", background.zenith, infinity);
+    if (const auto* given = fields.find("sun")) background.sun = direction(*given, fields.location("sun"));
+    if (const auto* given = fields.find("turbidity"))
+        background.turbidity = number_between(*given, fields.location("turbidity"), 2, 10);
+    if (const auto* given = fields.find("sun_size"))
+        background.sun_size = number_between(*given, fields.location("sun_size"), 0.1, 30);
+    read_scale(fields, background);
+    if (background.by_day()) return call.make(background);
+    for (const char* name : {"turbidity", "sun_size", "scale"})
+        if (fields.find(name)) throw BadValue(fields.location(name), "expected a sun beside it, got none");
+    return call.make(background);
+}
+
+SceneResult environment(SceneCall& call) {
+    const Fields fields(fields_argument(call), call.name, {"file", "scale", "rotate"});
+    Background background;
+    read_scale(fields, background);
+    if (const auto* given = fields.find("rotate")) background.rotate = number(*given, fields.location("rotate"));
+    const std::string& name = text(fields.get("file"), fields.location("file"));
+    try {
+        background.file = call.builder.path_of(name);
+    } catch (const std::runtime_error& error) {
+        throw BadValue(fields.location("file"), error.what());
+    }
     return call.make(background);
 }
 
@@ -211,6 +240,7 @@ const std::vector<SceneFunction>& material_functions() {
         {Kind::global, "area_light", "", area_light},
         {Kind::global, "sphere_light", "", sphere_light},
         {Kind::global, "sky", "", sky},
+        {Kind::global, "environment", "", environment},
     };
     return functions;
 }

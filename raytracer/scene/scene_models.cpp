@@ -8,12 +8,17 @@
 
 namespace deburr {
 
+std::string SceneBuilder::path_of(const std::string& file) {
+    std::string path = files_.path_of(file);
+    files_read_.push_back(path);
+    return path;
+}
+
 const ClosedMeshPtr& SceneBuilder::model(const std::string& file) {
     const auto [at, is_new] = models_.try_emplace(file);
     if (is_new) {
-        const std::string path = files_.path_of(file);
+        const std::string path = path_of(file);
         const Model read = read_model(path);
-        files_read_.push_back(path);
         for (const std::string& mended : read.mended) notes_.push_back(fmt::format("{}: {}", path, mended));
         at->second = read.mesh;
     }

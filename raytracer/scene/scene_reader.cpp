@@ -59,14 +59,14 @@ void read_camera(const LuaValue& value, Camera& camera) {
         expected(fields.location("up"), "a direction not parallel to the view", fields.get("up"));
 }
 
-void read_background(const LuaValue& value, Background& background) {
+void read_background(const LuaValue& value, const char* name, Background& background) {
     const SceneObject* object = as_object(value);
     if (const auto* sky = as<Background>(object))
         background = *sky;
     else if (object)
-        expected("background", "a colour or sky{…}", value);
+        expected(name, "a colour, sky{…} or environment{…}", value);
     else
-        background.color = color(value, "background", infinity);
+        background.color = color(value, name, infinity);
 }
 
 void read_lights(const LuaValue& value, std::vector<Light>& lights) {
@@ -113,10 +113,12 @@ void add_default_light(Scene& scene) {
 
 void read_table(const LuaValue& value, SceneBuilder& builder, Scene& scene) {
     if (!as_table(value)) expected("scene", "the chunk to return a table, return { solids = { … } }", value);
-    const Fields fields(value, "", {"image", "camera", "lights", "background", "ambient", "solids"});
+    const Fields fields(value, "", {"image", "camera", "lights", "background", "environment", "ambient", "solids"});
     if (const auto* given = fields.find("image")) read_image(*given, scene);
     if (const auto* given = fields.find("camera")) read_camera(*given, scene.camera);
-    if (const auto* given = fields.find("background")) read_background(*given, scene.background);
+    if (const auto* given = fields.find("background")) read_background(*given, "background", scene.background);
+    if (const auto* given = fields.find("environment"))
+        read_background(*given, "environment", scene.environment.emplace());
     if (const auto* given = fields.find("ambient")) scene.ambient = color(*given, "ambient", infinity);
     if (const auto* given = fields.find("lights"))
         read_lights(*given, scene.lights);

@@ -79,8 +79,8 @@ std::vector<FieldTable> field_tables() {
             table = {"", rows, "return { FIELDS }"};
         else if (topic == "Scene")
             table.scene = "return { " + name + " = { FIELDS }, solids = { cube() } }";
-        else if (name == "sky")
-            table.scene = "return { background = sky{ FIELDS }, solids = { cube() } }";
+        else if (name == "sky" || name == "environment")
+            table.scene = "return { background = " + name + "{ FIELDS }, solids = { cube() } }";
         else
             table.scene = std::regex_replace(scenes.at(topic), std::regex("VALUE"), name + "{ FIELDS }");
         tables.push_back(table);
@@ -91,9 +91,10 @@ std::vector<FieldTable> field_tables() {
 /// What a table of `owner` needs beside the field `name` to be read.
 std::string fields_beside(const FieldTable& table, const std::string& name) {
     if (table.owner == "quadric") return name == "xy" ? "c = 0.5, xz = 1, " : "xy = 1, ";
-    const std::map<std::string, std::string> values = {{"solids", "{ cube() }"},     {"position", "{0, 5, 0}"},
-                                                       {"direction", "{1, -2, -1}"}, {"radius", "1"},
-                                                       {"u", "{1, 0, 0}"},           {"v", "{0, 0, 1}"}};
+    const std::map<std::string, std::string> values = {
+        {"solids", "{ cube() }"}, {"position", "{0, 5, 0}"}, {"direction", "{1, -2, -1}"},
+        {"radius", "1"},          {"file", "'room.exr'"},    {"u", "{1, 0, 0}"},
+        {"v", "{0, 0, 1}"}};
     std::string fields;
     for (const Row& row : table.rows)
         if (const std::string other = quoted(row.cell("field")); row.cell("default") == "required" && other != name)
@@ -217,7 +218,7 @@ TEST_CASE("docs/scenes.md has the fields that the program knows, and no others")
         };
         CHECK(split(on_page) == split(error.substr(from, error.find(end) - from)));
     }
-    CHECK(tables.size() == 3 + 6 + 6 + 2 + 5);  // scene, quadrics, materials, textures, lights with the sky
+    CHECK(tables.size() == 3 + 6 + 6 + 2 + 6);  // scene, quadrics, materials, textures, lights with the sky
 }
 
 TEST_CASE("docs/scenes.md says of every field what the program says that it takes") {
@@ -232,7 +233,7 @@ TEST_CASE("docs/scenes.md says of every field what the program says that it take
             REQUIRE(error.ends_with(end));
             const std::size_t from = error.find(start) + start.size();
             const std::string takes = error.substr(from, error.size() - end.size() - from);
-            if (takes == "a colour or sky{…}") continue;
+            if (takes == "a colour, sky{…} or environment{…}") continue;
             CHECK(row.cell("takes").substr(0, takes.size()) == takes);
         }
 }

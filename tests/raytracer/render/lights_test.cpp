@@ -148,8 +148,6 @@ TEST_CASE("The sky's mean is that of its radiance weighted by the cosine") {
         ++cases;
     }
     CHECK(cases == 5);
-    CHECK(SkyLight(Background{}).black());
-    CHECK_FALSE(sky.black());
 }
 
 TEST_CASE("A checker has one colour on a face that lies between its cubes") {
@@ -193,4 +191,94 @@ TEST_CASE("Noise is bounded, continuous and not constant; wood lies between its 
     CHECK(lowest >= -1);
     CHECK(highest <= 1);
     CHECK(noise({3, -4, 5}) == 0);
+}
+
+namespace {
+
+// 1 + x/2 + y² of the direction, which has harmonics of three orders and no more.
+Background pictured(double rotate = 0) {
+    Surroundings s{256, 128, {}};
+    for (int j = 0; j < s.height; ++j)
+        for (int i = 0; i < s.width; ++i) {
+            const double phi = 2 * pi * ((i + 0.5) / s.width - 0.5), theta = pi * (j + 0.5) / s.height;
+            const Vec3 d(std::sin(theta) * std::sin(phi), std::cos(theta), -std::sin(theta) * std::cos(phi));
+            for (int k = 0; k < 3; ++k) s.rgb.push_back(float(1 + 0.5 * d.x + d.y * d.y));
+        }
+    Background background;
+    background.file = "made here";
+    background.picture = std::make_shared<const Surroundings>(std::move(s));
+    background.rotate = rotate;
+    return background;
+}
+
+// Its irradiance over π: bands are weakened by 1, 2/3 and 1/4, and y² is 1/3 and 2/3 of the second band.
+double pictured_mean(Vec3 n) { return 1 + 0.5 * 2 / 3 * n.x + 1.0 / 3 + 0.25 * 2 / 3 * (1.5 * n.y * n.y - 0.5); }
+
+}  // namespace
+
+TEST_CASE("A picture around the scene has its irradiance by spherical harmonics, in previews and by paths") {
+    Scene scene = probe(material_of(Material::Kind::matte, Vec3(1.0)));
+    const AnalyticTracer sphere({{Shape::Kind::sphere, Vec3(0.0), {}, 1, 0}});
+    int cases = 0;
+    for (double rotate : {0.0, 90.0})
+        for (Vec3 n : {Vec3(0, 1, 0), Vec3(1, 0, 0), Vec3(0, 0, 1), glm::normalize(Vec3(1, -2, 0.5))}) {
+            scene.background = pictured(rotate);
+            const SkyLight sky(scene.background);
+            // Turned by 90° about y, what was at x is at -z.
+            const double expected = pictured_mean(rotate == 0 ? n : Vec3(-n.z, n.y, n.x));
+            CAPTURE(rotate, n.x, n.y, n.z);
+            CHECK(sky.mean(n).x == Approx(expected).epsilon(1e-3));
+            scene.camera = {4.0 * n, Vec3(0.0), std::abs(n.y) > 0.9 ? Vec3(0, 0, 1) : Vec3(0, 1, 0), 1e-7};
+            CHECK(pixel_of(scene, sphere, 1).color.x == Approx(expected).epsilon(1e-3));
+            CHECK(pixel_of(scene, sphere, 4096).color.x == Approx(expected).epsilon(3e-3));
+            ++cases;
+        }
+    CHECK(cases == 8);
+}
+
+TEST_CASE("Directions are sampled by brightness with the density that is claimed") {
+    for (const Background& background : {pictured(30), [] {
+                                             Background day;
+                                             day.sun = {1, 0.5, 0.3};
+                                             return day;
+                                         }()}) {
+        const SkyLight sky(background);
+        const auto observable = [](Vec3 d) { return (1 + 0.5 * d.x) * (1.5 + d.y) * (1.2 + d.z); };
+        double exact = 0, sampled = 0, all = 0;
+        const int rows = 512, columns = 512, n = 1 << 15;
+        for (int j = 0; j < rows; ++j)
+            for (int i = 0; i < columns; ++i) {
+                const double y = 1 - 2 * (j + 0.5) / rows, r = std::sqrt(1 - y * y), phi = 2 * pi * (i + 0.5) / columns;
+                const Vec3 d(r * std::cos(phi), y, r * std::sin(phi));
+                const double share = sky.density(d) * 4 * pi / (rows * columns);
+                all += share;
+                exact += observable(d) * share;
+            }
+        for (int s = 0; s < n; ++s) {
+            const Vec3 d = sky.sample(Sampler(5, 0, 0, s).square(0));
+            CHECK(std::abs(glm::length(d) - 1) < 1e-12);
+            sampled += observable(d) / n;
+        }
+        CHECK(all == Approx(1).epsilon(2e-3));
+        CHECK(sampled == Approx(exact).epsilon(2e-3));
+    }
+}
+
+TEST_CASE("By day, a floor in the open gets the sun's light and the sky's") {
+    Scene scene = ground_under({});
+    scene.lights.clear();
+    scene.background.sun = {0.5, 1, 0.2};
+    const SkyLight sky(scene.background);
+    const double expected = sky.mean({0, 1, 0}).x + sky.sun().irradiance().x * sky.sun().direction.y / pi;
+    CHECK(pixel_of(scene, AnalyticTracer({ground()}), 4096).color.x == Approx(expected).epsilon(0.01));
+    CHECK(pixel_of(scene, AnalyticTracer({ground()}), 1).color.x == Approx(expected).epsilon(1e-6));
+    CHECK(sky.sun().irradiance().x > 2);
+    CHECK(sky.sun().irradiance().z < sky.sun().irradiance().x);
+    // In the evening it is weak and red; below the horizon it is gone.
+    scene.background.sun = {1, 0.05, 0};
+    const Vec3 evening = SkyLight(scene.background).sun().irradiance();
+    CHECK(evening.x < 0.5 * sky.sun().irradiance().x);
+    CHECK(evening.z < 0.3 * evening.x);
+    scene.background.sun = {1, -0.1, 0};
+    CHECK_FALSE(SkyLight(scene.background).sun().shines());
 }

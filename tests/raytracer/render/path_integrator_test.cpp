@@ -135,7 +135,8 @@ TEST_CASE("A glowing solid is sampled through the ball around it, and met by ref
     const ImplicitTracer tracer(scene.solids);
     const double expected = 4 * 4 * corner_form_factor(0.5, 1);
     CHECK(path_pixel(scene, tracer, 1 << 14).color.x == Approx(expected).epsilon(0.004));
-    REQUIRE(Emitters(scene).size() == 1);
+    const SkyLight sky(scene.background);
+    REQUIRE(Emitters(scene, sky).size() == 1);
     // A mirror shows the lamp's radiance itself.
     scene.materials[0] = material_of(Material::Kind::mirror, Vec3(0.5));
     scene.camera.eye = {2, 2, 0};

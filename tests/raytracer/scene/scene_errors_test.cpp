@@ -251,7 +251,7 @@ TEST_CASE("the scene's table says what it expects, with the line that writes it"
         {"return {\n lights = { cube() }, solids = { cube() } }",
          "s.lua:2: lights[1]: expected a light, got a density"},
         {"return {\n background = matte{}, solids = { cube() } }",
-         "s.lua:2: background: expected a colour or sky{…}, got a material"},
+         "s.lua:2: background: expected a colour, sky{…} or environment{…}, got a material"},
         {"return {\n ambient = -1, solids = { cube() } }",
          "s.lua:2: ambient: expected a colour, {r, g, b} or a number, >= 0, got -1"},
         {"-- ambient = 0\nlocal s = 'ambient = 1'\nreturn {\n ambient = -1, solids = { cube() } }",
