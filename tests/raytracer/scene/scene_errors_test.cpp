@@ -77,11 +77,11 @@ TEST_CASE("shapes say what they expect") {
         {"rounded(0/0, cube())", "s.lua:1: rounded: radius: expected a number >= 0, got nan"},
         {"rounded(0.1)", "s.lua:1: rounded: expected a density, got nothing"},
         {"convolved(0, cube())", "s.lua:1: convolved: radius: expected a number > 0, got 0"},
-        {"convolved(0.1, rounded(0.1, cube()))", "s.lua:1: convolved: expected a density, got a solid"},
+        {"convolved(0.1, rounded(0.1, cube()))", "s.lua:1: convolved: expected a density or a model, got a solid"},
         {"convolved(0.1, cube() | ~cube():radius(0.2))",
          "s.lua:1: convolved: expected a density without radii, got one with :radius(); one ball rounds all of it"},
         {"rounded(cube(), 0.1)", "s.lua:1: rounded: radius: expected a number >= 0, got a density"},
-        {"sharp(sharp(cube()))", "s.lua:1: sharp: expected a density, got a solid"},
+        {"sharp(sharp(cube()))", "s.lua:1: sharp: expected a density or a model, got a solid"},
     })));
 }
 
