@@ -22,6 +22,12 @@
 //
 // Circles are oriented about their normals, which has the inner side to the right: hence the signs.
 // For one plane, Aₚ = π(1 − t²) and S = 2π(1 + t), this is the cubic [Lobb eq. 2].
+//
+// Integrals of wₚ and wₚq are lengths, with a sign, of the parts of a circle or of a chord on which the function is
+// true with p (and q) taken to be true, and to be false. A circle or chord is sent through the function's steps as an
+// interval: a plane that cuts it sends either part its own way, and where a step asks for p, one copy goes on with p
+// true and another, of the other sign, with p false. A part that ends before p (and q) is asked for adds nothing, as
+// the function does not depend on them there; so most parts are short and end soon.
 #include "bounds/ball_arrangement.hpp"
 
 #include <algorithm>
@@ -45,8 +51,8 @@ Vec3 pole(int k) {
 
 }  // namespace
 
-// Chooses the pole and gives every circle its axes; what the antipole adds comes later.
-void BallArrangement::arrange(const std::vector<BallPlane>& planes, TruthTable& table) {
+// Chooses the pole and gives every circle its axes.
+void BallArrangement::choose_pole(const std::vector<BallPlane>& planes) {
     static const std::vector<Vec3> poles = [] {
         std::vector<Vec3> all;
         for (int k = 0; k < max_poles; ++k) all.push_back(pole(k));
@@ -84,14 +90,12 @@ void BallArrangement::arrange(const std::vector<BallPlane>& planes, TruthTable& 
         c.far = 1 + t * up + c.radius * sigma;
         c.side = t + up >= 0 ? 1 : -1;
         circles_.push_back(c);
-        table.put(int(p), t + up >= 0);
     }
 }
 
 // Every two planes' common chord, found once for both: what rounding does to it must be the same
 // for either, as it may be much where they are nearly parallel.
-void BallArrangement::join(const std::vector<BallPlane>& planes) {
-    count_ = planes.size();
+void BallArrangement::find_chords(const std::vector<BallPlane>& planes) {
     chords_.assign(count_ * count_, {});
     for (std::size_t p = 0; p < count_; ++p)
         for (std::size_t q = p + 1; q < count_; ++q) {
@@ -118,130 +122,179 @@ void BallArrangement::join(const std::vector<BallPlane>& planes) {
         }
 }
 
-int BallArrangement::weight(std::size_t p, TruthTable& table) const {
-    table.put(int(p), true);
-    const int in = table.value();
-    table.flip(int(p));
-    return in - int(table.value());
+void BallArrangement::find_last_steps() {
+    last_step_.assign(count_, -1);
+    for (std::size_t k = 0; k < function_->steps.size(); ++k) last_step_[function_->steps[k].variable] = int(k);
+}
+
+const BallArrangement::Arc& BallArrangement::arc(std::size_t p, std::size_t q) {
+    Arc& arc = arcs_[q];
+    if (arc.of_plane == p) return arc;
+    const Chord& c = chord(p, q);
+    const double phi = std::atan2(c.my, c.mx), beta = std::atan2(c.half, c.d);
+    arc = {phi - beta, phi + beta, false, p};
+    if (arc.from < -pi) {
+        arc.from += 2 * pi;
+        arc.wraps = true;
+    }
+    if (arc.to >= pi) {
+        arc.to -= 2 * pi;
+        arc.wraps = true;
+    }
+    return arc;
 }
 
 // Around p's circle: returns Θₚ and adds p's part of S.
-double BallArrangement::arcs(const std::vector<BallPlane>& planes, std::size_t p, TruthTable& table, double& sphere) {
+double BallArrangement::add_arcs(const std::vector<BallPlane>& planes, std::size_t p, double& sphere) {
     const Circle& c = circles_[p];
-    events_.clear();
-    for (std::size_t q = 0; q < count_; ++q) {
-        if (q == p) continue;
-        const Chord& ch = chord(p, q);
-        if (ch.half == 0) {
-            table.put(int(q), ch.d >= 0);
-            continue;
-        }
-        // Outside q from phi − beta to phi + beta.
-        const double phi = std::atan2(ch.my, ch.mx), beta = std::atan2(ch.half, ch.d);
-        double from = phi - beta, to = phi + beta;
-        bool inside = true;  // at −π
-        if (from < -pi) {
-            from += 2 * pi;
-            inside = false;
-        }
-        if (to >= pi) {
-            to -= 2 * pi;
-            inside = false;
-        }
-        table.put(int(q), inside);
-        events_.push_back({from, int(q)});
-        events_.push_back({to, int(q)});
-    }
-    std::sort(events_.begin(), events_.end());
-    // Σ w (x_end − x_start) over the arcs is Σ x (w_before − w_after) over their ends.
-    int before = weight(p, table);
-    double theta = 0, psi = 0;
-    const auto end = [&](double at, double of_psi, int change) {
-        theta += at * change;
-        psi += of_psi * change;
+    const auto psi = [&](double theta) {
+        if (std::abs(theta) == pi) return theta;
+        return 2 * std::atan2(c.near * std::sin(0.5 * theta), c.far * std::cos(0.5 * theta));
     };
-    end(-pi, -pi, -before);
-    for (const Event& e : events_) {
-        table.flip(e.variable);
-        const int after = weight(p, table);
-        if (after == before) continue;
-        const double half = 0.5 * e.at;
-        end(e.at, 2 * std::atan2(c.near * std::sin(half), c.far * std::cos(half)), before - after);
-        before = after;
+    double of_theta = 0, of_psi = 0;
+    pieces_.assign(1, {-pi, pi, function_->first, 1, -1, -1});
+    while (!pieces_.empty()) {
+        Piece piece = pieces_.back();
+        pieces_.pop_back();
+        while (piece.step >= 0 && (piece.of_p >= 0 || piece.step <= last_step_[p])) {
+            const BooleanStep& step = function_->steps[piece.step];
+            const std::size_t q = std::size_t(step.variable);
+            if (q == p) {
+                if (piece.of_p < 0) {
+                    pieces_.push_back({piece.from, piece.to, step.if_false, -piece.sign, 0, -1});
+                    piece.of_p = 1;
+                }
+                piece.step = piece.of_p ? step.if_true : step.if_false;
+                continue;
+            }
+            const Chord& ch = chord(p, q);
+            if (ch.half == 0) {
+                piece.step = ch.d >= 0 ? step.if_true : step.if_false;
+                continue;
+            }
+            // One value from `from` to `to`, the other before and after.
+            const Arc& outside = arc(p, q);
+            const double from = outside.wraps ? outside.to : outside.from,
+                         to = outside.wraps ? outside.from : outside.to;
+            const int within = outside.wraps ? step.if_true : step.if_false;
+            const int beyond = outside.wraps ? step.if_false : step.if_true;
+            if (to <= piece.from || from >= piece.to) {
+                piece.step = beyond;
+                continue;
+            }
+            const auto send = [&](double begin, double end, int next) {
+                if (begin < end) pieces_.push_back({begin, end, next, piece.sign, piece.of_p, -1});
+            };
+            send(piece.from, from, beyond);
+            send(to, piece.to, beyond);
+            piece.from = std::max(piece.from, from);
+            piece.to = std::min(piece.to, to);
+            piece.step = within;
+        }
+        if (piece.step != ends_true || piece.of_p < 0) continue;
+        of_theta += piece.sign * (piece.to - piece.from);
+        of_psi += piece.sign * (psi(piece.to) - psi(piece.from));
     }
-    end(pi, pi, before);
-    sphere += planes[p].t * theta - c.side * psi;
-    return theta;
+    sphere += planes[p].t * of_theta - c.side * of_psi;
+    return of_theta;
 }
 
-// Over the chords in p's disc: Σ d · ∫ wₚq. Chords that lie on one line are crossed as one.
-double BallArrangement::chords(std::size_t p, TruthTable& table) {
-    double sum = 0;
-    done_.assign(count_, false);
-    done_[p] = true;
-    for (std::size_t q = 0; q < count_; ++q) {
-        const Chord& ch = chord(p, q);
-        if (done_[q] || ch.half == 0) continue;
-        line_.clear();
-        events_.clear();
-        for (std::size_t r = 0; r < count_; ++r) {
-            if (r == p) continue;
+// ∫ wₚq along the chord that q cuts in p's disc. Planes that cut the disc in the same line are crossed together with
+// q; those that the function asks for are left in on_line_.
+double BallArrangement::chord_length(std::size_t p, std::size_t q) {
+    const Chord& ch = chord(p, q);
+    double length = 0;
+    on_line_.clear();
+    pieces_.assign(1, {-ch.half, ch.half, function_->first, 1, -1, -1});
+    while (!pieces_.empty()) {
+        Piece piece = pieces_.back();
+        pieces_.pop_back();
+        while (piece.step >= 0 && (piece.of_p >= 0 || piece.step <= last_step_[p])) {
+            const BooleanStep& step = function_->steps[piece.step];
+            const std::size_t r = std::size_t(step.variable);
+            if (r == p) {
+                if (piece.of_p < 0) {
+                    pieces_.push_back({piece.from, piece.to, step.if_false, -piece.sign, 0, piece.of_q});
+                    piece.of_p = 1;
+                }
+                piece.step = piece.of_p ? step.if_true : step.if_false;
+                continue;
+            }
             const Chord& other = chord(p, r);
             if (other.half == 0) {
-                table.put(int(r), other.d >= 0);
+                piece.step = other.d >= 0 ? step.if_true : step.if_false;
                 continue;
             }
             const double along = other.my * ch.mx - other.mx * ch.my;  // m of r along the chord
             const double across = other.mx * ch.mx + other.my * ch.my;
             const double room = other.d - ch.d * across;
-            if (r == q || (!done_[r] && std::abs(along) <= one_plane && std::abs(room) <= one_plane)) {
-                line_.push_back(r);
-                table.put(int(r), across > 0);
+            if (r == q || (!other.counted && std::abs(along) <= one_plane && std::abs(room) <= one_plane)) {
+                if (r != q) on_line_.push_back(r);
+                const bool same = across > 0;
+                if (piece.of_q < 0) {
+                    pieces_.push_back(
+                        {piece.from, piece.to, same ? step.if_false : step.if_true, -piece.sign, piece.of_p, 0});
+                    piece.of_q = 1;
+                }
+                piece.step = (piece.of_q == 1) == same ? step.if_true : step.if_false;
                 continue;
             }
             // Inside where along · y ≤ room.
             if (std::abs(room) >= std::abs(along) * ch.half) {
-                table.put(int(r), room >= 0);
+                piece.step = room >= 0 ? step.if_true : step.if_false;
                 continue;
             }
-            table.put(int(r), along > 0);
-            events_.push_back({room / along, int(r)});
+            const double cut = room / along;
+            const int before = along > 0 ? step.if_true : step.if_false;
+            const int after = along > 0 ? step.if_false : step.if_true;
+            if (cut >= piece.to) {
+                piece.step = before;
+            } else if (cut <= piece.from) {
+                piece.step = after;
+            } else {
+                pieces_.push_back({cut, piece.to, after, piece.sign, piece.of_p, piece.of_q});
+                piece.to = cut;
+                piece.step = before;
+            }
         }
-        for (const std::size_t r : line_) done_[r] = true;
-        std::sort(events_.begin(), events_.end());
-        const auto step = [&] {  // wₚ on the inner side of the line, less that on its outer side
-            const int in = weight(p, table);
-            for (const std::size_t r : line_) table.flip(int(r));
-            const int out = weight(p, table);
-            for (const std::size_t r : line_) table.flip(int(r));
-            return in - out;
-        };
-        int before = step();
-        double length = -ch.half * -before;
-        for (const Event& e : events_) {
-            table.flip(e.variable);
-            const int after = step();
-            length += e.at * (before - after);
-            before = after;
-        }
-        length += ch.half * before;
-        sum += ch.d * length;
+        if (piece.step == ends_true && piece.of_p >= 0 && piece.of_q >= 0)
+            length += piece.sign * (piece.to - piece.from);
     }
-    return sum;
+    return length;
 }
 
-double BallArrangement::measure(const std::vector<BallPlane>& planes, TruthTable& table, std::vector<double>& areas) {
-    arrange(planes, table);
-    double sphere = table.value() ? 4 * pi : 0;
-    join(planes);
-    areas.assign(count_, 0);
-    double sum = 0;
-    for (std::size_t p = 0; p < count_; ++p) {
-        const double theta = arcs(planes, p, table, sphere);
-        const double radius = circles_[p].radius;
-        areas[p] = 0.5 * (radius * radius * theta + chords(p, table));
-        sum += planes[p].t * areas[p];
+// Over the chords in p's disc: Σ d · ∫ wₚq, and the same for the other plane of every chord that no third one is on.
+void BallArrangement::add_chords(std::size_t p, std::vector<double>& areas) {
+    for (std::size_t q = 0; q < count_; ++q) {
+        Chord &of_p = chord(p, q), &of_q = chord(q, p);
+        if (q == p || of_p.counted || of_p.half == 0) continue;
+        const double length = chord_length(p, q);
+        areas[p] += 0.5 * of_p.d * length;
+        of_p.counted = true;
+        for (const std::size_t r : on_line_) chord(p, r).counted = true;
+        if (!on_line_.empty() || of_q.counted) continue;
+        areas[q] += 0.5 * of_q.d * length;
+        of_q.counted = true;
     }
+}
+
+double BallArrangement::measure(const std::vector<BallPlane>& planes, const BooleanSteps& function,
+                                std::vector<double>& areas) {
+    function_ = &function;
+    count_ = planes.size();
+    choose_pole(planes);
+    find_chords(planes);
+    find_last_steps();
+    arcs_.assign(count_, {0, 0, false, count_});
+    areas.assign(count_, 0);
+    double sphere = function.value([&](int p) { return circles_[p].side > 0; }) ? 4 * pi : 0;
+    for (std::size_t p = 0; p < count_; ++p) {
+        const double radius = circles_[p].radius;
+        areas[p] += 0.5 * radius * radius * add_arcs(planes, p, sphere);
+        add_chords(p, areas);
+    }
+    double sum = 0;
+    for (std::size_t p = 0; p < count_; ++p) sum += planes[p].t * areas[p];
     return std::clamp((sum + sphere) / (4 * pi), 0.0, 1.0);
 }
 

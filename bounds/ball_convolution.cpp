@@ -1,5 +1,6 @@
 #include "bounds/ball_convolution.hpp"
 
+#include <algorithm>
 #include <cassert>
 #include <numbers>
 
@@ -28,7 +29,8 @@ BallConvolution::BallConvolution(const DensityTree& tree) {
     assert(tree.nodes.back().op == Op::convolution);
     to_ball_ = glm::inverse(tree.ball);
     find_equal(tree);
-    if (half_spaces_.size() <= std::size_t(TruthTable::max_tabulated)) drop_idle();
+    if (half_spaces_.size() <= std::size_t(max_tabulated)) drop_idle();
+    steps_ = short_circuit(function_);
 
     // From the root down: whether a node is used as it is, complemented, or both.
     const auto& nodes = function_.nodes;
@@ -89,12 +91,13 @@ void BallConvolution::find_equal(const DensityTree& tree) {
 void BallConvolution::drop_idle() {
     std::vector<Literal> literals;
     for (std::size_t i = 0; i < half_spaces_.size(); ++i) literals.push_back({int(i), true});
-    TruthTable table;
-    table.set(function_, literals, int(literals.size()));
+    BooleanSteps steps;
+    restrict_to(short_circuit(function_), literals, steps);
+    const std::vector<char> relevant = relevant_variables(steps, int(literals.size()));
     std::vector<int> new_index;
     std::size_t kept = 0;
     for (std::size_t i = 0; i < literals.size(); ++i) {
-        if (!table.depends_on(int(i))) {
+        if (!relevant[i]) {
             new_index.push_back(-1);
             continue;
         }
@@ -111,30 +114,54 @@ void BallConvolution::drop_idle() {
     }
 }
 
-double BallConvolution::at(const std::vector<double>& alpha, std::vector<double>& slope) const {
-    thread_local std::vector<char> known, open;
+// Planes on which the function does not depend, as where two flush faces leave no trace.
+static void drop_irrelevant(std::vector<BallPlane>& planes, std::vector<std::size_t>& whose, BooleanSteps& steps) {
+    const std::vector<char> relevant = relevant_variables(steps, int(planes.size()));
+    if (std::find(relevant.begin(), relevant.end(), false) == relevant.end()) return;
     thread_local std::vector<Literal> literals;
+    literals.assign(planes.size(), {});
+    std::size_t kept = 0;
+    for (std::size_t p = 0; p < planes.size(); ++p) {
+        if (!relevant[p]) continue;
+        planes[kept] = planes[p];
+        whose[kept] = whose[p];
+        literals[p] = {int(kept++), true};
+    }
+    planes.resize(kept);
+    whose.resize(kept);
+    BooleanSteps left;
+    restrict_to(steps, literals, left);
+    steps = std::move(left);
+}
+
+// The half-spaces that α leaves open and the function still asks for, as literals of no one but themselves.
+void BallConvolution::find_open(const std::vector<char>& known, BooleanSteps& left) const {
+    thread_local std::vector<Literal> literals;
+    literals.clear();
+    for (std::size_t i = 0; i < known.size(); ++i)
+        literals.push_back(known[i] == unknown ? Literal{int(i), true} : Literal{-1, known[i] != 0});
+    restrict_to(steps_, literals, left);
+}
+
+double BallConvolution::at(const std::vector<double>& alpha, std::vector<double>& slope) const {
+    thread_local std::vector<char> known;
+    thread_local std::vector<Literal> literals;  // of every half-space, by variables that are planes
     thread_local std::vector<BallPlane> planes;
     thread_local std::vector<std::size_t> whose;
     thread_local std::vector<double> areas;
-    thread_local TruthTable table;
+    thread_local BooleanSteps steps;
     thread_local BallArrangement arrangement;
 
     const std::size_t count = half_spaces_.size();
     slope.assign(count, 0);
     known.resize(count);
     for (std::size_t i = 0; i < count; ++i) known[i] = alpha[i] >= 1 ? 0 : alpha[i] <= -1 ? 1 : unknown;
-    if (count > std::size_t(TruthTable::max_tabulated))
-        mark_open(function_, known, open);
-    else
-        open.assign(count, true);
+    find_open(known, steps);
     planes.clear();
     whose.clear();
     literals.assign(count, {});
-    for (std::size_t i = 0; i < count; ++i) {
+    const auto add_plane = [&](std::size_t i) {
         Literal& l = literals[i];
-        if (known[i] != unknown) l.same = known[i];
-        if (known[i] != unknown || !open[i]) continue;
         for (std::size_t p = 0; p < planes.size() && l.variable < 0; ++p)
             for (const double sign : {1.0, -1.0}) {
                 if (std::abs(sign * -alpha[i] - planes[p].t) > one_plane) continue;
@@ -142,35 +169,25 @@ double BallConvolution::at(const std::vector<double>& alpha, std::vector<double>
                 l = {int(p), sign > 0};
                 break;
             }
-        if (l.variable >= 0) continue;
+        if (l.variable >= 0) return;
         l = {int(planes.size()), true};
         planes.push_back({normals_[i], -alpha[i]});
         whose.push_back(i);
+    };
+    for (BooleanStep& s : steps.steps) {
+        if (literals[s.variable].variable < 0) add_plane(std::size_t(s.variable));
+        const Literal l = literals[s.variable];
+        s.variable = l.variable;
+        if (!l.same) std::swap(s.if_true, s.if_false);
     }
-    table.set(function_, literals, int(planes.size()));
-    if (planes.size() <= std::size_t(TruthTable::max_tabulated)) {
-        int new_index[TruthTable::max_tabulated];
-        std::size_t kept = 0;
-        for (std::size_t p = 0; p < planes.size(); ++p) {
-            new_index[p] = table.depends_on(int(p)) ? int(kept) : -1;
-            if (new_index[p] < 0) continue;
-            planes[kept] = planes[p];
-            whose[kept++] = whose[p];
-        }
-        if (kept < planes.size()) {
-            planes.resize(kept);
-            for (Literal& l : literals)
-                if (l.variable >= 0) l.variable = new_index[l.variable];
-            table.set(function_, literals, int(kept));
-        }
-        if (kept == 0) return table.value();
-        if (kept == 1) {  // a half-space's cubic, or its complement's
-            const double side = table.value() ? -1 : 1, a = side * -planes[0].t;
-            slope[whose[0]] = side * profile_slope(a);
-            return profile(a);
-        }
+    if (planes.size() <= std::size_t(max_tabulated)) drop_irrelevant(planes, whose, steps);
+    if (planes.empty()) return steps.first == ends_true;
+    if (planes.size() == 1) {  // a half-space's cubic, or its complement's
+        const double side = steps.value([](int) { return false; }) ? -1 : 1, a = side * -planes[0].t;
+        slope[whose[0]] = side * profile_slope(a);
+        return profile(a);
     }
-    const double share = arrangement.measure(planes, table, areas);
+    const double share = arrangement.measure(planes, steps, areas);
     for (std::size_t p = 0; p < planes.size(); ++p) slope[whose[p]] = -3 / (4 * pi) * areas[p];
     return share;
 }
@@ -225,11 +242,14 @@ Range BallConvolution::range(const Box& box) const {
 RayBounds BallConvolution::bounds(const std::vector<double>& a0, const std::vector<double>& a1,
                                   const std::vector<double>& rate, double speed) const {
     thread_local std::vector<char> known, open;
+    thread_local BooleanSteps steps;
     const std::size_t count = half_spaces_.size();
     known.resize(count);
     for (std::size_t i = 0; i < count; ++i)
         known[i] = std::min(a0[i], a1[i]) >= 1 ? 0 : std::max(a0[i], a1[i]) <= -1 ? 1 : unknown;
-    mark_open(function_, known, open);
+    find_open(known, steps);
+    open.assign(count, false);
+    for (const BooleanStep& s : steps.steps) open[s.variable] = true;
     std::size_t varying = 0;
     RayBounds sum{1, 0, 0};
     for (std::size_t i = 0; i < count; ++i) {

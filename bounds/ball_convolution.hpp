@@ -8,11 +8,12 @@
 // 10⁻⁸ always. Between, an error of 10⁻¹⁶ in a plane moves the edge that it makes with a plane that
 // leans away from it by γ by 10⁻¹⁶/γ, and planes within 10⁻⁸ of one another count as one.
 //
-// Not promised: speed with many planes in one ball. It grows with their number's cube.
+// Not promised: speed with many planes in one ball. It grows with their number's square where the function is a union
+// of a few convex parts, and with its cube at the worst.
 #pragma once
 #include "bounds/box_range.hpp"
 #include "bounds/ray_bounds.hpp"
-#include "bounds/truth_table.hpp"
+#include "bounds/short_circuit.hpp"
 
 namespace deburr {
 
@@ -45,9 +46,11 @@ public:
 private:
     void find_equal(const DensityTree& tree);
     void drop_idle();
+    void find_open(const std::vector<char>& known, BooleanSteps& left) const;
 
     Mat3 to_ball_{1.0};
     BooleanFunction function_;
+    BooleanSteps steps_;  // of the same
     std::vector<HalfSpace> half_spaces_;
     std::vector<Vec3> normals_;  // in the ball
     std::vector<char> uses_;     // of each: 1 as it is, 2 its complement, 3 both
