@@ -166,6 +166,116 @@ private:
 
 }  // namespace
 
+namespace {
+
+// Of a node in each of K boxes. The half-spaces that are left below it are those below its operands: a constant has
+// none, and what is folded away is constant.
+template <int K>
+struct NodeSizes {
+    double lo[K], hi[K];
+    int half_spaces[K];
+    bool constant[K];
+
+    NodeRange range(int k) const { return {{lo[k], hi[k]}, constant[k]}; }
+    void set(int k, const NodeRange& r, int count) {
+        lo[k] = r.lo;
+        hi[k] = r.hi;
+        constant[k] = r.constant;
+        half_spaces[k] = r.constant ? 0 : count;
+    }
+};
+
+// density_range in K boxes, in the same order of operations.
+template <int K>
+void set_half_space(NodeSizes<K>& to, const HalfSpace& h, const Box* boxes) {
+    double near[K], far[K];
+    for (int k = 0; k < K; ++k) near[k] = far[k] = -h.offset;
+    for (int axis = 0; axis < 3; ++axis) {
+        const double n = h.normal[axis];
+        if (n == 0) continue;
+        for (int k = 0; k < K; ++k) {
+            const double low = n * boxes[k].lo[axis], high = n * boxes[k].hi[axis];
+            near[k] += n > 0 ? low : high;
+            far[k] += n > 0 ? high : low;
+        }
+    }
+    for (int k = 0; k < K; ++k) {
+        to.lo[k] = profile(h.alpha_at(far[k]));
+        to.hi[k] = profile(h.alpha_at(near[k]));
+        to.constant[k] = to.hi[k] == 0 || to.lo[k] == 1;
+        to.half_spaces[k] = !to.constant[k];
+    }
+}
+
+// Conjunctions, disjunctions and products of what is nowhere negative make up nearly all of a tree.
+template <int K>
+bool combine_usual(NodeSizes<K>& to, Op op, const NodeSizes<K>& a, const NodeSizes<K>& b) {
+    double absorbing = 0;
+    if (op == Op::conjunction) {
+        for (int k = 0; k < K; ++k) {
+            to.lo[k] = std::max(0.0, a.lo[k] + b.lo[k] - 1);
+            to.hi[k] = std::min(a.hi[k], b.hi[k]);
+        }
+    } else if (op == Op::disjunction) {
+        absorbing = 1;
+        for (int k = 0; k < K; ++k) {
+            to.lo[k] = std::max(a.lo[k], b.lo[k]);
+            to.hi[k] = std::min(1.0, a.hi[k] + b.hi[k]);
+        }
+    } else if (op == Op::product) {
+        for (int k = 0; k < K; ++k)
+            if (!(a.lo[k] >= 0 && b.lo[k] >= 0)) return false;
+        for (int k = 0; k < K; ++k) {
+            to.lo[k] = a.lo[k] * b.lo[k];
+            to.hi[k] = a.hi[k] * b.hi[k];
+        }
+    } else {
+        return false;
+    }
+    for (int k = 0; k < K; ++k) {
+        const bool decided = to.lo[k] == absorbing && to.hi[k] == absorbing;
+        to.constant[k] = (a.constant[k] && b.constant[k]) || ((a.constant[k] || b.constant[k]) && decided);
+        to.half_spaces[k] = to.constant[k] ? 0 : a.half_spaces[k] + b.half_spaces[k];
+    }
+    return true;
+}
+
+template <int K>
+void sizes_in(const DensityTree& tree, const Box* boxes, LocalSize* sizes) {
+    thread_local std::vector<NodeSizes<K>> done;
+    done.resize(tree.nodes.size());
+    for (std::size_t i = 0; i < tree.nodes.size(); ++i) {
+        const TreeNode& n = tree.nodes[i];
+        NodeSizes<K>& to = done[i];
+        if (n.op == Op::half_space) {
+            set_half_space(to, tree.half_spaces[n.a], boxes);
+            continue;
+        }
+        if (n.op == Op::constant) {
+            for (int k = 0; k < K; ++k) to.set(k, {{n.value, n.value}, true}, 0);
+            continue;
+        }
+        const NodeSizes<K>& a = done[n.a];
+        if (n.b < 0) {
+            for (int k = 0; k < K; ++k) {
+                const Range r = combine(n.op, a.range(k), {});
+                to.set(k, {r, is_constant(n.op, r, a.range(k), {})}, a.half_spaces[k]);
+            }
+        } else if (const NodeSizes<K>& b = done[n.b]; !combine_usual(to, n.op, a, b)) {
+            for (int k = 0; k < K; ++k) {
+                const Range r = combine(n.op, a.range(k), b.range(k));
+                to.set(k, {r, is_constant(n.op, r, a.range(k), b.range(k))}, a.half_spaces[k] + b.half_spaces[k]);
+            }
+        }
+        if (n.support < 0) continue;
+        for (int k = 0; k < K; ++k)
+            if (intersection(tree.supports[n.support], boxes[k]).empty()) to.set(k, {{0, 0}, true}, 0);
+    }
+    for (int k = 0; k < K; ++k) sizes[k] = {done.back().range(k), done.back().half_spaces[k]};
+}
+
+}  // namespace
+
 Range distance_range(const HalfSpace& h, const Box& box) {
     double lo = -h.offset, hi = -h.offset;
     for (int k = 0; k < 3; ++k) {
@@ -188,9 +298,34 @@ Range density_range(const DensityTree& tree, const std::vector<Range>& half_spac
     return ranges(tree, half_spaces).back();
 }
 
+void local_sizes(const DensityTree& tree, std::span<const Box> boxes, LocalSize* sizes) {
+    for (; boxes.size() >= 4; boxes = boxes.subspan(4), sizes += 4) sizes_in<4>(tree, boxes.data(), sizes);
+    if (boxes.size() >= 2) {
+        sizes_in<2>(tree, boxes.data(), sizes);
+        boxes = boxes.subspan(2);
+        sizes += 2;
+    }
+    if (!boxes.empty()) sizes_in<1>(tree, boxes.data(), sizes);
+}
+
 LocalSize local_size(const DensityTree& tree, const Box& box) {
+    LocalSize size;
+    sizes_in<1>(tree, &box, &size);
+    return size;
+}
+
+bool bounds_hold(const DensityTree& tree, const Box& box) {
     const std::vector<NodeRange>& all = ranges(tree, box);
-    return {all.back(), Folding(tree, all).size()};
+    const auto is_unit = [&](int i) {
+        const TreeNode& n = tree.nodes[i];
+        if (n.op != Op::constant && n.op != Op::sum && n.op != Op::difference) return true;
+        return all[i].lo >= 0 && all[i].hi <= 1;
+    };
+    for (const TreeNode& n : tree.nodes) {
+        if (n.op == Op::half_space || n.op == Op::constant) continue;
+        if (!is_unit(n.a) || (n.b >= 0 && !is_unit(n.b))) return false;
+    }
+    return true;
 }
 
 Pruned prune_further(const DensityTree& tree, const std::vector<Range>& half_spaces, bool (&is_classified)(Range)) {

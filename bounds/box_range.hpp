@@ -8,6 +8,7 @@
 // Not promised: that a range is the tightest.
 #pragma once
 #include <algorithm>
+#include <span>
 
 #include "bounds/density_tree.hpp"
 
@@ -42,6 +43,10 @@ Range density_range(const HalfSpace& h, const Box& box);
 
 /// ρ of the tree over the box.
 Range density_range(const DensityTree& tree, const Box& box);
+
+/// True if every operand of the papers' arithmetic is provably in [0, 1] over the box; false says
+/// nothing.
+bool bounds_hold(const DensityTree& tree, const Box& box);
 
 enum class Side { outside, inside, straddling };
 
@@ -84,5 +89,8 @@ struct LocalSize {
 
 /// How much `prune` would leave, at less cost.
 LocalSize local_size(const DensityTree& tree, const Box& box);
+
+/// The same in several boxes, in one walk over the tree for every few of them; `sizes` has room for one of each.
+void local_sizes(const DensityTree& tree, std::span<const Box> boxes, LocalSize* sizes);
 
 }  // namespace deburr

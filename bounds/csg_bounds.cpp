@@ -145,25 +145,6 @@ BoundCsg inner_bound(const DensityTree& tree, double t, double clearance) {
     return BoundBuilder(clearance).run(tree, {false, t});
 }
 
-bool bounds_hold(const DensityTree& tree, const Box& box) {
-    std::vector<char> unit;  // in [0, 1]
-    DensityTree part = tree;
-    for (std::size_t i = 0; i < tree.nodes.size(); ++i) {
-        const TreeNode& n = tree.nodes[i];
-        const bool leaf = n.op == Op::half_space || n.op == Op::constant;
-        const bool operands = leaf || (unit[n.a] && (n.b < 0 || unit[n.b]));
-        if (!operands) return false;
-        bool is_unit = n.op != Op::constant || (n.value >= 0 && n.value <= 1);
-        if (n.op == Op::sum || n.op == Op::difference) {
-            part.nodes.assign(tree.nodes.begin(), tree.nodes.begin() + std::ptrdiff_t(i) + 1);
-            const Range rho = density_range(part, box);
-            is_unit = rho.lo >= 0 && rho.hi <= 1;
-        }
-        unit.push_back(is_unit);
-    }
-    return true;
-}
-
 // ---- on a ray ------------------------------------------------------------------------------------
 
 namespace {

@@ -35,14 +35,10 @@ struct BoundCsg {
     bool contains(Vec3 x) const;
 };
 
-/// The theorems ask for operands in [0, 1] (bounds_hold). Every plane keeps clear by the distance
+/// The theorems ask for operands in [0, 1] (box_range.hpp: bounds_hold). Every plane keeps clear by the distance
 /// `clearance` besides, outward of an outer bound, inward of an inner one.
 BoundCsg outer_bound(const DensityTree& tree, double t, double clearance = 0);
 BoundCsg inner_bound(const DensityTree& tree, double t, double clearance = 0);
-
-/// True if every operand of the papers' arithmetic is provably in [0, 1] over the box; false says
-/// nothing.
-bool bounds_hold(const DensityTree& tree, const Box& box);
 
 struct Span {
     double lo, hi;

@@ -142,13 +142,15 @@ private:
 
 }  // namespace
 
+std::string count_text(double count) {
+    constexpr double exact = 1e15;  // counts below it are whole numbers in a double
+    if (count > exact) return "more than 10^15";
+    return std::to_string(std::int64_t(count));
+}
+
 TooManyHalfSpaces::TooManyHalfSpaces(double got)
-    : std::length_error([&] {
-          std::ostringstream text;
-          text << "expected a solid of at most " << std::int64_t(max_half_spaces)
-               << " half-spaces, those of shared parts counted once per use, got " << std::setprecision(7) << got;
-          return text.str();
-      }()) {}
+    : std::length_error("expected a solid of at most " + count_text(max_half_spaces) +
+                        " half-spaces, those of shared parts counted once per use, got " + count_text(got)) {}
 
 HalfSpace transformed(const HalfSpace& h, const Affine& map, bool carry_radius) {
     const Vec3 normal = glm::transpose(glm::inverse(map.linear)) * h.normal;

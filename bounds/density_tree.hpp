@@ -8,6 +8,7 @@
 // hold them against tests/plain_definition.hpp. Not promised: ρ in [0, 1] (density.hpp), nor speed.
 #pragma once
 #include <stdexcept>
+#include <string>
 #include <vector>
 
 #include "bounds/density.hpp"
@@ -71,6 +72,10 @@ struct DensityTree {
 
 /// More half-spaces than this are not laid out at once.
 constexpr double max_half_spaces = 4e6;
+
+/// A count in digits, or in words if it is more than 10^15: shared parts may be used more often than a double can
+/// count.
+std::string count_text(double count);
 
 struct TooManyHalfSpaces : std::length_error {
     explicit TooManyHalfSpaces(double got);

@@ -99,27 +99,47 @@ SolidTree prune(const SolidTree& tree, const Box& box) {
     return to;
 }
 
-LocalSolidSize local_size(const SolidTree& tree, const Box& box) {
+void local_sizes(const SolidTree& tree, std::span<const Box> boxes, LocalSolidSize* sizes) {
+    struct LeafSize {
+        Side side;
+        int half_spaces;
+    };
     thread_local std::vector<Side> sides;
     thread_local std::vector<char> needed;
-    thread_local std::vector<int> sizes;
-    sizes.assign(tree.leaves.size(), 0);
-    classify_nodes(tree, sides, [&](int leaf) {
-        const SolidLeaf& of = tree.leaves[leaf];
-        const std::optional<DensityTree> density = of.field ? of.field->as_density(box) : std::nullopt;
-        const bool is_field = of.field && !density;
-        const LocalSize size = is_field ? of.field->local_size(box) : local_size(density ? *density : of.density, box);
-        sizes[leaf] = size.half_spaces;
-        return is_field ? classify_field(size.range) : classify(size.range);
-    });
-    mark_needed(tree, sides, needed);
-    LocalSolidSize result{sides.back(), 0, 0};
-    for (std::size_t i = 0; i < tree.nodes.size(); ++i)
-        if (needed[i] && tree.nodes[i].op == SolidOp::leaf && sides[i] == Side::straddling) {
-            ++result.leaves;
-            result.half_spaces += sizes[tree.nodes[i].a];
+    thread_local std::vector<LeafSize> of_leaves;  // leaf after leaf, box after box
+    thread_local std::vector<LocalSize> of_density;
+    const std::size_t count = boxes.size();
+    of_leaves.clear();
+    of_density.resize(count);
+    for (const SolidLeaf& leaf : tree.leaves) {
+        if (!leaf.field) {
+            local_sizes(leaf.density, boxes, of_density.data());
+            for (const LocalSize& size : of_density) of_leaves.push_back({classify(size.range), size.half_spaces});
+            continue;
         }
-    return result;
+        for (const Box& box : boxes) {
+            const std::optional<DensityTree> density = leaf.field->as_density(box);
+            const LocalSize size = density ? local_size(*density, box) : leaf.field->local_size(box);
+            of_leaves.push_back({density ? classify(size.range) : classify_field(size.range), size.half_spaces});
+        }
+    }
+    for (std::size_t k = 0; k < count; ++k) {
+        const auto of_leaf = [&](int leaf) -> const LeafSize& { return of_leaves[leaf * count + k]; };
+        classify_nodes(tree, sides, [&](int leaf) { return of_leaf(leaf).side; });
+        mark_needed(tree, sides, needed);
+        sizes[k] = {sides.back(), 0, 0};
+        for (std::size_t i = 0; i < tree.nodes.size(); ++i)
+            if (needed[i] && tree.nodes[i].op == SolidOp::leaf && sides[i] == Side::straddling) {
+                ++sizes[k].leaves;
+                sizes[k].half_spaces += of_leaf(tree.nodes[i].a).half_spaces;
+            }
+    }
+}
+
+LocalSolidSize local_size(const SolidTree& tree, const Box& box) {
+    LocalSolidSize size;
+    local_sizes(tree, {&box, 1}, &size);
+    return size;
 }
 
 }  // namespace deburr

@@ -21,4 +21,7 @@ struct LocalSolidSize {
 };
 LocalSolidSize local_size(const SolidTree& tree, const Box& box);
 
+/// The same in several boxes, which costs less than one after the other; `sizes` has room for one of each.
+void local_sizes(const SolidTree& tree, std::span<const Box> boxes, LocalSolidSize* sizes);
+
 }  // namespace deburr

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <exception>
 #include <memory>
+#include <span>
 
 #include "bounds/bounding_box.hpp"
 
@@ -146,11 +147,6 @@ private:
         return intersection(item.box, inflated(cell, margin_)).empty();
     }
 
-    LocalSolidSize size_in(const Item& item, const Box& cell) const {
-        if (misses(item, cell)) return {Side::outside, 0, 0};
-        return local_size(*item.tree, inflated(cell, margin_));
-    }
-
     // Both halves at once where that pays; what is built is the same.
     void split(Branch& to, const Box& cell, std::vector<Item> items, int depth, Patience patient) const {
         double here = 0;
@@ -270,18 +266,34 @@ private:
         std::vector<Trial> trials;
         for (int axis = 0; axis < 3; ++axis)
             for (const double position : candidates(cell, items, axis)) trials.push_back({axis, position, {0, 0}});
-        const auto evaluate = [&](std::size_t i) {
-            for (const bool upper : {false, true}) {
-                const Box part = side(cell, trials[i].axis, trials[i].position, upper);
-                for (const Item& item : items) trials[i].sum[upper] += cost(size_in(item, part));
+        // A few trials are looked at together.
+        constexpr std::size_t together = 8;
+        const std::size_t blocks = (trials.size() + together - 1) / together;
+        const auto evaluate = [&](std::size_t block) {
+            const std::span<Trial> some =
+                std::span(trials).subspan(block * together, std::min(together, trials.size() - block * together));
+            Box parts[2 * together];
+            double* sums[2 * together];
+            LocalSolidSize sizes[2 * together];
+            for (const Item& item : items) {
+                std::size_t count = 0;
+                for (Trial& trial : some)
+                    for (const bool upper : {false, true}) {
+                        const Box part = side(cell, trial.axis, trial.position, upper);
+                        if (misses(item, part)) continue;  // costs nothing
+                        parts[count] = inflated(part, margin_);
+                        sums[count++] = &trial.sum[upper];
+                    }
+                local_sizes(*item.tree, {parts, count}, sizes);
+                for (std::size_t k = 0; k < count; ++k) *sums[k] += cost(sizes[k]);
             }
         };
         int half_spaces = 0;
         for (const Item& item : items) half_spaces += item.size.half_spaces;
         if (half_spaces < half_spaces_of_a_task)
-            for (std::size_t i = 0; i < trials.size(); ++i) evaluate(i);
+            for (std::size_t i = 0; i < blocks; ++i) evaluate(i);
         else
-            tbb::parallel_for(std::size_t(0), trials.size(), evaluate);
+            tbb::parallel_for(std::size_t(0), blocks, evaluate);
         Split best;
         for (const Trial& l : trials) consider(best, cell, l.axis, l.position, l.sum[0], l.sum[1]);
         return best;

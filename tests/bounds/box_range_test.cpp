@@ -1,5 +1,8 @@
 #include "bounds/box_range.hpp"
 
+#include <ctime>
+#include <vector>
+
 #include "bounds/local_density.hpp"
 #include "bounds/solid_range.hpp"
 #include "catch.hpp"
@@ -83,6 +86,68 @@ TEST_CASE("a solid pruned to a box has the same inside there") {
         }
     }
     CHECK(straddling > 800);
+}
+
+TEST_CASE("looks into several boxes at once see what looks into one after the other see") {
+    int left = 0;
+    for (auto seed : seeds(3'000)) {
+        CAPTURE(seed);
+        Gen g(seed);
+        const DensityTree tree = random_tree(g);
+        const SolidTree solid = flatten(g.solid(2));
+        std::vector<Box> boxes;
+        for (int k = g.below(8); k >= 0; --k)
+            boxes.push_back(g.chance(0.1) ? Box::everything() : random_box(g, g.near(tree)));
+        std::vector<LocalSize> sizes(boxes.size());
+        local_sizes(tree, boxes, sizes.data());
+        std::vector<LocalSolidSize> solid_sizes(boxes.size());
+        local_sizes(solid, boxes, solid_sizes.data());
+        for (std::size_t k = 0; k < boxes.size(); ++k) {
+            const Pruned local = prune(tree, boxes[k]);
+            REQUIRE(sizes[k].half_spaces == int(local.tree.half_spaces.size()));
+            REQUIRE(sizes[k].range.lo == local.range.lo);
+            REQUIRE(sizes[k].range.hi == local.range.hi);
+            left += sizes[k].half_spaces > 1;
+            const LocalSolidSize one = local_size(solid, boxes[k]);
+            REQUIRE(solid_sizes[k].side == one.side);
+            REQUIRE(solid_sizes[k].leaves == one.leaves);
+            REQUIRE(solid_sizes[k].half_spaces == one.half_spaces);
+        }
+    }
+    CHECK(left > 2'000);
+}
+
+TEST_CASE("whether operands keep to [0, 1] is asked of each part's range, in one walk over the tree") {
+    int held = 0, broken = 0;
+    for (auto seed : seeds(3'000)) {
+        CAPTURE(seed);
+        Gen g(seed);
+        const DensityTree tree = random_tree(g);
+        const Box box = g.chance(0.2) ? Box::everything() : random_box(g, g.near(tree));
+        bool all = true;
+        for (const TreeNode& n : tree.nodes) {
+            if (n.op == Op::half_space || n.op == Op::constant) continue;
+            for (const int operand : {n.a, n.b}) {
+                if (operand < 0) continue;
+                DensityTree part = tree;
+                part.nodes.resize(std::size_t(operand) + 1);
+                const Op op = part.nodes.back().op;
+                const Range rho = density_range(part, box);
+                if (op == Op::sum || op == Op::difference) all &= rho.lo >= 0 && rho.hi <= 1;
+            }
+        }
+        REQUIRE(bounds_hold(tree, box) == all);
+        (all ? held : broken)++;
+    }
+    CHECK(held > 500);
+    CHECK(broken > 500);
+
+    Density chain = Density::box(Vec3(0), Vec3(1));
+    for (int k = 1; k <= 10'000; ++k) chain = chain - Density::box(Vec3(0.3 + 1e-5 * k), Vec3(0.5 + 1e-5 * k));
+    const DensityTree tree = flatten(chain, 0.1);
+    const std::clock_t begin = std::clock();
+    CHECK_FALSE(bounds_hold(tree, Box::everything()));
+    CHECK(double(std::clock() - begin) / CLOCKS_PER_SEC < 0.5);  // 2 ms; a walk for each operand takes 10 s
 }
 
 TEST_CASE("a holed cube leaves two half-spaces in boxes of half the radius, as docs/design.md says") {
