@@ -20,7 +20,8 @@ std::string kind_of(const SceneObject& object) {
 
 void SceneBuilder::check_size(double half_spaces) {
     if (half_spaces > max_half_spaces)
-        throw std::runtime_error(fmt::format("expected at most {} half-spaces, got {}", count_text(max_half_spaces), count_text(half_spaces)));
+        throw std::runtime_error(fmt::format("expected at most {} half-spaces, got {}", count_text(max_half_spaces),
+                                             count_text(half_spaces)));
 }
 
 // A node as make_shared makes it.

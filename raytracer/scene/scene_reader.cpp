@@ -95,7 +95,8 @@ void read_solids(const LuaValue& value, SceneBuilder& builder, Scene& scene) {
     }
     const double half_spaces = half_spaces_to_lay_out(scene.solids);
     if (half_spaces > max_half_spaces)
-        throw BadValue("solids", fmt::format("expected at most {} half-spaces, got {}", count_text(max_half_spaces), count_text(half_spaces)));
+        throw BadValue("solids", fmt::format("expected at most {} half-spaces, got {}", count_text(max_half_spaces),
+                                             count_text(half_spaces)));
 }
 
 // A scene that says nothing about light is lit from over the viewer's left shoulder.

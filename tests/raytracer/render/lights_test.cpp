@@ -11,7 +11,8 @@ namespace {
 // Matte ground y = 0 of reflectance 1 seen from above, so that radiance = irradiance/π.
 Scene ground_under(Light light) {
     Scene scene = probe(material_of(Material::Kind::matte, Vec3(1.0)));
-    light.visible = false;  // the camera may look through it
+    scene.materials.push_back(material_of(Material::Kind::matte, Vec3(0.0)));  // of walls: no light comes from them
+    light.visible = false;                                                     // the camera may look through it
     scene.lights = {light};
     return scene;
 }
@@ -89,11 +90,11 @@ TEST_CASE("In a penumbra the visible part of the light counts") {
     light.samples = 4;
     const double open = irradiance(light, {ground()}, 1024);
     CHECK(open == Approx(10.0 / 4 * 4 * corner_form_factor(0.5, 0.5)).epsilon(0.002));
-    const Shape wall{Shape::Kind::slab, {-1e-6, 0, 0}, {1, 0, 0}, 0.5, 0};
+    const Shape wall{Shape::Kind::slab, {-1e-6, 0, 0}, {1, 0, 0}, 0.5, 1};
     CHECK(irradiance(light, {ground(), wall}, 1024) == Approx(open / 2).epsilon(0.004));
     // Tilted by atan(¼) it leaves the part x > ½ of the light: 1½ − ½ … of a quarter's form
     // factors.
-    const Shape tilted{Shape::Kind::plane, {-1e-6, 0, 0}, glm::normalize(Vec3(4, -1, 0)), 0, 0};
+    const Shape tilted{Shape::Kind::plane, {-1e-6, 0, 0}, glm::normalize(Vec3(4, -1, 0)), 0, 1};
     const double part = 2 * (corner_form_factor(0.5, 0.5) - corner_form_factor(0.25, 0.5));
     Scene scene = ground_under(light);
     scene.camera.eye = {4, 4, 0};

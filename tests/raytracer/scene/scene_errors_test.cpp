@@ -177,7 +177,7 @@ TEST_CASE("materials, textures and lights say what they expect") {
     check(GENERATE(values<Case>({
         {"plastik{ color = 1 }", "s.lua:1: expected a known name, got 'plastik'"},
         {"plastic{ colour = 1 }",
-         "s.lua:1: plastic.colour: expected one of the fields color, roughness, ior, got 'colour'"},
+         "s.lua:1: plastic.colour: expected one of the fields color, roughness, ior, emission, got 'colour'"},
         {"matte{ {1, 0, 0} }", "s.lua:1: matte: expected a table of named fields, got a list of 1"},
         {"matte(0.5)", "s.lua:1: matte: expected a table of named fields, got 0.5"},
         {"matte{ color = 2 }", "s.lua:1: matte.color: expected a colour, {r, g, b} or a number, from 0 to 1, got 2"},
@@ -221,8 +221,8 @@ TEST_CASE("the scene's table says what it expects, with the line that writes it"
         {"return {\n solids = { cube(), nil, cube() } }",
          "s.lua:2: scene.solids: expected a list without holes, got item 3 but no item 2"},
         {"return {\n solid = { cube() } }",
-         "s.lua:2: solid: expected one of the fields image, camera, lights, background, ambient, "
-         "solids, "
+         "s.lua:2: solid: expected one of the fields image, camera, lights, background, "
+         "environment, ambient, solids, "
          "got 'solid'"},
         {"return { cube() }", "s.lua:1: scene: expected a table of named fields, got {a density}"},
         {"return { [true] = 1 }", "s.lua:1: scene: expected names or 1, 2, … as keys, got true"},
