@@ -127,9 +127,13 @@ bool Subdivision::choose(const PartitionNode& node, Plane& plane) {
     // Where many half-spaces vary together in a cell that is not much larger than their filters, few of their planes
     // would part flat faces from the rest, and all of them together cut it into many.
     constexpr double small = 4;  // in radii, across any of the planes: two filters
-    if (cell.all_small && cell.half_spaces > many && cell.width <= small * cell.radius && is_simple_cell(node))
-        return false;
-    if ((cell.half_spaces > many || !cell.all_small) && choose_neutral(node, cell, plane)) return true;
+    // A model's round parts have a plane for each of their facets, which part nothing.
+    constexpr std::size_t many_of_mesh = 2;
+    const bool of_mesh =
+        std::any_of(node.open.begin(), node.open.end(), [](const OpenLeaf& l) { return l.field != nullptr; });
+    const bool crowded = cell.half_spaces > (of_mesh ? many_of_mesh : many);
+    if (cell.all_small && crowded && cell.width <= small * cell.radius && is_simple_cell(node)) return false;
+    if ((crowded || !cell.all_small) && choose_neutral(node, cell, plane)) return true;
     if (!cell.all_small) return false;
     if (choose_own(node, plane)) return true;
     // No plane is left. A part of the surface that the cell's corners do not tell of may lie whole within.
