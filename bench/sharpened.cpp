@@ -11,7 +11,8 @@ Density without_radii(const Density& density) {
     const auto child = [&](std::size_t i) { return without_radii(n.children()[i]); };
     using Kind = DensityNode::Kind;
     switch (n.kind) {
-        case Kind::half_space: return density;
+        case Kind::half_space:
+        case Kind::cover: return density;
         case Kind::radius: return child(0);
         case Kind::transform: return child(0).transformed(n.map());
         case Kind::complement: return ~child(0);

@@ -93,7 +93,7 @@ int CanonicalSolids::density(const Density& root) {
         known_densities_, root,
         [](const Density& d, auto visit) {
             for (const Density& child : d.node().children())
-                if (child.node().kind != DensityNode::Kind::half_space) visit(child);
+                if (!child.node().is_plane()) visit(child);
         },
         [&](const Density& d) {
             const DensityNode& n = d.node();
@@ -101,15 +101,14 @@ int CanonicalSolids::density(const Density& root) {
             append(key, n.kind);
             if (n.kind == DensityNode::Kind::transform)
                 append(key, n.map());
-            else if (n.kind == DensityNode::Kind::half_space)
+            else if (n.is_plane())
                 append(key, n.normal(), n.offset());
             else if (n.kind == DensityNode::Kind::radius)
                 append(key, n.radius());
             for (const Density& child : n.children()) {  // half-spaces, of which there are most, need no number
                 const DensityNode& c = child.node();
-                const bool is_half_space = c.kind == DensityNode::Kind::half_space;
-                key.push_back(char(is_half_space));
-                if (is_half_space)
+                key.push_back(c.is_plane() ? char(c.kind) + 1 : 0);
+                if (c.is_plane())
                     append(key, c.normal(), c.offset());
                 else
                     append(key, known_densities_.at(&c));

@@ -24,7 +24,7 @@ DensityNode::DensityNode(Kind kind, Parts parts, int line)
       may_be_illegal(kind == Kind::sum || kind == Kind::difference),
       line(line),
       parts_(std::move(parts)) {
-    if (kind == Kind::half_space) return;
+    if (is_plane()) return;
     leaves = 0;
     for (const Density& child : children()) {
         leaves += child.node().leaves;
@@ -52,6 +52,12 @@ Density Density::half_space(Vec3 normal, double offset) {
     const double length = glm::length(normal);
     assert(length > 0);
     return Density(make(Kind::half_space, DensityNode::HalfSpace{normal / length, offset / length}));
+}
+
+Density Density::cover(Vec3 normal, double offset) {
+    const double length = glm::length(normal);
+    assert(length > 0);
+    return Density(make(Kind::cover, DensityNode::HalfSpace{normal / length, offset / length}));
 }
 
 Density Density::box(Vec3 lo, Vec3 hi) {

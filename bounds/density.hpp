@@ -24,6 +24,9 @@ class Density {
 public:
     /// 1 where n·x ≤ d, else 0. `normal` points outward, of any length but 0; d is divided by it.
     static Density half_space(Vec3 normal, double offset);
+    /// A half-space that rounding moves outward by its radius, so that it is 1 where n·x ≤ d, rounded or not: it gives
+    /// bounds to what has none of its own, and changes nothing of what lies within.
+    static Density cover(Vec3 normal, double offset);
     /// Product of six half-spaces; lo < hi on each axis.
     static Density box(Vec3 lo, Vec3 hi);
     /// Product of all; at least one.
@@ -65,6 +68,7 @@ class DensityNode {
 public:
     enum class Kind : std::uint8_t {
         half_space,
+        cover,
         sum,
         product,
         difference,
@@ -95,6 +99,7 @@ public:
     ~DensityNode();  // iterative, so that a chain of any length dies without recursion
 
     std::span<const Density> children() const;
+    bool is_plane() const { return kind == Kind::half_space || kind == Kind::cover; }
     // For the kinds that have them.
     const Vec3& normal() const { return std::get_if<HalfSpace>(&parts_)->normal; }
     double offset() const { return std::get_if<HalfSpace>(&parts_)->offset; }

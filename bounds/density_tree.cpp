@@ -76,10 +76,11 @@ private:
 
     void open(Task task) {
         const DensityNode& node = through_placements(task.node, task.placement);
-        if (node.kind == Kind::half_space) {
+        if (node.is_plane()) {
             const HalfSpace unplaced{node.normal(), node.offset(), task.placement.radius};
             done_.push_back(add({Op::half_space, int(tree_.half_spaces.size())}));
             tree_.half_spaces.push_back(transformed(unplaced, task.placement.map, false));
+            if (node.kind == Kind::cover) tree_.half_spaces.back().offset += task.placement.radius;
             return;
         }
         Op op = arithmetic(node.kind);

@@ -4,6 +4,7 @@
 #include <deque>
 
 #include "bounds/box_range.hpp"
+#include "bounds/density_part.hpp"
 #include "bounds/local_density.hpp"
 
 namespace deburr {
@@ -30,38 +31,6 @@ struct Candidate {
     DensityTree tree;  // pruned to the box
     Box box;
 };
-
-// The part of a tree below one of its nodes, as a tree of its own.
-DensityTree part_below(const DensityTree& tree, int root) {
-    std::vector<int> below{root};
-    for (std::size_t k = 0; k < below.size(); ++k) {
-        const TreeNode& n = tree.nodes[below[k]];
-        if (n.op == Op::half_space || n.op == Op::constant) continue;
-        below.push_back(n.a);
-        if (n.b >= 0) below.push_back(n.b);
-    }
-    std::sort(below.begin(), below.end());
-    const auto new_index = [&](int old) {
-        return int(std::lower_bound(below.begin(), below.end(), old) - below.begin());
-    };
-    DensityTree part;
-    for (const int i : below) {
-        TreeNode n = tree.nodes[i];
-        if (n.op == Op::half_space) {
-            part.half_spaces.push_back(tree.half_spaces[n.a]);
-            n.a = int(part.half_spaces.size()) - 1;
-        } else if (n.op != Op::constant) {
-            n.a = new_index(n.a);
-            if (n.b >= 0) n.b = new_index(n.b);
-        }
-        if (n.support >= 0) {
-            part.supports.push_back(tree.supports[n.support]);
-            n.support = int(part.supports.size()) - 1;
-        }
-        part.nodes.push_back(n);
-    }
-    return part;
-}
 
 // Worst point found in [0, 1]'s outside; half of the boxes are taken widest first, half deepest
 // first: the one finds what is large, the other what is thin. Ends once `nodes` is spent, and counts it down.

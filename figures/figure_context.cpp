@@ -41,7 +41,7 @@ Film FigureContext::render(const Scene& scene, const RayTracer& tracer, const Fi
     const int shrink = draft_ ? 2 : 1, fewer = draft_ ? 16 : 1;
     const int width = std::max(1, (settings.width ? settings.width : scene.width) / shrink);
     const int height = std::max(1, (settings.height ? settings.height : scene.height) / shrink);
-    const int spp = std::max(1, (settings.spp ? settings.spp : scene.spp) / fewer);
+    const int spp = std::max(1, (settings.spp ? settings.spp : scene.spp.value_or(1)) / fewer);
     const Integrator integrator(scene, tracer, {width, height, spp, 0});
     Film film =
         deburr::render(Film(width, height, {0, 0, width, height}), [&](const Window& block, Pixel* pixels,

@@ -139,7 +139,7 @@ Command add_compare_command(CLI::App& program) {
     command->add_option("SECOND", options->second, "a second picture; the first takes the scene's place")
         ->type_name("");
     add_output_option(*command, *options, known_extensions());
-    add_picture_options(*command, *options);
+    add_picture_options(*command, *options, "1");
     command
         ->add_option("--via", options->via,
                      mesh_method_names() + "; default: triage, and octree for solids with free forms")

@@ -51,7 +51,7 @@ Command add_export_pov_command(CLI::App& program) {
     ExportPovOptions& o = *options;
     add_scene_options(*command, o);
     add_output_option(*command, o, ".pov");
-    add_size_option(*command, o);
+    add_view_options(*command, o);
     command->add_flag("--sharp", o.surface.sharp, "sharp edges: CSG of planes and boxes, no isosurfaces");
     command->add_flag(
         "--min-max", o.surface.min_max,

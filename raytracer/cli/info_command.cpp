@@ -3,14 +3,13 @@
 
 #include <memory>
 #include <nlohmann/json.hpp>
-#include <unordered_map>
 
-#include "bounds/bounding_box.hpp"
-#include "bounds/canonical_solids.hpp"
-#include "bounds/free_form.hpp"
 #include "raytracer/cli/commands.hpp"
 #include "raytracer/cli/options.hpp"
 #include "raytracer/scene/illegal_densities.hpp"
+#include "raytracer/scene/solid_survey.hpp"
+#include "raytracer/scene/vanished_parts.hpp"
+#include "raytracer/scene/view_warnings.hpp"
 #include "raytracer/util/printable.hpp"
 
 namespace deburr {
@@ -78,106 +77,37 @@ Json json_of(const Box& box) {
     return {{"lo", json_of(shown.lo)}, {"hi", json_of(shown.hi)}};
 }
 
-// What a solid is made of.
-struct Parts {
-    double half_spaces = 0, quadrics = 0;
-};
-
-Parts parts_of(const SolidTree& tree) {
-    Parts parts;
-    for (const SolidLeaf& leaf : tree.leaves) {
-        const auto* form = dynamic_cast<const FreeForm*>(leaf.field.get());
-        if (form) parts.quadrics += 1.0 + double(form->perturbations().size());
-        parts.half_spaces += double(leaf.density.half_spaces.size());
-    }
-    return parts;
-}
-
-struct SolidFacts {
-    Box box;
-    Parts parts;
-};
-
-// What solids are made of, and where. A solid that is too large to be laid out is a union that is looked at by its
-// operands, each canonical one once; its box is the hull of theirs.
-class Looking {
-public:
-    SolidFacts at(const Solid& solid) {
-        if (solid.node().leaves <= max_half_spaces) {
-            const SolidTree tree = flatten(solid);
-            return {bounding_box(tree), parts_of(tree)};
-        }
-        const CanonicalPlacement placement = canonical_.of(solid);
-        return placed(placement.map, of_canonical(placement.canonical));
-    }
-
-private:
-    static SolidFacts placed(const Affine& map, const SolidFacts& facts) {
-        if (facts.box.empty()) return facts;
-        return {facts.box.finite() ? image(map, facts.box) : Box::everything(), facts.parts};
-    }
-
-    // With a stack of its own, for unions may be long chains.
-    const SolidFacts& of_canonical(int root) {
-        std::vector<int> open{root};
-        while (!open.empty()) {
-            const int canonical = open.back();
-            const Solid solid = canonical_.solid(canonical);
-            if (known_.count(canonical)) {
-                open.pop_back();
-            } else if (solid.node().kind != SolidNode::Kind::unite) {
-                known_[canonical] = at(solid);
-            } else {
-                SolidFacts all;
-                const std::size_t before = open.size();
-                for (const Solid& child : solid.node().children()) {
-                    const CanonicalPlacement part = canonical_.of(child);
-                    const auto at = known_.find(part.canonical);
-                    if (at == known_.end()) {
-                        open.push_back(part.canonical);
-                        continue;
-                    }
-                    const SolidFacts facts = placed(part.map, at->second);
-                    if (!facts.box.empty()) all.box = hull(all.box, facts.box);
-                    all.parts.half_spaces += facts.parts.half_spaces;
-                    all.parts.quadrics += facts.parts.quadrics;
-                }
-                if (open.size() == before) known_[canonical] = all;
-            }
-        }
-        return known_.at(root);
-    }
-
-    CanonicalSolids canonical_;
-    std::unordered_map<int, SolidFacts> known_;
-};
+// How long to look for parts that vanish: ten times as long as `render` does.
+constexpr std::int64_t nodes_to_look_at = 200'000'000;
 
 // All that info has to say; the text is made from it too.
 Json describe(const Scene& scene, Size size) {
     Json j;
     j["scene"] = scene.file;
-    j["image"] = {{"width", size.width}, {"height", size.height}, {"spp", scene.spp}};
+    j["image"] = {
+        {"width", size.width}, {"height", size.height}, {"spp", scene.spp ? Json(*scene.spp) : Json(nullptr)}};
     j["camera"] = {{"eye", json_of(scene.camera.eye)},
                    {"target", json_of(scene.camera.target)},
                    {"up", json_of(scene.camera.up)},
                    {"fov", scene.camera.fov}};
     j["parameters"] = scene.parameters;
     Box all;
-    Parts parts;
-    Looking looking;
+    double half_spaces = 0, quadrics = 0;
+    SolidSurvey survey;
     j["solids"] = Json::array();
     for (std::size_t i = 0; i < scene.solids.size(); ++i) {
-        const auto [box, own] = looking.at(scene.solids[i]);
-        all = box.empty() ? all : hull(all, box);
-        parts = {parts.half_spaces + own.half_spaces, parts.quadrics + own.quadrics};
+        const SolidFacts own = survey.at(scene.solids[i]);
+        all = own.box.empty() ? all : hull(all, own.box);
+        half_spaces += own.half_spaces;
+        quadrics += own.quadrics;
         j["solids"].push_back({{"id", i + 1},
                                {"name", i < scene.names.size() ? scene.names[i] : ""},
                                {"half_spaces", own.half_spaces},
                                {"quadrics", own.quadrics},
-                               {"bounds", json_of(box)}});
+                               {"bounds", json_of(own.box)}});
     }
-    j["half_spaces"] = parts.half_spaces;
-    j["quadrics"] = parts.quadrics;
+    j["half_spaces"] = half_spaces;
+    j["quadrics"] = quadrics;
     j["bounds"] = json_of(all);
     j["materials"] = Json::array();
     for (const Material& material : scene.materials) j["materials"].push_back(name_of(material.kind));
@@ -185,6 +115,11 @@ Json describe(const Scene& scene, Size size) {
     for (const Light& light : scene.lights)
         j["lights"].push_back({{"kind", name_of(light.kind)}, {"power", light.power}});
     j["illegal_densities"] = illegal_densities(scene);
+    const VanishedParts vanished = vanished_parts(scene, nodes_to_look_at);
+    j["warnings"] = Json::array();
+    for (const auto& lines :
+         {vanished.rounded_away, vanished.empty, view_warnings(scene, double(size.width) / size.height)})
+        for (const std::string& line : lines) j["warnings"].push_back(line);
     return j;
 }
 
@@ -220,8 +155,9 @@ void print(const Json& j) {
         fmt::print("{:<14}{}\n", name, printable(value));
     };
     row("scene", j["scene"].get<std::string>());
-    row("image", fmt::format("{}x{}, {} samples per pixel", j["image"]["width"].get<int>(),
-                             j["image"]["height"].get<int>(), j["image"]["spp"].get<int>()));
+    row("image",
+        fmt::format("{}x{}, {} samples per pixel", j["image"]["width"].get<int>(), j["image"]["height"].get<int>(),
+                    j["image"]["spp"].is_null() ? "as many as it takes" : j["image"]["spp"].dump()));
     const Json& camera = j["camera"];
     row("camera", fmt::format("eye {}; target {}; up {}; fov {:g}", text_of(camera["eye"]), text_of(camera["target"]),
                               text_of(camera["up"]), camera["fov"].get<double>()));
@@ -247,6 +183,7 @@ void print(const Json& j) {
     const Json& illegal = j["illegal_densities"];
     row("densities", illegal.empty() ? "legal" : fmt::format("{} illegal", illegal.size()));
     for (const Json& what : illegal) row("", what.get<std::string>());
+    for (const Json& what : j["warnings"]) row("warning", what.get<std::string>());
 }
 
 int run_info(const InfoOptions& o) {
@@ -265,6 +202,7 @@ Command add_info_command(CLI::App& program) {
     CLI::App* command = program.add_subcommand("info", "say what is in a scene, and whether its densities are legal");
     const auto options = std::make_shared<InfoOptions>();
     add_scene_options(*command, *options);
+    add_view_options(*command, *options);
     command->add_flag("--json", options->json, "as JSON");
     return {command, [options] { return run_info(*options); }};
 }

@@ -16,6 +16,7 @@
 #include "raytracer/cli/solid_choice.hpp"
 #include "raytracer/cli/statistics.hpp"
 #include "raytracer/mesh/face_count.hpp"
+#include "raytracer/scene/vanished_parts.hpp"
 #include "raytracer/util/errors.hpp"
 #include "raytracer/util/message.hpp"
 #include "raytracer/util/printable.hpp"
@@ -170,7 +171,7 @@ std::vector<std::string> failures(const Scene& scene, const std::vector<MeshChec
     for (std::size_t i = 0; i < checks.size(); ++i) {
         const auto say = [&](const MeshFault& f, const char* one, const char* many) {
             if (f.count == 0) return;
-            const std::string line = f.line > 0 ? fmt::format("{}:{}", scene.file, f.line) : scene.file;
+            const std::string line = scene.place(f.line);
             lines.push_back(fmt::format("{}: solid {}: {} {}, {} ({:.6g}, {:.6g}, {:.6g})", line, i + 1, f.count,
                                         f.count == 1 ? one : many, f.count == 1 ? "at" : "the first at", f.location.x,
                                         f.location.y, f.location.z));
@@ -237,7 +238,7 @@ int run_mesh(const MeshCommandOptions& o) {
     MeshSettings method = settings(o);
     MeshNotes notes;
     notes.unit = unit(o);
-    const UpAxis up = parse_up(o.up);
+    parse_up(o.up, false);  // before the work
     const auto faces = o.faces.empty() ? 0 : std::size_t(parse_whole("--faces", o.faces, 4, 100'000'000));
     const int threads = o.threads.value_or(tbb::info::default_concurrency());
     const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, std::size_t(threads));
@@ -272,8 +273,10 @@ int run_mesh(const MeshCommandOptions& o) {
         progress.stop();
     else
         progress.finish();
-    for (const std::string& warning : mesh.warnings)
-        if (!o.quiet) message(warning);
+    if (!o.quiet)
+        for (const std::vector<std::string>& lines : {vanished_parts(scene).rounded_away, mesh.warnings})
+            for (const std::string& line : lines) message(line);
+    if (mesh.mesh.triangles.empty()) throw WorkError(scene.file + ": the mesh is empty, and is not written");
     if (o.verbose && !o.quiet)
         fmt::print(stderr, "deburr: {} triangles, {} vertices in {:.3f} s\n", mesh.mesh.triangles.size(),
                    mesh.mesh.positions.size(), clock.wall("polygonize"));
@@ -284,7 +287,7 @@ int run_mesh(const MeshCommandOptions& o) {
     notes.names = scene.names;
     for (const Material& m : scene.materials) notes.colors.push_back(m.color.a);
     for (const MeshOutput& output : outputs)
-        if (written) write_mesh(output, mesh, notes, up);
+        if (written) write_mesh(output, mesh, notes, scene.z_up, parse_up(o.up, scene.z_up));
     clock.end();
 
     if (o.stats || !o.stats_json.empty()) {
@@ -337,7 +340,7 @@ Command add_mesh_command(CLI::App& program) {
         ->type_name("NAME");
     command
         ->add_option("--up", options->up,
-                     "what the scene's y axis is in the files, but for .glb, which is y-up; default: y")
+                     "the axis that is up in the files, but for .glb, which is y-up; default: the scene's")
         ->type_name("y|z");
     command->add_flag("--recentre", options->recenter, "move the middle of the solids to the origin");
     command->add_flag("--no-check", options->no_check, "do not check the mesh against the solids");

@@ -34,10 +34,10 @@ std::string with_name(std::string pattern, const std::string& name) {
     return pattern;
 }
 
-// A quarter of a turn about the x axis.
-void turn_z_up(Mesh& mesh) {
+// A quarter of a turn about the x axis: y goes to z, or z to y.
+void turn(Mesh& mesh, UpAxis to) {
     for (std::vector<Vec3>* vectors : {&mesh.positions, &mesh.normals})
-        for (Vec3& v : *vectors) v = Vec3(v.x, 0.0 - v.z, v.y);  // no −0
+        for (Vec3& v : *vectors) v = to == UpAxis::z ? Vec3(v.x, 0.0 - v.z, v.y) : Vec3(v.x, v.z, 0.0 - v.y);  // no −0
 }
 
 }  // namespace
@@ -77,20 +77,22 @@ std::vector<std::string> files_of(const std::vector<MeshOutput>& outputs) {
     return files;
 }
 
-UpAxis parse_up(const std::string& text) {
-    if (text.empty() || text == "y") return UpAxis::y;
+UpAxis parse_up(const std::string& text, bool scene_is_z_up) {
+    if (text.empty()) return scene_is_z_up ? UpAxis::z : UpAxis::y;
+    if (text == "y") return UpAxis::y;
     if (text == "z") return UpAxis::z;
     throw UsageError(fmt::format("--up: expected y or z, got '{}'", text));
 }
 
-void write_mesh(const MeshOutput& output, const SceneMesh& all, MeshNotes notes, UpAxis up) {
+void write_mesh(const MeshOutput& output, const SceneMesh& all, MeshNotes notes, bool scene_is_z_up, UpAxis up) {
     Mesh mesh;
     if (output.solid)
         mesh.append(all.parts[*output.solid], int(*output.solid));
     else
         mesh = all.mesh;
     if (output.solid && mesh.triangles.empty()) return;
-    if (up == UpAxis::z && output.format != MeshFormat::glb) turn_z_up(mesh);
+    const UpAxis wanted = output.format == MeshFormat::glb ? UpAxis::y : up;
+    if (wanted != (scene_is_z_up ? UpAxis::z : UpAxis::y)) turn(mesh, wanted);
     std::vector<FileBytes> files;
     if (!output.material_path.empty()) {
         notes.material_file = fs::path(output.material_path).filename().string();

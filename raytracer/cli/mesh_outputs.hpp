@@ -28,14 +28,14 @@ std::vector<MeshOutput> mesh_outputs(const std::vector<std::string>& paths, cons
 /// The names of all of them.
 std::vector<std::string> files_of(const std::vector<MeshOutput>& outputs);
 
-/// Which way is up in the files. Scenes are y-up.
+/// Which way is up in the files.
 enum class UpAxis { y, z };
 
-/// --up. Throws UsageError.
-UpAxis parse_up(const std::string& text);
+/// --up; "" is the scene's own. Throws UsageError.
+UpAxis parse_up(const std::string& text, bool scene_is_z_up);
 
 /// Throws WorkError; the files of one output appear together or not at all, and none for a solid that has no mesh. GLB
 /// is y-up whatever is asked, for glTF is.
-void write_mesh(const MeshOutput& output, const SceneMesh& mesh, MeshNotes notes, UpAxis up);
+void write_mesh(const MeshOutput& output, const SceneMesh& mesh, MeshNotes notes, bool scene_is_z_up, UpAxis up);
 
 }  // namespace deburr

@@ -10,6 +10,7 @@
 #include <optional>
 #include <set>
 
+#include "raytracer/scene/scene.hpp"
 #include "raytracer/util/errors.hpp"
 
 namespace deburr {
@@ -69,6 +70,23 @@ double parse_limit(std::string_view option, std::string_view text) {
     const double x = number_of(text);
     if (x >= 0) return x;
     expected(option, "a number >= 0", text);
+}
+
+double parse_exposure(std::string_view option, std::string_view text) {
+    const double x = number_of(text.substr(text.starts_with('+')));
+    if (std::abs(x) <= max_exposure) return x;
+    expected(option, fmt::format("a number from {0} to {1}", -max_exposure, max_exposure), text);
+}
+
+Vec3 parse_direction(std::string_view option, std::string_view text) {
+    const std::size_t first = text.find(','), second = text.find(',', first + 1);
+    if (first != std::string_view::npos && second != std::string_view::npos) {
+        const Vec3 v(number_of(text.substr(0, first)), number_of(text.substr(first + 1, second - first - 1)),
+                     number_of(text.substr(second + 1)));
+        const double size = largest(v);
+        if (size > 0 && std::isfinite(size)) return glm::normalize(v / size);
+    }
+    expected(option, "X,Y,Z, not all 0, for example 1,0.5,2", text);
 }
 
 std::uint64_t parse_seed(std::string_view option, std::string_view text) {

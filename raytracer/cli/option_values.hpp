@@ -25,6 +25,10 @@ std::int64_t parse_whole(std::string_view option, std::string_view text, std::in
 double parse_positive(std::string_view option, std::string_view text);
 /// A number >= 0.
 double parse_limit(std::string_view option, std::string_view text);
+/// Stops, either way.
+double parse_exposure(std::string_view option, std::string_view text);
+/// X,Y,Z, not all 0.
+Vec3 parse_direction(std::string_view option, std::string_view text);
 std::uint64_t parse_seed(std::string_view option, std::string_view text);
 /// WxH
 Size parse_size(std::string_view option, std::string_view text);

@@ -7,6 +7,7 @@
 
 #include "bounds/canonical_solids.hpp"
 #include "bounds/solid_tree.hpp"
+#include "raytracer/scene/frame_camera.hpp"
 #include "raytracer/scene/scene_reader.hpp"
 #include "raytracer/util/errors.hpp"
 
@@ -43,14 +44,18 @@ void add_output_option(CLI::App& command, Options& o, const std::string& formats
         ->allow_extra_args(false);
 }
 
-void add_size_option(CLI::App& command, Options& o) {
+void add_view_options(CLI::App& command, Options& o) {
     add(command, "--size", "WxH", "size of the picture; default: what the scene says",
         [&o](const std::string& text) { o.size = parse_size("--size", text); });
+    command.add_flag("--frame", o.frame,
+                     "move the camera, without turning it, to where the bounded solids fill the picture");
+    add(command, "--from", "X,Y,Z", "the same with the camera in this direction from the solids",
+        [&o](const std::string& text) { o.from = parse_direction("--from", text); });
 }
 
-void add_picture_options(CLI::App& command, Options& o) {
-    add_size_option(command, o);
-    add(command, "--spp", "N", "samples per pixel, 1: one ray through its centre; default: the scene's",
+void add_picture_options(CLI::App& command, Options& o, const std::string& default_spp) {
+    add_view_options(command, o);
+    add(command, "--spp", "N", "samples per pixel, 1: one ray through its centre; default: " + default_spp,
         [&o](const std::string& text) { o.spp = int(parse_whole("--spp", text, 1, max_samples)); });
     add(command, "--crop", "WxH+X+Y", "only this part of the picture",
         [&o](const std::string& text) { o.crop = parse_crop("--crop", text); });
@@ -114,7 +119,7 @@ void check_placements(const Scene& scene) {
         for_each_leaf(
             scene.solids, [&](const SolidNode&) { return nodes_left-- > 0; }, check);
     } catch (const SingularPlacement& error) {
-        const std::string where = error.line > 0 ? fmt::format("{}:{}", scene.file, error.line) : scene.file;
+        const std::string where = scene.place(error.line);
         throw SceneError(fmt::format("{}: {}", where, error.what()));
     }
 }
@@ -125,6 +130,11 @@ Scene load_scene(const Options& o) {
     if (o.scene.empty()) throw UsageError("expected a scene file");
     Scene scene = read_scene(o.scene, o.defines);
     check_placements(scene);
+    if ((o.frame || o.from) && !scene.framing)
+        scene.framing = Framing{scene.camera.eye - scene.camera.target, scene.camera.fov};
+    if (o.from) scene.framing->from = *o.from;
+    const Size size = picture_size(o, scene);
+    frame_camera(scene, double(size.width) / size.height);
     return scene;
 }
 

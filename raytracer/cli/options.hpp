@@ -22,6 +22,8 @@ struct Options {
     std::optional<Size> size;
     std::optional<int> spp;
     std::optional<Window> crop;
+    bool frame = false;        // --frame
+    std::optional<Vec3> from;  // --from, which implies it
     std::uint64_t seed = 0;
     std::vector<ImageLayer> layers;  // --aov
     bool float_color = false;
@@ -38,13 +40,14 @@ struct Options {
 void add_scene_options(CLI::App& command, Options& options);  // SCENE -D
 /// -o. `more` is what its help says besides the formats.
 void add_output_option(CLI::App& command, Options& options, const std::string& formats, const std::string& more = "");
-void add_size_option(CLI::App& command, Options& options);         // --size
-void add_picture_options(CLI::App& command, Options& options);     // --size --spp --crop --seed …
+void add_view_options(CLI::App& command, Options& options);  // --size --frame --from
+/// Those, --spp --crop --seed …; `default_spp` is what its help says of the default.
+void add_picture_options(CLI::App& command, Options& options, const std::string& default_spp);
 void add_run_options(CLI::App& command, Options& options);         // --threads -q -v
 void add_statistics_options(CLI::App& command, Options& options);  // --stats --stats-json
 
-/// The scene that the options name, with their parameters. Throws UsageError if there is none or if
-/// it does not ask for a parameter that was given, SceneError if it is wrong.
+/// The scene that the options name, with their parameters, its camera placed for the picture's size. Throws UsageError
+/// if there is none or if it does not ask for a parameter that was given, SceneError if it is wrong.
 Scene load_scene(const Options& options);
 
 /// The whole picture's size: --size, or else what the scene says.

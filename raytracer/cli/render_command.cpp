@@ -13,6 +13,7 @@
 #include "raytracer/cli/commands.hpp"
 #include "raytracer/cli/options.hpp"
 #include "raytracer/cli/statistics.hpp"
+#include "raytracer/image/exposure.hpp"
 #include "raytracer/image/image_file.hpp"
 #include "raytracer/image/surroundings_file.hpp"
 #include "raytracer/mesh/mesh_tracer.hpp"
@@ -20,7 +21,10 @@
 #include "raytracer/mesh/wire_frame.hpp"
 #include "raytracer/render/integrator.hpp"
 #include "raytracer/render/render_tiles.hpp"
+#include "raytracer/render/sample_count.hpp"
 #include "raytracer/scene/illegal_densities.hpp"
+#include "raytracer/scene/vanished_parts.hpp"
+#include "raytracer/scene/view_warnings.hpp"
 #include "raytracer/trace/implicit_tracer.hpp"
 #include "raytracer/util/errors.hpp"
 #include "raytracer/util/interrupt.hpp"
@@ -37,8 +41,10 @@ struct RenderOptions : Options {
     bool flat = false, edges = false;
     int bits = 8;  // of a PNG
     bool alpha = false;
+    bool draft = false;
     std::optional<Accel> accel;
     IntegratorKind integrator = IntegratorKind::automatic;
+    std::optional<double> exposure;  // of pictures for the screen
 };
 
 // Boxes to look at for each sum and difference before rendering; `info` looks longer.
@@ -85,6 +91,7 @@ void check_options(const RenderOptions& o) {
             throw UsageError(fmt::format("{}: expected --via {}, got 'implicit'", name, mesh_method_names()));
     if (!o.wire.empty() && o.wire != "visible" && o.wire != "front")
         throw UsageError("--wire: expected visible or front, got '" + o.wire + "'");
+    if (o.draft && o.spp) throw UsageError("--draft: expected it without --spp, for it is --spp 1");
     if (o.scene.empty()) throw UsageError("render: expected a scene file");
     if (o.outputs.empty()) throw UsageError("render: expected an output file, -o FILE");
     check_image_names("-o", o.outputs);
@@ -102,13 +109,14 @@ void check_options(const RenderOptions& o) {
 }
 
 // Every file that can be written is, for the picture was dear; the first error is reported then.
-void write_images(const RenderOptions& o, const Film& film, const ImageNotes& notes, int threads, Progress& progress) {
+void write_images(const RenderOptions& o, const Film& film, const ImageNotes& notes, double exposure, int threads,
+                  Progress& progress) {
     std::string error;
     for (const std::string& path : o.outputs) {
         const double work = writing_work * double(film.pixels.size());
         double reported = 0;
         try {
-            write_image(path, film, {o.float_color, threads, o.bits, o.alpha}, notes, [&](double share) {
+            write_image(path, film, {o.float_color, threads, o.bits, o.alpha, exposure}, notes, [&](double share) {
                 progress.advance(work * (share - reported));
                 reported = share;
             });
@@ -130,22 +138,29 @@ struct World {
     std::vector<Stroke> strokes;  // that are drawn over the picture
 };
 
+bool is_for_screen(const std::string& path) { return image_kind(path) == ImageKind::display; }
+
 void say(const RenderOptions& o, const std::string& line) {
     if (o.verbose && !o.quiet) message(line);
+}
+
+// A wire frame is black on white.
+double exposure_of(const RenderOptions& o, const Scene& scene) {
+    return o.wire.empty() ? o.exposure.value_or(scene.exposure) : 0;
 }
 
 // The picture's size and the part of it that is rendered.
 struct Frame {
     Size size;
     Window window;
-    int spp = 1;
+    int spp = 0;  // 0: to be found
 };
 
 Frame frame_of(const RenderOptions& o, const Scene& scene) {
     Frame frame;
     frame.size = picture_size(o, scene);
     frame.window = picture_window(o, scene, Film::bytes_per_pixel(o.layers));
-    frame.spp = o.spp.value_or(scene.spp);
+    frame.spp = o.draft || !o.wire.empty() ? 1 : o.spp.value_or(scene.spp.value_or(0));
     return frame;
 }
 
@@ -204,6 +219,8 @@ ImageNotes notes_of(const RenderOptions& o, const World& world, int spp, double 
                         {"seed", fmt::format("{}", o.seed)},
                         {"via", o.via},
                         {"criterion", o.criterion == Criterion::lobb ? "lobb" : "exact"}};
+    if (const double exposure = exposure_of(o, scene))
+        notes.attributes.push_back({"exposure", fmt::format("{}", exposure)});
     if (world.bsp) notes.attributes.push_back({"accel", name(o.accel.value_or(Accel::bvh))});
     for (const auto& [name, value] : scene.parameters) notes.attributes.push_back({"parameter." + name, value});
     return notes;
@@ -212,6 +229,13 @@ ImageNotes notes_of(const RenderOptions& o, const World& world, int spp, double 
 void write_statistics(const RenderOptions& o, const RunStatistics& run) {
     if (o.stats) fmt::print("{}", statistics_table(run));
     if (!o.stats_json.empty()) write_whole_file(o.stats_json, statistics_json(run));
+}
+
+void warn(const Scene& scene, double aspect) {
+    const VanishedParts vanished = vanished_parts(scene);
+    for (const std::vector<std::string>& lines :
+         {illegal_densities(scene, boxes_to_warn), vanished.rounded_away, vanished.empty, view_warnings(scene, aspect)})
+        for (const std::string& line : lines) message("warning: " + line);
 }
 
 int run_render(const RenderOptions& o) {
@@ -225,14 +249,15 @@ int run_render(const RenderOptions& o) {
     const auto world = std::make_shared<World>();
     const Scene& scene = world->scene = load_scene(o);
     load_surroundings(world->scene);
-    const Frame frame = frame_of(o, scene);
-    const auto [size, window, spp] = frame;
+    Frame frame = frame_of(o, scene);
+    const Size size = frame.size;
+    const Window window = frame.window;
     for (const std::string& path : o.outputs) check_writable(path);
     if (!o.stats_json.empty()) check_writable(o.stats_json);
-    say(o, fmt::format("{}: {} solids, {} lights; picture {}x{}, {} samples per pixel, {} threads", o.scene,
-                       scene.solids.size(), scene.lights.size(), size.width, size.height, spp, threads));
-    if (!o.quiet)
-        for (const std::string& what : illegal_densities(scene, boxes_to_warn)) message("warning: " + what);
+    say(o, fmt::format("{}: {} solids, {} lights; picture {}x{}, {} threads", o.scene, scene.solids.size(),
+                       scene.lights.size(), size.width, size.height, threads));
+    if (!o.quiet) warn(scene, double(size.width) / size.height);
+    if (nothing_is_left(scene)) throw WorkError(scene.file + ": no solid is left, and there is nothing to show");
 
     clock.begin("build");
     if (o.via == "implicit")
@@ -240,8 +265,12 @@ int run_render(const RenderOptions& o) {
     else
         build_mesh(o, frame, *world);
     const bool cost = std::count(o.layers.begin(), o.layers.end(), ImageLayer::cost) > 0;
-    world->integrator.emplace(scene, *world->tracer,
-                              RenderSettings{size.width, size.height, spp, o.seed, cost, !o.alpha, o.integrator});
+    const double exposure = exposure_of(o, scene);
+    RenderSettings settings{size.width, size.height, frame.spp, o.seed, cost, !o.alpha, o.integrator};
+    if (frame.spp == 0) frame.spp = settings.spp = sample_count(scene, *world->tracer, settings, exposure);
+    const int spp = frame.spp;
+    say(o, fmt::format("{} samples per pixel", spp));
+    world->integrator.emplace(scene, *world->tracer, settings);
 
     clock.begin("trace");
     const std::atomic<bool>& stop = catch_interrupts(!o.quiet);
@@ -257,12 +286,14 @@ int run_render(const RenderOptions& o) {
     }
 
     clock.begin("write");
-    write_images(o, film, notes_of(o, *world, spp, clock.wall("trace")), threads, progress);
+    write_images(o, film, notes_of(o, *world, spp, clock.wall("trace")), exposure, threads, progress);
     clock.end();
     if (film.complete)
         progress.finish();
     else
         progress.stop();
+    if (!o.quiet && film.complete && std::any_of(o.outputs.begin(), o.outputs.end(), is_for_screen))
+        if (const auto advice = exposure_advice(film, exposure)) message("warning: " + *advice);
     write_statistics(
         o, {scene.file, o.via, world->bsp ? name(o.accel.value_or(Accel::bvh)) : "", size.width, size.height, window,
             spp, threads, o.seed, film.complete, rendering.pixels_done, clock.times(), rendering.counters, world->bsp});
@@ -280,7 +311,8 @@ Command add_render_command(CLI::App& program) {
     const auto options = std::make_shared<RenderOptions>();
     add_scene_options(*command, *options);
     add_output_option(*command, *options, known_extensions());
-    add_picture_options(*command, *options);
+    add_picture_options(*command, *options, "the scene's, or as many as leave hardly any noise, 16 to 256");
+    command->add_flag("--draft", options->draft, "one sample per pixel, whatever the scene says: quick, without noise");
     command
         ->add_option("--via", options->via,
                      "how surfaces are found: implicit (exact, the default), or as a mesh by " + mesh_method_names())
@@ -319,6 +351,13 @@ Command add_render_command(CLI::App& program) {
             },
             "of each number in a PNG; default: 8")
         ->type_name("8|16");
+    command
+        ->add_option_function<std::string>(
+            "--exposure",
+            [options](const std::string& text) { options->exposure = parse_exposure("--exposure", text); },
+            "of pictures for the screen, in stops: 1 shows the light twice as bright, -1 half as bright; .exr and .hdr "
+            "keep the light as it is; default: the scene's")
+        ->type_name("E");
     command->add_flag("--alpha", options->alpha,
                       "without the background that the camera sees: a PNG is transparent there, and an EXR black");
     add_run_options(*command, *options);

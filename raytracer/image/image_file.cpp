@@ -66,12 +66,14 @@ const LayerChannels layer_channels[] = {
 
 // R, G, B and, if asked for, A of a PNG. What alpha has weighed is divided by it.
 template <class Number>
-std::vector<ImageChannel> png_channels(const Film& film, ChannelType type, bool alpha, Number srgb) {
+std::vector<ImageChannel> png_channels(const Film& film, ChannelType type, const ImageFormat& format, Number srgb) {
     std::vector<ImageChannel> list;
     const Pixel* pixels = film.pixels.data();
+    const bool alpha = format.alpha;
+    const double scale = std::exp2(format.exposure);
     for (int k = 0; k < 3; ++k)
-        list.push_back(image_channel(std::string(1, "RGB"[k]), type, [pixels, k, alpha, srgb](std::size_t i) {
-            const double value = glm::value_ptr(pixels[i].color)[k];
+        list.push_back(image_channel(std::string(1, "RGB"[k]), type, [pixels, k, alpha, scale, srgb](std::size_t i) {
+            const double value = scale * glm::value_ptr(pixels[i].color)[k];
             if (!alpha) return srgb(value);
             return srgb(pixels[i].alpha > 0 ? value / pixels[i].alpha : 0.0);
         }));
@@ -94,7 +96,8 @@ std::vector<ImageChannel> channels(const Film& film, ImageKind kind, const Image
     };
     const auto as_it_is = [](double value) { return value; };
     if (kind == ImageKind::display) {
-        add_color(ChannelType::byte, [&byte = srgb_bytes()](double value) { return byte(value); });
+        const double scale = std::exp2(format.exposure);
+        add_color(ChannelType::byte, [&byte = srgb_bytes(), scale](double value) { return byte(scale * value); });
         return list;
     }
     if (kind == ImageKind::linear) {
@@ -169,9 +172,9 @@ void write_image(const std::string& path, const Film& film, const ImageFormat& f
     const bool exr = *kind == ImageKind::exr, png = image_extension(path) == ".png";
     std::vector<ImageChannel> list;
     if (png && format.bits == 16)
-        list = png_channels(film, ChannelType::word, format.alpha, srgb_word);
+        list = png_channels(film, ChannelType::word, format, srgb_word);
     else if (png && format.alpha)
-        list = png_channels(film, ChannelType::byte, true, srgb_byte);
+        list = png_channels(film, ChannelType::byte, format, srgb_byte);
     else
         list = channels(film, *kind, format);
     write_raster(path, {film.width, film.height, film.window, std::move(list), attributes(film, notes, exr)},

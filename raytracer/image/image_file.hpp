@@ -8,6 +8,7 @@
 //   alpha     on request of films without background: colour has been weighed by alpha, as an EXR
 //             has it, and is divided by it for a PNG.
 //   .hdr      as 8 bit, but scene-linear.
+//   exposure  is for pictures for the screen: scene-linear values are kept as they are.
 //
 // Half holds no more than 65504: what is brighter is written as that, so that no infinity reaches
 // a filter.
@@ -38,6 +39,7 @@ struct ImageFormat {
     int threads = 1;           // EXR: that compress
     int bits = 8;              // PNG: 8 or 16
     bool alpha = false;        // PNG: there is an alpha, and the film is without background
+    double exposure = 0;       // sRGB: stops, each of which doubles the light
 };
 
 /// Writes the whole file or nothing; throws WorkError. An EXR gets all layers that the film keeps. The format follows

@@ -53,7 +53,7 @@ std::string highlight(double alpha, double f0) {
 
 std::string pov_settings(const Scene& scene) {
     const SkyLight sky(scene.lighting());
-    const Vec3 ambient = scene.ambient + sky.mean({0, 1, 0});
+    const Vec3 ambient = scene.ambient + sky.mean(scene.z_up ? Vec3(0, 0, 1) : Vec3(0, 1, 0));
     return fmt::format("global_settings {{ assumed_gamma 1.0 max_trace_level {} ambient_light {} }}\n",
                        std::max(2, scene.bounces + 1), pov_color(ambient));
 }
@@ -73,8 +73,8 @@ std::string pov_camera(const Camera& camera, Size size) {
 
 std::string pov_background(const Background& b) {
     if (!b.sky) return fmt::format("background {{ {} }}\n", pov_color(b.color));
-    return fmt::format("sky_sphere {{ pigment {{ function {{ sqrt(max(0, y)) }} color_map {{ [0 {}] [1 {}] }} }} }}\n",
-                       pov_color(b.horizon), pov_color(b.zenith));
+    return fmt::format("sky_sphere {{ pigment {{ function {{ sqrt(max(0, {})) }} color_map {{ [0 {}] [1 {}] }} }} }}\n",
+                       b.z_up ? "z" : "y", pov_color(b.horizon), pov_color(b.zenith));
 }
 
 std::string pov_light(const Light& light, const Scene& scene) {

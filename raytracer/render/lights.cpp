@@ -173,12 +173,14 @@ double mean_zenith_share(double c) {
 
 SkyLight::SkyLight(const Background& background) : background_(background) {
     if (!background.file.empty() || background.by_day()) {
-        picture_ = background.by_day() ? daylight(background) : background.picture;
+        Background y_up = background;  // as pictures and the day are reckoned
+        if (background.z_up) y_up.sun = {background.sun.x, background.sun.z, -background.sun.y};
+        picture_ = background.by_day() ? daylight(y_up) : background.picture;
         if (background.by_day()) {
             sun_.direction = glm::normalize(background.sun);
             const double half = 0.5 * background.sun_size * pi / 180;
             sun_.depth = 2 * std::pow(std::sin(0.5 * half), 2);
-            sun_.radiance = sun_irradiance(background) * sun_.density();
+            sun_.radiance = sun_irradiance(y_up) * sun_.density();
             if (!(sun_.radiance.x + sun_.radiance.y + sun_.radiance.z > 0)) sun_.depth = 0;
         } else {
             cos_rotate_ = std::cos(background.rotate * pi / 180);
@@ -202,7 +204,7 @@ Vec3 SkyLight::mean(Vec3 normal) const {
         return background_.scale * glm::max(sum, Vec3(0.0));
     }
     if (!background_.sky) return background_.color;
-    const double at = glm::clamp(0.5 * (normal.y + 1), 0.0, 1.0) * steps;
+    const double at = glm::clamp(0.5 * (background_.height(normal) + 1), 0.0, 1.0) * steps;
     const auto i = at < steps ? std::size_t(at) : std::size_t(steps - 1);  // the last for no number, too
     const double share = glm::mix(zenith_share_[i], zenith_share_[i + 1], at - double(i));
     return glm::mix(background_.horizon, background_.zenith, share);
@@ -217,6 +219,7 @@ Vec3 SkyLight::Sun::at(Vec2 u) const {
 }
 
 Vec2 SkyLight::place_of(Vec3 d) const {
+    if (background_.z_up) d = {d.x, d.z, -d.y};
     const double x = cos_rotate_ * d.x - sin_rotate_ * d.z, z = sin_rotate_ * d.x + cos_rotate_ * d.z;
     const double u = 0.5 + std::atan2(x, -z) / (2 * pi);
     return {u - std::floor(u), std::acos(glm::clamp(d.y, -1.0, 1.0)) / pi};
@@ -225,7 +228,8 @@ Vec2 SkyLight::place_of(Vec3 d) const {
 Vec3 SkyLight::direction_of(Vec2 place) const {
     const double phi = 2 * pi * (place.x - 0.5), theta = pi * place.y;
     const double x = std::sin(theta) * std::sin(phi), z = -std::sin(theta) * std::cos(phi);
-    return {cos_rotate_ * x + sin_rotate_ * z, std::cos(theta), -sin_rotate_ * x + cos_rotate_ * z};
+    const Vec3 d(cos_rotate_ * x + sin_rotate_ * z, std::cos(theta), -sin_rotate_ * x + cos_rotate_ * z);
+    return background_.z_up ? Vec3(d.x, -d.z, d.y) : d;
 }
 
 // Between the centres of four pixels.

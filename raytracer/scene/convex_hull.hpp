@@ -1,7 +1,7 @@
 // Half-spaces of convex bodies that a scene gives by points.
 //
-// Points that span no volume, and polygons that are not convex, throw std::runtime_error. Results
-// depend on the set of points only, not on their order; faces parallel to an axis are exact.
+// Points that span no volume throw std::runtime_error. Results depend on the set of points only, not on their order;
+// faces parallel to an axis are exact.
 #pragma once
 #include <vector>
 
@@ -17,8 +17,5 @@ struct HullFace {
 
 /// The convex hull (by qhull); faces in one plane are one half-space.
 std::vector<HullFace> convex_hull(std::vector<Vec3> points);
-
-/// The polygon's points in the plane (x, z), either way round, raised from y = y0 to y1 > y0.
-std::vector<HullFace> prism(std::vector<glm::dvec2> polygon, double y0, double y1);
 
 }  // namespace deburr

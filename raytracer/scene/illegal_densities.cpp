@@ -56,7 +56,7 @@ std::vector<std::string> illegal_densities(const Scene& scene, int boxes) {
             const std::pair<int, Op> location{d.line, d.op};
             if (std::find(reported.begin(), reported.end(), location) != reported.end()) continue;
             reported.push_back(location);
-            const std::string where = d.line > 0 ? fmt::format("{}:{}", scene.file, d.line) : scene.file;
+            const std::string where = scene.place(d.line);
             const bool above = d.value > 1;
             const char* why = d.op == Op::sum ? "its parts overlap: use |"
                               : above         ? "what it subtracts from is illegal"

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <charconv>
 #include <chrono>
 #include <condition_variable>
 #include <csetjmp>
@@ -51,6 +52,7 @@ struct Sandbox::State {
     lua_State* lua = nullptr;
     Block blocks{&blocks, &blocks};
     MemoryMeter memory;
+    SourceMap sources;
     std::int64_t work = 0;
     std::size_t printed = 0;
     std::atomic<int> line{0};  // of the latest sample
@@ -202,7 +204,7 @@ bool Sandbox::State::print_line(lua_State* lua, int first, int last) noexcept tr
     line += '\n';
     if (line.size() > limits.output - printed) return false;
     printed += line.size();
-    std::fwrite(line.data(), 1, line.size(), stderr);
+    if (!limits.mute) std::fwrite(line.data(), 1, line.size(), stderr);
     return true;
 } catch (const std::bad_alloc&) {
     return false;
@@ -211,6 +213,8 @@ bool Sandbox::State::print_line(lua_State* lua, int first, int last) noexcept tr
 Sandbox::Sandbox(SandboxLimits limits, void* host) : state_(std::make_shared<State>(limits, host)) {}
 
 MemoryMeter& Sandbox::memory() { return state_->memory; }
+
+const SourceMap& Sandbox::sources() const { return state_->sources; }
 
 void Sandbox::spend(lua_State* lua, std::int64_t work) {
     State& state = State::of(lua);
@@ -235,7 +239,7 @@ HostCall HostCall::enter(lua_State* lua) {
         state.abandon(Spent::time);
     }
     state.armed = false;
-    return {state.host, &state.memory, state.limits.work - state.work, lua};
+    return {state.host, &state.memory, &state.sources, state.limits.work - state.work, lua};
 }
 
 void HostCall::leave(std::int64_t work, bool memory_spent) const {
@@ -279,8 +283,10 @@ lua_State* Sandbox::run(std::string text, const std::string& file, Prepare prepa
     const auto fail = [&](Spent spent) {
         const int line = state.line;
         const std::string location = line > 0 ? fmt::format("{}:{}: ", file_mark, line) : std::string();
-        return SceneError(one_line(location + reason(state.limits, spent), file));
+        return SceneError(one_line(location + reason(state.limits, spent), state.sources));
     };
+    state.sources = SourceMap();
+    state.sources.add(file, line_count(text));
     text = with_length_by_content(text);
     if (!state.memory.try_take(text.size())) throw fail(Spent::memory);
     state.text = std::move(text);
@@ -312,9 +318,11 @@ lua_State* Sandbox::run(std::string text, const std::string& file, Prepare prepa
     }
     thread.join();
     if (state.spent != Spent::nothing) throw fail(state.spent);
-    if (state.status != LUA_OK) throw SceneError(one_line(error_text(state.lua), file));
+    if (state.status != LUA_OK) throw SceneError(one_line(error_text(state.lua), state.sources));
     return state.lua;
 }
+
+const void* host_of(lua_State* lua) { return Sandbox::State::of(lua).host; }
 
 int current_line(lua_State* lua) {
     lua_Debug record;

@@ -39,6 +39,7 @@ struct SandboxLimits {
     // Bytes of the objects that a scene makes and of their expressions' nodes, none of which is freed before the end.
     // A scene may be larger than what it needs to describe it: three million placements take 600 MB.
     std::size_t parts = std::size_t(640) << 20;
+    bool mute = false;  // what is printed counts, and is not shown
 };
 
 class Sandbox {
@@ -58,6 +59,8 @@ public:
 
     /// Shared by the interpreter and the host. Not to be used by another thread while run() runs.
     MemoryMeter& memory();
+    /// The text's file, and those that the host has added: lines of the state are theirs. The same holds.
+    const SourceMap& sources() const;
     /// What run() throws, but for a place, where memory() is spent.
     std::string memory_reason() const;
 
@@ -73,6 +76,7 @@ public:
 
 private:
     friend class HostCall;
+    friend const void* host_of(lua_State* lua);
     struct State;
     std::shared_ptr<State> state_;
 };
@@ -88,13 +92,17 @@ public:
 
     void* host;
     MemoryMeter* memory;
+    SourceMap* sources;
     std::int64_t work_left;
 
 private:
-    HostCall(void* host, MemoryMeter* memory, std::int64_t work_left, lua_State* lua)
-        : host(host), memory(memory), work_left(work_left), lua_(lua) {}
+    HostCall(void* host, MemoryMeter* memory, SourceMap* sources, std::int64_t work_left, lua_State* lua)
+        : host(host), memory(memory), sources(sources), work_left(work_left), lua_(lua) {}
     lua_State* lua_;
 };
+
+/// The host of the interpreter, to be looked at only.
+const void* host_of(lua_State* lua);
 
 /// Line of the scene that is being executed; 0 if there is none.
 int current_line(lua_State* lua);

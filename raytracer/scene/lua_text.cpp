@@ -8,6 +8,37 @@
 namespace deburr {
 namespace {
 
+bool is_text(lua_State* lua, int index) {
+    return lua_type(lua, index) == LUA_TSTRING || lua_type(lua, index) == LUA_TNUMBER;
+}
+
+// Numbers in a table up to which it is shown as a list.
+constexpr lua_Integer longest_list = 16;
+
+// Pushes "{1, 2, 0.5}" for a table of a few numbers and nothing else; false: it is another.
+bool push_list(lua_State* lua, int index) {
+    const lua_Integer size = border(lua, index);
+    if (size == 0 || size > longest_list) return false;
+    lua_Integer fields = 0;
+    for (lua_pushnil(lua); lua_next(lua, index); lua_pop(lua, 1))
+        if (++fields > size || lua_type(lua, -1) != LUA_TNUMBER) {
+            lua_pop(lua, 2);
+            return false;
+        }
+    if (fields != size) return false;
+    lua_pushliteral(lua, "{");
+    for (lua_Integer i = 1; i <= size; ++i) {
+        if (i > 1) lua_pushliteral(lua, ", ");
+        lua_rawgeti(lua, index, i);
+        luaL_tolstring(lua, -1, nullptr);
+        lua_remove(lua, -2);
+        lua_concat(lua, i > 1 ? 3 : 2);
+    }
+    lua_pushliteral(lua, "}");
+    lua_concat(lua, 2);
+    return true;
+}
+
 // Pushes the text of the value at `index`.
 void push_text(lua_State* lua, int index) {
     index = lua_absindex(lua, index);
@@ -26,13 +57,10 @@ void push_text(lua_State* lua, int index) {
             const int name = luaL_getmetafield(lua, index, "__name");
             if (name == LUA_TSTRING) return;
             if (name != LUA_TNIL) lua_pop(lua, 1);
+            if (lua_type(lua, index) == LUA_TTABLE && !lua_getmetatable(lua, index) && push_list(lua, index)) return;
             lua_pushstring(lua, luaL_typename(lua, index));
         }
     }
-}
-
-bool is_text(lua_State* lua, int index) {
-    return lua_type(lua, index) == LUA_TSTRING || lua_type(lua, index) == LUA_TNUMBER;
 }
 
 }  // namespace

@@ -231,6 +231,12 @@ Vec3 direction(const LuaValue& value, const std::string& location) {
     return scaled / glm::length(scaled);
 }
 
+double view_angle(const LuaValue& value, const std::string& location) {
+    const double* angle = std::get_if<double>(&value);
+    if (!angle || !(*angle > 0 && *angle < 180)) expected(location, "a number of degrees between 0 and 180", value);
+    return *angle;
+}
+
 Vec3 color(const LuaValue& value, const std::string& location, double most) {
     const auto in_range = [&](double x) { return x >= 0 && x <= most; };
     if (finite_number(value) && in_range(std::get<double>(value))) return Vec3(std::get<double>(value));

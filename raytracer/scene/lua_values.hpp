@@ -79,6 +79,8 @@ const std::string& text(const LuaValue& value, const std::string& location);
 Vec3 vector(const LuaValue& value, const std::string& location);
 /// Of length 1; {0, 0, 0} is refused. Exact for a multiple of an axis.
 Vec3 direction(const LuaValue& value, const std::string& location);
+/// Degrees between 0 and 180.
+double view_angle(const LuaValue& value, const std::string& location);
 /// {r, g, b} or one number for grey, each in [0, most].
 Vec3 color(const LuaValue& value, const std::string& location, double most);
 

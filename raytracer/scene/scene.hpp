@@ -12,11 +12,15 @@
 
 #include "bounds/solid.hpp"
 #include "bounds/vec.hpp"
+#include "raytracer/util/source_map.hpp"
 
 namespace deburr {
 
 /// Samples per pixel, of a scene and of the command line.
 constexpr int max_samples = 1 << 20;
+
+/// Stops of exposure, either way.
+constexpr double max_exposure = 30;
 
 /// A colour that may vary through space.
 struct Texture {
@@ -64,11 +68,18 @@ struct Surroundings {
     std::vector<float> rgb;  // row by row from the top
 };
 
+/// How a camera looks at the solids that is placed by their bounds (frame_camera.hpp).
+struct Framing {
+    Vec3 from{3, 2, 4};  // the direction from the solids to the eye, of any length
+    double fov = 30.0;   // vertical, degrees
+};
+
 /// What rays that hit nothing see; also the ambient light.
 struct Background {
-    bool sky = false;  // a gradient from horizon to zenith, by direction.y
+    bool sky = false;  // a gradient from horizon to zenith, by height()
     Vec3 color{0.0};   // one colour where there is no sky
-    Vec3 horizon{0.8, 0.85, 0.9}, zenith{0.3, 0.5, 0.8};
+    Vec3 horizon{0.46, 0.5, 0.55}, zenith{0.2, 0.28, 0.4};
+    bool z_up = false;  // is up z, or y
     // A clear sky by day, in place of the gradient, with a sun in this direction; {0, 0, 0}: none
     Vec3 sun{0.0};
     double turbidity = 3.0, sun_size = 0.533;     // haze; degrees across
@@ -77,22 +88,29 @@ struct Background {
     double scale = 1.0, rotate = 0.0;             // of picture and day; degrees about y
 
     bool by_day() const { return sun != Vec3(0.0); }
+    /// Of a unit direction: 1 towards the zenith, 0 towards the horizon.
+    double height(Vec3 direction) const { return z_up ? direction.z : direction.y; }
     /// Neither of a picture nor by day.
     Vec3 towards(Vec3 unit_direction) const {
         if (!sky) return color;
-        return glm::mix(horizon, zenith, std::sqrt(glm::max(0.0, unit_direction.y)));
+        return glm::mix(horizon, zenith, std::sqrt(glm::max(0.0, height(unit_direction))));
     }
 };
 
 struct Scene {
     std::string file;                               // as the user named it
+    SourceMap sources;                              // where the solids' lines are
     std::map<std::string, std::string> parameters;  // every param() the scene read, with its value
     int width = 600, height = 380;
-    int spp = 1;            // samples per pixel
+    std::optional<int> spp;  // samples per pixel; none: as many as it takes (sample_count.hpp)
     int bounces = 4;        // depth of mirror and glass paths in previews
     bool caustics = false;  // true: highlights and light through glass fall exactly where they do
+    double exposure = 0;     // of pictures for the screen, in stops: light counts 2^exposure times
+    bool z_up = false;       // is up z, or y
     Camera camera;
+    std::optional<Framing> framing;  // where the camera is placed by the solids' bounds
     std::vector<Light> lights;
+    bool default_light = false;  // lights holds one, which follows the camera
     Background background;
     std::optional<Background>
         environment;    // what gives light in place of the background, which then only the camera sees
@@ -104,6 +122,9 @@ struct Scene {
     std::vector<std::string> names;        // of the solids, "" where they have none
     std::vector<std::string> model_files;  // paths that it was read from besides
     std::vector<std::string> notes;        // what was mended in these, a line each
+
+    /// "lid.lua:7", of a solid's line; where that is 0, the file alone.
+    std::string place(int line) const { return sources.empty() ? file : sources.place(line); }
 };
 
 }  // namespace deburr

@@ -7,13 +7,14 @@
 #include <lua.hpp>
 
 #include "raytracer/scene/lua_sandbox.hpp"
+#include "raytracer/scene/scene_descriptions.hpp"
 #include "raytracer/util/printable.hpp"
 
 namespace deburr {
 
 std::string kind_of(const SceneObject& object) {
     static constexpr const char* kinds[] = {"a density", "a solid",   "a quadric", "a perturbation", "a material",
-                                            "a light",   "a texture", "a sky",     "a model"};
+                                            "a light",   "a texture", "a sky",     "a model",        "a framing"};
     static_assert(std::size(kinds) == std::variant_size_v<decltype(object.is)>);
     return kinds[object.is.index()];
 }
@@ -202,17 +203,23 @@ int push_result(lua_State* lua, const SceneResult& result) {
     }
 }
 
-// No object with a destructor here: what follows the body may raise.
 int call_from_lua(lua_State* lua) {
-    const auto* function = static_cast<const SceneFunction*>(lua_touserdata(lua, lua_upvalueindex(1)));
+    return call_scene_function(lua, *static_cast<const SceneFunction*>(lua_touserdata(lua, lua_upvalueindex(1))));
+}
+
+}  // namespace
+
+// No object with a destructor here: what follows the body may raise.
+int call_scene_function(lua_State* lua, const SceneFunction& function) {
     luaL_checkstack(lua, read_value_slots, "too many arguments");
     const HostCall visit = HostCall::enter(lua);
     auto* builder = static_cast<SceneBuilder*>(visit.host);
     builder->memory = visit.memory;
+    builder->sources = visit.sources;
     builder->work_left = visit.work_left;
     builder->work = 0;
     builder->cost = {};
-    const Ending ending = call_body(lua, *builder, *function);
+    const Ending ending = call_body(lua, *builder, function);
     visit.memory->give_back(builder->cost.bytes);
     if (ending == Ending::failed) builder->work += work_per_failure;
     visit.leave(ending == Ending::work_spent ? visit.work_left + 1 : builder->work, ending == Ending::memory_spent);
@@ -220,6 +227,8 @@ int call_from_lua(lua_State* lua) {
     lua_pushstring(lua, builder->message);
     return lua_error(lua);
 }
+
+namespace {
 
 // __index of objects; upvalue: the methods.
 int find_method(lua_State* lua) {
@@ -233,10 +242,15 @@ int find_method(lua_State* lua) {
                       name);
 }
 
-int object_text(lua_State* lua) {  // without the address, which differs from run to run
-    lua_pushliteral(lua, "object");
-    return 1;
+SceneResult object_text(SceneCall& call) {
+    const SceneObject& object = *as_object(call.argument(0));
+    // Finding a box takes as long as some 100 instructions for each half-space.
+    constexpr double work_per_half_space = 100;
+    call.builder.spend(std::int64_t(work_per_half_space * work_to_describe(object)));
+    return description(object);
 }
+
+constexpr SceneFunction text_function{SceneFunction::Kind::metamethod, "tostring", "__tostring", object_text};
 
 void push_function(lua_State* lua, const SceneFunction& function) {
     lua_pushlightuserdata(lua, const_cast<SceneFunction*>(&function));
@@ -263,8 +277,10 @@ void open_scene_functions(lua_State* lua) {
         }
     lua_pushcclosure(lua, find_method, 1);
     lua_setfield(lua, meta, "__index");
-    lua_pushcfunction(lua, object_text);
+    push_function(lua, text_function);
     lua_setfield(lua, meta, "__tostring");
+    lua_pushcfunction(lua, include_part);
+    lua_setglobal(lua, "include");
     lua_pushboolean(lua, 0);
     lua_setfield(lua, meta, "__metatable");
     lua_setmetatable(lua, -2);

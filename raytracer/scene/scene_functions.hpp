@@ -40,7 +40,7 @@ struct SceneObject {
     using Kept = std::conditional_t<is_handle<T>, T, std::shared_ptr<const T>>;
 
     std::variant<Kept<Density>, Kept<Solid>, Kept<Quadric>, Kept<Perturbation>, Kept<Material>, Kept<Light>,
-                 Kept<Texture>, Kept<Background>, Kept<PlacedModel>>
+                 Kept<Texture>, Kept<Background>, Kept<PlacedModel>, Kept<Framing>>
         is;
     SceneName name;  // of a solid; null: none
     int line = 0;    // of the scene, where it was made
@@ -94,6 +94,14 @@ public:
     const std::vector<std::string>& files() const { return files_read_; }
     /// The path of the scene's file of this name. Throws as SceneFiles does.
     std::string path_of(const std::string& file);
+    /// A file of Lua that include() has named.
+    struct Part {
+        std::string text;
+        int lines_before = 0;  // in the numbering of all files
+        std::string name;
+    };
+    /// The part at this path in the scene's folders, which is read once. Throws std::runtime_error and SceneError.
+    const Part& part(const std::string& name);
     /// The place of a material in materials(); each has one, however often it is used.
     int index_of(const SceneObject* material);
     /// param(): the value that the command line gives in place of `fallback`, if any.
@@ -113,7 +121,12 @@ public:
     void borrow(std::size_t bytes);
 
     MemoryMeter* memory = nullptr;  // of the sandbox
+    SourceMap* sources = nullptr;   // of the sandbox, while Lua runs
     bool is_unsupported = false;    // the scene failed for a file that is right but not supported
+    bool z_up = false;              // the scene's axis, which some defaults follow
+    bool up_mattered = false;       // one of them was used
+
+    const Part* latest_part = nullptr;
 
     // What the latest call from Lua left, kept here so that it outlives every C++ frame.
     SceneResult result;
@@ -128,6 +141,8 @@ private:
     const std::map<std::string, std::string>& defines_;
     const SceneFiles files_;
     std::map<std::string, ClosedMeshPtr> models_;  // by name
+    std::map<std::string, Part> parts_;            // by path, without links
+    std::size_t part_text_bytes_ = 0;
     std::vector<std::string> notes_, files_read_;
     std::map<std::string, std::string> parameters_;
     std::deque<SceneObject> objects_;
@@ -165,7 +180,7 @@ struct SceneFunction {
 };
 
 /// The tables of functions: shapes, operators and placements; quadrics and free forms; materials,
-/// textures and lights; models.
+/// textures, lights and views; models.
 const std::vector<SceneFunction>& model_functions();
 const std::vector<SceneFunction>& shape_functions();
 const std::vector<SceneFunction>& free_form_functions();
@@ -177,6 +192,12 @@ const Quadric& ordinary(const Quadric& quadric, const char* function);
 /// Q + Σ fᵢRᵢ as a solid. Throws where Q's sign is everywhere the same, and no perturbation could change it.
 Solid solid_of_free_form(const std::string& function, const Quadric& base, std::vector<Perturbation> perturbations,
                          int line);
+
+/// include(name), as a C function of Lua; see open_scene_functions.
+int include_part(lua_State* lua);
+
+/// Calls the function's body with the arguments on the stack and pushes its result; raises what went wrong as an error.
+int call_scene_function(lua_State* lua, const SceneFunction& function);
 
 /// Registers all functions; the sandbox's host must be a SceneBuilder. May raise Lua errors.
 void open_scene_functions(lua_State* lua);

@@ -1,4 +1,5 @@
-// Materials, textures, lights and skies of a scene.
+// Materials, textures, lights, skies and views of a scene.
+#include "raytracer/scene/frame_camera.hpp"
 #include "raytracer/scene/scene_functions.hpp"
 
 namespace deburr {
@@ -222,6 +223,17 @@ SceneResult environment(SceneCall& call) {
     return call.make(background);
 }
 
+SceneResult frame(SceneCall& call) {
+    const Fields fields(fields_argument(call), call.name, {"from", "fov"});
+    Framing framing = default_framing(call.builder.z_up);
+    if (const auto* given = fields.find("from"))
+        framing.from = direction(*given, fields.location("from"));
+    else
+        call.builder.up_mattered = true;
+    if (const auto* given = fields.find("fov")) framing.fov = view_angle(*given, fields.location("fov"));
+    return call.make(framing);
+}
+
 }  // namespace
 
 const std::vector<SceneFunction>& material_functions() {
@@ -241,6 +253,7 @@ const std::vector<SceneFunction>& material_functions() {
         {Kind::global, "sphere_light", "", sphere_light},
         {Kind::global, "sky", "", sky},
         {Kind::global, "environment", "", environment},
+        {Kind::global, "frame", "", frame},
     };
     return functions;
 }

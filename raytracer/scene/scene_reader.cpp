@@ -10,7 +10,10 @@
 #include <memory>
 
 #include "bounds/canonical_solids.hpp"
+#include "raytracer/scene/default_light.hpp"
+#include "raytracer/scene/frame_camera.hpp"
 #include "raytracer/scene/scene_functions.hpp"
+#include "raytracer/scene/scene_text.hpp"
 #include "raytracer/scene/source_lines.hpp"
 #include "raytracer/util/errors.hpp"
 #include "raytracer/util/printable.hpp"
@@ -18,23 +21,30 @@
 namespace deburr {
 namespace {
 
-constexpr std::size_t largest_file = std::size_t(16) << 20;
 constexpr int largest_side = 65'536;
 constexpr int max_bounces = 1'000;
 
 // Up and view this nearly parallel leave no direction for the picture's side. Chosen.
 constexpr double min_sine = 1e-6;
 
+bool read_up(const LuaValue& value) {
+    const auto* name = std::get_if<std::string>(&value);
+    if (!name || (*name != "y" && *name != "z")) expected("up", "'y' or 'z'", value);
+    return *name == "z";
+}
+
 void read_image(const LuaValue& value, Scene& scene) {
-    const Fields fields(value, "image", {"width", "height", "spp", "bounces", "caustics"});
+    const Fields fields(value, "image", {"width", "height", "spp", "bounces", "caustics", "exposure"});
     const auto read = [&](const char* name, int& number, int least, int most) {
         if (const auto* given = fields.find(name)) number = integer(*given, fields.location(name), least, most);
     };
     read("width", scene.width, 1, largest_side);
     read("height", scene.height, 1, largest_side);
-    read("spp", scene.spp, 1, max_samples);
+    if (const auto* given = fields.find("spp")) scene.spp = integer(*given, fields.location("spp"), 1, max_samples);
     read("bounces", scene.bounces, 0, max_bounces);
     if (const auto* given = fields.find("caustics")) scene.caustics = boolean(*given, fields.location("caustics"));
+    if (const auto* given = fields.find("exposure"))
+        scene.exposure = number_between(*given, fields.location("exposure"), -max_exposure, max_exposure);
 }
 
 void read_camera(const LuaValue& value, Camera& camera) {
@@ -45,18 +55,23 @@ void read_camera(const LuaValue& value, Camera& camera) {
     read("eye", camera.eye);
     read("target", camera.target);
     if (const auto* given = fields.find("up")) camera.up = direction(*given, fields.location("up"));
-    if (const auto* given = fields.find("fov")) {
-        const double* fov = std::get_if<double>(given);
-        if (!fov || !(*fov > 0 && *fov < 180))
-            expected(fields.location("fov"), "a number of degrees between 0 and 180", *given);
-        camera.fov = *fov;
-    }
+    if (const auto* given = fields.find("fov")) camera.fov = view_angle(*given, fields.location("fov"));
     const Vec3 view = camera.target - camera.eye;
     const double distance = glm::length(view);
     if (!(distance > 0 && std::isfinite(distance)))
         expected(fields.location("target"), "a point other than the eye", fields.get("target"));
     if (!(glm::length(glm::cross(view / distance, camera.up)) > min_sine))
         expected(fields.location("up"), "a direction not parallel to the view", fields.get("up"));
+}
+
+void read_view(const LuaValue& value, Scene& scene) {
+    const SceneObject* object = as_object(value);
+    if (const auto* framing = as<Framing>(object))
+        scene.framing = *framing;
+    else if (!as_table(value))
+        expected("camera", "a table of named fields or frame{…}", value);
+    else
+        read_camera(value, scene.camera);
 }
 
 void read_background(const LuaValue& value, const char* name, Background& background) {
@@ -99,32 +114,28 @@ void read_solids(const LuaValue& value, SceneBuilder& builder, Scene& scene) {
                                              count_text(half_spaces)));
 }
 
-// A scene that says nothing about light is lit from over the viewer's left shoulder.
-void add_default_light(Scene& scene) {
-    const Camera& camera = scene.camera;
-    const Vec3 view = glm::normalize(camera.target - camera.eye);
-    const Vec3 right = glm::normalize(glm::cross(view, camera.up)), up = glm::cross(right, view);
-    Light light;
-    light.kind = Light::Kind::directional;
-    light.direction = glm::normalize(view + 0.5 * right - 0.8 * up);
-    light.power = 2.5;  // a white matte face turned to it gets 0.8 · 2.5/π = 0.64
-    scene.lights.push_back(light);
-    scene.ambient = Vec3(0.2);
-}
-
 void read_table(const LuaValue& value, SceneBuilder& builder, Scene& scene) {
     if (!as_table(value)) expected("scene", "the chunk to return a table, return { solids = { … } }", value);
-    const Fields fields(value, "", {"image", "camera", "lights", "background", "environment", "ambient", "solids"});
+    const Fields fields(value, "", {"up", "image", "camera", "lights", "background", "environment", "ambient", "solids"});
+    if (const auto* given = fields.find("up")) scene.z_up = read_up(*given);
+    scene.camera.up = up_axis(scene.z_up);
+    if (scene.z_up) scene.camera.eye = default_framing(true).from;
     if (const auto* given = fields.find("image")) read_image(*given, scene);
-    if (const auto* given = fields.find("camera")) read_camera(*given, scene.camera);
+    if (const auto* given = fields.find("camera"))
+        read_view(*given, scene);
+    else
+        scene.framing = default_framing(scene.z_up);
     if (const auto* given = fields.find("background")) read_background(*given, "background", scene.background);
     if (const auto* given = fields.find("environment"))
         read_background(*given, "environment", scene.environment.emplace());
+    scene.background.z_up = scene.z_up;
+    if (scene.environment) scene.environment->z_up = scene.z_up;
     if (const auto* given = fields.find("ambient")) scene.ambient = color(*given, "ambient", infinity);
     if (const auto* given = fields.find("lights"))
         read_lights(*given, scene.lights);
     else if (!fields.find("ambient"))
-        add_default_light(scene);
+        add_default_light(scene, fields.find("background") || fields.find("environment"));
+    if (scene.default_light) aim_default_light(scene);
     read_solids(fields.get("solids"), builder, scene);
 }
 
@@ -145,49 +156,18 @@ void check_defines(const std::map<std::string, std::string>& defines,
     }
 }
 
-std::string file_text(const std::string& file) {
-    std::error_code ignored;
-    if (std::filesystem::is_directory(file, ignored))
-        throw SceneError(one_line("expected a scene, got a directory", file));
-    const auto close = [](std::FILE* f) { std::fclose(f); };
-    const std::unique_ptr<std::FILE, decltype(close)> input(std::fopen(file.c_str(), "rb"), close);
-    if (!input) throw SceneError(one_line(std::string("expected a scene, got: ") + std::strerror(errno), file));
-    std::string text;
-    char buffer[65'536];
-    while (const std::size_t size = std::fread(buffer, 1, sizeof buffer, input.get())) {
-        text.append(buffer, size);
-        if (text.size() > largest_file)
-            throw SceneError(
-                one_line(fmt::format("expected at most {} MiB of text, got more", largest_file >> 20), file));
-    }
-    if (std::ferror(input.get()))
-        throw SceneError(one_line(std::string("expected a scene, got: ") + std::strerror(errno), file));
-    return text;
-}
+struct SceneSource {
+    const std::string& text;
+    const std::string& file;
+    const std::map<std::string, std::string>& defines;
+    const std::vector<std::string>& model_folders;
+};
 
-// Lua would stop at a NUL in silence or speak of symbols.
-void check_text(const std::string& text, const std::string& file) {
-    int line = 1;
-    for (const char c : text) {
-        if (c == '\n') ++line;
-        const auto code = static_cast<unsigned char>(c);
-        if (code >= ' ' || (c >= '\t' && c <= '\r')) continue;
-        throw SceneError(one_line(
-            fmt::format("{}:{}: expected text, got binary data (a byte {})", file_mark, line, int(code)), file));
-    }
-}
-
-}  // namespace
-
-Scene read_scene_text(const std::string& given, const std::string& file,
-                      const std::map<std::string, std::string>& defines, const SandboxLimits& limits,
-                      const std::vector<std::string>& model_folders) {
-    check_text(given, file);
-    std::string text = given;
-    if (text.compare(0, 3, "\xEF\xBB\xBF") == 0) text.erase(0, 3);  // byte order mark
-    if (text.compare(0, 1, "#") == 0) text.insert(0, "--");         // #!, as the lua command allows
-
+// A run of the scene with z or y up: whether that mattered is told besides.
+Scene run_scene(const SceneSource& source, const SandboxLimits& limits, bool z_up, bool& up_mattered) {
+    const auto& [text, file, defines, model_folders] = source;
     SceneBuilder builder(defines, SceneFiles(file, model_folders), limits.parts);
+    builder.z_up = z_up;
     Sandbox sandbox(limits, &builder);
     lua_State* lua = nullptr;
     try {
@@ -219,14 +199,35 @@ Scene read_scene_text(const std::string& given, const std::string& file,
     }
     scene.parameters = builder.parameters();
     scene.materials = builder.materials();
+    scene.sources = sandbox.sources();
     scene.notes = builder.notes();
     scene.model_files = builder.files();
+    up_mattered = builder.up_mattered;
+    return scene;
+}
+
+}  // namespace
+
+Scene read_scene_text(const std::string& given, const std::string& file,
+                      const std::map<std::string, std::string>& defines, const SandboxLimits& limits,
+                      const std::vector<std::string>& model_folders) {
+    const std::string text = scene_text(given, file);
+    const SceneSource source{text, file, defines, model_folders};
+    bool up_mattered = false;
+    Scene scene = run_scene(source, limits, false, up_mattered);
+    if (!scene.z_up || !up_mattered) return scene;
+    // A scene says which way is up when its prisms are made. It cannot know the time nor remember: with another axis
+    // it does the same again.
+    SandboxLimits again = limits;
+    again.mute = true;
+    scene = run_scene(source, again, true, up_mattered);
+    if (!scene.z_up) throw SceneError(one_line("up: expected one that does not depend on itself", file));
     return scene;
 }
 
 Scene read_scene(const std::string& file, const std::map<std::string, std::string>& defines,
                  const SandboxLimits& limits, const std::vector<std::string>& model_folders) {
-    return read_scene_text(file_text(file), file, defines, limits, model_folders);
+    return read_scene_text(text_of_file(file), file, defines, limits, model_folders);
 }
 
 }  // namespace deburr

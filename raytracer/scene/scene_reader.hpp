@@ -3,6 +3,9 @@
 // Whatever is wrong with the file, the chunk or its table throws SceneError (lua_sandbox.hpp) with
 // one line: `stapler.lua:12: radius: expected a number >= 0, got -0.1`. Not promised: the line of
 // a field of the returned table that is written more than once; it may be that of the table.
+//
+// A camera that follows from the solids' bounds is not placed yet: frame_camera does it, when the picture's shape is
+// known.
 #pragma once
 #include <map>
 #include <string>

@@ -1,7 +1,10 @@
 // Shapes, operators and placements of a scene.
 #include <fmt/format.h>
 
+#include <optional>
+
 #include "raytracer/scene/convex_hull.hpp"
+#include "raytracer/scene/polygon.hpp"
 #include "raytracer/scene/scene_functions.hpp"
 
 namespace deburr {
@@ -17,7 +20,8 @@ constexpr std::int64_t work_per_hull_point = 2'500;
 // it.
 constexpr std::size_t bytes_per_hull_point = 1'000;
 
-constexpr std::size_t max_polygon_points = 4'096;  // the check for convexity takes its square
+constexpr std::size_t max_polygon_points = 4'096;  // the check that no sides cross takes its square
+constexpr std::size_t max_holes = 4'096;
 
 const Density* as_density(const LuaValue& value) { return as<Density>(as_object(value)); }
 
@@ -41,11 +45,20 @@ const Density& need_density(const LuaValue& value, const char* location) {
     const Density* density = as_density(value);
     if (!density && as<PlacedModel>(as_object(value)))
         expected(location, "a density; convolved(r, m) rounds a model, sharp(m) leaves it as it is", value);
+    if (as<Quadric>(as_object(value)))
+        throw BadValue(location,
+                       "expected a density, got a quadric; it has no edges to round: leave it as it is, and join "
+                       "it to rounded solids by | & -");
+    if (as<Solid>(as_object(value)))
+        throw BadValue(
+            location,
+            "expected a density, got a solid, which is rounded already: join densities first, then round, as "
+            "in rounded(r, a | b)");
     if (!density) expected(location, "a density", value);
     return *density;
 }
 
-const std::vector<LuaValue>& need_list(const LuaValue& value, const char* location, const char* of_what,
+const std::vector<LuaValue>& need_list(const LuaValue& value, const std::string& location, const char* of_what,
                                        std::size_t most) {
     const LuaTable* table = as_table(value);
     if (!table || !table->fields.empty()) expected(location, std::string("a list of ") + of_what, value);
@@ -105,20 +118,62 @@ SceneResult convex(SceneCall& call) {
     return product_of(call, convex_hull(std::move(points)));
 }
 
-SceneResult make_prism(SceneCall& call) {
-    call.at_most(3);
-    const std::vector<LuaValue>& given = need_list(call.argument(0), call.name, "points", max_polygon_points);
-    call.builder.spend(std::int64_t(given.size() * given.size()));
-    std::vector<glm::dvec2> polygon;
+std::vector<Vec2> polygon_of(SceneCall& call, const LuaValue& value, const std::string& location, PrismAxis axis) {
+    const std::vector<LuaValue>& given = need_list(value, location, "points", max_polygon_points);
+    // Each side is compared with each.
+    call.builder.spend(2 * std::int64_t(given.size()) * std::int64_t(given.size()));
+    call.builder.keep_half_spaces(2 * given.size() + 2);  // and the operators between them
+    constexpr const char* pairs[] = {"two numbers {y, z}", "two numbers {x, z}", "two numbers {x, y}"};
+    std::vector<Vec2> polygon;
     for (const LuaValue& point : given) {
-        const std::string location = item(call.name, polygon.size());
+        const std::string at = item(location, polygon.size());
         const LuaTable* pair = as_table(point);
-        if (!pair || !pair->fields.empty() || pair->list.size() != 2) expected(location, "two numbers {x, z}", point);
-        polygon.emplace_back(number(pair->list[0], location), number(pair->list[1], location));
+        if (!pair || !pair->fields.empty() || pair->list.size() != 2) expected(at, pairs[int(axis)], point);
+        polygon.emplace_back(number(pair->list[0], at), number(pair->list[1], at));
     }
-    const double y0 = number(call.argument(1), call.location("y0"));
-    const double y1 = number(call.argument(2), call.location("y1"));
-    return product_of(call, prism(std::move(polygon), y0, y1));
+    return polygon;
+}
+
+PrismAxis prism_axis(const LuaValue& value, const std::string& location) {
+    const auto* name = std::get_if<std::string>(&value);
+    if (name && *name == "x") return PrismAxis::x;
+    if (name && *name == "y") return PrismAxis::y;
+    if (name && *name == "z") return PrismAxis::z;
+    expected(location, "'x', 'y' or 'z'", value);
+}
+
+SceneResult make_prism(SceneCall& call) {
+    call.at_most(4);
+    PrismAxis axis = call.builder.z_up ? PrismAxis::z : PrismAxis::y;
+    const LuaValue* holes = nullptr;
+    std::optional<Fields> options;
+    if (call.arguments.size() > 3)
+        options.emplace(call.arguments[3], call.location("options"),
+                        std::initializer_list<const char*>{"axis", "holes"});
+    const LuaValue* given_axis = options ? options->find("axis") : nullptr;
+    if (given_axis)
+        axis = prism_axis(*given_axis, options->location("axis"));
+    else
+        call.builder.up_mattered = true;
+    if (options) holes = options->find("holes");
+
+    const std::vector<Vec2> polygon = polygon_of(call, call.argument(0), call.name, axis);
+    const double low = number(call.argument(1), call.location("low"));
+    const double high = number(call.argument(2), call.location("high"));
+    SceneBuilder::check_size(double(polygon.size()) + 2);
+    Density body = prism(polygon, low, high, axis);
+    if (!holes) return call.make(std::move(body));
+    const std::string location = options->location("holes");
+    for (std::size_t i = 0; const LuaValue& hole : need_list(*holes, location, "lists of points", max_holes)) {
+        const std::string at = item(location, i++);
+        const std::vector<Vec2> points = polygon_of(call, hole, at, axis);
+        try {
+            body = std::move(body) & ~raised_polygon(points, axis);
+        } catch (const std::runtime_error& error) {
+            throw BadValue(at, error.what());
+        }
+    }
+    return call.make(std::move(body));
 }
 
 SceneResult rounded(SceneCall& call) {

@@ -77,6 +77,8 @@ std::vector<FieldTable> field_tables() {
         FieldTable table{name, rows, ""};
         if (part.level == 2)
             table = {"", rows, "return { FIELDS }"};
+        else if (name == "frame")
+            table.scene = "return { camera = frame{ FIELDS }, solids = { cube() } }";
         else if (topic == "Scene")
             table.scene = "return { " + name + " = { FIELDS }, solids = { cube() } }";
         else if (name == "sky" || name == "environment")
@@ -109,10 +111,11 @@ std::string scene_with(const FieldTable& table, const std::string& fields) {
 // All that a scene holds besides densities, as text.
 std::string summary(const Scene& s) {
     const auto text = [](Vec3 v) { return fmt::format("({} {} {}) ", v.x, v.y, v.z); };
-    std::string all = fmt::format("{} {} {} {} ", s.width, s.height, s.spp, s.bounces) + text(s.camera.eye) +
-                      text(s.camera.target) + text(s.camera.up) + fmt::format("{} ", s.camera.fov) + text(s.ambient) +
-                      text(s.background.color) + text(s.background.horizon) + text(s.background.zenith) +
-                      fmt::format("{} {} ", s.background.sky, s.caustics);
+    std::string all = fmt::format("{} {} {} {} {} ", s.width, s.height, s.spp.value_or(0), s.bounces, s.exposure) +
+                      text(s.camera.eye) + text(s.camera.target) + text(s.camera.up) +
+                      fmt::format("{} ", s.camera.fov) + text(s.ambient) + text(s.background.color) +
+                      text(s.background.horizon) + text(s.background.zenith) + fmt::format("{} {} ", s.background.sky, s.caustics);
+    if (s.framing) all += text(glm::normalize(s.framing->from)) + fmt::format("{} ", s.framing->fov);
     for (const Light& l : s.lights)
         all += fmt::format("{} ", int(l.kind)) + text(l.position) + text(l.direction) + text(l.u) + text(l.v) +
                text(l.color) + fmt::format("{} {} {} {} ", l.power, l.samples, l.radius, l.visible);
@@ -145,7 +148,8 @@ std::string argument(const std::string& function, const std::string& name) {
         {"base", "ellipsoid{}"},
         {"perturbations", "{}"},
         {"points", "{ {0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1} }"},
-        {"y0", "0"}};
+        {"low", "0"},
+        {"options", "{}"}};
     const auto found = values.find(name);
     return found == values.end() ? "1" : found->second;
 }
@@ -218,7 +222,7 @@ TEST_CASE("docs/scenes.md has the fields that the program knows, and no others")
         };
         CHECK(split(on_page) == split(error.substr(from, error.find(end) - from)));
     }
-    CHECK(tables.size() == 3 + 6 + 6 + 2 + 6);  // scene, quadrics, materials, textures, lights with the sky
+    CHECK(tables.size() == 4 + 6 + 6 + 2 + 6);  // scene, quadrics, materials, textures, lights with the sky
 }
 
 TEST_CASE("docs/scenes.md says of every field what the program says that it takes") {
@@ -233,7 +237,7 @@ TEST_CASE("docs/scenes.md says of every field what the program says that it take
             REQUIRE(error.ends_with(end));
             const std::size_t from = error.find(start) + start.size();
             const std::string takes = error.substr(from, error.size() - end.size() - from);
-            if (takes == "a colour, sky{…} or environment{…}") continue;
+            if (takes == "a colour, sky{…} or environment{…}" || takes == "a table of named fields or frame{…}") continue;
             CHECK(row.cell("takes").substr(0, takes.size()) == takes);
         }
 }

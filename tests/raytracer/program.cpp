@@ -96,7 +96,7 @@ std::string cube_scene() {
     return R"(
 local r = param("r", 0.1)
 return {
-  image = { width = 60, height = 40 },
+  image = { width = 60, height = 40, spp = 1 },
   camera = { eye = {3, 2.5, 4}, target = {0.5, 0.5, 0.5}, up = {0, 1, 0}, fov = 30 },
   lights = { point_light{ position = {4, 6, 3}, color = {1, 1, 1}, power = 400 } },
   background = {0.6, 0.7, 0.8},

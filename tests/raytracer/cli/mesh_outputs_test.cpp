@@ -74,6 +74,33 @@ TEST_CASE("mesh --up z turns the scene's y into the files' z, and a GLB's not") 
     CHECK(box("b.glb", {"--up", "z"}).hi == Vec3(3, 7, 4));
 }
 
+TEST_CASE("a scene with z up goes out as it is, and a GLB of it y-up") {
+    const Folder folder;
+    write_file(folder / "s.lua", "return { up = 'z', solids = { box({-1, 2, 0}, {3, 7, 4}) } }");
+    const auto box = [&](const std::string& name, const std::vector<std::string>& more) {
+        std::vector<std::string> words{"mesh", folder / "s.lua", "-o", folder / name};
+        words.insert(words.end(), more.begin(), more.end());
+        REQUIRE(run(words).code == 0);
+        Assimp::Importer importer;
+        const aiScene* scene = importer.ReadFile(folder / name, aiProcess_PreTransformVertices);
+        REQUIRE(scene != nullptr);
+        deburr::Box box;
+        for (unsigned v = 0; v < scene->mMeshes[0]->mNumVertices; ++v) {
+            const aiVector3D x = scene->mMeshes[0]->mVertices[v];
+            box = hull(box, {deburr::Vec3(x.x, x.y, x.z), deburr::Vec3(x.x, x.y, x.z)});
+        }
+        return box;
+    };
+    using deburr::Vec3;
+    CHECK(box("a.stl", {}).hi == Vec3(3, 7, 4));
+    CHECK(box("a.stl", {"--up", "z"}).hi == Vec3(3, 7, 4));
+    const deburr::Box y = box("a.stl", {"--up", "y"}), glb = box("b.glb", {});
+    CHECK(y.lo == Vec3(-1, 0, -7));
+    CHECK(y.hi == Vec3(3, 4, -2));
+    CHECK(glb.lo == y.lo);
+    CHECK(glb.hi == y.hi);
+}
+
 TEST_CASE("an MTL is neither another output nor the scene") {
     const Folder folder;
     const std::string scene = "return { solids = { rounded(0.1, cube()) } }";

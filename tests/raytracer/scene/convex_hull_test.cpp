@@ -4,6 +4,7 @@
 #include <random>
 
 #include "catch.hpp"
+#include "raytracer/scene/polygon.hpp"
 
 using namespace deburr;
 
@@ -69,7 +70,7 @@ TEST_CASE("a turned cylinder of n sides has n + 2 faces") {
         const auto hull = convex_hull(points);
         CHECK(hull.size() == std::size_t(n) + 2);
         check_holds(hull, points, 4);
-        CHECK(prism(polygon, -1, 2).size() == std::size_t(n) + 2);
+        CHECK(prism(polygon, -1, 2).node().children().size() == std::size_t(n) + 2);
     }
 }
 

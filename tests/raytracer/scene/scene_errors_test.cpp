@@ -67,21 +67,37 @@ TEST_CASE("shapes say what they expect") {
         {"prism({ {0,0}, {1,0} }, 0, 1)", "s.lua:1: prism: expected a polygon of at least 3 different points, got 2"},
         {"prism({ {0,0}, {1,0}, {2,0} }, 0, 1)",
          "s.lua:1: prism: expected a polygon with an area, got points on one line"},
-        {"prism({ {0,0}, {2,0}, {0.5,0.5}, {0,2} }, 0, 1)",
-         "s.lua:1: prism: expected a convex polygon, got a corner to the inside at "
-         "(0.5, 0.5)"},
-        {"prism({ {0,0}, {1,0}, {1,1} }, 1, 1)", "s.lua:1: prism: expected y0 < y1, got 1 and 1"},
+        {"prism({ {0,0}, {1,0}, {1,1} }, 1, 1)", "s.lua:1: prism: expected low < high, got 1 and 1"},
+        {"prism({ {0,0}, {2,2}, {2,0}, {0,2} }, 0, 1)",
+         "s.lua:1: prism: expected a polygon that does not meet itself, got sides that cross at (1, 1)"},
+        {"prism({ {0,0}, {2,0}, {1,1}, {2,2}, {0,2}, {1,1} }, 0, 1)",
+         "s.lua:1: prism: expected a polygon that does not meet itself, got the point (1, 1) twice"},
+        {"prism({ {0,0}, {2,0}, {2,2}, {1,0}, {0,2} }, 0, 1)",
+         "s.lua:1: prism: expected a polygon that does not meet itself, got the point (1, 0) on another side"},
+        {"prism({ {0,0}, {2,0}, {2,1}, {3,1}, {2.5,1}, {2,2} }, 0, 1)",
+         "s.lua:1: prism: expected a polygon that does not meet itself, got sides that turn back at (3, 1)"},
+        {"prism({ {0,0}, {1,0}, {1,1} }, 0, 1, { axis = 'w' })",
+         "s.lua:1: prism: options.axis: expected 'x', 'y' or 'z', got 'w'"},
+        {"prism({ {0,0}, {1,0}, {1,1} }, 0, 1, { hole = {} })",
+         "s.lua:1: prism: options.hole: expected one of the fields axis, holes, got 'hole'"},
+        {"prism({ {0,0}, {1,0}, {1,1} }, 0, 1, { holes = { { {0.5,0.2}, {0.6,0.2} } } })",
+         "s.lua:1: prism: options.holes[1]: expected a polygon of at least 3 different points, got 2"},
         {"prism({ {0,0}, {1,0,0}, {1,1} }, 0, 1)", "s.lua:1: prism[2]: expected two numbers {x, z}, got {1, 0, 0}"},
-        {"prism({ {0,0}, {1,0}, {1,1} }, 0)", "s.lua:1: prism: y1: expected a finite number, got nothing"},
+        {"prism({ {0,0}, {1,0}, {1,1} }, 0)", "s.lua:1: prism: high: expected a finite number, got nothing"},
         {"rounded(-0.1, cube())", "s.lua:1: rounded: radius: expected a number >= 0, got -0.1"},
         {"rounded(0/0, cube())", "s.lua:1: rounded: radius: expected a number >= 0, got nan"},
         {"rounded(0.1)", "s.lua:1: rounded: expected a density, got nothing"},
         {"convolved(0, cube())", "s.lua:1: convolved: radius: expected a number > 0, got 0"},
-        {"convolved(0.1, rounded(0.1, cube()))", "s.lua:1: convolved: expected a density or a model, got a solid"},
+        {"convolved(0.1, rounded(0.1, cube()))",
+         "s.lua:1: convolved: expected a density, got a solid, which is rounded already: join densities first, then "
+         "round, "
+         "as in rounded(r, a | b)"},
         {"convolved(0.1, cube() | ~cube():radius(0.2))",
          "s.lua:1: convolved: expected a density without radii, got one with :radius(); one ball rounds all of it"},
         {"rounded(cube(), 0.1)", "s.lua:1: rounded: radius: expected a number >= 0, got a density"},
-        {"sharp(sharp(cube()))", "s.lua:1: sharp: expected a density or a model, got a solid"},
+        {"sharp(sharp(cube()))",
+         "s.lua:1: sharp: expected a density, got a solid, which is rounded already: join densities first, then round, "
+         "as in rounded(r, a | b)"},
     })));
 }
 
@@ -126,15 +142,24 @@ TEST_CASE("quadrics, perturbations and free forms say what they expect") {
          "s.lua:1: solids[1]: expected a solid or a density, got a perturbation"},
         {"local a = ellipsoid{} + ellipsoid{}",
          "s.lua:1: operator +: expected densities on both sides (solids have | & -), got a quadric"},
-        {"rounded(0.1, ellipsoid{})", "s.lua:1: rounded: expected a density, got a quadric"},
+        {"rounded(0.1, ellipsoid{})",
+         "s.lua:1: rounded: expected a density, got a quadric; it has no edges to round: leave it as it is, and join "
+         "it to "
+         "rounded solids by | & -"},
+        {"rounded(0.1, rounded(0.1, cube()))",
+         "s.lua:1: rounded: expected a density, got a solid, which is rounded already: join densities first, then "
+         "round, "
+         "as in rounded(r, a | b)"},
     })));
 }
 
-TEST_CASE("a star, which turns one way, is not convex") {
+TEST_CASE("a star, which turns one way, meets itself") {
     const std::string star =
         "local p = {} for i = 0, 4 do p[i + 1] = {math.cos(i * 0.8 * math.pi), math.sin(i * 0.8 * "
         "math.pi)} end\n";
-    CHECK(error_of(star + "prism(p, 0, 1)") == "s.lua:2: prism: expected a convex polygon, got one whose sides cross");
+    CHECK(error_of(star + "prism(p, 0, 1)")
+              .find("s.lua:2: prism: expected a polygon that does not meet itself, got sides "
+                    "that cross at (") == 0);
 }
 
 TEST_CASE("operators and methods say what they expect") {
@@ -148,7 +173,10 @@ TEST_CASE("operators and methods say what they expect") {
          "s.lua:1: operator -: expected densities or solids on both sides, got a material"},
         {"local a = ~sharp(cube())", "s.lua:1: operator ~: expected a density, got a solid"},
         {"cube():radius(-0.1)", "s.lua:1: radius: expected a number >= 0, got -0.1"},
-        {"sharp(cube()):radius(0.1)", "s.lua:1: radius: expected a density, got a solid"},
+        {"sharp(cube()):radius(0.1)",
+         "s.lua:1: radius: expected a density, got a solid, which is rounded already: join densities first, then "
+         "round, "
+         "as in rounded(r, a | b)"},
         {"cube():radious(0.1)",
          "s.lua:1: expected a method (translate, scale, rotate, mirror, radius, material, name), "
          "got "
@@ -221,13 +249,14 @@ TEST_CASE("the scene's table says what it expects, with the line that writes it"
         {"return {\n solids = { cube(), nil, cube() } }",
          "s.lua:2: scene.solids: expected a list without holes, got item 3 but no item 2"},
         {"return {\n solid = { cube() } }",
-         "s.lua:2: solid: expected one of the fields image, camera, lights, background, "
+         "s.lua:2: solid: expected one of the fields up, image, camera, lights, background, "
          "environment, ambient, solids, "
          "got 'solid'"},
         {"return { cube() }", "s.lua:1: scene: expected a table of named fields, got {a density}"},
         {"return { [true] = 1 }", "s.lua:1: scene: expected names or 1, 2, … as keys, got true"},
         {"return {\n camera = {\n eye = {1, 0, 0}, target = {1, 0, 0} }, solids = { cube() } }",
          "s.lua:3: camera.target: expected a point other than the eye, got {1, 0, 0}"},
+        {"return {\n up = 'x', solids = { cube() } }", "s.lua:2: up: expected 'y' or 'z', got 'x'"},
         {"return { camera = {\n fov = 180 }, solids = { cube() } }",
          "s.lua:2: camera.fov: expected a number of degrees between 0 and 180, got 180"},
         {"return { camera = {\n fov = 0/0 }, solids = { cube() } }",
@@ -239,7 +268,8 @@ TEST_CASE("the scene's table says what it expects, with the line that writes it"
          "s.lua:2: camera.up: expected a direction other than {0, 0, 0}, got {0, 0, 0}"},
         {"return { camera = {\n from = {0, 0, 0} }, solids = { cube() } }",
          "s.lua:2: camera.from: expected one of the fields eye, target, up, fov, got 'from'"},
-        {"return { camera = 3, solids = { cube() } }", "s.lua:1: camera: expected a table of named fields, got 3"},
+        {"return { camera = 3, solids = { cube() } }",
+         "s.lua:1: camera: expected a table of named fields or frame{…}, got 3"},
         {"return { image = {\n width = 0 }, solids = { cube() } }",
          "s.lua:2: image.width: expected a whole number from 1 to 65536, got 0"},
         {"return { image = {\n height = 1.5 }, solids = { cube() } }",

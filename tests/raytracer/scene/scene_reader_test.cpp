@@ -1,7 +1,11 @@
 #include "raytracer/scene/scene_reader.hpp"
 
+#include <numbers>
+
+#include "bounds/bounding_box.hpp"
 #include "bounds/canonical_solids.hpp"
 #include "catch.hpp"
+#include "raytracer/render/lights.hpp"
 
 using namespace deburr;
 
@@ -115,6 +119,38 @@ TEST_CASE("a prism takes either winding, and points along its sides") {
         CHECK(has_face(prism, Vec3(0, 0, 1), 1));
         CHECK(has_face(prism, Vec3(0, 0, -1), 0));
     }
+}
+
+TEST_CASE("a prism along y has points {x, z}, along z {x, y} and along x {y, z}, and without a word the scene's up") {
+    const std::string points = "{ {0,0}, {2,0}, {2,1}, {0,1} }";
+    const auto box_of = [](const Scene& scene) { return bounding_box(flatten(scene.solids.at(0))); };
+    const auto near = [](Vec3 a, Vec3 b) { return glm::distance(a, b) < 1e-6; };
+    const auto body = [&](const std::string& rest, const std::string& up = "") {
+        return box_of(scene_of("return { " + up + " solids = { prism(" + points + ", 5, 6" + rest + ") } }"));
+    };
+    CHECK(near(body("").hi, {2, 6, 1}));
+    CHECK(near(body(", { axis = 'y' }").hi, {2, 6, 1}));
+    CHECK(near(body(", { axis = 'z' }").hi, {2, 1, 6}));
+    CHECK(near(body(", { axis = 'x' }").hi, {6, 2, 1}));
+    CHECK(near(body("", "up = 'z',").hi, {2, 1, 6}));
+    CHECK(near(body(", { axis = 'y' }", "up = 'z',").hi, {2, 6, 1}));
+    CHECK(near(body("", "up = 'y',").hi, {2, 6, 1}));
+}
+
+TEST_CASE("with z up the sky, the camera and a frame turn") {
+    const Scene scene = scene_of("return { up = 'z', background = sky{}, camera = frame{}, solids = { cube() } }");
+    CHECK(scene.background.towards({0, 0, 1}) == scene.background.zenith);
+    CHECK(scene.background.towards({0, 1, 0}) == scene.background.horizon);
+    CHECK(SkyLight(scene.background).mean({0, 0, 1}) ==
+          SkyLight(scene_of("return { background = sky{}, solids = { cube() } "
+                            "}")
+                       .background)
+              .mean({0, 1, 0}));
+    CHECK(scene.camera.up == Vec3(0, 0, 1));
+    CHECK(scene.framing->from == Vec3(3, -4, 2));
+    CHECK(scene_of("return { up = 'z', solids = { cube() } }").framing->from == Vec3(3, -4, 2));
+    CHECK(scene_of("return { up = 'z', camera = { target = {9, 9, 9} }, solids = { cube() } }").camera.up ==
+          Vec3(0, 0, 1));
 }
 
 TEST_CASE("operators on densities build densities and remember the line") {
@@ -260,9 +296,33 @@ TEST_CASE("picture, camera, lights and background") {
 TEST_CASE("a scene of solids alone has a camera and a light") {
     const Scene scene = scene_with("cube()");
     CHECK(scene.camera.fov == Camera{}.fov);
+    CHECK(scene.framing);
     CHECK(scene.lights.size() == 1);
-    CHECK(scene.ambient.x > 0);
+    CHECK(scene.background.sky);
     CHECK(scene_of("return { lights = {}, solids = { cube() } }").lights.empty());
+}
+
+TEST_CASE(
+    "the default light shows white surfaces that face lamp and sky as 0.9, or keeps a third of it beside a bright "
+    "sky") {
+    const auto shown = [](const std::string& fields) {
+        const Scene scene = scene_of("return { " + fields + " solids = { cube() } }");
+        REQUIRE(scene.lights.size() == 1);
+        const SkyLight sky(scene.background);
+        const Vec3 up = scene.ambient + sky.mean({0, 1, 0});
+        return std::pair(scene.lights[0].power / std::numbers::pi, std::max({up.x, up.y, up.z}));
+    };
+    for (const char* fields : {"", "background = 0.3,", "background = 0,", "background = sky{},",
+                               "background = sky{ horizon = 0.1, zenith = {0.2, 0.3, 0.4} },"}) {
+        CAPTURE(fields);
+        const auto [lamp, fill] = shown(fields);
+        CHECK(lamp + fill == Approx(0.9).epsilon(1e-3));
+        CHECK(fill > 0.05);
+        CHECK(lamp >= 0.27);
+    }
+    CHECK(shown("background = 5,").first == Approx(0.27));
+    CHECK(scene_of("return { ambient = 0.1, solids = { cube() } }").lights.empty());
+    CHECK_FALSE(scene_of("return { lights = {}, solids = { cube() } }").background.sky);
 }
 
 TEST_CASE("parameters take the command line's value in the default's type") {

@@ -1,0 +1,31 @@
+#include "raytracer/scene/box_text.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+namespace deburr {
+namespace {
+
+// Slack is some 10⁻⁹ of the largest coordinate.
+double without_slack(double x) {
+    constexpr double digits = 1e8;
+    const double unit = std::pow(10.0, std::ceil(std::log10(std::max(std::abs(x), 1.0))));
+    return std::isfinite(x) ? std::round(x / unit * digits) / digits * unit : x;
+}
+
+std::string text_of(double x) {
+    return std::isfinite(x) ? fmt::format("{:.6g}", without_slack(x) + 0.0) : x > 0 ? "inf" : "-inf";
+}
+
+}  // namespace
+
+std::string box_text(const Box& box) {
+    if (box.empty()) return "empty";
+    std::string ranges[3];
+    for (int k = 0; k < 3; ++k) ranges[k] = fmt::format("[{}, {}]", text_of(box.lo[k]), text_of(box.hi[k]));
+    if (ranges[0] == ranges[1] && ranges[1] == ranges[2]) return ranges[0] + "³";
+    return ranges[0] + " x " + ranges[1] + " x " + ranges[2];
+}
+
+}  // namespace deburr

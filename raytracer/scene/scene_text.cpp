@@ -1,0 +1,54 @@
+#include "raytracer/scene/scene_text.hpp"
+
+#include <fmt/format.h>
+
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+#include <filesystem>
+#include <memory>
+
+#include "raytracer/scene/lua_sandbox.hpp"
+
+namespace deburr {
+
+std::string text_of_file(const std::string& file) {
+    std::error_code ignored;
+    if (std::filesystem::is_directory(file, ignored))
+        throw SceneError(one_line("expected a scene, got a directory", file));
+    const auto close = [](std::FILE* f) { std::fclose(f); };
+    const std::unique_ptr<std::FILE, decltype(close)> input(std::fopen(file.c_str(), "rb"), close);
+    if (!input) throw SceneError(one_line(std::string("expected a scene, got: ") + std::strerror(errno), file));
+    std::string text;
+    char buffer[65'536];
+    while (const std::size_t size = std::fread(buffer, 1, sizeof buffer, input.get())) {
+        text.append(buffer, size);
+        if (text.size() > largest_file)
+            throw SceneError(
+                one_line(fmt::format("expected at most {} MiB of text, got more", largest_file >> 20), file));
+    }
+    if (std::ferror(input.get()))
+        throw SceneError(one_line(std::string("expected a scene, got: ") + std::strerror(errno), file));
+    return text;
+}
+
+// Lua would stop at a NUL in silence or speak of symbols.
+static void check_text(const std::string& text, const std::string& file) {
+    int line = 1;
+    for (const char c : text) {
+        if (c == '\n') ++line;
+        const auto code = static_cast<unsigned char>(c);
+        if (code >= ' ' || (c >= '\t' && c <= '\r')) continue;
+        throw SceneError(one_line(
+            fmt::format("{}:{}: expected text, got binary data (a byte {})", file_mark, line, int(code)), file));
+    }
+}
+
+std::string scene_text(std::string text, const std::string& file) {
+    check_text(text, file);
+    if (text.compare(0, 3, "\xEF\xBB\xBF") == 0) text.erase(0, 3);  // byte order mark
+    if (text.compare(0, 1, "#") == 0) text.insert(0, "--");         // #!, as the lua command allows
+    return text;
+}
+
+}  // namespace deburr

@@ -1,0 +1,81 @@
+#include "raytracer/render/sample_count.hpp"
+
+#include <cmath>
+
+#include "catch.hpp"
+#include "raytracer/program.hpp"
+#include "raytracer/scene/frame_camera.hpp"
+#include "raytracer/scene/scene_reader.hpp"
+#include "raytracer/trace/implicit_tracer.hpp"
+
+using namespace deburr;
+using namespace deburr::test;
+
+namespace {
+
+struct Case {
+    Scene scene;
+    ImplicitTracer tracer;
+
+    explicit Case(const std::string& text) : scene(framed(text)), tracer(scene.solids) {}
+    static Scene framed(const std::string& text) {
+        Scene scene = read_scene_text(text, "s.lua");
+        frame_camera(scene, 1.5);
+        return scene;
+    }
+    int count(int width = 120, int height = 80, double exposure = 0) const {
+        return sample_count(scene, tracer, {.width = width, .height = height}, exposure);
+    }
+};
+
+}  // namespace
+
+TEST_CASE("a picture gets as many samples as its noise asks for") {
+    const std::string solids = "solids = { rounded(0.1, cube()), halfspace({0, 1, 0}, 0) }";
+    const Case plain("return { lights = { directional_light{ direction = {1, -2, -1} } }, " + solids + " }");
+    const Case noisy(
+        "return { lights = { area_light{ position = {3, 4, 3}, u = {2, 0, 0}, v = {0, 2, 0}, power = 400 }, "
+        "area_light{ position = {3, 4, 3}, u = {-4, 0, 0}, v = {0, 4, -4}, power = 900 } }, " +
+        solids + " }");
+    CHECK(plain.count() >= min_sample_count);
+    CHECK(noisy.count() > plain.count());
+    CHECK(noisy.count() <= max_sample_count);
+    CHECK(noisy.count() == noisy.count());
+    // A picture that is all black or all white shows no noise.
+    CHECK(noisy.count(120, 80, -20) == min_sample_count);
+    // Of many pixels fewer.
+    CHECK(noisy.count(20'000, 10'000) == min_sample_count);
+    CHECK(noisy.count(1, 1) >= min_sample_count);
+}
+
+TEST_CASE("render without --spp is render with the number that it finds, and a crop has the same") {
+    const Folder folder;
+    const std::string scene = folder / "s.lua", a = folder / "a.exr", b = folder / "b.exr", c = folder / "c.exr";
+    write_file(scene,
+               "return { image = { width = 48, height = 32 }, "
+               "solids = { rounded(0.1, cube()), halfspace({0, 1, 0}, 0) } }");
+    const std::vector<std::string> epoch = {"SOURCE_DATE_EPOCH=0"};
+    const Outcome found = run({"render", scene, "-v", "-o", a}, epoch);
+    REQUIRE(found.code == 0);
+    const std::size_t at = found.err.find(" samples per pixel");
+    REQUIRE(at != std::string::npos);
+    const std::string number =
+        found.err.substr(found.err.rfind(' ', at - 1) + 1, at - found.err.rfind(' ', at - 1) - 1);
+    CHECK(std::stoi(number) >= min_sample_count);
+    REQUIRE(run({"render", scene, "--spp", number, "-o", b}, epoch).code == 0);
+    CHECK(read_file(a) == read_file(b));
+    const Outcome crop = run({"render", scene, "-v", "--crop", "8x8+0+0", "-o", c}, epoch);
+    CHECK(crop.err.find(" " + number + " samples per pixel") != std::string::npos);
+}
+
+TEST_CASE("--draft is one sample, whatever the scene says") {
+    const Folder folder;
+    const std::string scene = folder / "s.lua", a = folder / "a.png", b = folder / "b.png";
+    write_file(scene, "return { image = { width = 48, height = 32, spp = 7 }, solids = { cube() } }");
+    const std::vector<std::string> epoch = {"SOURCE_DATE_EPOCH=0"};
+    REQUIRE(run({"render", scene, "--draft", "-o", a}, epoch).code == 0);
+    REQUIRE(run({"render", scene, "--spp", "1", "-o", b}, epoch).code == 0);
+    CHECK(read_file(a) == read_file(b));
+    CHECK(run({"render", scene, "-v", "-o", a}).err.find(" 7 samples per pixel") != std::string::npos);
+    CHECK(run({"render", scene, "--draft", "--spp", "4", "-o", a}).code == 2);
+}

@@ -1,0 +1,130 @@
+#include "raytracer/scene/frame_camera.hpp"
+
+#include <fmt/format.h>
+
+#include <numbers>
+
+#include "catch.hpp"
+#include "raytracer/render/camera.hpp"
+#include "raytracer/scene/scene_reader.hpp"
+
+using namespace deburr;
+
+namespace {
+
+constexpr int width = 600, height = 380;
+
+Scene scene_of(const std::string& text) { return read_scene_text(text, "s.lua"); }
+
+Scene framed(const std::string& solids, const std::string& camera = "") {
+    Scene scene = scene_of("return { " + camera + " solids = { " + solids + " } }");
+    REQUIRE(frame_camera(scene, double(width) / height));
+    return scene;
+}
+
+// Where the points are seen: a box in pixels, and the depths.
+Box seen(const Camera& camera, const std::vector<Vec3>& points, int w = width, int h = height) {
+    const PinholeCamera view(camera, w, h);
+    Box box;
+    for (const Vec3 p : points) {
+        const Vec3 at = view.project(p);
+        box = hull(box, {at, at});
+    }
+    return box;
+}
+
+std::vector<Vec3> corners(Vec3 lo, Vec3 hi) {
+    std::vector<Vec3> all;
+    for (int i = 0; i < 8; ++i) all.push_back({(i & 1 ? hi : lo).x, (i & 2 ? hi : lo).y, (i & 4 ? hi : lo).z});
+    return all;
+}
+
+}  // namespace
+
+TEST_CASE("a framed box fills the picture in one direction with even margins, whatever its size and place") {
+    for (const char* box : {"cube()", "box({1000, -3, 5}, {1400, 100, 30})", "cube():scale(1e-3):translate(3, 4, 5)",
+                            "box({0, 0, 0}, {1, 50, 1})"}) {
+        CAPTURE(box);
+        const Scene scene = framed(box);
+        std::vector<Vec3> points = corners({0, 0, 0}, {1, 1, 1});
+        if (std::string(box).find("1000") != std::string::npos) points = corners({1000, -3, 5}, {1400, 100, 30});
+        if (std::string(box).find("1e-3") != std::string::npos) points = corners({3, 4, 5}, Vec3(3, 4, 5) + Vec3(1e-3));
+        if (std::string(box).find("50") != std::string::npos) points = corners({0, 0, 0}, {1, 50, 1});
+        const Box at = seen(scene.camera, points);
+        CHECK(at.lo.z > 0);
+        const double across = (at.hi.x - at.lo.x) / width, along = (at.hi.y - at.lo.y) / height;
+        CHECK(std::max(across, along) == Approx(0.86).epsilon(1e-3));
+        const double margin = 0.5 * (1 - 0.86) - 0.001;
+        CHECK(at.lo.x >= margin * width);
+        CHECK(at.hi.x <= width - margin * width);
+        CHECK(at.lo.y >= margin * height);
+        CHECK(at.hi.y <= height - margin * height);
+        if (across > along)
+            CHECK(at.lo.x + at.hi.x == Approx(width));
+        else
+            CHECK(at.lo.y + at.hi.y == Approx(height));
+        CHECK(scene.camera.fov == 30);
+    }
+}
+
+TEST_CASE("floors and empty solids do not count for a framed camera") {
+    const Scene alone = framed("cube()");
+    const Scene beside = framed("cube(), halfspace({0, 1, 0}, 0), cube() & box({3, 0, 0}, {4, 9, 9})");
+    CHECK(alone.camera.eye == beside.camera.eye);
+    CHECK(alone.camera.target == beside.camera.target);
+
+    Scene floor = scene_of("return { solids = { halfspace({0, 1, 0}, 0) } }");
+    CHECK_FALSE(frame_camera(floor, 1.5));
+    CHECK(floor.camera.eye == Camera().eye);
+}
+
+TEST_CASE("a turned box and a ball are framed by themselves, not by the boxes around them") {
+    // The corners of the axis-parallel box around a cube that is turned by 45 degrees stick out by 1.4.
+    const Scene turned = framed("cube():rotate(45, {0, 1, 0})", "camera = frame{ from = {0, 0, 1}, fov = 1 },");
+    const Box at = seen(turned.camera, {{0, 0, 0}, {0, 1, 0}, {std::sqrt(2.0), 1, 0}, {std::sqrt(2.0), 0, 0}});
+    CHECK((at.hi.y - at.lo.y) / height == Approx(0.86).epsilon(0.02));
+
+    const double r = 2;
+    const Scene ball = framed("ellipsoid{ center = {1, 2, 3}, radius = 2 }", "camera = frame{ from = {1, 1, 1} },");
+    const double distance = glm::distance(ball.camera.eye, Vec3(1, 2, 3));
+    // Its outline's tangent to the axis through its middle.
+    const double tangent = r / std::sqrt(distance * distance - r * r);
+    CHECK(tangent / std::tan(15 * std::numbers::pi / 180) == Approx(0.86).epsilon(1e-3));
+}
+
+TEST_CASE("a framed camera looks from where it is told, and needs no up that fits") {
+    for (const Vec3 from : {Vec3(0, 1, 0), Vec3(0, -1, 0), Vec3(1, 0, 0), Vec3(-3, 1, 2), Vec3(0, 1e-9, 1)}) {
+        CAPTURE(from.x, from.y, from.z);
+        const Scene scene =
+            framed("box({0, 0, 0}, {3, 1, 2})",
+                   fmt::format("camera = frame{{ from = {{{}, {}, {}}}, fov = 50 }},", from.x, from.y, from.z));
+        const Camera& c = scene.camera;
+        CHECK(c.fov == 50);
+        CHECK(glm::distance(glm::normalize(c.eye - c.target), glm::normalize(from)) < 1e-9);
+        const Box at = seen(c, corners({0, 0, 0}, {3, 1, 2}));
+        CHECK(at.lo.x > 0);
+        CHECK(at.lo.y > 0);
+        CHECK(at.hi.x < width);
+        CHECK(at.hi.y < height);
+        // From above, what is far from the viewer of the front is at the top.
+        if (from.y == 1) CHECK(seen(c, {{0, 0, 0}}).lo.y < seen(c, {{0, 0, 2}}).lo.y);
+    }
+}
+
+TEST_CASE("a tall picture is framed by its width") {
+    Scene scene = scene_of("return { solids = { cube() } }");
+    REQUIRE(frame_camera(scene, 0.25));
+    const Box at = seen(scene.camera, corners({0, 0, 0}, {1, 1, 1}), 100, 400);
+    CHECK((at.hi.x - at.lo.x) / 100 == Approx(0.86).epsilon(1e-3));
+    CHECK(at.lo.x + at.hi.x == Approx(100));
+}
+
+TEST_CASE("the default light stays over the viewer's left shoulder when the camera is framed") {
+    Scene scene = scene_of("return { camera = frame{ from = {0, 0, 1} }, solids = { cube() } }");
+    REQUIRE(frame_camera(scene, 1.5));
+    REQUIRE(scene.lights.size() == 1);
+    const Vec3 travels = scene.lights[0].direction;
+    CHECK(travels.x > 0);
+    CHECK(travels.y < 0);
+    CHECK(travels.z < 0);
+}
