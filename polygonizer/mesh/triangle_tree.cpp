@@ -154,6 +154,38 @@ bool overlap(const TrianglePositions& s, const TrianglePositions& t, double slac
     return !parts(s, t) && !parts(t, s);
 }
 
+// Where the triangle meets the plane through the other's corners, along a direction in both planes.
+std::array<double, 2> along_line(const TrianglePositions& t, const TrianglePositions& plane, Vec3 direction) {
+    const Vec3 normal = glm::cross(plane[1] - plane[0], plane[2] - plane[0]);
+    std::array<double, 2> found{infinity, -infinity};
+    for (std::size_t k = 0; k < 3; ++k) {
+        const Vec3 a = t[k], b = t[(k + 1) % 3];
+        const double ha = glm::dot(normal, a - plane[0]), hb = glm::dot(normal, b - plane[0]);
+        if ((ha > 0 && hb > 0) || (ha < 0 && hb < 0) || ha == hb) continue;
+        const double at = glm::dot(direction, a + (b - a) * (ha / (ha - hb)) - plane[0]);
+        found = {std::min(found[0], at), std::max(found[1], at)};
+    }
+    return found;
+}
+
+// Of triangles each of which reaches through the other's plane: whether they have a piece of its line in common. That
+// is so without an edge that pierces where they meet along lines from edge to edge.
+bool share_a_line(const TrianglePositions& a, const TrianglePositions& b, double slack) {
+    constexpr double least_share = 1e-6;  // of the shorter piece, and of the sine of their angle
+    const Vec3 na = glm::cross(a[1] - a[0], a[2] - a[0]), nb = glm::cross(b[1] - b[0], b[2] - b[0]);
+    const Vec3 line = glm::cross(na, nb);
+    const double length = glm::length(line);
+    if (!(length > least_share * glm::length(na) * glm::length(nb))) return false;
+    const auto from_a = [&](const TrianglePositions& t, const TrianglePositions& plane) {
+        auto piece = along_line(t, plane, line / length);
+        const double shift = glm::dot(line / length, plane[0] - a[0]);
+        return std::array{piece[0] + shift, piece[1] + shift};
+    };
+    const auto p = from_a(a, b), q = from_a(b, a);
+    const double common = std::min(p[1], q[1]) - std::max(p[0], q[0]);
+    return common > std::max(4 * slack, least_share * std::min(p[1] - p[0], q[1] - q[0]));
+}
+
 }  // namespace
 
 bool triangles_cross(const Mesh& mesh, const Triangle& s, const Triangle& t, double slack) {
@@ -183,7 +215,7 @@ bool triangles_cross(const Mesh& mesh, const Triangle& s, const Triangle& t, dou
         const std::size_t n = (k + 1) % 3;
         if (pierces(a[k], a[n], b, slack) || pierces(b[k], b[n], a, slack)) return true;
     }
-    return false;
+    return shared == 0 && share_a_line(a, b, slack);
 }
 
 }  // namespace deburr

@@ -16,6 +16,7 @@
 #include "raytracer/cli/solid_choice.hpp"
 #include "raytracer/cli/statistics.hpp"
 #include "raytracer/mesh/face_count.hpp"
+#include "raytracer/model/model_format.hpp"
 #include "raytracer/scene/vanished_parts.hpp"
 #include "raytracer/util/errors.hpp"
 #include "raytracer/util/message.hpp"
@@ -245,12 +246,18 @@ int run_mesh(const MeshCommandOptions& o) {
 
     PhaseClock clock;
     clock.begin("read");
-    Scene scene = load_scene(o);
+    Options load = o;
+    load.model_only = true;
+    // A model's file goes out the way it came in.
+    if (is_model_path(o.scene) && !o.up.empty()) load.model.z_up = o.up == "z";
+    Scene scene = load_scene(load);
     method.only = chosen_solids(scene, o.only);
     method.leave_out_unbounded = o.only.empty();
     const std::vector<MeshOutput> outputs = mesh_outputs(o.outputs, scene, method.only);
     std::vector<std::string> files = files_of(outputs);
-    check_outputs(files, {o.stats_json}, {o.scene});
+    std::vector<std::string> inputs = scene.model_files;
+    inputs.push_back(o.scene);
+    check_outputs(files, {o.stats_json}, inputs);
     if (!o.stats_json.empty()) files.push_back(o.stats_json);
     for (const std::string& path : files) check_writable(path);
     if (o.recenter)

@@ -89,6 +89,30 @@ Vec3 parse_direction(std::string_view option, std::string_view text) {
     expected(option, "X,Y,Z, not all 0, for example 1,0.5,2", text);
 }
 
+Vec3 parse_color(std::string_view option, std::string_view text) {
+    const std::size_t first = text.find(','), second = text.find(',', first + 1);
+    if (first != std::string_view::npos && second != std::string_view::npos) {
+        const Vec3 v(number_of(text.substr(0, first)), number_of(text.substr(first + 1, second - first - 1)),
+                     number_of(text.substr(second + 1)));
+        if (v.x >= 0 && v.x <= 1 && v.y >= 0 && v.y <= 1 && v.z >= 0 && v.z <= 1) return v;
+    }
+    expected(option, "R,G,B, each from 0 to 1, for example 0.8,0.4,0.1", text);
+}
+
+char parse_axis(std::string_view option, std::string_view text) {
+    if (text == "y" || text == "z") return text[0];
+    expected(option, "y or z", text);
+}
+
+std::string parse_word(std::string_view option, std::string_view text, const std::vector<std::string>& words) {
+    std::string all;
+    for (const std::string& word : words) {
+        if (text == word) return word;
+        all += (all.empty() ? "" : &word == &words.back() ? " or " : ", ") + word;
+    }
+    expected(option, all, text);
+}
+
 std::uint64_t parse_seed(std::string_view option, std::string_view text) {
     if (const auto value = digits(text)) return *value;
     expected(option, "a whole number from 0 to 2^64-1", text);

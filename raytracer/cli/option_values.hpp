@@ -29,6 +29,12 @@ double parse_limit(std::string_view option, std::string_view text);
 double parse_exposure(std::string_view option, std::string_view text);
 /// X,Y,Z, not all 0.
 Vec3 parse_direction(std::string_view option, std::string_view text);
+/// Three numbers from 0 to 1.
+Vec3 parse_color(std::string_view option, std::string_view text);
+/// 'y' or 'z'.
+char parse_axis(std::string_view option, std::string_view text);
+/// One of these.
+std::string parse_word(std::string_view option, std::string_view text, const std::vector<std::string>& words);
 std::uint64_t parse_seed(std::string_view option, std::string_view text);
 /// WxH
 Size parse_size(std::string_view option, std::string_view text);

@@ -7,9 +7,11 @@
 
 #include "bounds/canonical_solids.hpp"
 #include "bounds/solid_tree.hpp"
+#include "raytracer/model/model_format.hpp"
 #include "raytracer/scene/frame_camera.hpp"
 #include "raytracer/scene/scene_reader.hpp"
 #include "raytracer/util/errors.hpp"
+#include "raytracer/util/message.hpp"
 
 namespace deburr {
 namespace {
@@ -26,7 +28,10 @@ void add(CLI::App& command, const char* name, const char* type, const std::strin
 }  // namespace
 
 void add_scene_options(CLI::App& command, Options& o) {
-    command.add_option("SCENE", o.scene, "the scene, a Lua file")->type_name("");
+    command
+        .add_option("SCENE", o.scene,
+                    "the scene, a Lua file, or a model: STL, OBJ, PLY, OFF, 3MF, GLB, or .scad through openscad")
+        ->type_name("");
     command
         .add_option_function<std::vector<std::string>>(
             "-D",
@@ -36,6 +41,26 @@ void add_scene_options(CLI::App& command, Options& o) {
             "set a parameter of the scene; repeatable")
         ->type_name("name=value")
         ->allow_extra_args(false);
+    command
+        .add_option("--model-path", o.model_folders, "where a scene's model() looks after its own folder; repeatable")
+        ->type_name("DIR")
+        ->allow_extra_args(false);
+    const auto add_of_model = [&](const char* name, const char* type, const std::string& help, auto take) {
+        add(command, name, type, "of a model: " + help, [&o, take](const std::string& text) {
+            o.is_model_option_given = true;
+            take(text);
+        });
+    };
+    add_of_model("--round", "R", "round all edges by this radius, in the file's units; default: 0",
+                 [&o](const std::string& text) { o.model.round = parse_limit("--round", text); });
+    if (command.get_name() != "mesh")  // where it is the files' axis, too
+        add_of_model("--up", "y|z", "the axis that is up; default: z, of GLB y",
+                     [&o](const std::string& text) { o.model.z_up = parse_axis("--up", text) == 'z'; });
+    add_of_model("--color", "R,G,B", "its colour, linear, from 0 to 1",
+                 [&o](const std::string& text) { o.model.color = parse_color("--color", text); });
+    add_of_model(
+        "--material", "NAME", "matte, plastic, metal, mirror or glass; default: plastic",
+        [&o](const std::string& text) { o.model.material = parse_word("--material", text, model_materials()); });
 }
 
 void add_output_option(CLI::App& command, Options& o, const std::string& formats, const std::string& more) {
@@ -128,7 +153,18 @@ void check_placements(const Scene& scene) {
 
 Scene load_scene(const Options& o) {
     if (o.scene.empty()) throw UsageError("expected a scene file");
-    Scene scene = read_scene(o.scene, o.defines);
+    const bool is_model = is_model_path(o.scene);
+    if (is_model && !o.defines.empty())
+        throw UsageError(fmt::format("-D {}: expected a scene with parameters, got a model", o.defines.begin()->first));
+    if (!is_model && o.is_model_option_given)
+        throw UsageError(fmt::format(
+            "{}: expected a model file with --round, --up, --color or --material, got a scene, which says these itself",
+            o.scene));
+    ModelSettings model = o.model;
+    model.ground = !o.model_only;
+    Scene scene = is_model ? model_scene(o.scene, model) : read_scene(o.scene, o.defines, {}, o.model_folders);
+    for (const std::string& note : scene.notes)
+        if (!o.quiet) message(note);
     check_placements(scene);
     if ((o.frame || o.from) && !scene.framing)
         scene.framing = Framing{scene.camera.eye - scene.camera.target, scene.camera.fov};

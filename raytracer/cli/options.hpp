@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "raytracer/cli/option_values.hpp"
+#include "raytracer/scene/model_scene.hpp"
 #include "raytracer/scene/scene.hpp"
 
 namespace deburr {
@@ -16,6 +17,10 @@ namespace deburr {
 struct Options {
     std::string scene;
     std::map<std::string, std::string> defines;  // -D
+    std::vector<std::string> model_folders;      // --model-path
+    ModelSettings model;                         // of a model file in place of a scene
+    bool is_model_option_given = false;
+    bool model_only = false;  // the solids of a model, without a ground
 
     std::vector<std::string> outputs;  // -o
 

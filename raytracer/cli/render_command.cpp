@@ -248,6 +248,7 @@ int run_render(const RenderOptions& o) {
     clock.begin("read");
     const auto world = std::make_shared<World>();
     const Scene& scene = world->scene = load_scene(o);
+    check_outputs(o.outputs, {o.stats_json}, scene.model_files);
     load_surroundings(world->scene);
     Frame frame = frame_of(o, scene);
     const Size size = frame.size;

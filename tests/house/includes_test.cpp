@@ -38,7 +38,7 @@ std::map<std::string, Folders> allowed_includes() {
     may["raytracer/render"] = may["raytracer/trace"] + Folders{"raytracer/trace", "raytracer/image", "raytracer/scene"};
     may["raytracer/mesh"] = may["raytracer/render"] + polygonizer + Folders{"raytracer/render"};
     may["raytracer/pov"] = {"bounds", "raytracer/image", "raytracer/render", "raytracer/scene", "raytracer/util"};
-    may["raytracer/cli"] = may["raytracer/mesh"] + Folders{"raytracer/mesh", "raytracer/pov"};
+    may["raytracer/cli"] = may["raytracer/mesh"] + Folders{"raytracer/mesh", "raytracer/model", "raytracer/pov"};
     return may;
 }
 

@@ -168,6 +168,10 @@ TEST_CASE("what bounds no solid is refused with a count, a place and a word on h
     CHECK(has(crossing, "3 "));
     CHECK(has(crossing, "expected a surface that does not cross itself"));
     CHECK(has(crossing, "model(a) | model(b)"));
+    // Along lines from edge to edge, where no edge passes through a facet's inside.
+    CHECK(
+        has(error_of("a.stl", together(Shape::box({0, 0, 0}, {10, 10, 10}), Shape::box({6, 6, 6}, {16, 16, 16})).stl()),
+            "does not cross itself"));
     CHECK(has(error_of("a.stl", Shape().stl()), "expected facets, got none"));
     Shape nan = box();
     nan.vertices[2].y = std::nan("");

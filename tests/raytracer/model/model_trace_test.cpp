@@ -141,6 +141,27 @@ TEST_CASE("meshes of rounded models are closed, right and near the surface") {
     }
 }
 
+TEST_CASE("a sharp model that touches itself in an edge has a mesh that is a manifold") {
+    Shape two = Shape::box({0, 0, 0}, {1, 1, 1});
+    const Shape other = Shape::box({1, 1, 0}, {2, 2, 1});
+    // The edge from (1, 1, 0) to (1, 1, 1) is one of both.
+    std::vector<int> number;
+    for (const Vec3& v : other.vertices) {
+        const auto at = std::find(two.vertices.begin(), two.vertices.end(), v);
+        number.push_back(int(at - two.vertices.begin()));
+        if (at == two.vertices.end()) two.vertices.push_back(v);
+    }
+    for (const auto& t : other.triangles) two.triangles.push_back({number[t[0]], number[t[1]], number[t[2]]});
+    Scene scene;
+    scene.file = "test";
+    scene.materials.push_back({});
+    scene.solids.push_back(rounded(shared(two), 0));
+    scene.names.push_back("");
+    const SceneMesh made = mesh_scene(scene, {});
+    CHECK(topology(made.mesh).manifold());
+    CHECK(std::abs(volume(made.mesh) - 2) < 1e-6);
+}
+
 TEST_CASE("the mesh of a sharp model is its own") {
     const ClosedMeshPtr mesh = shared(Shape::plate_with_hole(0.5, 16, 0.3));
     Scene scene;
