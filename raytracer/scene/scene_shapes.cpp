@@ -41,7 +41,7 @@ const SceneObject& need_movable(const LuaValue& value, const char* location) {
     return need_set(value, location);
 }
 
-const Density& need_density(const LuaValue& value, const char* location) {
+const Density& need_density(const LuaValue& value, const char* location, const char* what = "a density") {
     const Density* density = as_density(value);
     if (!density && as<PlacedModel>(as_object(value)))
         expected(location, "a density; convolved(r, m) rounds a model, sharp(m) leaves it as it is", value);
@@ -54,7 +54,7 @@ const Density& need_density(const LuaValue& value, const char* location) {
             location,
             "expected a density, got a solid, which is rounded already: join densities first, then round, as "
             "in rounded(r, a | b)");
-    if (!density) expected(location, "a density", value);
+    if (!density) expected(location, what, value);
     return *density;
 }
 
@@ -187,8 +187,7 @@ SceneResult convolved(SceneCall& call) {
     const double radius = number_above(call.argument(0), call.location("radius"), 0);
     if (const auto* model = as<PlacedModel>(as_object(call.argument(1))))
         return call.make(call.builder.solid(*model, radius, call.line));
-    if (!as_density(call.argument(1))) expected(call.name, "a density or a model", call.argument(1));
-    const Density& density = *as_density(call.argument(1));
+    const Density& density = need_density(call.argument(1), call.name, "a density or a model");
     if (density.has_radius())
         throw BadValue(call.name,
                        "expected a density without radii, got one with :radius(); one ball rounds all of it");
@@ -199,8 +198,7 @@ SceneResult sharp(SceneCall& call) {
     call.at_most(1);
     if (const auto* model = as<PlacedModel>(as_object(call.argument(0))))
         return call.make(call.builder.solid(*model, 0, call.line));
-    if (!as_density(call.argument(0))) expected(call.name, "a density or a model", call.argument(0));
-    return call.make(Solid::sharp(*as_density(call.argument(0)), call.line));
+    return call.make(Solid::sharp(need_density(call.argument(0), call.name, "a density or a model"), call.line));
 }
 
 // Operators.
