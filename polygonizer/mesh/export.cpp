@@ -9,6 +9,7 @@
 #include <limits>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <set>
 #include <stdexcept>
 
 #include "polygonizer/mesh/export_3mf.hpp"
@@ -121,8 +122,35 @@ struct Primitive {
     std::vector<std::uint32_t> indices;
 };
 
+using Json = nlohmann::ordered_json;
+
+// A material of glTF 2.0; the extensions that it uses are added to `used`.
+static Json glb_material(const MeshNotes& notes, int index, std::set<std::string>& used) {
+    const Vec3 c = material_color(notes, index);
+    Json material = {{"pbrMetallicRoughness", {{"baseColorFactor", {c.x, c.y, c.z, 1.0}}, {"metallicFactor", 0.0}}}};
+    if (std::size_t(index) >= notes.surfaces.size()) return material;
+    const SurfaceNotes& s = notes.surfaces[index];
+    material["pbrMetallicRoughness"]["metallicFactor"] = s.metallic;
+    material["pbrMetallicRoughness"]["roughnessFactor"] = s.roughness;
+    const auto extend = [&](const char* name, Json value) {
+        material["extensions"][name] = std::move(value);
+        used.insert(name);
+    };
+    if (s.ior != 1.5) extend("KHR_materials_ior", {{"ior", s.ior}});
+    if (s.transmission > 0) extend("KHR_materials_transmission", {{"transmissionFactor", s.transmission}});
+    if (s.clearcoat > 0)
+        extend("KHR_materials_clearcoat",
+               {{"clearcoatFactor", s.clearcoat}, {"clearcoatRoughnessFactor", s.clearcoat_roughness}});
+    const double strength = std::max({s.emission.x, s.emission.y, s.emission.z});
+    if (strength > 0) {
+        const Vec3 e = s.emission / std::max(1.0, strength);
+        material["emissiveFactor"] = {e.x, e.y, e.z};
+        if (strength > 1) extend("KHR_materials_emissive_strength", {{"emissiveStrength", strength}});
+    }
+    return material;
+}
+
 std::string glb(const Mesh& mesh, const MeshNotes& notes) {
-    using Json = nlohmann::ordered_json;
     std::map<std::pair<int, int>, Primitive> primitives;  // by solid, material
     for (const Triangle& t : mesh.triangles) {
         Primitive& p = primitives[{t.solid, t.material}];
@@ -146,6 +174,7 @@ std::string glb(const Mesh& mesh, const MeshNotes& notes) {
     };
     constexpr int array_buffer = 34962, element_array_buffer = 34963, is_float = 5126, is_uint = 5125;
     std::map<int, std::size_t> material_of;
+    std::set<std::string> extensions;
     int solid = -1;
     for (const auto& [key, p] : primitives) {
         if (key.first != solid) {
@@ -156,9 +185,7 @@ std::string glb(const Mesh& mesh, const MeshNotes& notes) {
         }
         const auto [material, is_new] = material_of.try_emplace(key.second, j["materials"].size());
         if (is_new) {
-            const Vec3 c = material_color(notes, key.second);
-            j["materials"].push_back(
-                {{"pbrMetallicRoughness", {{"baseColorFactor", {c.x, c.y, c.z, 1.0}}, {"metallicFactor", 0.0}}}});
+            j["materials"].push_back(glb_material(notes, key.second, extensions));
         }
         Vec3 lo(infinity), hi(-infinity);
         std::size_t from = data.size();
@@ -193,6 +220,7 @@ std::string glb(const Mesh& mesh, const MeshNotes& notes) {
              {"material", material->second}});
     }
     j["buffers"] = Json::array({Json{{"byteLength", data.size()}}});
+    for (const std::string& name : extensions) j["extensionsUsed"].push_back(name);
     for (const char* list : {"nodes", "meshes", "materials", "accessors", "bufferViews", "buffers"})
         if (j[list].empty() || data.empty()) j.erase(list);  // glTF has no empty lists
     if (data.empty()) j["scenes"] = Json::array({Json::object()});

@@ -37,11 +37,18 @@ std::optional<LengthUnit> find_unit(const std::string& name);
 /// "micron, millimeter, …"
 std::string known_units();
 
+/// How a surface looks beside its colour, by glTF's names and with its defaults.
+struct SurfaceNotes {
+    double metallic = 0.0, roughness = 1.0, ior = 1.5, transmission = 0.0, clearcoat = 0.0, clearcoat_roughness = 0.0;
+    Vec3 emission{0.0};  // linear radiance
+};
+
 struct MeshNotes {
     std::vector<std::string> names;            // of solids; "" or missing: solid N
     std::vector<Vec3> colors;                  // of materials, linear; missing: grey
     LengthUnit unit = LengthUnit::millimeter;  // of 3MF
     std::string material_file = {};            // of OBJ: the MTL beside it, "": none
+    std::vector<SurfaceNotes> surfaces = {};   // of materials, of GLB; missing: matte
 };
 
 /// Without blanks; never empty.

@@ -27,6 +27,22 @@
 namespace deburr {
 namespace {
 
+// The same material by glTF's names.
+SurfaceNotes surface_notes(const Material& m) {
+    SurfaceNotes s{.ior = m.ior, .emission = m.emission};
+    switch (m.kind) {
+        case Material::Kind::matte: s.ior = 1.5; break;
+        case Material::Kind::plastic: s.roughness = m.roughness; break;
+        case Material::Kind::metal: s.metallic = 1, s.roughness = m.roughness; break;
+        case Material::Kind::mirror: s.metallic = 1, s.roughness = 0; break;
+        case Material::Kind::glass: s.transmission = 1, s.roughness = m.roughness; break;
+        case Material::Kind::pbr:
+            s = {m.metallic, m.roughness, m.ior, m.transmission, m.clearcoat, m.clearcoat_roughness, m.emission};
+            break;
+    }
+    return s;
+}
+
 using Json = nlohmann::ordered_json;
 
 struct MeshCommandOptions : Options {
@@ -292,7 +308,10 @@ int run_mesh(const MeshCommandOptions& o) {
     if (written && !o.quiet) warn_of_single_precision(o, mesh);
     clock.begin("write");
     notes.names = scene.names;
-    for (const Material& m : scene.materials) notes.colors.push_back(m.color.a);
+    for (const Material& m : scene.materials) {
+        notes.colors.push_back(m.color.a);
+        notes.surfaces.push_back(surface_notes(m));
+    }
     for (const MeshOutput& output : outputs)
         if (written) write_mesh(output, mesh, notes, scene.z_up, parse_up(o.up, scene.z_up));
     clock.end();

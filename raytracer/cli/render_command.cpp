@@ -2,10 +2,13 @@
 #include <fmt/format.h>
 #include <tbb/global_control.h>
 #include <tbb/info.h>
+#include <tbb/parallel_for.h>
 #include <unistd.h>
 
 #include <algorithm>
+#include <array>
 #include <charconv>
+#include <chrono>
 #include <cstdlib>
 #include <ctime>
 #include <memory>
@@ -45,6 +48,8 @@ struct RenderOptions : Options {
     std::optional<Accel> accel;
     IntegratorKind integrator = IntegratorKind::automatic;
     std::optional<double> exposure;  // of pictures for the screen
+    std::optional<double> noise, seconds;
+    ViewTransform view = ViewTransform::standard;
 };
 
 // Boxes to look at for each sum and difference before rendering; `info` looks longer.
@@ -102,6 +107,13 @@ void check_options(const RenderOptions& o) {
         if (o.alpha && image_extension(path) != ".png" && image_kind(path) != ImageKind::exr)
             throw UsageError("--alpha: expected outputs that end in .exr or .png, got '" + path + "'");
     }
+    if (o.integrator == IntegratorKind::preview)
+        for (const auto& [name, given] : {std::pair{"--noise", o.noise.has_value()}, {"--time", o.seconds.has_value()}})
+            if (given) throw UsageError(fmt::format("{}: expected --integrator path, got 'preview'", name));
+    if (o.draft && (o.noise || o.seconds))
+        throw UsageError(
+            fmt::format("{}: expected it without --draft, which is one sample", o.noise ? "--noise" : "--time"));
+    if (o.seconds && o.spp) throw UsageError("--time: expected no --spp beside it, got one");
     if (!png && o.bits != 8) throw UsageError("--bits: expected an output that ends in .png, got none");
     if (!exr && !o.layers.empty()) throw UsageError("--aov: expected an output that ends in .exr, got none");
     if (!exr && o.float_color) throw UsageError("--float: expected an output that ends in .exr, got none");
@@ -116,10 +128,11 @@ void write_images(const RenderOptions& o, const Film& film, const ImageNotes& no
         const double work = writing_work * double(film.pixels.size());
         double reported = 0;
         try {
-            write_image(path, film, {o.float_color, threads, o.bits, o.alpha, exposure}, notes, [&](double share) {
-                progress.advance(work * (share - reported));
-                reported = share;
-            });
+            write_image(path, film, {o.float_color, threads, o.bits, o.alpha, exposure, o.view}, notes,
+                        [&](double share) {
+                            progress.advance(work * (share - reported));
+                            reported = share;
+                        });
         } catch (const std::exception& e) {
             if (error.empty()) error = e.what();
         }
@@ -187,6 +200,31 @@ void build_mesh(const RenderOptions& o, const Frame& frame, World& world) {
                                o.wire == "front" ? WireMode::front : WireMode::visible);
 }
 
+// Samples per pixel that take about so long, by one sample of some of the tiles. What a picture of so many samples
+// looks like does not depend on the time.
+int samples_in(double seconds, const Scene& scene, const RayTracer& tracer, const Frame& frame,
+               RenderSettings settings) {
+    // A share of the picture, and of the time left that a fair guess uses.
+    constexpr std::int64_t tiles_tried = 64;
+    constexpr double used = 0.95;
+    const auto start = std::chrono::steady_clock::now();
+    const auto passed = [&] { return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(); };
+    settings.spp = 1;
+    settings.noise = 0;
+    settings.integrator = IntegratorKind::path;
+    const Integrator integrator(scene, tracer, settings);
+    const double prepared = passed();
+    const std::int64_t tiles = tile_count(frame.window), stride = std::max<std::int64_t>(1, tiles / tiles_tried);
+    const std::int64_t tried = (tiles + stride - 1) / stride;
+    tbb::parallel_for(std::int64_t(0), tried, [&](std::int64_t i) {
+        std::array<Pixel, tile_side * tile_side> pixels;
+        TraceCounters counters;
+        integrator.block(tile(frame.window, i * stride), pixels.data(), nullptr, counters);
+    });
+    const double one = std::max(1e-6, passed() - prepared) * double(tiles) / double(tried);
+    return int(std::clamp(used * (seconds - passed()) / one, 2.0, double(max_samples)));
+}
+
 Rendering trace(const RenderOptions& o, const Frame& frame, const std::shared_ptr<const World>& world,
                 const std::atomic<bool>& stop, Progress& progress) {
     // What tiles in hand are given once a stop is asked for.
@@ -221,6 +259,8 @@ ImageNotes notes_of(const RenderOptions& o, const World& world, int spp, double 
                         {"criterion", o.criterion == Criterion::lobb ? "lobb" : "exact"}};
     if (const double exposure = exposure_of(o, scene))
         notes.attributes.push_back({"exposure", fmt::format("{}", exposure)});
+    if (o.noise) notes.attributes.push_back({"noise", fmt::format("{}", *o.noise)});
+    if (o.view != ViewTransform::standard) notes.attributes.push_back({"view", "agx"});
     if (world.bsp) notes.attributes.push_back({"accel", name(o.accel.value_or(Accel::bvh))});
     for (const auto& [name, value] : scene.parameters) notes.attributes.push_back({"parameter." + name, value});
     return notes;
@@ -253,6 +293,9 @@ int run_render(const RenderOptions& o) {
     Frame frame = frame_of(o, scene);
     const Size size = frame.size;
     const Window window = frame.window;
+    // With a bound of noise a picture is finished by it, and the samples are only their limit.
+    constexpr int most_samples = 4096;
+    if (o.noise && !o.spp) frame.spp = most_samples;
     for (const std::string& path : o.outputs) check_writable(path);
     if (!o.stats_json.empty()) check_writable(o.stats_json);
     say(o, fmt::format("{}: {} solids, {} lights; picture {}x{}, {} threads", o.scene, scene.solids.size(),
@@ -267,8 +310,13 @@ int run_render(const RenderOptions& o) {
         build_mesh(o, frame, *world);
     const bool cost = std::count(o.layers.begin(), o.layers.end(), ImageLayer::cost) > 0;
     const double exposure = exposure_of(o, scene);
-    RenderSettings settings{size.width, size.height, frame.spp, o.seed, cost, !o.alpha, o.integrator};
-    if (frame.spp == 0) frame.spp = settings.spp = sample_count(scene, *world->tracer, settings, exposure);
+    RenderSettings settings{size.width, size.height, frame.spp, o.seed, cost, !o.alpha};
+    settings.noise = o.noise.value_or(0);
+    settings.integrator = o.noise || o.seconds ? IntegratorKind::path : o.integrator;
+    if (o.seconds)
+        frame.spp = settings.spp = samples_in(*o.seconds, scene, *world->tracer, frame, settings);
+    else if (frame.spp == 0)
+        frame.spp = settings.spp = sample_count(scene, *world->tracer, settings, exposure);
     const int spp = frame.spp;
     say(o, fmt::format("{} samples per pixel", spp));
     world->integrator.emplace(scene, *world->tracer, settings);
@@ -331,6 +379,29 @@ Command add_render_command(CLI::App& program) {
             "path finds all light; preview has no noise, shadows and polished reflections; default: path from two "
             "samples per pixel on, preview with one")
         ->type_name("path|preview");
+    command
+        ->add_option_function<std::string>(
+            "--noise", [options](const std::string& text) { options->noise = parse_positive("--noise", text); },
+            "paths only: take samples until this much noise is left in each part of the picture, as a share of white "
+            "on a display, 0.01: hardly seen; --spp is their limit, 4096 by default")
+        ->type_name("X");
+    command
+        ->add_option_function<std::string>(
+            "--time", [options](const std::string& text) { options->seconds = parse_positive("--time", text); },
+            "paths only: as many samples as take about so many seconds")
+        ->type_name("SECONDS");
+    command
+        ->add_option_function<std::string>(
+            "--view",
+            [options](const std::string& text) {
+                if (text != "standard" && text != "agx")
+                    throw UsageError("--view: expected standard or agx, got '" + text + "'");
+                options->view = text == "agx" ? ViewTransform::agx : ViewTransform::standard;
+            },
+            "tone curve of files for the screen, not of an EXR: standard clips what is brighter than white, agx lets "
+            "it "
+            "go to white softly; default: standard")
+        ->type_name("standard|agx");
     command
         ->add_option("--tolerance", options->tolerance,
                      "meshes only: the mesh's tolerance, as for mesh; default: 0.03 of each solid's least radius")

@@ -47,9 +47,17 @@ Matrix44 world_to_ndc(const Camera& camera, int width, int height) {
     const Frame frame(camera);
     const double h = std::tan(camera.fov * glm::pi<double>() / 360);
     const double w = h * width / height;
+    const double x = 0.5 - camera.shift.x, y = 0.5 + camera.shift.y;  // of the axis in the picture
+    if (camera.orthographic) {
+        const double distance = glm::length(camera.target - camera.eye);
+        return matrix({Coordinate{Vec3(0.0), x} + (0.5 / (w * distance)) * frame.right,
+                       Coordinate{Vec3(0.0), y} + (-0.5 / (h * distance)) * frame.up,
+                       frame.forward,
+                       {Vec3(0.0), 1}});
+    }
     // x/(z w) runs from −1 to 1 from left to right, y/(z h) from −1 to 1 upward.
-    return matrix({0.5 * frame.forward + (0.5 / w) * frame.right,
-                   0.5 * frame.forward + (-0.5 / h) * frame.up,
+    return matrix({x * frame.forward + (0.5 / w) * frame.right,
+                   y * frame.forward + (-0.5 / h) * frame.up,
                    {Vec3(0.0), 1},
                    frame.forward});
 }

@@ -13,7 +13,8 @@ using Matrix44 = std::array<std::array<float, 4>, 4>;  // row by row
 Matrix44 world_to_camera(const Camera& camera);
 
 /// World to the display window: after division by w, (0, 0) is its upper left corner and (1, 1) the
-/// lower right one. z/w means nothing but nearness: 1 over the distance along the axis.
+/// lower right one. z/w means nothing but nearness: 1 over the distance along the axis; of an orthographic
+/// camera, that distance.
 Matrix44 world_to_ndc(const Camera& camera, int width, int height);
 
 }  // namespace deburr

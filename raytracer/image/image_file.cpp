@@ -170,6 +170,14 @@ void write_image(const std::string& path, const Film& film, const ImageFormat& f
     const auto kind = image_kind(path);
     if (!kind) throw WorkError(fmt::format("cannot write '{}': unknown image format", path));
     const bool exr = *kind == ImageKind::exr, png = image_extension(path) == ".png";
+    if (*kind == ImageKind::display && format.view != ViewTransform::standard) {
+        ImageFormat as_it_is = format;
+        as_it_is.view = ViewTransform::standard;
+        as_it_is.exposure = 0;
+        Film exposed = film;
+        for (Pixel& pixel : exposed.pixels) pixel.color *= std::exp2(format.exposure);
+        return write_image(path, displayed(format.view, std::move(exposed), format.alpha), as_it_is, notes, done);
+    }
     std::vector<ImageChannel> list;
     if (png && format.bits == 16)
         list = png_channels(film, ChannelType::word, format, srgb_word);

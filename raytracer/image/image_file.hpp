@@ -20,6 +20,7 @@
 
 #include "raytracer/image/image_format.hpp"
 #include "raytracer/image/image_raster.hpp"
+#include "raytracer/image/view_transform.hpp"
 #include "raytracer/scene/scene.hpp"
 
 namespace deburr {
@@ -35,11 +36,12 @@ struct ImageNotes {
 };
 
 struct ImageFormat {
-    bool float_color = false;  // EXR: 32 bits for R G B A
-    int threads = 1;           // EXR: that compress
-    int bits = 8;              // PNG: 8 or 16
-    bool alpha = false;        // PNG: there is an alpha, and the film is without background
-    double exposure = 0;       // sRGB: stops, each of which doubles the light
+    bool float_color = false;                      // EXR: 32 bits for R G B A
+    int threads = 1;                               // EXR: that compress
+    int bits = 8;                                  // PNG: 8 or 16
+    bool alpha = false;                            // PNG: there is an alpha, and the film is without background
+    double exposure = 0;                           // sRGB: stops, each of which doubles the light
+    ViewTransform view = ViewTransform::standard;  // of files for the screen, after the exposure
 };
 
 /// Writes the whole file or nothing; throws WorkError. An EXR gets all layers that the film keeps. The format follows

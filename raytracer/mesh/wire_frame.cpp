@@ -81,10 +81,10 @@ bool clip(Vec2 p, Vec2 q, const Window& window, double& t0, double& t1) {
 }
 
 bool seen(Vec3 x, Vec3 normal, const RayTracer& hiding, const PinholeCamera& camera) {
-    const double distance = glm::length(x - camera.eye());
-    const Vec3 start =
-        x + (normal + glm::normalize(camera.eye() - x)) * (std::min(max_lift, camera.pixel()) * distance);
-    const Vec3 to_eye = camera.eye() - start;
+    const Vec3 back = camera.to_eye(x);
+    const double distance = glm::length(back);
+    const Vec3 start = x + (normal + glm::normalize(back)) * std::min(max_lift * distance, camera.pixel(distance));
+    const Vec3 to_eye = camera.to_eye(start);
     const double length = glm::length(to_eye);
     TraceCounters unused;
     return !hiding.any_hit({start, to_eye / length}, length, unused);
@@ -107,7 +107,7 @@ void add_visible(Line3 line, const RayTracer* hiding, const PinholeCamera& camer
         bool visible = false;
         if (i < last) {
             const double t = share(double(i) + 0.5);
-            const double u = t / q.z / ((1 - t) / p.z + t / q.z);
+            const double u = camera.orthographic() ? t : t / q.z / ((1 - t) / p.z + t / q.z);
             visible = !hiding || seen(glm::mix(line.a, line.b, u), glm::mix(line.na, line.nb, u), *hiding, camera);
         }
         if (begin >= 0 && (!visible || i % stroke_steps == 0)) {
@@ -170,7 +170,7 @@ std::vector<Stroke> wire_frame(const Mesh& mesh, const std::vector<MeshEdge>& ed
             const Vec3 area = mesh.area_vector(mesh.triangles[t]);
             const double size = glm::length(area);
             if (size == 0) continue;
-            if (glm::dot(area, camera.eye() - line.a) <= 0) continue;
+            if (glm::dot(area, camera.to_eye(line.a)) <= 0) continue;
             front = true;
             normal += area / size;
         }

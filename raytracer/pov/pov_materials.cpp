@@ -62,13 +62,17 @@ std::string pov_camera(const Camera& camera, Size size) {
     // From rays through three of the picture's corners, scaled to a common depth.
     const PinholeCamera pinhole(camera, size.width, size.height);
     const auto at = [&](double x, double y) {
-        const Vec3 d = pinhole.ray(x, y).direction;
-        return d / glm::dot(d, pinhole.forward());
+        const Ray ray = pinhole.ray(x, y);
+        if (camera.orthographic) return ray.origin;
+        return ray.direction / glm::dot(ray.direction, pinhole.forward());
     };
-    const Vec3 corner = at(0, 0);
-    return fmt::format("camera {{\n  perspective\n  location {}\n  direction {}\n  right {}\n  up {}\n}}\n",
-                       pov_vector(camera.eye), pov_vector(pinhole.forward()), pov_vector(at(size.width, 0) - corner),
-                       pov_vector(corner - at(0, size.height)));
+    const Vec3 corner = at(0, 0), right = at(size.width, 0) - corner, up = corner - at(0, size.height);
+    const Vec3 middle = camera.shift.x * right + camera.shift.y * up;  // from the axis
+    const Vec3 location = camera.orthographic ? camera.eye + middle : camera.eye;
+    const Vec3 direction = camera.orthographic ? pinhole.forward() : pinhole.forward() + middle;
+    return fmt::format("camera {{\n  {}\n  location {}\n  direction {}\n  right {}\n  up {}\n}}\n",
+                       camera.orthographic ? "orthographic" : "perspective", pov_vector(location),
+                       pov_vector(direction), pov_vector(right), pov_vector(up));
 }
 
 std::string pov_background(const Background& b) {

@@ -39,6 +39,7 @@ struct RenderSettings {
     std::uint64_t seed = 0;
     bool cost = true;        // PixelLayers::cost is asked for: then no two pixels' rays are traced together
     bool background = true;  // false: where the camera sees it, colours are 0, so that alpha has weighed the others
+    double noise = 0;        // > 0: a block of paths ends where it has this little, with `spp` samples at most
     IntegratorKind integrator = IntegratorKind::automatic;  // a preview with one sample, else paths
 
     bool uses_paths() const {

@@ -9,7 +9,7 @@ namespace {
 
 // What a path draws random numbers for, at each depth; and once, for its way through the filter.
 enum PathDraw : std::uint32_t { lobe, lobe_direction, roulette, chosen_light, light_places, draws_a_depth = 64 };
-constexpr std::uint32_t filter_draw = 0xffffffffu;
+constexpr std::uint32_t filter_draw = 0xffffffffu, lens_draw = 0xfffffffeu;
 
 // So many lights are all sampled where the camera looks: each has its own dimension.
 constexpr std::size_t max_all_lights = 16;
@@ -17,6 +17,11 @@ static_assert(light_places + max_all_lights <= draws_a_depth);
 
 // What is added to the dimensions of a path that was split from another.
 constexpr std::uint32_t split_draws = 1u << 30;
+
+// Pixels each way of a cell that ends by itself, and samples before it may: fewer could miss what is small and bright.
+constexpr int cell_side = 8, min_cell_samples = 32;
+// Darker than this, noise is seen as if it were this bright: a hundredth of white is 10 % of the display's range.
+constexpr double dark = 0.01;
 
 // Rays at a time: many packets, whose hits fit into the processor's cache.
 constexpr std::size_t max_paths = 128;
@@ -398,7 +403,92 @@ private:
     std::size_t rays_ = 0;  // of the camera; the other paths were split from theirs
 };
 
+// Of one pixel, named `pixel` in the batch.
+void PathIntegrator::samples(Batch& batch, int x, int y, std::uint32_t pixel, int first, int end) const {
+    for (int s = first; s < end; ++s) {
+        const Sampler sampler(settings_.seed, x, y, s);
+        const Vec2 offset = filter_offset(sampler.square(filter_draw));
+        const double at_x = x + 0.5 + offset.x, at_y = y + 0.5 + offset.y;
+        batch.add(camera_.has_lens() ? camera_.ray(at_x, at_y, sampler.square(lens_draw)) : camera_.ray(at_x, at_y),
+                  {sampler, pixel, false, true});
+    }
+}
+
+// How far two pictures of a cell, each of half of the samples, are apart as a display shows it (its curve is near a
+// root, so that d√I = dI / 2√I): the root of the mean square.
+static double seen_noise(const std::vector<Pixel>& a, const std::vector<Pixel>& b, std::size_t count, double samples) {
+    double sum = 0;
+    for (std::size_t i = 0; i < count; ++i)
+        for (int k = 0; k < 3; ++k) {
+            const double mean = (a[i].color[k] + b[i].color[k]) / (2 * samples);
+            const double error = (a[i].color[k] - b[i].color[k]) / (2 * samples);
+            sum += error * error / (4 * std::max(mean, dark));
+        }
+    return std::sqrt(sum / (3 * double(count)));
+}
+
+void PathIntegrator::cell(const Window& cell, Pixel* pixels, PixelLayers* layers, TraceCounters& counters) const {
+    const std::size_t count = std::size_t(cell.width) * cell.height;
+    if (layers) std::fill_n(layers, count, PixelLayers{});
+    thread_local Batch::Memory memory;
+    std::vector<Pixel> done(count), more(count);
+    const auto take = [&](std::vector<Pixel>& into, int first, int end) {
+        Batch batch(*this, into.data(), layers, counters, memory);
+        for (std::size_t i = 0; i < count; ++i) {
+            const int x = cell.x + int(i) % cell.width, y = cell.y + int(i) / cell.width;
+            const std::uint64_t evaluations = counters.evaluations;
+            if (layers && first == 0)
+                batch.add(camera_.ray(x + 0.5, y + 0.5),
+                          {Sampler(settings_.seed, x, y, 0), std::uint32_t(i), true, false});
+            samples(batch, x, y, std::uint32_t(i), first, end);
+            if (!layers || !settings_.cost) continue;
+            batch.finish();
+            layers[i].cost += double(counters.evaluations - evaluations);
+        }
+        batch.finish();
+    };
+    const int most = std::max(1, settings_.spp);
+    int n = std::min(min_cell_samples / 2, most);
+    take(done, 0, n);
+    while (n < most) {
+        const int next = std::min(2 * n, most);
+        std::fill(more.begin(), more.end(), Pixel{});
+        take(more, n, next);
+        const bool is_enough = next == 2 * n && seen_noise(done, more, count, n) <= settings_.noise;
+        for (std::size_t i = 0; i < count; ++i) {
+            done[i].color += more[i].color;
+            done[i].alpha += more[i].alpha;
+        }
+        n = next;
+        if (is_enough) break;
+    }
+    for (std::size_t i = 0; i < count; ++i) {
+        pixels[i] = {done[i].color / double(n), done[i].alpha / n};
+        if (layers) layers[i].albedo /= n;
+    }
+}
+
+void PathIntegrator::cells(const Window& block, Pixel* pixels, PixelLayers* layers, TraceCounters& counters) const {
+    std::vector<Pixel> part(cell_side * cell_side);
+    std::vector<PixelLayers> part_layers(layers ? part.size() : 0);
+    const auto down = [](int i) { return i / cell_side * cell_side; };
+    for (int y = down(block.y); y < block.y + block.height; y += cell_side)
+        for (int x = down(block.x); x < block.x + block.width; x += cell_side) {
+            const Window window{x, y, std::min(cell_side, settings_.width - x),
+                                std::min(cell_side, settings_.height - y)};
+            cell(window, part.data(), layers ? part_layers.data() : nullptr, counters);
+            for (int j = 0; j < window.height; ++j)
+                for (int i = 0; i < window.width; ++i) {
+                    const int to_x = x + i - block.x, to_y = y + j - block.y;
+                    if (to_x < 0 || to_y < 0 || to_x >= block.width || to_y >= block.height) continue;
+                    pixels[to_y * block.width + to_x] = part[j * window.width + i];
+                    if (layers) layers[to_y * block.width + to_x] = part_layers[j * window.width + i];
+                }
+        }
+}
+
 void PathIntegrator::block(const Window& block, Pixel* pixels, PixelLayers* layers, TraceCounters& counters) const {
+    if (settings_.noise > 0) return cells(block, pixels, layers, counters);
     const std::size_t count = std::size_t(block.width) * block.height;
     std::fill_n(pixels, count, Pixel{});
     if (layers) std::fill_n(layers, count, PixelLayers{});
@@ -412,11 +502,7 @@ void PathIntegrator::block(const Window& block, Pixel* pixels, PixelLayers* laye
         x += block.x;
         y += block.y;
         if (layers) batch.add(camera_.ray(x + 0.5, y + 0.5), {Sampler(settings_.seed, x, y, 0), i, true, false});
-        for (int s = 0; s < spp; ++s) {
-            const Sampler sampler(settings_.seed, x, y, s);
-            const Vec2 offset = filter_offset(sampler.square(filter_draw));
-            batch.add(camera_.ray(x + 0.5 + offset.x, y + 0.5 + offset.y), {sampler, i, false, true});
-        }
+        samples(batch, x, y, i, 0, spp);
         if (!apart) return;
         batch.finish();
         layers[i].cost = double(counters.evaluations - evaluations);

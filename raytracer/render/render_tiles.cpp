@@ -15,7 +15,10 @@
 namespace deburr {
 namespace {
 
-std::int64_t tiles_along(int pixels) { return (std::int64_t(pixels) + tile_side - 1) / tile_side; }
+// Tiles that pixels from `first` on lie in.
+std::int64_t tiles_along(int first, int pixels) {
+    return pixels > 0 ? (std::int64_t(first) + pixels - 1) / tile_side - first / tile_side + 1 : 0;
+}
 
 // A picture in the making. It outlives its caller where tiles are abandoned.
 class Making {
@@ -88,12 +91,17 @@ std::atomic<bool> abandoned{false};
 
 }  // namespace
 
-std::int64_t tile_count(const Window& window) { return tiles_along(window.width) * tiles_along(window.height); }
+std::int64_t tile_count(const Window& window) {
+    return tiles_along(window.x, window.width) * tiles_along(window.y, window.height);
+}
 
 Window tile(const Window& window, std::int64_t index) {
-    const std::int64_t columns = tiles_along(window.width);
-    const int x = int(index % columns) * tile_side, y = int(index / columns) * tile_side;
-    return {window.x + x, window.y + y, std::min(tile_side, window.width - x), std::min(tile_side, window.height - y)};
+    const std::int64_t columns = tiles_along(window.x, window.width);
+    const int left = (window.x / tile_side + int(index % columns)) * tile_side;
+    const int top = (window.y / tile_side + int(index / columns)) * tile_side;
+    const int x = std::max(left, window.x), y = std::max(top, window.y);
+    return {x, y, std::min(left + tile_side, window.x + window.width) - x,
+            std::min(top + tile_side, window.y + window.height) - y};
 }
 
 Rendering render(Film film, const BlockFunction& block, const std::atomic<bool>& stop, const PixelsDone& done) {

@@ -19,7 +19,7 @@ namespace deburr {
 /// threads idle for long; large enough that a tile costs much more than handing it out.
 constexpr int tile_side = 16;
 
-/// Tiles of a window, row by row from the top.
+/// Tiles of a window, row by row from the top: the parts of an even grid over the whole picture that lie in it.
 std::int64_t tile_count(const Window& window);
 Window tile(const Window& window, std::int64_t index);
 

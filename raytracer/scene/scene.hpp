@@ -58,7 +58,11 @@ struct Light {
 
 struct Camera {
     Vec3 eye{3, 2, 4}, target{0.0}, up{0, 1, 0};
-    double fov = 40.0;  // vertical, degrees
+    double fov = 40.0;          // vertical, degrees
+    bool orthographic = false;  // rays are parallel; the picture is as high as fov sees it at the target
+    double lens_radius = 0.0;   // 0: a pinhole, all is sharp
+    double focus = 0.0;         // distance along the axis of what is sharp; 0: the target's
+    Vec3 shift{0.0};            // of the picture in its plane, in widths and heights, to the right and up; z unused
 };
 
 /// A picture of all that surrounds a scene, linear, by longitude and latitude: its middle lies towards -z, its top at

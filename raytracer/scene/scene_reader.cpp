@@ -47,8 +47,17 @@ void read_image(const LuaValue& value, Scene& scene) {
         scene.exposure = number_between(*given, fields.location("exposure"), -max_exposure, max_exposure);
 }
 
+// {x, y}, within a few pictures.
+Vec3 picture_shift(const LuaValue& value, const std::string& location) {
+    constexpr double most = 10;
+    const LuaTable* table = as_table(value);
+    if (!table || !table->fields.empty() || table->list.size() != 2) expected(location, "two numbers {x, y}", value);
+    return {number_between(table->list[0], location, -most, most),
+            number_between(table->list[1], location, -most, most), 0};
+}
+
 void read_camera(const LuaValue& value, Camera& camera) {
-    const Fields fields(value, "camera", {"eye", "target", "up", "fov"});
+    const Fields fields(value, "camera", {"eye", "target", "up", "fov", "projection", "lens", "shift"});
     const auto read = [&](const char* name, Vec3& v) {
         if (const auto* given = fields.find(name)) v = vector(*given, fields.location(name));
     };
@@ -56,6 +65,18 @@ void read_camera(const LuaValue& value, Camera& camera) {
     read("target", camera.target);
     if (const auto* given = fields.find("up")) camera.up = direction(*given, fields.location("up"));
     if (const auto* given = fields.find("fov")) camera.fov = view_angle(*given, fields.location("fov"));
+    if (const auto* given = fields.find("projection")) {
+        const auto* name = std::get_if<std::string>(given);
+        if (!name || (*name != "perspective" && *name != "orthographic"))
+            expected(fields.location("projection"), "'perspective' or 'orthographic'", *given);
+        camera.orthographic = *name == "orthographic";
+    }
+    if (const auto* given = fields.find("shift")) camera.shift = picture_shift(*given, fields.location("shift"));
+    if (const auto* given = fields.find("lens")) {
+        const Fields lens(*given, fields.location("lens"), {"radius", "focus"});
+        camera.lens_radius = number_at_least(lens.get("radius"), lens.location("radius"), 0);
+        if (const auto* focus = lens.find("focus")) camera.focus = number_above(*focus, lens.location("focus"), 0);
+    }
     const Vec3 view = camera.target - camera.eye;
     const double distance = glm::length(view);
     if (!(distance > 0 && std::isfinite(distance)))
@@ -116,7 +137,8 @@ void read_solids(const LuaValue& value, SceneBuilder& builder, Scene& scene) {
 
 void read_table(const LuaValue& value, SceneBuilder& builder, Scene& scene) {
     if (!as_table(value)) expected("scene", "the chunk to return a table, return { solids = { … } }", value);
-    const Fields fields(value, "", {"up", "image", "camera", "lights", "background", "environment", "ambient", "solids"});
+    const Fields fields(value, "",
+                        {"up", "image", "camera", "lights", "background", "environment", "ambient", "solids"});
     if (const auto* given = fields.find("up")) scene.z_up = read_up(*given);
     scene.camera.up = up_axis(scene.z_up);
     if (scene.z_up) scene.camera.eye = default_framing(true).from;

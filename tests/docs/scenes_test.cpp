@@ -113,8 +113,9 @@ std::string summary(const Scene& s) {
     const auto text = [](Vec3 v) { return fmt::format("({} {} {}) ", v.x, v.y, v.z); };
     std::string all = fmt::format("{} {} {} {} {} ", s.width, s.height, s.spp.value_or(0), s.bounces, s.exposure) +
                       text(s.camera.eye) + text(s.camera.target) + text(s.camera.up) +
-                      fmt::format("{} ", s.camera.fov) + text(s.ambient) + text(s.background.color) +
-                      text(s.background.horizon) + text(s.background.zenith) + fmt::format("{} {} ", s.background.sky, s.caustics);
+                      fmt::format("{} {} ", s.camera.fov, s.camera.orthographic) + text(s.camera.shift) +
+                      text(s.ambient) + text(s.background.color) + text(s.background.horizon) +
+                      text(s.background.zenith) + fmt::format("{} {} ", s.background.sky, s.caustics);
     if (s.framing) all += text(glm::normalize(s.framing->from)) + fmt::format("{} ", s.framing->fov);
     for (const Light& l : s.lights)
         all += fmt::format("{} ", int(l.kind)) + text(l.position) + text(l.direction) + text(l.u) + text(l.v) +
@@ -237,7 +238,8 @@ TEST_CASE("docs/scenes.md says of every field what the program says that it take
             REQUIRE(error.ends_with(end));
             const std::size_t from = error.find(start) + start.size();
             const std::string takes = error.substr(from, error.size() - end.size() - from);
-            if (takes == "a colour, sky{…} or environment{…}" || takes == "a table of named fields or frame{…}") continue;
+            if (takes == "a colour, sky{…} or environment{…}" || takes == "a table of named fields or frame{…}")
+                continue;
             CHECK(row.cell("takes").substr(0, takes.size()) == takes);
         }
 }

@@ -190,3 +190,28 @@ TEST_CASE("An STL's normals are those of the corners that it has") {
     std::memcpy(normal.data(), bytes.data() + 84, sizeof normal);
     CHECK(normal == std::array<float, 3>{-1, 0, 0});
 }
+
+TEST_CASE("A GLB has the surfaces of its materials by glTF's names") {
+    MeshNotes notes;
+    notes.colors = {{0.5, 0.25, 0.125}};
+    notes.surfaces = {{.metallic = 0.25,
+                       .roughness = 0.5,
+                       .ior = 1.33,
+                       .transmission = 0.75,
+                       .clearcoat = 0.5,
+                       .clearcoat_roughness = 0.125,
+                       .emission = {4, 2, 0}}};
+    const std::string glb = encode(mesh(), MeshFormat::glb, notes);
+    const auto j = nlohmann::json::parse(glb.substr(20, read<std::uint32_t>(glb, 12)));
+    const auto& m = j["materials"][0];
+    CHECK(m["pbrMetallicRoughness"]["baseColorFactor"] == nlohmann::json({0.5, 0.25, 0.125, 1.0}));
+    CHECK(m["pbrMetallicRoughness"]["metallicFactor"] == 0.25);
+    CHECK(m["pbrMetallicRoughness"]["roughnessFactor"] == 0.5);
+    CHECK(m["extensions"]["KHR_materials_ior"]["ior"] == 1.33);
+    CHECK(m["extensions"]["KHR_materials_transmission"]["transmissionFactor"] == 0.75);
+    CHECK(m["extensions"]["KHR_materials_clearcoat"]["clearcoatFactor"] == 0.5);
+    CHECK(m["extensions"]["KHR_materials_clearcoat"]["clearcoatRoughnessFactor"] == 0.125);
+    CHECK(m["emissiveFactor"] == nlohmann::json({1.0, 0.5, 0.0}));
+    CHECK(m["extensions"]["KHR_materials_emissive_strength"]["emissiveStrength"] == 4.0);
+    CHECK(j["extensionsUsed"].size() == 4);
+}

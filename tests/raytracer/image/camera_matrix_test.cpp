@@ -29,17 +29,22 @@ constexpr double float_error = 1e-5;
 
 TEST_CASE("worldToNDC sends what a pixel sees to the pixel's place in the window") {
     const int width = 640, height = 360;
-    const PinholeCamera pinhole(camera(), width, height);
-    const Matrix44 ndc = world_to_ndc(camera(), width, height);
-    for (const double px : {0.0, 100.5, 320.0, 640.0})
-        for (const double py : {0.0, 17.5, 180.0, 360.0})
-            for (const double distance : {0.5, 3.0, 50.0}) {
-                const Ray ray = pinhole.ray(px, py);
-                const auto p = times(ray.origin + distance * ray.direction, ndc);
-                CAPTURE(px, py, distance);
-                CHECK(std::abs(p[0] / p[3] - px / width) < float_error);
-                CHECK(std::abs(p[1] / p[3] - py / height) < float_error);
-            }
+    for (int kind = 0; kind < 4; ++kind) {
+        Camera given = camera();
+        given.orthographic = kind % 2 == 1;
+        if (kind >= 2) given.shift = {0.2, -0.4, 0};
+        const PinholeCamera pinhole(given, width, height);
+        const Matrix44 ndc = world_to_ndc(given, width, height);
+        for (const double px : {0.0, 100.5, 320.0, 640.0})
+            for (const double py : {0.0, 17.5, 180.0, 360.0})
+                for (const double distance : {0.5, 3.0, 50.0}) {
+                    const Ray ray = pinhole.ray(px, py);
+                    const auto p = times(ray.origin + distance * ray.direction, ndc);
+                    CAPTURE(kind, px, py, distance);
+                    CHECK(std::abs(p[0] / p[3] - px / width) < float_error);
+                    CHECK(std::abs(p[1] / p[3] - py / height) < float_error);
+                }
+    }
 }
 
 TEST_CASE("worldToCamera looks along +z, with x right and y up") {

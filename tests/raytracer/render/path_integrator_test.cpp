@@ -194,6 +194,85 @@ TEST_CASE("Many lights give what they give one by one") {
     CHECK(path_pixel(scene, tracer, 1 << 14).color.x == Approx(sum).epsilon(0.01));
 }
 
+TEST_CASE("With a noise bound a pixel depends on neither the block nor the crop, and quiet parts end early") {
+    Scene scene = probe(material_of(Material::Kind::plastic, Vec3(0.6), 0.3));
+    scene.camera = {{0, 3, 6}, {0, 0, 0}, {0, 1, 0}, 50};
+    scene.background.sky = true;
+    scene.lights = {panel_light({2, 4, 0}, {1, 0, 0}, {0, 0, 1}, 10)};
+    const AnalyticTracer tracer({floor_at_0, {Shape::Kind::sphere, {0, 1, 0}, {}, 1, 0}});
+    RenderSettings settings{21, 13, 256, 3};
+    settings.noise = 0.02;
+    const Integrator integrator(scene, tracer, settings);
+    std::vector<Pixel> whole(21 * 13), part(9 * 7);
+    std::vector<PixelLayers> layers(whole.size());
+    TraceCounters counters, exact, crop;
+    integrator.block({0, 0, 21, 13}, whole.data(), nullptr, counters);
+    integrator.block({5, 3, 9, 7}, part.data(), nullptr, crop);
+    for (int i = 0; i < 9 * 7; ++i) {
+        CHECK(part[i].color == whole[(3 + i / 9) * 21 + 5 + i % 9].color);
+        CHECK(part[i].alpha == whole[(3 + i / 9) * 21 + 5 + i % 9].alpha);
+    }
+    TraceCounters with_layers;
+    std::vector<Pixel> again(whole.size());
+    integrator.block({0, 0, 21, 13}, again.data(), layers.data(), with_layers);
+    for (std::size_t i = 0; i < whole.size(); ++i) CHECK(again[i].color == whole[i].color);
+    // Against all samples everywhere: as near as the bound says, with fewer rays.
+    settings.noise = 0;
+    std::vector<Pixel> all(whole.size());
+    Integrator(scene, tracer, settings).block({0, 0, 21, 13}, all.data(), nullptr, exact);
+    double sum = 0;
+    for (std::size_t i = 0; i < whole.size(); ++i)
+        for (int k = 0; k < 3; ++k)
+            sum +=
+                std::pow(std::sqrt(whole[i].color[k]) - std::sqrt(all[i].color[k]), 2) / (3.0 * double(whole.size()));
+    CHECK(std::sqrt(sum) < 0.02);
+    CHECK(counters.rays < exact.rays / 2);
+}
+
+TEST_CASE("A lens blurs what is out of focus and leaves what is in it") {
+    Scene scene;
+    Material lamp = material_of(Material::Kind::matte, Vec3(0.0));
+    lamp.emission = Vec3(1.0);
+    scene.materials = {lamp};
+    scene.camera = {{0, 0, 10}, {0, 0, 0}, {0, 1, 0}, 1e-7};
+    scene.camera.lens_radius = 0.5;
+    // A disc-like ball seen by the middle of the picture: at the focus all of the lens sees it.
+    const AnalyticTracer in_focus({{Shape::Kind::sphere, {0, 0, 0}, {}, 0.01, 0}});
+    CHECK(path_pixel(scene, in_focus, 1024).color.x == Approx(1).margin(1e-9));
+    // Halfway to the focus the cone of rays has a radius of 0.25, and a ball of 0.1 fills (0.1 / 0.25)² of it.
+    const AnalyticTracer before({{Shape::Kind::sphere, {0, 0, 5}, {}, 0.1, 0}});
+    CHECK(path_pixel(scene, before, 1 << 14).color.x == Approx(0.16).epsilon(0.02));
+    scene.camera.focus = 5;
+    CHECK(path_pixel(scene, before, 1024).color.x == Approx(1).margin(1e-9));
+    scene.camera.orthographic = true;
+    CHECK(path_pixel(scene, before, 1024).color.x == Approx(1).margin(1e-9));
+    scene.camera.focus = 10;
+    CHECK(path_pixel(scene, before, 1 << 14).color.x == Approx(0.16).epsilon(0.02));
+}
+
+TEST_CASE("A point is projected to where its ray begins, with every projection and shift") {
+    for (bool orthographic : {false, true})
+        for (Vec3 shift : {Vec3(0.0), Vec3(0.3, -0.8, 0)}) {
+            Camera camera{{3, 2, 4}, {0.5, 0, 0}, {0, 1, 0}, 35};
+            camera.orthographic = orthographic;
+            camera.shift = shift;
+            const PinholeCamera view(camera, 120, 80);
+            for (const Vec2 at : {Vec2(0.5, 0.5), Vec2(60, 40), Vec2(100, 7)}) {
+                const Ray ray = view.ray(at.x, at.y);
+                const Vec3 seen = view.project(ray.origin + 3.0 * ray.direction);
+                CHECK(seen.x == Approx(at.x).epsilon(1e-9));
+                CHECK(seen.y == Approx(at.y).epsilon(1e-9));
+                CHECK(seen.z == Approx(3 * glm::dot(ray.direction, view.forward())));
+                CHECK(close(view.to_eye(ray.origin + 3.0 * ray.direction), -3.0 * ray.direction, 1e-9));
+            }
+            // The target is in the middle, but for the shift; and as large in both projections.
+            const Vec3 middle = view.project(camera.target);
+            CHECK(middle.x == Approx(60 - shift.x * 120).margin(1e-9));
+            CHECK(middle.y == Approx(40 + shift.y * 80).margin(1e-9));
+            CHECK(std::abs(view.project(camera.target + Vec3(0, 0.1, 0)).y - middle.y) == Approx(2.29).epsilon(0.02));
+        }
+}
+
 namespace {
 
 // A box of matte walls with a square of light in its ceiling, traced with neither weights nor lights that are sampled:
