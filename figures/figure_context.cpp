@@ -42,7 +42,12 @@ Film FigureContext::render(const Scene& scene, const RayTracer& tracer, const Fi
     const int width = std::max(1, (settings.width ? settings.width : scene.width) / shrink);
     const int height = std::max(1, (settings.height ? settings.height : scene.height) / shrink);
     const int spp = std::max(1, (settings.spp ? settings.spp : scene.spp.value_or(1)) / fewer);
-    const Integrator integrator(scene, tracer, {width, height, spp, 0});
+    RenderSettings rendering{width, height, spp, 0};
+    if (settings.noise > 0 && !draft_) {
+        rendering.noise = settings.noise;
+        rendering.spp *= 16;
+    }
+    const Integrator integrator(scene, tracer, rendering);
     Film film =
         deburr::render(Film(width, height, {0, 0, width, height}), [&](const Window& block, Pixel* pixels,
                                                                        PixelLayers* layers, TraceCounters& counters) {

@@ -37,6 +37,7 @@ struct FigureResult {
 struct FigurePictureSettings {
     int width = 0, height = 0;  // 0: the scene's
     int spp = 0;                // 0: the scene's
+    double noise = 0;           // > 0: samples until this little noise is left, 16 times `spp` at most
 };
 
 class FigureContext {

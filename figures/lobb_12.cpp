@@ -7,7 +7,7 @@ namespace {
 
 void make(FigureContext& context) {
     const Scene scene = context.scene("csg_examples.lua");
-    context.picture(context.render(scene, {.width = 840, .height = 532, .spp = 48}));
+    context.picture(context.render(scene, {.width = 840, .height = 532, .spp = 48, .noise = 0.01}));
     std::string bars;
     for (std::size_t i = 1; i < scene.solids.size(); ++i) {
         const SolidTree tree = flatten(scene.solids[i]);

@@ -7,7 +7,7 @@ namespace {
 
 void make(FigureContext& context) {
     const Scene scene = context.scene("staplers.lua");
-    context.picture(context.render(scene, {.width = 840, .height = 532, .spp = 128}));
+    context.picture(context.render(scene, {.width = 840, .height = 532, .spp = 128, .noise = 0.01}));
     std::size_t half_spaces = 0, sharp = 0;
     const SolidTree soft = flatten(context.scene("staplers.lua", {{"show", "rounded"}}).solids.at(0));
     double least = infinity, greatest = 0;

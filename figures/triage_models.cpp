@@ -18,8 +18,8 @@ std::string count(const SceneMesh& mesh) {
                        t.manifold() ? "a closed 2-manifold" : fmt::format("with {} open edges", t.open_edges));
 }
 
-const FigurePictureSettings whole{.width = 720, .height = 456, .spp = 96};
-const FigurePictureSettings detail{.width = 420, .height = 300, .spp = 96};
+const FigurePictureSettings whole{.width = 720, .height = 456, .spp = 96, .noise = 0.01};
+const FigurePictureSettings detail{.width = 420, .height = 300, .spp = 96, .noise = 0.01};
 
 // (a) and (b) of a scene.
 void pair(FigureContext& context, const Scene& scene, const Mesh& lines, const FigurePictureSettings& size,

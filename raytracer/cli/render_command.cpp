@@ -16,6 +16,7 @@
 #include "raytracer/cli/commands.hpp"
 #include "raytracer/cli/options.hpp"
 #include "raytracer/cli/statistics.hpp"
+#include "raytracer/image/denoise.hpp"
 #include "raytracer/image/exposure.hpp"
 #include "raytracer/image/image_file.hpp"
 #include "raytracer/image/surroundings_file.hpp"
@@ -50,6 +51,7 @@ struct RenderOptions : Options {
     std::optional<double> exposure;  // of pictures for the screen
     std::optional<double> noise, seconds;
     ViewTransform view = ViewTransform::standard;
+    bool denoise = false;
 };
 
 // Boxes to look at for each sum and difference before rendering; `info` looks longer.
@@ -251,12 +253,15 @@ ImageNotes notes_of(const RenderOptions& o, const World& world, int spp, double 
     ImageNotes notes;
     notes.camera = scene.camera;
     notes.spp = spp;
+    for (std::size_t i = 0; i < scene.solids.size(); ++i)
+        notes.solids.push_back(scene.names[i].empty() ? fmt::format("solid {}", i + 1) : scene.names[i]);
     notes.date = date_text(epoch.value_or(std::time(nullptr)));
     if (!epoch) notes.render_seconds = trace_seconds;
     notes.attributes = {{"scene", scene.file},
                         {"seed", fmt::format("{}", o.seed)},
                         {"via", o.via},
                         {"criterion", o.criterion == Criterion::lobb ? "lobb" : "exact"}};
+    if (o.denoise) notes.attributes.push_back({"denoised", "a-trous"});
     if (const double exposure = exposure_of(o, scene))
         notes.attributes.push_back({"exposure", fmt::format("{}", exposure)});
     if (o.noise) notes.attributes.push_back({"noise", fmt::format("{}", *o.noise)});
@@ -278,8 +283,14 @@ void warn(const Scene& scene, double aspect) {
         for (const std::string& line : lines) message("warning: " + line);
 }
 
-int run_render(const RenderOptions& o) {
+int run_render(const RenderOptions& given) {
+    RenderOptions o = given;
     check_options(o);
+    if (o.denoise) {
+        if (!o.wire.empty()) throw UsageError("--denoise: expected a picture with surfaces, got --wire");
+        for (const ImageLayer layer : {ImageLayer::normal, ImageLayer::albedo})
+            if (std::count(o.layers.begin(), o.layers.end(), layer) == 0) o.layers.push_back(layer);
+    }
     source_date_epoch();  // or what is wrong with it is said when the work is done
     const int threads = o.threads.value_or(tbb::info::default_concurrency());
     const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, std::size_t(threads));
@@ -325,7 +336,8 @@ int run_render(const RenderOptions& o) {
     const std::atomic<bool>& stop = catch_interrupts(!o.quiet);
     const double pixels = double(window.width) * window.height;
     Progress progress(pixels * (spp + writing_work * double(o.outputs.size())), Progress::standard_error(o.quiet));
-    const Rendering rendering = trace(o, frame, world, stop, progress);
+    Rendering rendering = trace(o, frame, world, stop, progress);
+    if (o.denoise) denoise(rendering.film);
     const Film& film = rendering.film;
     clock.end();
     if (rendering.pixels_done == 0) {
@@ -402,6 +414,9 @@ Command add_render_command(CLI::App& program) {
             "it "
             "go to white softly; default: standard")
         ->type_name("standard|agx");
+    command->add_flag("--denoise", options->denoise,
+                      "smooth the noise that is left, guided by normals and albedo, which an EXR then has, too: for a "
+                      "quick look, not for measurements");
     command
         ->add_option("--tolerance", options->tolerance,
                      "meshes only: the mesh's tolerance, as for mesh; default: 0.03 of each solid's least radius")

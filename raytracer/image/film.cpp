@@ -1,5 +1,6 @@
 #include "raytracer/image/film.hpp"
 
+#include <algorithm>
 #include <set>
 #include <stdexcept>
 #include <string>
@@ -18,6 +19,19 @@ void put(ImageLayer layer, const PixelLayers& from, double* to) {
         case ImageLayer::z: *to = from.z; return;
         case ImageLayer::id: *to = double(from.id); return;
         case ImageLayer::cost: *to = from.cost; return;
+        case ImageLayer::cryptomatte: {  // the greatest share first; of equal ones, the lesser id
+            std::array<int, SolidShares::ranks> order;
+            for (int k = 0; k < SolidShares::ranks; ++k) order[k] = k;
+            const SolidShares& s = from.solids;
+            std::sort(order.begin(), order.end(), [&](int a, int b) {
+                return s.share[a] != s.share[b] ? s.share[a] > s.share[b] : s.id[a] < s.id[b];
+            });
+            for (const int k : order) {
+                *to++ = double(s.id[k]);
+                *to++ = s.share[k];
+            }
+            return;
+        }
     }
 }
 

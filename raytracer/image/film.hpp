@@ -43,6 +43,7 @@ struct PixelLayers {
     Vec3 albedo{0.0};      // averaged
     std::uint32_t id = 0;  // 1 + index of the solid; 0: nothing was hit
     double cost = 0.0;     // density evaluations
+    SolidShares solids;    // of all samples
 };
 
 /// One layer of a film; i counts the window's pixels, row by row.

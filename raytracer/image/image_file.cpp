@@ -8,6 +8,7 @@
 #include <glm/gtc/type_ptr.hpp>
 
 #include "raytracer/image/camera_matrix.hpp"
+#include "raytracer/image/cryptomatte.hpp"
 #include "raytracer/image/image_module.hpp"
 #include "raytracer/util/errors.hpp"
 #include "raytracer/util/whole_file.hpp"
@@ -85,7 +86,8 @@ std::vector<ImageChannel> png_channels(const Film& film, ChannelType type, const
     return list;
 }
 
-std::vector<ImageChannel> channels(const Film& film, ImageKind kind, const ImageFormat& format) {
+std::vector<ImageChannel> channels(const Film& film, ImageKind kind, const ImageFormat& format,
+                                   const ImageNotes& notes) {
     std::vector<ImageChannel> list;
     const Pixel* pixels = film.pixels.data();
     const auto add_color = [&](ChannelType type, auto value_of) {
@@ -113,6 +115,18 @@ std::vector<ImageChannel> channels(const Film& film, ImageKind kind, const Image
             list.push_back(image_channel(names[k], type,
                                          [&plane = film.layer(layer), k](std::size_t i) { return plane.at(i, k); }));
     }
+    if (film.keeps(ImageLayer::cryptomatte)) {
+        std::vector<double> hashes = {0};  // by id; 0: nothing
+        for (const std::string& name : notes.solids) hashes.push_back(cryptomatte_number(name));
+        for (int k = 0; k < 2 * SolidShares::ranks; ++k)
+            list.push_back(image_channel(fmt::format("{}{:02}.{}", cryptomatte_layer, k / 4, "RGBA"[k % 4]),
+                                         ChannelType::single_float,
+                                         [&plane = film.layer(ImageLayer::cryptomatte), k, hashes](std::size_t i) {
+                                             const double value = plane.at(i, k);
+                                             if (k % 2 == 1) return value;
+                                             return value < double(hashes.size()) ? hashes[std::size_t(value)] : 0.0;
+                                         }));
+    }
     return list;
 }
 
@@ -129,6 +143,8 @@ std::vector<ImageAttribute> attributes(const Film& film, const ImageNotes& notes
         if (notes.render_seconds) all.push_back({"renderTimeSeconds", float(*notes.render_seconds)});
     }
     for (const auto& [name, value] : notes.attributes) all.push_back({"deburr." + name, value});
+    if (exr && film.keeps(ImageLayer::cryptomatte))
+        for (const auto& [name, value] : cryptomatte_attributes(notes.solids)) all.push_back({name, value});
     if (!film.complete) {
         if (exr)
             all.push_back({"deburr.incomplete", 1});
@@ -184,7 +200,7 @@ void write_image(const std::string& path, const Film& film, const ImageFormat& f
     else if (png && format.alpha)
         list = png_channels(film, ChannelType::byte, format, srgb_byte);
     else
-        list = channels(film, *kind, format);
+        list = channels(film, *kind, format, notes);
     write_raster(path, {film.width, film.height, film.window, std::move(list), attributes(film, notes, exr)},
                  format.threads, done);
 }

@@ -33,6 +33,7 @@ struct ImageNotes {
     std::optional<double> render_seconds;  // nothing where files are to be reproducible
     /// "deburr.NAME" = value: the scene, its parameters, the seed, …
     std::vector<std::pair<std::string, std::string>> attributes;
+    std::vector<std::string> solids;  // their names, for Cryptomatte
 };
 
 struct ImageFormat {

@@ -96,7 +96,10 @@ private:
         }
         const Vec3 albedo = in_.texture_color(hit);
         pixels_[use.pixel].alpha += 1.0;
-        if (layers) layers->albedo += finite_or_zero(albedo);
+        if (layers) {
+            layers->albedo += finite_or_zero(albedo);
+            layers->solids.add(std::uint32_t(hit.solid + 1));
+        }
         if (in_.layers_[hit.material].kind() == Material::Kind::glass) {
             m_.colors[i] = in_.color_of_glass(hit, albedo, direction, path(i));
             return;
@@ -184,7 +187,9 @@ void Integrator::block(const Window& block, Pixel* pixels, PixelLayers* layers, 
     for (std::size_t i = 0; i < count; ++i) {
         pixels[i].color /= spp;
         pixels[i].alpha /= spp;
-        if (layers) layers[i].albedo /= spp;
+        if (!layers) continue;
+        layers[i].albedo /= spp;
+        layers[i].solids.divide(spp);
     }
 }
 

@@ -251,7 +251,10 @@ private:
         const Vec3 color = color_at(material.color, hit.position, hit.normal);
         if (depth_ == 0) {
             pixels_[use.pixel].alpha += 1.0;
-            if (layers_) layers_[use.pixel].albedo += zero_unless_finite(color);
+            if (layers_) {
+                layers_[use.pixel].albedo += zero_unless_finite(color);
+                layers_[use.pixel].solids.add(std::uint32_t(hit.solid + 1));
+            }
         }
         take_emission(path, hit, material);
         Scattering surface(in_.materials_[path.blur][hit.material], color, hit.normal, -path.ray.direction);
@@ -464,7 +467,9 @@ void PathIntegrator::cell(const Window& cell, Pixel* pixels, PixelLayers* layers
     }
     for (std::size_t i = 0; i < count; ++i) {
         pixels[i] = {done[i].color / double(n), done[i].alpha / n};
-        if (layers) layers[i].albedo /= n;
+        if (!layers) continue;
+        layers[i].albedo /= n;
+        layers[i].solids.divide(n);
     }
 }
 
@@ -516,7 +521,9 @@ void PathIntegrator::block(const Window& block, Pixel* pixels, PixelLayers* laye
     for (std::size_t i = 0; i < count; ++i) {
         pixels[i].color /= spp;
         pixels[i].alpha /= spp;
-        if (layers) layers[i].albedo /= spp;
+        if (!layers) continue;
+        layers[i].albedo /= spp;
+        layers[i].solids.divide(spp);
     }
 }
 

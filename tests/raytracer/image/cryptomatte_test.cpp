@@ -1,0 +1,70 @@
+#include "raytracer/image/cryptomatte.hpp"
+
+#include <OpenImageIO/imageio.h>
+
+#include <bit>
+#include <cmath>
+#include <map>
+#include <nlohmann/json.hpp>
+
+#include "catch.hpp"
+#include "raytracer/program.hpp"
+
+using namespace deburr;
+using namespace deburr::test;
+
+TEST_CASE("Names have the hashes of MurmurHash3_x86_32") {
+    CHECK(murmur3("") == 0);
+    CHECK(murmur3("test") == 0xba6bd213);
+    CHECK(murmur3("Hello, world!") == 0xc0363e43);
+    CHECK(murmur3("The quick brown fox jumps over the lazy dog") == 0x2e4ff723);
+    for (int i = 0; i < 5000; ++i) CHECK(std::isnormal(cryptomatte_number(std::to_string(i))));
+}
+
+TEST_CASE("Cryptomatte is read back: names by the manifest, and shares of each pixel") {
+    const Folder folder;
+    // A box covers the left half of the picture to the pixel; another one behind it the right one.
+    write_file(folder / "s.lua",
+               "return { image = { width = 8, height = 4 }, camera = { eye = {0, 0, 9}, projection = 'orthographic' },"
+               " lights = {}, ambient = 1, background = 0.5, solids = { box({-90, -90, -1}, {0, 90, 0}):name('left'),"
+               " box({0, -90, -9}, {90, 90, -8}) } }");
+    const Outcome o = run({"render", folder / "s.lua", "-q", "--spp", "64", "--aov", "crypto", "-o", folder / "a.exr"});
+    CAPTURE(o.err);
+    REQUIRE(o.code == 0);
+    const auto in = OIIO::ImageInput::open(folder / "a.exr");
+    REQUIRE(in);
+    const OIIO::ImageSpec& spec = in->spec();
+    std::string manifest;
+    for (const auto& attribute : spec.extra_attribs) {
+        const std::string name = attribute.name().string();
+        if (name.find("cryptomatte/") == 0 && name.find("/manifest") != std::string::npos)
+            manifest = attribute.get_string();
+    }
+    const auto names = nlohmann::json::parse(manifest);
+    const auto hash = [&](const char* name) {
+        return std::bit_cast<float>(std::uint32_t(std::stoul(names[name].get<std::string>(), nullptr, 16)));
+    };
+    std::map<std::string, int> channel;
+    for (int c = 0; c < spec.nchannels; ++c) channel[spec.channelnames[std::size_t(c)]] = c;
+    REQUIRE(channel.count("CryptoObject00.R"));
+    REQUIRE(channel.count("CryptoObject02.A"));
+    std::vector<float> values(std::size_t(spec.image_pixels()) * std::size_t(spec.nchannels));
+    REQUIRE(in->read_image(0, 0, 0, spec.nchannels, OIIO::TypeDesc::FLOAT, values.data()));
+    const auto share = [&](int x, const char* name) {
+        double sum = 0;
+        for (const char* pair : {"00.RG", "00.BA", "01.RG", "01.BA", "02.RG", "02.BA"}) {
+            const auto at = [&](char letter) {
+                return values[std::size_t((8 + x) * spec.nchannels +
+                                          channel["CryptoObject" + std::string(pair, 3) + letter])];
+            };
+            if (at(pair[3]) == hash(name)) sum += double(at(pair[4]));
+        }
+        return sum;
+    };
+    CHECK(share(0, "left") == 1);
+    CHECK(share(3, "left") > 0.5);  // the filter reaches over the border
+    CHECK(share(3, "left") < 1);
+    CHECK(share(3, "left") + share(3, "solid 2") == Approx(1).margin(1e-6));
+    CHECK(share(7, "left") == 0);
+    CHECK(share(4, "solid 2") == Approx(share(3, "left")).margin(0.05));
+}
