@@ -22,13 +22,13 @@ public:
     /// The tree's root is an Op::convolution. Its half-spaces are gone through for equal ones.
     explicit BallConvolution(const DensityTree& tree);
 
-    /// In the tree's world, no two of them on one plane.
+    /// The half-spaces of the function, placed in the tree's world; no two lie on one plane.
     const std::vector<HalfSpace>& half_spaces() const { return half_spaces_; }
 
     /// The share, and its derivative by each α.
     double at(const std::vector<double>& alpha, std::vector<double>& slope) const;
 
-    /// What the share can be over a box; and over any region, given ρ of every half-space over it.
+    /// Bounds of the share over a box, or over any region on which ρ of every half-space is given.
     Range range(const Box& box) const;
     Range range(const std::vector<Range>& half_spaces) const;
 

@@ -1,5 +1,5 @@
-// What shared expressions have in common, whether of densities or of solids: scenes write chains as
-// long as their loops, so nothing here recurses.
+// Helpers for shared expressions of densities and of solids. Scenes write chains as long as their
+// loops, so nothing here recurses.
 #pragma once
 #include <iterator>
 #include <span>
@@ -8,8 +8,8 @@
 
 namespace deburr {
 
-/// Lets go of a node's children, where a Handle's last owner destroys a node that lets go of its own:
-/// what dies is put on a list, and dies there one by one.
+/// Destroys `children` without recursion: a node that loses its last owner while another is being
+/// destroyed is put on a list, whose nodes are destroyed one by one.
 template <class Handle>
 void release(std::span<Handle> children) {
     thread_local std::vector<Handle>* dying = nullptr;

@@ -32,15 +32,15 @@ public:
     virtual Range range(const Box& box) const = 0;
     /// Holds the set f > 0; sides may be infinite.
     virtual Box bounding_box() const = 0;
-    /// A finite box around what there is to see of an unbounded set, besides its continuation to
-    /// infinity; if bounded, its bounding box. Costs are weighed by it, nothing else.
+    /// A finite box around the part of an unbounded set in which its shape is seen; the bounding box
+    /// of a bounded set. It is used only to estimate costs.
     virtual Box extent() const { return bounding_box(); }
 
     /// A field whose f has the same sign throughout the box, made of no more than matters there;
     /// null: this one.
     virtual FieldPtr prune(const Box&) const { return nullptr; }
-    /// The same as a density whose set ρ > ½ it is throughout the box, if one of a few half-spaces does: what the rest
-    /// of the program intersects at once. Asked for where the range straddles.
+    /// A density of a few half-spaces whose set ρ > ½ is the field's set throughout the box; none if a few are not
+    /// enough. Called for boxes in which the range straddles 0.
     virtual std::optional<DensityTree> as_density(const Box&) const { return std::nullopt; }
     /// Whether it is a rounded polyhedron, with flat faces and a filter's radius: triage can follow it.
     virtual bool is_polyhedral() const { return false; }
@@ -53,7 +53,7 @@ public:
     virtual std::vector<HalfSpace> planes() const { return {}; }
     /// Holds the rate at which f changes along the unit direction, over the finite box.
     virtual Range rate_range(const Box&, Vec3 /*direction*/) const { return {-infinity, infinity}; }
-    /// What an evaluation costs, in evaluations of a half-space's density.
+    /// Cost of one evaluation, as a multiple of that of a half-space's density.
     virtual int size() const { return 1; }
     /// range(box), and size() of what `prune` would leave.
     virtual LocalSize local_size(const Box& box) const { return {range(box), size()}; }
@@ -63,10 +63,10 @@ public:
     /// A ray parameter ≥ 0 beyond which f keeps its sign along the ray; asked for rays that do not
     /// end.
     virtual double last_sign_change_bound(Vec3 origin, Vec3 direction) const = 0;
-    /// Sets up ray.numbers, if the field uses them, and ray.noise_scale, for the ray that the others name.
+    /// Sets ray.noise_scale, and ray.numbers if the field uses them, from the ray's other members.
     virtual void begin_ray(FieldRay&) const {}
-    /// No ray within the finite box has a greater unit: what f may be off by anywhere in it, and for whatever ray,
-    /// is RootFinder::rounding of it.
+    /// Upper bound of FieldRay::noise_scale over all rays in the finite box: f is off by at most
+    /// RootFinder::rounding of it anywhere in the box.
     virtual double max_noise_scale(const Box&) const { return 1; }
     /// f and df/dt in ray.noise_scale: there f must be off by less than RootFinder::rounding.
     virtual ValueSlope at(const FieldRay& ray, double t) const = 0;
@@ -91,8 +91,8 @@ public:
         f.begin_ray(*this);
     }
     ValueSlope at(double t) const { return field->at(*this, t); }
-    /// A little wider than the field says: where f″ is constant, two roots lie exactly at the limit
-    /// of what the criterion for one (root_finder.hpp) rejects, and rounding would decide.
+    /// The field's bounds, widened by 2⁻²⁰: where f″ is constant, two roots lie exactly at the limit of
+    /// the criterion for one root (root_finder.hpp), and rounding would decide.
     RayBounds bounds(double from, double to) const {
         constexpr double wider = 1 + 0x1p-20;
         const RayBounds b = field->bounds(*this, from, to);

@@ -64,7 +64,7 @@ public:
 
     Vec3 gradient(double t) const;
 
-    /// What is known at a point of the ray.
+    /// f and its slope at a point of the ray.
     struct Point {
         double t, f, slope;
         double value[ProductSum::max_terms], rate[ProductSum::max_terms];  // of every Pₖ that varies
@@ -77,7 +77,7 @@ public:
     /// Cuts [t0, t1] down to where the surface can be, and the planes to those whose densities vary there;
     /// false if nothing is left.
     bool narrow(double& t0, double& t1);
-    /// These two within what narrow() left.
+    /// evaluate() and slopes() are valid only within the interval that narrow() left.
     Point evaluate(double t, RootCounters& counters) const;
     SlopeRange slopes(const Point& a, const Point& b) const;  // f′ between two points, a before b
 

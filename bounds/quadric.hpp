@@ -20,8 +20,8 @@ struct Quadric {
     double largest() const;
     /// Whether Q is the same everywhere: there is no surface.
     bool is_constant() const { return A == Mat3(0.0) && b == Vec3(0.0); }
-    /// What the terms of Q add up to without their signs, where |y| ≤ reach: what rounding is
-    /// relative to.
+    /// Sum of the absolute values of Q's terms, where |y| ≤ reach: Q is rounded by a few ε of
+    /// this sum.
     double magnitude(Vec3 reach) const;
     /// Q over the box, rounding included; sides may be infinite.
     Range range(const Box& box) const;
@@ -47,7 +47,7 @@ Quadric transformed(const Quadric& q, const Affine& map);
 /// The ten coefficients of eq. 1, in its order: x² y² z² xy xz yz x y z 1.
 Quadric quadric_from(const double (&coefficients)[10]);
 
-/// Those of one axis of symmetry, by the squared distance from the axis and the way along it:
+/// Quadrics of revolution, as functions of the distance along the axis and the squared distance from it:
 /// Q = k + along·t + along²·t² + across·ρ², where t is in units of `height` and ρ in units of `radius`.
 struct Revolution {
     double constant = 0, along = 0, along_squared = 0, across_squared = -1;

@@ -32,7 +32,7 @@ struct SegmentEnd {
 /// enough, and so accepts segments that hold two roots.
 double min_turning_distance(SegmentEnd end, RayBounds bounds);
 
-/// The same as eq. 6 has it, turn-around distance included.
+/// The same distance as the paper's eq. 6 claims it, turn-around distance included.
 double lobb_turning_distance(SegmentEnd end, RayBounds bounds);
 
 /// Exact: true only if the segment provably holds at most one root; false says nothing.
@@ -47,7 +47,7 @@ struct RootSettings {
     Criterion criterion = Criterion::exact;
     double t_tolerance = 1e-14;  // a segment no longer than this is not cut again, and roots are
                                  // found to within it
-    double f_tolerance = 1e-9;   // where |f| provably stays below twice this, f need not be told from 0
+    double f_tolerance = 1e-9;   // f counts as 0 where |f| provably stays below twice this
 };
 
 /// Exact: whether |f| stays below 2 · `f_tolerance` throughout. In the plane of a flush face f is 0 but for

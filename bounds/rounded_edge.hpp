@@ -30,7 +30,7 @@ public:
     double quasi_reach() const { return 1 / std::sin(angle_); }
     double exact_reach() const { return angle_ < half_pi ? 1 / std::sin(angle_) : 1; }
     double fillet_radius() const { return exact_reach() * std::tan(angle_ / 2); }
-    /// Beyond this |x| all curves are the planes.
+    /// Half the width of the rounding: for larger |x| every curve lies in the planes.
     double width() const { return quasi_reach() * std::sin(angle_ / 2); }
 
 private:

@@ -33,7 +33,7 @@ public:
     friend Solid operator&(Solid a, Solid b);
     friend Solid operator-(Solid a, Solid b);
 
-    /// Gives everything in it that has no material yet the one with this index in the scene.
+    /// Assigns the scene's material with this index to every part that has none.
     Solid material(int index) const;
     /// Carries densities and fields along: x ↦ ρ(A⁻¹x). `map` must be regular.
     Solid transformed(const Affine& map) const;

@@ -6,7 +6,7 @@
 
 namespace deburr {
 
-/// Where a region lies with respect to a op b, given where it lies with respect to a and b.
+/// The side on which a region lies of a op b, from the sides on which it lies of a and of b.
 Side combine(SolidOp op, Side a, Side b);
 
 /// The solid within the box: subtrees that the box lies inside or outside of are folded away, and
@@ -14,14 +14,14 @@ Side combine(SolidOp op, Side a, Side b);
 /// all there is.
 SolidTree prune(const SolidTree& tree, const Box& box);
 
-/// Where the box lies, and how many half-spaces, or their like in fields, `prune` would leave.
+/// The box's side of the solid, and how many leaves and half-spaces (of fields: Field::size) `prune` would leave.
 struct LocalSolidSize {
     Side side = Side::straddling;
     int leaves = 0, half_spaces = 0;
 };
 LocalSolidSize local_size(const SolidTree& tree, const Box& box);
 
-/// The same in several boxes, which costs less than one after the other; `sizes` has room for one of each.
+/// local_size in several boxes at less cost than one after the other; sizes[k] is that of boxes[k].
 void local_sizes(const SolidTree& tree, std::span<const Box> boxes, LocalSolidSize* sizes);
 
 }  // namespace deburr

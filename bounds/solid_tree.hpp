@@ -36,7 +36,7 @@ struct SolidTree {
     bool contains(Vec3 x) const;
 };
 
-/// A chain of placements, each regular, that is singular to a double: it leaves no planes.
+/// Thrown when placements that are each regular multiply to a numerically singular map.
 struct SingularPlacement : std::domain_error {
     explicit SingularPlacement(int of_line);
     int line;  // of the leaf; 0 unknown

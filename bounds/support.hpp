@@ -1,5 +1,5 @@
-// Where a density is not 0: boxes around the parts of a tree, for pruning far parts at a glance.
-// Interval arithmetic alone does not see that a tilted block is far away: no plane of it need be.
+// Bounding boxes of the parts of a tree, to prune distant parts quickly. Interval arithmetic alone does
+// not see that a tilted block is far away, for none of its planes need be.
 #pragma once
 #include "bounds/density_tree.hpp"
 

@@ -17,7 +17,7 @@ constexpr double epsilon = std::numeric_limits<double>::epsilon();
 /// The largest absolute coordinate.
 inline double largest(Vec3 v) { return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)}); }
 
-/// Of x from the segment, or the point, between a and b.
+/// Distance from x to the segment ab (a point if a = b).
 template <glm::length_t N>
 double distance_to_segment(const glm::vec<N, double>& x, const glm::vec<N, double>& a, const glm::vec<N, double>& b) {
     const glm::vec<N, double> d = b - a;
@@ -39,7 +39,7 @@ inline Affine compose(const Affine& then, const Affine& first) {
     return {then.linear * first.linear, then(first.shift)};
 }
 
-/// Holds no number where `map` is singular to a double.
+/// The inverse map. It contains NaN or infinity if `map` is numerically singular.
 inline Affine inverse(const Affine& map) {
     const Mat3 linear = glm::inverse(map.linear);
     return {linear, -(linear * map.shift)};
@@ -50,7 +50,7 @@ struct Eigensystem {
     Mat3 vectors;
     Vec3 values;
 };
-/// Of a symmetric matrix (Jacobi's rotations).
+/// Eigendecomposition of a symmetric matrix, by Jacobi rotations.
 Eigensystem eigensystem(Mat3 symmetric);
 
 /// Axis-parallel box; sides may lie at ±infinity. Empty where lo > hi on some axis.

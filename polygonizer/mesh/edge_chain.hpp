@@ -12,7 +12,7 @@ public:
     void add(int a, int b, int times = 1) {
         if (a != b) edges_.push_back({{std::min(a, b), std::max(a, b)}, a < b ? times : -times});
     }
-    /// What does not cancel: edges, and how often they are run through from the first to the second.
+    /// Edges that do not cancel, with how often each is run through from its first end to its second.
     std::vector<std::pair<std::pair<int, int>, int>> rest() {
         std::sort(edges_.begin(), edges_.end());
         std::vector<std::pair<std::pair<int, int>, int>> rest;

@@ -23,16 +23,16 @@ namespace deburr {
 
 enum class MeshFormat { obj, ply, stl, glb, ase, three_mf };
 
-/// By the extension of the file's name, in small or capital letters.
+/// Format that the extension of the file's name stands for, in small or capital letters; none if it is unknown.
 std::optional<MeshFormat> mesh_format(const std::string& path);
 std::string known_mesh_extensions();
 
-/// What the mesh's coordinates are measured in.
+/// Unit of the mesh's coordinates.
 enum class LengthUnit { micron, millimeter, centimeter, inch, foot, meter };
 
-/// As 3MF spells them.
+/// Name of the unit as 3MF spells it.
 const char* unit_name(LengthUnit unit);
-/// From such a name.
+/// The unit that a name of 3MF's stands for; none if there is no such unit.
 std::optional<LengthUnit> find_unit(const std::string& name);
 /// "micron, millimeter, …"
 std::string known_units();

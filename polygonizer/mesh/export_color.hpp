@@ -10,7 +10,7 @@ namespace deburr {
 /// Linear; grey where the notes have none.
 Vec3 material_color(const MeshNotes& notes, int material);
 
-/// The same as sRGB [IEC 61966-2-1], 8 bit.
+/// The material's colour as sRGB [IEC 61966-2-1], 8 bit.
 std::array<std::uint8_t, 3> display_color(const MeshNotes& notes, int material);
 
 }  // namespace deburr

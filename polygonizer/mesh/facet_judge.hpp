@@ -15,7 +15,7 @@ struct FacetShape {
 /// for, and all that are nearer.
 DistanceField field_around(const Mesh& mesh, const SolidTree& solid);
 
-/// For all meshes of one solid. Not for several threads at once.
+/// Judges facets of any mesh of one solid. One thread at a time may use it.
 class FacetJudge {
 public:
     /// `mesh` tells where the surfaces are.
@@ -23,7 +23,7 @@ public:
     FacetJudge(const FacetJudge&) = delete;
     FacetJudge& operator=(const FacetJudge&) = delete;
 
-    /// Of a facet whose own cosine is below `least` no more is asked.
+    /// Shape of facet f. Once its own cosine is found to be below `least`, the rest is not looked at.
     FacetShape shape(const Facets& facets, const Facet& f, double least = -infinity) const;
     /// Whether points all over the triangle are within the tolerance of the solid's surface: its middle, three around
     /// that, and three on each edge, but for edges that do not end at corner `only` where that is not −1.
@@ -31,7 +31,7 @@ public:
     bool on_surface(Vec3 x) const { return std::abs(solid_.at(x).distance) <= 10 * surfaces_.slack(); }
     const DistanceField& solid() const { return solid_; }
     const LeafSurfaces& surfaces() const { return surfaces_; }
-    /// Of the box around the mesh.
+    /// Length of the diagonal of the box around the mesh.
     double size() const { return size_; }
 
 private:

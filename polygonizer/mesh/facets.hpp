@@ -9,8 +9,8 @@
 
 namespace deburr {
 
-/// Where a triangle comes from: the cell of the subdivision, and the leaf of the solid whose
-/// isosurface it stands for. −1 both: it is part of a plane, and its corners have one normal.
+/// Origin of a triangle: the cell of the subdivision that made it, and the leaf of the solid whose
+/// isosurface it approximates. Both are −1 if it is part of a plane: its corners have one normal.
 struct Origin {
     int cell = -1, leaf = -1;
 };
@@ -48,7 +48,7 @@ public:
     int corner_index(int f, int vertex) const;  // of the vertex in the facet
     /// Whether both stand for one surface, as far as their edge from a to b can tell.
     bool same_surface(const Facet& f, const Facet& g) const;
-    /// Of a polygon without area: any neighbour's surface will do.
+    /// Whether the facet is part of a polygon without area, which may stand for any neighbour's surface.
     bool no_surface(const Facet& f) const;
 
     /// Edge k of facet f is replaced by the other diagonal of its two facets; none where that is no

@@ -21,7 +21,7 @@ public:
     /// `only`: the field of the whole solid, if that is one leaf; it must outlive this.
     LeafSurfaces(const SolidTree& solid, const Box& box, const DistanceField* only = nullptr);
 
-    /// To first order, as SignedDistance: > 0 inside the leaf, or behind the plane.
+    /// Signed distance to first order, with its normal: > 0 inside the leaf, or behind the plane.
     SurfaceSample at(const LeafSurface& piece, Vec3 x) const;
     /// Moves x to where all pieces meet, by Newton's method with the shortest steps; no farther than
     /// `reach`. False, and x stays, if that does not lead onto all of them. Pieces that touch each

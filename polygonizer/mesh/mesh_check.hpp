@@ -23,7 +23,7 @@ struct MeshCheckOptions {
     CancelFlag cancel = nullptr;
 };
 
-/// Of one kind: how many, and the first of them.
+/// Faults of one kind: how many there are, and the first of them.
 struct MeshFault {
     std::size_t count = 0;
     Vec3 location{0.0};

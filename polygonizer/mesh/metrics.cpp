@@ -1,6 +1,7 @@
 #include "polygonizer/mesh/metrics.hpp"
 
 #include <algorithm>
+#include <numbers>
 
 #include "polygonizer/mesh/facet_judge.hpp"
 #include "polygonizer/mesh/facet_orientation.hpp"
@@ -8,7 +9,7 @@
 namespace deburr {
 namespace {
 
-constexpr double degrees = 57.29577951308232;
+constexpr double degrees = 180 / std::numbers::pi;
 
 struct Sum {
     double total = 0, max = 0;

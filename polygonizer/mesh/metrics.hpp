@@ -32,7 +32,7 @@ struct MeshMetrics {
 
 MeshMetrics measure(const Mesh& mesh, const SolidTree& solid);
 
-/// The same of several meshes taken together.
+/// Metrics of several meshes taken together.
 MeshMetrics combined(const std::vector<MeshMetrics>& parts);
 
 }  // namespace deburr

@@ -21,7 +21,7 @@ public:
     struct Side {
         int triangle = -1, k = 0;
     };
-    /// What is first met on the way from a point to another.
+    /// The first thing met on the way from one point to another.
     struct ConnectResult {
         enum class End { there, vertex, marked } end = End::there;
         int vertex = -1;  // up to where the way now is an edge; marked: none

@@ -1,5 +1,5 @@
-// A list of numbers that is short as a rule: it needs no memory of its own until it has more than
-// `usual`. A subdivision is thousands of them.
+// A list that is short as a rule: it allocates only beyond `usual` values. A subdivision has thousands. It stands in
+// for boost::container::small_vector: Boost is too heavy a dependency of the libraries for one class.
 #pragma once
 #include <algorithm>
 #include <cstdint>

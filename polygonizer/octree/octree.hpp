@@ -46,8 +46,8 @@ struct OpenMeshError : std::runtime_error {
 /// Side of a cell by default: half the least radius, within 1/64 and 1/512 of the box.
 double octree_edge(const SolidTree& solid, const Box& box);
 
-/// What leaves `box` is cut off by it. Throws OpenMeshError; std::length_error if `edge` makes too
-/// many cells; and Cancelled.
+/// The mesh of the solid's part within `box`. Throws OpenMeshError; std::length_error if `edge`
+/// makes too many cells; and Cancelled.
 Mesh octree(const SolidTree& solid, const Box& box, const OctreeOptions& options = {},
             OctreeStatistics* statistics = nullptr);
 

@@ -54,9 +54,9 @@ public:
     double edge() const { return edge_; }
     int level() const { return level_; }
     const SignedDistance& solid(const OctreeCell& c) const { return *solids_[c.solid]; }
-    /// Of the leaf at x, its neighbours at most.
+    /// The part of the solid that matters in and around the octree's leaf at x.
     const SignedDistance& solid(Vec3 x) const { return solid(cell(find(x))); }
-    /// What to evaluate throughout the box.
+    /// The part of the solid that matters in the box.
     std::shared_ptr<const SignedDistance> solid(const Box& box) const;
     /// > 0 inside; evaluated in the leaf `by` if it is not known.
     double value(const GridPoint& c, const OctreeCell& by);

@@ -42,13 +42,13 @@ Vec3 surface_root(const SignedDistance& solid, Vec3 inside, Vec3 outside);
 SurfacePoint surface_point(const SignedDistance& solid, const Box& cell, const std::vector<CrossingPoint>& crossings,
                            double hard_cosine, bool tip_may_stick_out);
 
-/// Where the two pieces meet that pass both p and q, no farther than `reach` from x; nothing if they
-/// meet at no hard edge there.
+/// Point no farther than `reach` from x at which the two pieces meet that pass through both p and q;
+/// none if they meet at no hard edge there.
 std::optional<SurfacePoint> hard_edge_point(const SignedDistance& solid, Vec3 x, Vec3 p, Vec3 q, double reach,
                                             double hard_cosine);
 
-/// Where the pieces that pass these two or three points meet, if no piece passes all: the point of a
-/// hard edge, or the corner, that their mesh cuts off. Near x, no farther than they are apart.
+/// Point at which the pieces that pass through these two or three points meet, if no piece passes through
+/// all: the point of a hard edge, or corner, that their mesh cuts off. It is no farther from x than they are apart.
 std::optional<SurfacePoint> cut_off_point(const SignedDistance& solid, const std::vector<Vec3>& points, Vec3 x,
                                           double hard_cosine);
 

@@ -32,7 +32,7 @@ struct PointMesh {
         int p, q;         // as `left` runs
         int left, right;  // triangles
     };
-    /// Those that `wanted(p, q)` says, in the order of their ends.
+    /// The edges pq for which `wanted(p, q)` is true, in the order of their ends.
     template <class Wanted>
     std::vector<Edge> edges(Wanted wanted) const;
 

@@ -43,7 +43,7 @@ public:
     };
     struct Face {
         List<8> loop;     // steps, counter-clockwise, seen from the front cell
-        int back, front;  // cells; `outside` beyond the first box
+        int back, front;  // cells; `outside` (−1) beyond the initial box
     };
     static constexpr int outside = -1;
 

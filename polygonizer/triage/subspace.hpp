@@ -30,8 +30,8 @@ public:
     explicit Subspace(const Subdivision& subdivision);
     /// Cuts by the isosurfaces of all leaves.
     void polygonize();
-    /// The same in some of the subdivision's cells only: what comes of these is right where all around them
-    /// are among them, but it is no closed surface.
+    /// Polygonizes some cells of the subdivision only. The surface is right in cells whose neighbours are
+    /// included, too, and it is not closed.
     void polygonize(std::span<const int> cells);
 
     const CellComplex& complex() const { return complex_; }
@@ -121,7 +121,7 @@ private:
     mutable std::vector<char> in_;
 };
 
-/// Where φ = ρ − ½ changes its sign on the way from a to b; it must.
+/// Point between a and b at which φ = ρ − ½ changes its sign. Precondition: φ has different signs at a and b.
 Vec3 root_between(const LocalDensity& density, Vec3 a, double fa, Vec3 b, double fb);
 
 }  // namespace deburr

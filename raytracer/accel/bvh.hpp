@@ -14,8 +14,8 @@
 
 namespace deburr {
 
-/// Where boxes and rays are measured from, and in what unit, so that single precision serves: in `around`
-/// coordinates are −1 … 1.
+/// Frame in which boxes and rays are measured, so that single precision is enough: coordinates in
+/// `around` are −1 … 1.
 struct BoxFrame {
     BoxFrame() = default;
     explicit BoxFrame(const Box& around);
@@ -56,9 +56,9 @@ public:
     const Box& box() const { return box_; }
     bool empty() const { return nodes_.empty(); }
 
-    /// The ray is within box() in [t0, t1], or nearly; `inverse`: reciprocal(direction). Calls visit(number of an item)
-    /// for those whose boxes the ray may meet in [t0, t1], the nearest first but where boxes overlap. It returns the
-    /// distance up to which it goes on; a negative one ends it.
+    /// Precondition: [t0, t1] is the ray's part in box(), up to rounding; `inverse` is reciprocal(direction). Calls
+    /// visit(i) for every item i whose box the ray may meet in [t0, t1], the nearest first but where boxes overlap.
+    /// visit() returns the distance up to which the ray goes on; a negative one ends the search.
     template <class Visit>
     void visit(const Vec3& origin, const Vec3& direction, const Vec3& inverse, double t0, double t1, Visit visit) const;
 
@@ -113,7 +113,7 @@ private:
     BoxFrame frame_;
 };
 
-/// Where a ray is within a box: [lo, hi], none if lo > hi. Boundaries count.
+/// Interval [lo, hi] of a ray within a box, its boundary included; empty if lo > hi.
 struct BoxSpan {
     double lo, hi;
 };
@@ -122,7 +122,7 @@ struct BoxSpan {
 inline double reciprocal(double d) { return std::abs(d) > 1e-300 ? 1 / d : std::copysign(1e300, d); }
 inline Vec3 reciprocal(Vec3 d) { return {reciprocal(d.x), reciprocal(d.y), reciprocal(d.z)}; }
 
-/// Of a box that is not empty.
+/// Interval of the ray within `box`, which must not be empty.
 [[gnu::always_inline]] inline BoxSpan span_in(const Box& box, const Vec3& origin, const Vec3& inverse, double t0,
                                               double t1) {
     for (int k = 0; k < 3; ++k) {

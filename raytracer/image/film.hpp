@@ -1,7 +1,7 @@
 // The picture in memory: what every pixel of a window saw, before any file format.
 //
-// Colour and alpha are kept always, in 32 bytes a pixel; layers only where they are asked for, since
-// all of them take three times as much again.
+// Colour and alpha are always kept, in 32 bytes a pixel; layers are kept on request, since together
+// they need three times as much again.
 #pragma once
 #include <cstdint>
 #include <map>
@@ -34,8 +34,8 @@ struct Pixel {
     double alpha = 0.0;
 };
 
-/// Of one ray through the pixel's centre, so that two renderers can be compared ray by ray; albedo
-/// and cost, of all samples.
+/// Layers of a pixel: of the ray through its centre, so that two renderers can be compared ray by ray;
+/// but albedo and cost are of all samples.
 struct PixelLayers {
     Vec3 position{0.0};    // world, of the first hit
     Vec3 normal{0.0};      // unit, out of the solid
@@ -53,7 +53,7 @@ public:
         : components_(std::size_t(components(layer))), values_(pixels * components_) {}
 
     double at(std::size_t i, int component = 0) const { return values_[i * components_ + std::size_t(component)]; }
-    /// Of a layer with three components.
+    /// Value at pixel i of a layer with three components.
     Vec3 vec(std::size_t i) const { return {at(i, 0), at(i, 1), at(i, 2)}; }
     double* pixel(std::size_t i) { return &values_[i * components_]; }
 
@@ -83,7 +83,7 @@ struct Film {
     bool keeps(ImageLayer layer) const { return planes_.count(layer) > 0; }
     /// Throws std::logic_error if it is not kept.
     const LayerPlane& layer(ImageLayer layer) const;
-    /// Of a block within the window, row by row; what is not kept is dropped.
+    /// Sets the layers of a block within the window, row by row; layers that the film does not keep are dropped.
     void set_layers(const Window& block, const PixelLayers* layers);
 
     static double bytes_per_pixel(const std::vector<ImageLayer>& layers);

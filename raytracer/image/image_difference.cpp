@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <numbers>
 
 #include "raytracer/image/image_file.hpp"
 #include "raytracer/image/image_module.hpp"
@@ -11,7 +12,7 @@
 namespace deburr {
 namespace {
 
-constexpr double degrees = 57.29577951308232;
+constexpr double degrees = 180 / std::numbers::pi;
 
 DifferenceFigures figures(std::vector<double>& values) {
     DifferenceFigures f;

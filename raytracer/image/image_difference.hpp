@@ -8,7 +8,7 @@
 
 namespace deburr {
 
-/// What is compared beside colour and alpha.
+/// Layers that are compared beside colour and alpha.
 std::vector<ImageLayer> compared_layers();
 
 struct DifferenceFigures {

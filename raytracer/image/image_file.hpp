@@ -25,7 +25,7 @@
 
 namespace deburr {
 
-/// What the picture shows and how it came about.
+/// Notes for a picture's header: its camera, and how it was made.
 struct ImageNotes {
     Camera camera;
     int spp = 1;
@@ -49,14 +49,14 @@ struct ImageFormat {
 /// from the name, which image_kind() must know. `done` is told the share of it, from 0 to 1, as it proceeds.
 void write_image(const std::string& path, const Film& film, const ImageFormat& format, const ImageNotes& notes,
                  const ShareDone& done = {});
-/// The same for any raster of the kind that the format holds.
+/// Writes a raster of the kind that the format holds, as write_image does.
 void write_raster(const std::string& path, const ImageRaster& image, int threads = 1, const ShareDone& done = {});
 
 /// The sRGB transfer curve [IEC 61966-2-1], 8 bit; less than 0 and NaN give 0.
 unsigned char srgb_byte(double linear);
 /// Back from a place on the curve, from 0 to 1.
 double linear_of_srgb(double value);
-/// The same, 16 bit.
+/// The sRGB transfer curve as srgb_byte has it, 16 bit.
 std::uint16_t srgb_word(double linear);
 
 }  // namespace deburr

@@ -12,10 +12,10 @@ enum class ImageKind {
     display,  // 8 bit sRGB RGB
 };
 
-/// Of the file's name, with its dot, in small letters.
+/// Extension of the file's name, with its dot, in small letters.
 std::string image_extension(const std::string& path);
 
-/// By the extension; nothing if it is unknown or this machine's OpenImageIO cannot write it. Throws
+/// Kind of image that the extension stands for; none if it is unknown or OpenImageIO here cannot write it. Throws
 /// UnsupportedError if a module is needed for it and cannot be loaded.
 std::optional<ImageKind> image_kind(const std::string& path);
 

@@ -8,10 +8,10 @@
 
 namespace deburr {
 
-/// In the order in which they are written.
+/// Layers of a picture beside colour and alpha, in the order in which they are written.
 enum class ImageLayer { position, normal, z, albedo, id, cost, cryptomatte };
 
-/// As --aov takes them: P, N, Z, albedo, id, cost, crypto.
+/// Names as --aov takes them: P, N, Z, albedo, id, cost, crypto.
 std::string_view layer_name(ImageLayer layer);
 std::optional<ImageLayer> find_layer(std::string_view name);
 const std::vector<ImageLayer>& all_layers();

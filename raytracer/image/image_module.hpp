@@ -36,7 +36,7 @@ using ExrEncoder = std::string(const ImageRaster& image, int threads, const Shar
 /// Throws UnsupportedError if it cannot be loaded.
 ExrEncoder* exr_encoder();
 
-/// What the modules give, by these names.
+/// Type and names of the functions that the modules export.
 using ImageModuleEntry = const ImageModule*();
 constexpr const char* image_module_entry = "deburr_image_module";
 using ExrModuleEntry = ExrEncoder*();

@@ -40,7 +40,7 @@ struct ImageChannel {
     std::function<void(std::size_t first, std::size_t count, char* to, std::size_t stride)> write;
 };
 
-/// Whose value at pixel i is value(i).
+/// A channel whose value at pixel i is value(i).
 template <class Value>
 ImageChannel image_channel(std::string name, ChannelType type, Value value) {
     const auto write_as = [value](auto number_of) {

@@ -14,18 +14,18 @@ enum class MeshMethod { triage, marching_cubes, octree };
 std::string mesh_method_names();
 std::string mesh_method_name(MeshMethod method);
 
-/// For pictures: the horizon of a floor that ends so many sizes away is the true one to a pixel.
+/// Reach for pictures: the horizon of a floor that ends so many sizes away is the true one to a pixel.
 inline constexpr double rendering_reach = 1e4;
 
-/// For pictures, in radii: on Figure 12 of Lobb's paper 99 % of the hits are then within 0.03 r of the exact
+/// Tolerance for pictures, in radii: on Figure 12 of Lobb's paper 99 % of the hits are then within 0.03 r of the exact
 /// ones, where the paper's one refinement of each edge leaves 0.26 r.
 inline constexpr double rendering_tolerance = 0.03;
 
-/// For meshes that nobody asked a tolerance of, in radii; made by triage.
+/// Triage's tolerance where none was asked for, in radii.
 inline constexpr double default_tolerance_in_radii = 0.05;
 
 struct MeshSettings {
-    /// None: triage, and the octree for solids that hold what triage cannot follow, free forms.
+    /// Default: triage, but the octree for solids with free forms, which triage cannot follow.
     std::optional<MeshMethod> method = {};
     double tolerance = infinity;                     // triage, octree
     double tolerance_in_radii = infinity;            // the same, of each solid's least radius, if less

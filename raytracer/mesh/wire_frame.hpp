@@ -49,7 +49,7 @@ std::vector<Stroke> visible_line(const std::vector<Vec3>& points, const std::vec
 /// `alpha`: lines are opaque too; else alpha is of the solids alone.
 void draw_strokes(Film& film, const std::vector<Stroke>& strokes, Vec3 color, double line_width, bool alpha = false);
 
-/// The same mesh, each facet with one normal.
+/// The mesh with one normal for each facet.
 Mesh flat_shaded(Mesh mesh);
 
 }  // namespace deburr

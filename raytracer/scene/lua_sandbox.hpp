@@ -61,7 +61,7 @@ public:
     MemoryMeter& memory();
     /// The text's file, and those that the host has added: lines of the state are theirs. The same holds.
     const SourceMap& sources() const;
-    /// What run() throws, but for a place, where memory() is spent.
+    /// The message with which run() ends where memory() is spent, without the place.
     std::string memory_reason() const;
 
     /// Instructions between two looks at the budget, in each coroutine by itself. A shorter

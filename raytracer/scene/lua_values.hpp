@@ -58,7 +58,7 @@ struct ReadCost {
 LuaValue read_value(lua_State* lua, int index, const std::string& location, MemoryMeter* memory = nullptr,
                     ReadCost* cost = nullptr);
 
-/// As in "got a density".
+/// The value in the words of a message, as "a density".
 std::string described(const LuaValue& value);
 [[noreturn]] void expected(const std::string& location, const std::string& what, const LuaValue& got);
 
@@ -77,7 +77,7 @@ int integer(const LuaValue& value, const std::string& location, int least, int m
 bool boolean(const LuaValue& value, const std::string& location);
 const std::string& text(const LuaValue& value, const std::string& location);
 Vec3 vector(const LuaValue& value, const std::string& location);
-/// Of length 1; {0, 0, 0} is refused. Exact for a multiple of an axis.
+/// The direction as a vector of length 1, exact for a multiple of an axis; {0, 0, 0} is refused.
 Vec3 direction(const LuaValue& value, const std::string& location);
 /// Degrees between 0 and 180.
 double view_angle(const LuaValue& value, const std::string& location);

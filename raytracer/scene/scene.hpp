@@ -78,7 +78,7 @@ struct Framing {
     double fov = 30.0;   // vertical, degrees
 };
 
-/// What rays that hit nothing see; also the ambient light.
+/// Colour that rays see that hit nothing; also the ambient light.
 struct Background {
     bool sky = false;  // a gradient from horizon to zenith, by height()
     Vec3 color{0.0};   // one colour where there is no sky

@@ -56,13 +56,13 @@ const T* as(const SceneObject* object) {
         return kept ? kept->get() : nullptr;
 }
 
-/// As in "a density".
+/// The kind of object in the words of a message, as "a density".
 std::string kind_of(const SceneObject& object);
 
 /// Thrown where work that is about to be done is more than is left of the budget.
 struct WorkSpent : std::exception {};
 
-/// What a function gives back to the scene.
+/// Result that a function gives back to the scene.
 struct Argument {  // the argument with this number, counted from 1
     int index;
 };

@@ -11,13 +11,13 @@
 
 namespace deburr {
 
-/// Where rays of a packet are in a box, and what lies around them where they enter it.
+/// Intervals of a packet's rays in a box, and bounds of the points of entry and of the directions.
 struct PacketEntry {
     alignas(64) double lo[RayPacket::size], hi[RayPacket::size];
     Vec3 min_point, max_point, min_direction, max_direction;
 };
 
-/// Where rays of a packet are in a cell, with its walls' rounding added: what a primitive there is asked for.
+/// Intervals of a packet's rays in a cell, widened by its walls' rounding, in which its primitives are searched.
 struct PacketSpans {
     alignas(64) double from[RayPacket::size], to[RayPacket::size];
 };
@@ -31,21 +31,22 @@ struct PacketCrossings {
 /// Soft factors beyond these are left to single rays.
 constexpr int max_packet_factors = 8;
 
-/// What there is for each set of instructions.
+/// The kernels, compiled once for each set of instructions.
 struct PacketFunctions {
-    /// For a scene whose coordinates reach `scale`. Whether a ray begins beyond `farthest`, by its largest coordinate.
+    /// Prepares the rays; coordinates of the scene reach `scale`. True if a ray begins beyond `farthest` in a
+    /// coordinate.
     bool (*prepare)(RayPacket& rays, double scale, double farthest);
 
-    /// Of `lanes`, the rays that meet the box before their end.
+    /// The rays among `lanes` that meet the box before their end.
     Lanes (*enter)(const Box& box, const RayPacket& rays, Lanes lanes, PacketEntry& entry);
 
     /// How far the farthest of `lanes` goes on in the box, from where it enters.
     double (*longest_distance)(const RayPacket& rays, Lanes lanes, const PacketEntry& entry);
 
-    /// Of `lanes`, the rays that are in the cell before their end.
+    /// The rays among `lanes` that are in the cell before their end.
     Lanes (*spans_in_cell)(const Box& cell, const RayPacket& rays, Lanes lanes, PacketSpans& spans);
 
-    /// Of `lanes`, those that cross the plane within their span, and where.
+    /// The rays among `lanes` that cross the plane within their span, and where.
     Lanes (*plane_crossings)(const AlphaPlane& plane, const RayPacket& rays, Lanes lanes, const PacketSpans& spans,
                              PacketCrossings& found);
 
@@ -63,10 +64,10 @@ struct PacketInstructions {
     const char* name;
     const PacketFunctions* functions;
 };
-/// Those that this machine has, the widest first.
+/// Sets of instructions that this machine has, the widest first.
 std::vector<PacketInstructions> packet_instructions();
 
-/// Those of the widest.
+/// The kernels of the widest set of instructions that this machine has.
 extern const PacketFunctions& packet_functions;
 
 }  // namespace deburr

@@ -1,5 +1,5 @@
-// Rays side by side, to be asked together: what takes one of them an instruction takes as many as the
-// processor's vectors hold no more.
+// Rays in arrays of their coordinates (structure of arrays), so that one vector instruction serves as
+// many rays as the processor's vectors hold.
 #pragma once
 #include <cstdint>
 

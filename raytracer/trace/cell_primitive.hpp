@@ -38,7 +38,7 @@ public:
     const CellPrimitive& operator[](std::size_t i) const { return primitives_[i]; }
     std::size_t half_spaces(std::size_t i) const;
 
-    /// Where the line of a ray meets the plane that primitive p is; no number, or infinite, if it does not.
+    /// Distance at which a ray's line meets the plane that primitive p is; NaN or infinite if they are parallel.
     double plane_crossing(const CellPrimitive& p, const Vec3& origin, const Vec3& direction) const {
         const AlphaPlane& plane = planes_[p.index];
         return -(glm::dot(plane.slope, origin) + plane.base) / glm::dot(plane.slope, direction);
@@ -61,7 +61,7 @@ public:
     /// First crossings of rays of a packet with such a primitive, in their spans; those that have one.
     Lanes crossings(const CellPrimitive& p, const RayPacket& rays, Lanes lanes, const PacketSpans& spans,
                     PacketCrossings& found, TraceCounters& counters) const;
-    /// Those that cross it.
+    /// The rays among `lanes` that cross primitive p.
     Lanes any_crossings(const CellPrimitive& p, const RayPacket& rays, Lanes lanes, const PacketSpans& spans,
                         TraceCounters& counters) const;
     /// First crossing of a general one; `any`: that there is one will do, and its t means nothing.

@@ -1,5 +1,5 @@
-// The implicit road: exact rays against primary CSG of rounded densities, through BSPs of local CSG
-// [Lobb §3.5, after Jansen 1986], one for each form that is placed (instances.hpp).
+// Implicit rendering: exact rays against primary CSG of rounded densities, through BSPs of local CSG
+// [Lobb §3.5, after Jansen 1986], one for each prototype (instances.hpp).
 #pragma once
 #include <memory>
 #include <string>
@@ -14,11 +14,11 @@ namespace deburr {
 
 class Prototypes;
 
-/// Of what has been built so far (instances.hpp), but `prototypes` of all.
+/// Figures of the BSPs that have been built so far (instances.hpp); `prototypes` counts all.
 struct BspStatistics {
     std::size_t cells = 0, empty_cells = 0, flat_cells = 0;
     std::size_t half_spaces = 0;        // that the cells were made of
-    std::size_t prototypes = 0;         // BSPs, each of a space or of a part of one
+    std::size_t prototypes = 0;         // BSPs, each of a prototype or of a part of one
     std::size_t instances = 0;          // of these in others
     double mean_local_half_spaces = 0;  // in the cells that hold a surface
     int depth = 0;

@@ -1,10 +1,10 @@
-// Every bounded solid has a BSP of its own; equal solids share it, in a space of their own, so that a
-// block that is placed 100,000 times costs one block and 100,000 maps.
+// Instancing. Each bounded solid gets a BSP; equal solids share one, a prototype, in coordinates of its own,
+// so that a block that is placed 100,000 times costs one block and 100,000 maps.
 //
-// The first space is the world. What is placed in a space is found by the tree of boxes of the space's
-// own surfaces; what occurs once and is not turned is such a surface itself. What is unbounded, or placed
-// by a map that squeezes much, shares one BSP. A union is taken apart where its operands' boxes keep clear
-// of each other, for there its surface is theirs.
+// The first prototype is the world. The instances in a prototype are found by the BVH of its own surfaces;
+// a solid that occurs once and is not turned is among these surfaces. Solids that are unbounded, or placed
+// by a map that squeezes much, share one BSP. A union is split into its operands where their boxes are
+// disjoint, for there its surface is theirs.
 #pragma once
 #include <atomic>
 #include <vector>
@@ -15,11 +15,11 @@
 namespace deburr {
 
 struct alignas(64) Instance {  // two cache lines
-    Affine into;               // from the space around to the placed one
-    double stretch = 1;        // a distance there is at most this many times longer here
-    int prototype = 0;         // that is placed
-    int solid = 0;             // of the world; of no meaning in other spaces
-    int material = -1;         // of what has none there; −1: that of the placement around, if any
+    Affine into;               // from the coordinates around to the prototype's
+    double stretch = 1;        // a distance in the prototype is at most this many times longer around
+    int prototype = 0;         // number of the prototype that is placed
+    int solid = 0;             // the scene's number of it, in the world; of no meaning in other prototypes
+    int material = -1;         // of parts that have none in the prototype; −1: that of the instance around, if any
     bool only_moved = false;   // neither turned nor scaled
 };
 
@@ -27,15 +27,15 @@ static_assert(sizeof(Instance) == 128);
 using Instances = std::vector<Instance, LargePages<Instance>>;
 
 struct Prototype {
-    SurfaceTracer bsp;  // its others are the placements
+    SurfaceTracer bsp;  // its own surfaces, and the boxes of its instances
     Instances instances;
 };
 
-/// The world (the first) and all that is placed, in spaces of their own. Materials that are still to be named are
+/// The world (the first) and the prototypes of all instances. A material that the instance around has to name is
 /// −1.
 ///
-/// Of very many forms those that are quick to build are built by the first ray that enters their space, for most of
-/// them are seldom seen. Whoever builds it, a space is the same: no result depends on the number of threads.
+/// Of very many prototypes those that are quick to build are built by the first ray that enters one of their instances,
+/// for most are seldom seen. Whoever builds it, a prototype is the same: no result depends on the number of threads.
 class Prototypes {
 public:
     Prototypes(const std::vector<Solid>& solids, Criterion criterion, RootMethod root_method, Accel accel = Accel::bvh);
@@ -57,7 +57,7 @@ private:
     Criterion criterion_;
     RootMethod root_method_;
     Accel accel_;
-    std::vector<Solid> later_;  // of the last spaces
+    std::vector<Solid> later_;  // of the last prototypes, which are built when a ray comes
     mutable std::vector<std::atomic<const Prototype*>> prototypes_;
 };
 

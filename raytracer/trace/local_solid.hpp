@@ -1,4 +1,4 @@
-// What is left of a solid in a cell, and where a ray crosses its surface there.
+// The part of a solid that is left in a cell, and a ray's crossings of its surface there.
 //
 // A leaf whose local density is one half-space is a plane: it is intersected and done; a product of
 // half-spaces needs no search either (convex_density.hpp), and a sum of few products little
@@ -68,7 +68,7 @@ struct CrossingScratch {
 
 class LocalSolid {
 public:
-    /// `tree` is a solid pruned to the box. The box's inside must be the only place it is asked for.
+    /// `tree` is a solid pruned to the box. Queries must stay inside the box.
     LocalSolid(int solid, const SolidTree& tree, const Box& box, const Tolerances& tolerances,
                RootMethod root_method = RootMethod::where_needed);
 

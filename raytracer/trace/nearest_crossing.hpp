@@ -10,20 +10,20 @@ namespace deburr {
 
 struct FoundSurface {
     SurfaceCrossing crossing;  // t = infinity: none
-    int solid = -1;            // as the space numbers them
+    int solid = -1;            // the number that the prototype gives it
     double error = 0;          // of the position: what floating point rounds it by
     double start = 0;          // crossing.t counts from here on the ray that was asked for
 };
 
 class NearestCrossing {
 public:
-    /// None yet, and none that counts beyond `end`.
+    /// Begins without a crossing; none beyond `end` counts.
     explicit NearestCrossing(double end = infinity) : end_(end) {}
 
     bool found() const { return found_; }
     double end() const { return end_; }
 
-    /// Of primitive `number` of `primitives`: a plane or a product of half-spaces.
+    /// Offers a crossing of primitive `number` of `primitives`, a plane or a product of half-spaces.
     void offer(const CellPrimitives& primitives, std::uint32_t number, const ConvexCrossing& c) {
         const CellPrimitive& p = primitives[number];
         if (!take(c.t, p.solid, number)) return;
@@ -32,7 +32,7 @@ public:
         material_ = p.material;
         error_ = 0;
     }
-    /// Whose normal is known: of a primitive, or of something else that is placed in the space.
+    /// Offers a crossing whose normal is known, of a primitive or of an instance.
     void offer(const SurfaceCrossing& c, double error, int solid, std::uint32_t number) {
         if (!take(c.t, solid, number)) return;
         primitives_ = nullptr;
@@ -41,7 +41,7 @@ public:
         error_ = error;
     }
 
-    /// What was found; `rounding`: what the place is rounded by on a ray of this space.
+    /// The nearest crossing's surface; `rounding` is the rounding error of a point on a ray of this prototype.
     [[gnu::always_inline]] FoundSurface surface(const Ray& ray, double rounding) const {
         if (!found_) return {};
         if (!primitives_) return {{end_, normal_, material_}, solid_, error_};

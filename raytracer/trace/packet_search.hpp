@@ -12,7 +12,7 @@ namespace deburr {
 template <bool Any>
 class PacketSearch {
 public:
-    /// Of at most RayPacket::size rays.
+    /// A search for at most RayPacket::size rays.
     PacketSearch(const Surfaces& surfaces, const RayBatch& rays, TraceCounters& counters,
                  const InstanceTracer* instances, double farthest = infinity)
         : surfaces_(surfaces),
@@ -49,9 +49,9 @@ public:
         });
     }
 
-    /// Those that cross anything.
+    /// The rays that cross anything.
     Lanes any_hit() const { return any_; }
-    /// What ray k found.
+    /// Nearest surface on ray k.
     FoundSurface surface(int k) const {
         return nearest_[k].surface(ray(k), rounding_of(packet_.coordinate_bound[k], nearest_[k].end()));
     }

@@ -24,7 +24,7 @@ struct Hit {
     explicit operator bool() const { return t < infinity; }
 };
 
-/// What tracing cost; each thread has its own and they are added up.
+/// Counts of work done while tracing; each thread has its own and they are added up.
 struct TraceCounters {
     std::uint64_t rays = 0, shadow_rays = 0, instances = 0, cells = 0, flat_hits = 0;
     std::uint64_t segments = 0, splits = 0, evaluations = 0;

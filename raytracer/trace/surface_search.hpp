@@ -1,9 +1,9 @@
-// The search for a ray's first crossing among the surfaces of one space, whatever leads it to them: a tree
-// of boxes, a walk through a BSP, or another's hierarchy.
+// The search for a ray's first crossing among the surfaces of one prototype (instances.hpp), whatever structure
+// is traversed: the BVH, a BSP, or Embree's BVH.
 //
-// What is found does not depend on the order in which surfaces are looked at, nor on whether one that the
-// ray does not cross is looked at: what a ray crosses of one is a function of the two alone, and which of
-// several crossings is taken is settled (nearest_crossing.hpp).
+// The result depends neither on the order in which surfaces are looked at, nor on whether surfaces are looked
+// at that the ray does not cross: a ray's crossing of a surface is a function of the two alone, and a fixed rule
+// chooses among several crossings (nearest_crossing.hpp).
 #pragma once
 #include <span>
 
@@ -21,7 +21,7 @@ struct RayBatch {
     std::size_t size() const { return rays.size(); }
 };
 
-/// What is in a space besides: found by its box, asked for by its number.
+/// The instances placed in a prototype: found by their boxes, traced by their numbers.
 class InstanceTracer {
 public:
     /// First crossing along the ray in [0, t_max]; none is needed beyond `end`.
@@ -46,7 +46,7 @@ protected:
     ~InstanceTracer() = default;
 };
 
-/// The surfaces of one space. Cell primitives and then instances are numbered as one.
+/// The surfaces of one prototype. Cell primitives and instances are numbered together, in this order.
 struct Surfaces {
     double scale = 1;  // coordinates reach so far
     CellPrimitives cell_primitives;
@@ -54,7 +54,7 @@ struct Surfaces {
     std::vector<Box> instance_boxes;  // around them, with more to spare than rounding makes of a ray
 };
 
-/// What a distance along a ray is rounded by, where coordinates that are added reach so far.
+/// Rounding error of a distance t along a ray, given the largest coordinate magnitude.
 inline double rounding_of(double coordinate_bound, double t) { return 4 * epsilon * (coordinate_bound + std::abs(t)); }
 
 /// Whether the ray crosses primitive i in [from, to]. Unless that is all that is asked (`Any`), the first crossing is
@@ -84,11 +84,11 @@ template <bool Any>
     return true;
 }
 
-/// `Any`: that there is a crossing in [begin, t_max] is all that is asked.
+/// `Any`: an any-hit query, which finds only whether there is a crossing in [begin, t_max].
 template <bool Any>
 class SurfaceSearch {
 public:
-    /// In [begin, t_max]; what lies beyond `end` need not be found.
+    /// A search in [begin, t_max] that need not find what lies beyond `end`.
     SurfaceSearch(const Surfaces& surfaces, const Ray& ray, double t_max, double end, TraceCounters& counters,
                   const InstanceTracer* instances, double begin = 0)
         : surfaces_(surfaces),
@@ -124,7 +124,7 @@ public:
             visit_instance(i);
     }
 
-    /// What was found.
+    /// The nearest surface found.
     FoundSurface surface() const { return nearest_.surface(ray_, rounding(nearest_.end())); }
 
 private:

@@ -1,8 +1,8 @@
-// Rays through BSPs of one space.
+// Traces rays through the BSPs of one prototype (instances.hpp).
 //
-// The BSPs' cells say what there is; which of them a ray meets is found by one tree of boxes
-// (bvh.hpp; or Embree's, embree_bvh.hpp) around what is in them, so that empty cells cost nothing. Only
-// outside of that tree, where an unbounded solid goes on, is a BSP itself traversed.
+// The BSPs' cells hold the surfaces; the cells that a ray meets are found by one BVH (bvh.hpp; or Embree's,
+// embree_bvh.hpp) around what is in them, so that empty cells cost nothing. A BSP itself is traversed only
+// outside of the BVH's box, where an unbounded solid goes on.
 #pragma once
 #include <optional>
 
@@ -15,7 +15,7 @@
 
 namespace deburr {
 
-/// A BSP, and how the space around calls its solids.
+/// A BSP, and the numbers that its solids have in the scene or prototype around it.
 struct NamedBsp {
     BspTree tree;
     std::vector<int> solids;  // by the BSP's numbers
@@ -24,9 +24,9 @@ struct NamedBsp {
 class SurfaceTracer {
 public:
     SurfaceTracer() = default;
-    /// Of one BSP, with its numbers.
+    /// A tracer of one BSP, whose solids keep their numbers.
     SurfaceTracer(BspTree&& tree, Criterion criterion, Accel accel = Accel::bvh);
-    /// Of several, of which but the first must be bounded, and of others' boxes.
+    /// A tracer of several BSPs, all but the first bounded, and of the instances in these boxes.
     SurfaceTracer(std::vector<NamedBsp> bsps, const std::vector<Box>& instance_boxes, Criterion criterion,
                   Accel accel = Accel::bvh);
 
@@ -62,7 +62,7 @@ public:
 private:
     template <bool Any>
     bool search(SurfaceSearch<Any>& search) const;
-    // In [begin, t_max]; of rays that are near the space, or moved there.
+    // Queries in [begin, t_max], for rays that begin near the surfaces, or were moved there.
     FoundSurface closest_hit_nearby(const Ray& ray, double begin, double t_max, TraceCounters& counters,
                                     const InstanceTracer* instances, double end) const;
     bool any_hit_nearby(const Ray& ray, double begin, double t_max, TraceCounters& counters,

@@ -3,7 +3,7 @@
 
 namespace deburr {
 
-/// What leads a ray to the surfaces of a space; what it finds is the same.
+/// Acceleration structure in which rays are traced; the surfaces that they find are the same.
 enum class Accel {
     bvh,    // a tree of boxes around what is in the cells of BSPs
     embree  // the same boxes under a BVH of Embree's

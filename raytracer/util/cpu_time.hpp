@@ -6,7 +6,7 @@
 
 namespace deburr {
 
-/// Of this process, all threads together.
+/// CPU time of this process, all threads together.
 inline double cpu_seconds() { return double(std::clock()) / CLOCKS_PER_SEC; }
 
 template <class Work>
@@ -40,7 +40,7 @@ Ratio ratio_of_times(A&& a, B&& b, int rounds) {
     return {median(times_a), median(times_b)};
 }
 
-/// The same of this process's CPU time.
+/// ratio of this process's CPU time.
 template <class A, class B>
 Ratio ratio_of(A&& a, B&& b, int rounds = 5) {
     return ratio_of_times([&] { return cpu_seconds_of(a); }, [&] { return cpu_seconds_of(b); }, rounds);

@@ -1,5 +1,5 @@
-// What the program tells people, apart from results: lines on stderr. That nobody can read them is
-// no error.
+// Messages of the program, apart from its results: lines on stderr. Errors in writing them are
+// ignored.
 #pragma once
 #include <cstdio>
 #include <string>

@@ -1,6 +1,6 @@
-// Modules: shared objects of ours, beside the program, with the code that calls a large library. A
-// library that is linked costs every call its loading; OpenEXR 1.5 ms, OpenImageIO, with the 250
-// that it depends on, longer than most pictures take.
+// Modules: shared objects of ours, beside the program, with the code that calls a large library.
+// Linking such a library would add its load time to every run: OpenEXR 1.5 ms; OpenImageIO, with the
+// 250 that it depends on, longer than most pictures take.
 #pragma once
 #include <string>
 
@@ -13,7 +13,7 @@ void* module_function(const std::string& file, const char* name, const std::stri
 /// Throws std::bad_alloc if the loader says, in words of its own, that memory is what it lacks.
 void check_loader_memory(const std::string& error);
 
-/// The same as module_function, typed.
+/// module_function with the function's type.
 template <class Function>
 Function* module_function(const std::string& file, const char* name, const std::string& what) {
     return reinterpret_cast<Function*>(module_function(file, name, what));

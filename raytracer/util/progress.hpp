@@ -22,7 +22,7 @@ public:
         std::function<double()> now;                  // seconds
     };
 
-    /// To stderr, as it is: a bar if it is a terminal. `quiet`: nothing at all.
+    /// Output to stderr: a bar if it is a terminal, else lines. `quiet`: nothing at all.
     static Output standard_error(bool quiet);
 
     /// The clock starts here. total > 0, in units of the caller's choice.
