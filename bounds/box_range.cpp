@@ -331,8 +331,12 @@ bool bounds_hold(const DensityTree& tree, const Box& box) {
 Pruned prune_further(const DensityTree& tree, const std::vector<Range>& half_spaces, bool (&is_classified)(Range)) {
     const std::vector<NodeRange>& all = ranges(tree, half_spaces);
     if (is_classified(all.back())) return {{}, all.back()};
+    // Copies of nearly all of a large tree in each of very many places would take the memory of all of them.
+    constexpr std::size_t large = 512;
+    const std::size_t before = tree.half_spaces.size();
     Folding folding(tree, all);
-    if (std::size_t(folding.size()) == tree.half_spaces.size()) return {{}, all.back()};
+    const std::size_t left = std::size_t(folding.size());
+    if (left == before || (left > large && 4 * left > 3 * before)) return {{}, all.back()};
     return {folding.run(), all.back()};
 }
 

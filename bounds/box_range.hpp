@@ -18,7 +18,7 @@ struct Range {
     double lo = 0, hi = 0;
 };
 
-/// What op(a, b) can be, given what a and b can be, whatever they share; a complement has no b.
+/// Range of op(a, b) from the ranges of a and b, whatever half-spaces a and b share; a complement has no b.
 inline Range combine(Op op, Range a, Range b) {
     switch (op) {
         case Op::sum: return {a.lo + b.lo, a.hi + b.hi};
@@ -60,7 +60,7 @@ inline Side classify(Range rho) {
     return Side::straddling;
 }
 
-/// The same of a field, whose set is f > 0.
+/// Where the box lies with respect to a field's set f > 0, given the range of f over the box.
 inline Side classify_field(Range f) {
     if (f.hi <= 0) return Side::outside;
     if (f.lo > 0) return Side::inside;
@@ -78,8 +78,8 @@ Pruned prune(const DensityTree& tree, const Box& box);
 /// The same over any region, given ρ of every half-space over it.
 Pruned prune(const DensityTree& tree, const std::vector<Range>& half_spaces);
 
-/// The same, with a tree only where that has fewer half-spaces than before and is not decided, as the caller
-/// sees it: nodes are empty else.
+/// The same, with a tree only where it has fewer half-spaces than before (of hundreds a quarter less) and is not
+/// decided, as the caller sees it; else the tree has no nodes.
 Pruned prune_further(const DensityTree& tree, const std::vector<Range>& half_spaces, bool (&is_classified)(Range));
 
 struct LocalSize {
@@ -87,10 +87,10 @@ struct LocalSize {
     int half_spaces = 0;  // that `prune` would leave
 };
 
-/// How much `prune` would leave, at less cost.
+/// Range over the box, and how many half-spaces `prune` would leave; costs less than `prune`.
 LocalSize local_size(const DensityTree& tree, const Box& box);
 
-/// The same in several boxes, in one walk over the tree for every few of them; `sizes` has room for one of each.
+/// local_size in several boxes, by one walk over the tree for every four of them; sizes[k] is that of boxes[k].
 void local_sizes(const DensityTree& tree, std::span<const Box> boxes, LocalSize* sizes);
 
 }  // namespace deburr

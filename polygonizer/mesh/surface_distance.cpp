@@ -209,7 +209,7 @@ std::size_t SignedDistance::half_spaces() const {
 
 // A surface in the wall between two boxes must be seen from both.
 DistanceField::DistanceField(const SolidTree& solid, const Box& box, double margin)
-    : root_(std::make_unique<Node>(box, SignedDistance(solid), 0)),
+    : root_(std::make_unique<Node>(box, std::make_shared<const SignedDistance>(solid), 0)),
       margin_(std::max(margin, 1e-6 * glm::length(box.hi - box.lo))) {}
 
 double DistanceField::distance_along_normal(Vec3 x, double reach) const { return search_along_normal(*this, x, reach); }
@@ -218,9 +218,10 @@ const SignedDistance& DistanceField::near(Vec3 x) const {
     // Boxes stop where splitting pays no more, or does not help. Where very many half-spaces vary together, the nearest
     // have to do.
     constexpr std::size_t few = 8, many = 40;
+    constexpr std::size_t large = 512;  // of more, copies of nearly all of them would take too much memory
     constexpr int max_depth = 40;
     constexpr double min_margin = 0.05;  // of the margin
-    if (last_ && last_->box.contains(x)) return last_->solid;
+    if (last_ && last_->box.contains(x)) return *last_->solid;
     Node* node = root_.get();
     // What is beyond the box sees what is nearest in it: the whole solid at once may be too much to evaluate.
     const Vec3 y = glm::clamp(x, node->box.lo, node->box.hi);
@@ -237,12 +238,15 @@ const SignedDistance& DistanceField::near(Vec3 x) const {
         if (!child) {
             Box half = node->box;
             (y[axis] > middle ? half.lo : half.hi)[axis] = middle;
-            child = std::make_unique<Node>(half, node->solid.within(inflated(half, margin)), node->depth + 1);
+            auto part = std::make_shared<const SignedDistance>(node->solid->within(inflated(half, margin)));
+            const std::size_t left = part->half_spaces();
+            if (left > large && 4 * left > 3 * node->half_spaces) part = node->solid;
+            child = std::make_unique<Node>(half, std::move(part), node->depth + 1);
         }
         node = child.get();
     }
     last_ = node;
-    return node->solid;
+    return *node->solid;
 }
 
 SignedDistance SignedDistance::within(const Box& box) const { return SignedDistance(prune(solid_, box)); }

@@ -35,7 +35,7 @@ public:
     bool inside(Vec3 x) const;
     /// All pieces that the surface is made of.
     std::vector<SmoothPiece> pieces() const;
-    /// The same of one piece alone, as it would be if the solid ended there.
+    /// Signed distance and normal of one piece alone, as if it were the solid's whole surface.
     SurfaceSample piece_at(const SmoothPiece& piece, Vec3 x) const;
     /// Distance from x to the surface along the normal there, by root search no farther than
     /// `reach`; infinity if there is none.
@@ -62,8 +62,8 @@ private:
     std::vector<char> sharp_;
 };
 
-/// The same for many points: a tree of boxes, split as points ask for it, so that each evaluates
-/// only what matters near it. Not for several threads at once.
+/// SignedDistance for many points: a tree of boxes, split lazily, so that each point evaluates only
+/// the part of the solid near it. One thread at a time may use it.
 class DistanceField {
 public:
     /// Surfaces that are nearer to a point than `margin` matter there, whether or not it is beyond them: farther ones
@@ -73,17 +73,17 @@ public:
 
     SurfaceSample at(Vec3 x) const { return near(x).at(x); }
     bool inside(Vec3 x) const { return near(x).inside(x); }
-    /// As SignedDistance's.
+    /// SignedDistance::distance_along_normal of the part of the solid near x.
     double distance_along_normal(Vec3 x, double reach) const;
-    /// What to evaluate at x, and around it as far as its box reaches.
+    /// The part of the solid that matters at x; it serves for all points in the same box of the tree.
     const SignedDistance& near(Vec3 x) const;
 
 private:
     struct Node {
-        Node(const Box& box, SignedDistance of_it, int depth)
-            : box(box), solid(std::move(of_it)), half_spaces(solid.half_spaces()), depth(depth) {}
+        Node(const Box& box, std::shared_ptr<const SignedDistance> of_it, int depth)
+            : box(box), solid(std::move(of_it)), half_spaces(solid->half_spaces()), depth(depth) {}
         Box box;
-        SignedDistance solid;
+        std::shared_ptr<const SignedDistance> solid;  // of this box, or of one around it
         std::size_t half_spaces;
         int depth;
         std::unique_ptr<Node> children[2];

@@ -177,6 +177,9 @@ bool Subdivision::halve(int cell, const Plane& plane) {
     refused_.push_back(refused_[cell]);
     node_of.push_back(add_node(parent, upper));
     node_of[cell] = add_node(parent, cell);
+    // A node without a cell is asked only for its classified leaves. Its copy of the solid may be large.
+    nodes[parent].open = {};
+    nodes[parent].solid = {};
     return true;
 }
 

@@ -31,9 +31,9 @@ struct OpenLeaf {
 struct PartitionNode {
     int parent = -1;
     Side side = Side::straddling;                  // of the solid
-    std::vector<OpenLeaf> open;                    // leaves that are undecided, and matter
+    std::vector<OpenLeaf> open;                    // of a cell: leaves that are undecided, and matter
     std::vector<std::pair<int, Side>> classified;  // leaves decided here but not in the parent, sorted
-    std::vector<SolidTreeNode> solid;              // what the open leaves decide
+    std::vector<SolidTreeNode> solid;              // of a cell: the solid as a function of its open leaves
 };
 
 class Subdivision {
