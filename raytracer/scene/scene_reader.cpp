@@ -185,6 +185,22 @@ struct SceneSource {
     const std::vector<std::string>& model_folders;
 };
 
+// Whether up = "z" stands anywhere in the text.
+bool seems_z_up(const std::string& text) {
+    for (std::size_t at = 0; (at = text.find("up", at)) != std::string::npos;) {
+        const auto is_next = [&](const char* any) {
+            at = text.find_first_not_of(" \t\n", at);
+            return at != std::string::npos && std::strchr(any, text[at]) && text[at];
+        };
+        at += 2;
+        if (!is_next("=")) continue;
+        ++at;
+        if (is_next("\"'") && text.compare(at + 1, 1, "z") == 0) return true;
+        if (at == std::string::npos) break;
+    }
+    return false;
+}
+
 // A run of the scene with z or y up: whether that mattered is told besides.
 Scene run_scene(const SceneSource& source, const SandboxLimits& limits, bool z_up, bool& up_mattered) {
     const auto& [text, file, defines, model_folders] = source;
@@ -235,15 +251,16 @@ Scene read_scene_text(const std::string& given, const std::string& file,
                       const std::vector<std::string>& model_folders) {
     const std::string text = scene_text(given, file);
     const SceneSource source{text, file, defines, model_folders};
+    // A scene says which way is up when its prisms are made already, so it is run with what it seems to say. It cannot
+    // know the time nor remember: with the other axis it does the same again.
+    const bool guess = seems_z_up(text);
     bool up_mattered = false;
-    Scene scene = run_scene(source, limits, false, up_mattered);
-    if (!scene.z_up || !up_mattered) return scene;
-    // A scene says which way is up when its prisms are made. It cannot know the time nor remember: with another axis
-    // it does the same again.
+    Scene scene = run_scene(source, limits, guess, up_mattered);
+    if (scene.z_up == guess || !up_mattered) return scene;
     SandboxLimits again = limits;
     again.mute = true;
-    scene = run_scene(source, again, true, up_mattered);
-    if (!scene.z_up) throw SceneError(one_line("up: expected one that does not depend on itself", file));
+    scene = run_scene(source, again, !guess, up_mattered);
+    if (scene.z_up == guess) throw SceneError(one_line("up: expected one that does not depend on itself", file));
     return scene;
 }
 

@@ -135,6 +135,13 @@ TEST_CASE("a prism along y has points {x, z}, along z {x, y} and along x {y, z},
     CHECK(near(body("", "up = 'z',").hi, {2, 1, 6}));
     CHECK(near(body(", { axis = 'y' }", "up = 'z',").hi, {2, 6, 1}));
     CHECK(near(body("", "up = 'y',").hi, {2, 6, 1}));
+    // Which way is up may be computed, and stand where it means nothing.
+    CHECK(near(body("", "up = string.char(122),").hi, {2, 1, 6}));
+    CHECK(near(body("", "up = ({ up = 'z', y = 'y' }).y,").hi, {2, 6, 1}));
+    // What is printed on the way knows it.
+    CHECK(
+        scene_of("local p = prism(" + points + ", 5, 6)\nreturn { up = \"z\", solids = { cube():name(tostring(p)) } }")
+            .names.at(0) == "density of 6 half-spaces, [0, 2] x [0, 1] x [5, 6]");
 }
 
 TEST_CASE("with z up the sky, the camera and a frame turn") {
