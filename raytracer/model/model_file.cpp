@@ -94,11 +94,11 @@ struct Sizes {
     prctl(PR_SET_PDEATHSIG, SIGKILL);
     limit(RLIMIT_CORE, 0);
     limit(RLIMIT_CPU, least_seconds + bytes.size() / bytes_per_second);
-#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
+#if !DEBURR_IS_SANITIZED  // whose shadow memory takes all addresses
     // What is mapped already counts, too: the program's own arenas.
     limit(RLIMIT_AS, least_memory + memory_per_byte * bytes.size() + (std::size_t(8) << 30));
-#endif
     limit(RLIMIT_DATA, least_memory + memory_per_byte * bytes.size() + bytes.size());
+#endif
     Sizes sizes;
     std::string message;
     TriangleSoup soup;

@@ -107,8 +107,8 @@ struct Scene {
     std::map<std::string, std::string> parameters;  // every param() the scene read, with its value
     int width = 600, height = 380;
     std::optional<int> spp;  // samples per pixel; none: as many as it takes (sample_count.hpp)
-    int bounces = 4;        // depth of mirror and glass paths in previews
-    bool caustics = false;  // true: highlights and light through glass fall exactly where they do
+    int bounces = 4;         // depth of mirror and glass paths in previews
+    bool caustics = false;   // true: highlights and light through glass fall exactly where they do
     double exposure = 0;     // of pictures for the screen, in stops: light counts 2^exposure times
     bool z_up = false;       // is up z, or y
     Camera camera;
