@@ -267,7 +267,7 @@ TEST_CASE("the scene's table says what it expects, with the line that writes it"
         {"return { camera = {\n up = {0, 0, 0} }, solids = { cube() } }",
          "s.lua:2: camera.up: expected a direction other than {0, 0, 0}, got {0, 0, 0}"},
         {"return { camera = {\n from = {0, 0, 0} }, solids = { cube() } }",
-         "s.lua:2: camera.from: expected one of the fields eye, target, up, fov, got 'from'"},
+         "s.lua:2: camera.from: expected one of the fields eye, target, up, fov, projection, lens, shift, got 'from'"},
         {"return { camera = 3, solids = { cube() } }",
          "s.lua:1: camera: expected a table of named fields or frame{…}, got 3"},
         {"return { image = {\n width = 0 }, solids = { cube() } }",
