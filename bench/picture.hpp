@@ -56,7 +56,7 @@ public:
     }
     void ask(const RayTracer& tracer, TraceCounters& counters) const {
         std::vector<Hit> hits(most());
-        const std::unique_ptr<bool[]> any_hit(new bool[most()]);
+        const std::unique_ptr<bool[]> occluded(new bool[most()]);
         for (const Question& q : questions_) {
             if (q.alone && q.any)
                 keep(tracer.any_hit(q.rays[0], q.t_max[0], counters));
