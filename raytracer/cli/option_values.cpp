@@ -43,6 +43,14 @@ double number_of(std::string_view text) {
     return whole && std::isfinite(x) ? x : std::nan("");
 }
 
+// "A,B,C"; what is no number is NaN.
+std::optional<Vec3> three_numbers(std::string_view text) {
+    const std::size_t first = text.find(','), second = text.find(',', first + 1);
+    if (first == std::string_view::npos || second == std::string_view::npos) return std::nullopt;
+    return Vec3(number_of(text.substr(0, first)), number_of(text.substr(first + 1, second - first - 1)),
+                number_of(text.substr(second + 1)));
+}
+
 // "AxB"
 std::optional<Size> sides(std::string_view text, int largest) {
     const std::size_t x = text.find('x');
@@ -79,23 +87,16 @@ double parse_exposure(std::string_view option, std::string_view text) {
 }
 
 Vec3 parse_direction(std::string_view option, std::string_view text) {
-    const std::size_t first = text.find(','), second = text.find(',', first + 1);
-    if (first != std::string_view::npos && second != std::string_view::npos) {
-        const Vec3 v(number_of(text.substr(0, first)), number_of(text.substr(first + 1, second - first - 1)),
-                     number_of(text.substr(second + 1)));
-        const double size = largest(v);
-        if (size > 0 && std::isfinite(size)) return glm::normalize(v / size);
+    if (const auto v = three_numbers(text)) {
+        const double size = largest(*v);
+        if (size > 0 && std::isfinite(size)) return glm::normalize(*v / size);
     }
     expected(option, "X,Y,Z, not all 0, for example 1,0.5,2", text);
 }
 
 Vec3 parse_color(std::string_view option, std::string_view text) {
-    const std::size_t first = text.find(','), second = text.find(',', first + 1);
-    if (first != std::string_view::npos && second != std::string_view::npos) {
-        const Vec3 v(number_of(text.substr(0, first)), number_of(text.substr(first + 1, second - first - 1)),
-                     number_of(text.substr(second + 1)));
-        if (v.x >= 0 && v.x <= 1 && v.y >= 0 && v.y <= 1 && v.z >= 0 && v.z <= 1) return v;
-    }
+    const auto v = three_numbers(text);
+    if (v && v->x >= 0 && v->x <= 1 && v->y >= 0 && v->y <= 1 && v->z >= 0 && v->z <= 1) return *v;
     expected(option, "R,G,B, each from 0 to 1, for example 0.8,0.4,0.1", text);
 }
 
