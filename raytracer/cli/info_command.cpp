@@ -7,6 +7,7 @@
 #include "raytracer/cli/commands.hpp"
 #include "raytracer/cli/options.hpp"
 #include "raytracer/scene/illegal_densities.hpp"
+#include "raytracer/scene/scene_descriptions.hpp"
 #include "raytracer/scene/solid_survey.hpp"
 #include "raytracer/scene/vanished_parts.hpp"
 #include "raytracer/scene/view_warnings.hpp"
@@ -20,18 +21,6 @@ using Json = nlohmann::ordered_json;
 struct InfoOptions : Options {
     bool json = false;
 };
-
-const char* name_of(Material::Kind kind) {
-    switch (kind) {
-        case Material::Kind::matte: return "matte";
-        case Material::Kind::plastic: return "plastic";
-        case Material::Kind::metal: return "metal";
-        case Material::Kind::mirror: return "mirror";
-        case Material::Kind::glass: return "glass";
-        case Material::Kind::pbr: return "pbr";
-    }
-    return "";
-}
 
 const char* name_of(Light::Kind kind) {
     switch (kind) {

@@ -41,18 +41,6 @@ std::string describe(const Density& density) {
     return text + ", " + box_text(bounding_box(tree)) + radii_of(radii);
 }
 
-const char* name_of(Material::Kind kind) {
-    switch (kind) {
-        case Material::Kind::matte: return "matte";
-        case Material::Kind::plastic: return "plastic";
-        case Material::Kind::metal: return "metal";
-        case Material::Kind::mirror: return "mirror";
-        case Material::Kind::glass: return "glass";
-        case Material::Kind::pbr: return "pbr";
-    }
-    return "material";
-}
-
 std::string describe(const Texture& t) {
     switch (t.kind) {
         case Texture::Kind::constant: return color_of(t.a);
@@ -131,6 +119,18 @@ std::string describe(const Framing& f) {
 std::string describe(const PlacedModel& m) { return fmt::format("model '{}'", printable(m.file)); }
 
 }  // namespace
+
+const char* name_of(Material::Kind kind) {
+    switch (kind) {
+        case Material::Kind::matte: return "matte";
+        case Material::Kind::plastic: return "plastic";
+        case Material::Kind::metal: return "metal";
+        case Material::Kind::mirror: return "mirror";
+        case Material::Kind::glass: return "glass";
+        case Material::Kind::pbr: return "pbr";
+    }
+    return "material";
+}
 
 double work_to_describe(const SceneObject& object) {
     const auto* density = as<Density>(&object);

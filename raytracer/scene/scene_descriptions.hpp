@@ -13,4 +13,7 @@ std::string description(const SceneObject& object);
 /// Half-spaces, and their like in fields, that have to be laid out to describe it.
 double work_to_describe(const SceneObject& object);
 
+/// The material's kind as the function of the scene language that makes it: "matte".
+const char* name_of(Material::Kind kind);
+
 }  // namespace deburr
