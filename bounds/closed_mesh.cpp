@@ -6,8 +6,6 @@
 #include <string>
 #include <utility>
 
-#include "bounds/union_find.hpp"
-
 namespace deburr {
 
 NotClosed::NotClosed(std::size_t count, Vec3 place)
@@ -187,9 +185,6 @@ void ClosedMesh::join_planes() {
     double scale = 0;
     for (const Vec3& v : vertices_) scale = std::max(scale, largest(v));
     const double tolerance = 256 * epsilon * scale;
-    UnionFind faces(triangles_.size());
-    std::vector<int> largest_of(triangles_.size());
-    std::iota(largest_of.begin(), largest_of.end(), 0);
     std::vector<int> by_area(triangles_.size());
     std::iota(by_area.begin(), by_area.end(), 0);
     std::sort(by_area.begin(), by_area.end(),

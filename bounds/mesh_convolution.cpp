@@ -263,7 +263,7 @@ ValueGradient ball_share(const ClosedMesh& mesh, Vec3 x, double r) {
 
 namespace {
 
-// Of a tetrahedron's worth of triangles more or less, shares are off by less than RootFinder::rounding of this.
+// A share is a sum over triangles: RootFinder::rounding of this bounds what its terms' rounding adds up to.
 constexpr double noise_scale = 64;
 
 constexpr double sharp_radius = 0x1p-26;  // of the mesh's size
@@ -313,6 +313,21 @@ Steepness steepness(double area, double perimeter, double least_h, double greate
     s.across = h * (perimeter < 2 * pi * narrowest ? perimeter / narrowest : 2 * pi);
     s.along = std::min(2 * std::sqrt(widest), perimeter);
     return s;
+}
+
+// Calls visit(triangle, steepness) with what holds for balls whose centres are within `half` of the center, and within
+// `reach` radii across the directions in which nothing changes.
+template <class Visit>
+void each_steepness(const ClosedMesh& mesh, std::span<const int> triangles, Vec3 center, double r, Vec3 half,
+                    double reach, Visit visit) {
+    const double away = glm::length(half);
+    for (const int t : triangles) {
+        const ClosedMesh::Plane& plane = mesh.plane(t);
+        const double h = std::abs(plane.offset - glm::dot(plane.normal, center)) / r;
+        const ClosedMesh::Ball& ball = mesh.ball(t);
+        const double farthest = (glm::distance(center, ball.center) + ball.radius + away) / r;
+        visit(t, steepness(0, mesh.perimeter(t) / r, std::max(0.0, h - reach), h + reach, farthest >= 1));
+    }
 }
 
 // How far the box reaches from its middle in directions in which the share changes: where all planes have a direction
@@ -420,15 +435,9 @@ Range MeshField::range(const Box& box, std::span<const int> triangles) const {
     if (steepest * reach > 1) return {-0.5, 0.5};
     const ValueGradient v = ball_share(*mesh_, triangles, center, radius_);
     double off = steepest * reach, curvature = 0;
-    const double away = glm::length(half);
-    for (const int t : triangles) {
-        const double h = std::abs(mesh_->plane(t).offset - glm::dot(mesh_->plane(t).normal, center)) / radius_;
-        const ClosedMesh::Ball& ball = mesh_->ball(t);
-        const double farthest = (glm::distance(center, ball.center) + ball.radius + away) / radius_;
-        const Steepness s =
-            steepness(0, mesh_->perimeter(t) / radius_, std::max(0.0, h - reach), h + reach, farthest >= 1);
+    each_steepness(*mesh_, triangles, center, radius_, half, reach, [&](int, const Steepness& s) {
         curvature += 0.5 * (s.across + std::sqrt(s.across * s.across + s.along * s.along));
-    }
+    });
     curvature *= 3 / (4 * pi);
     off = std::min(off, glm::dot(glm::abs(v.gradient), half) + 0.5 * curvature * reach * reach);
     if (reach < 1) {
@@ -448,21 +457,14 @@ Range MeshField::rate_range(const Box& box, Vec3 direction) const {
     thread_local std::vector<int> memory;
     const std::span<const int> found = near(box, memory);
     if (found.empty()) return {0, 0};
-    const Vec3 center = 0.5 * (box.lo + box.hi);
-    const double reach = reach_across(*mesh_, found, 0.5 * (box.hi - box.lo)) / radius_;
+    const Vec3 center = 0.5 * (box.lo + box.hi), half = 0.5 * (box.hi - box.lo);
+    const double reach = reach_across(*mesh_, found, half) / radius_;
     const double rate = glm::dot(ball_share(*mesh_, found, center, radius_).gradient, direction);
     double curvature = 0;
-    const double away = 0.5 * glm::length(box.hi - box.lo);
-    for (const int t : found) {
-        const ClosedMesh::Plane& plane = mesh_->plane(t);
-        const double h = std::abs(plane.offset - glm::dot(plane.normal, center)) / radius_;
-        const ClosedMesh::Ball& ball = mesh_->ball(t);
-        const double farthest = (glm::distance(center, ball.center) + ball.radius + away) / radius_;
-        const Steepness s =
-            steepness(0, mesh_->perimeter(t) / radius_, std::max(0.0, h - reach), h + reach, farthest >= 1);
+    each_steepness(*mesh_, found, center, radius_, half, reach, [&](int t, const Steepness& s) {
         // d(∇f·n)/dx = Σ (n·N) ∇|D|, and |∇|D|| ≤ |h| φ + the arcs' sum.
-        curvature += std::abs(glm::dot(plane.normal, direction)) * std::hypot(s.across, s.along);
-    }
+        curvature += std::abs(glm::dot(mesh_->plane(t).normal, direction)) * std::hypot(s.across, s.along);
+    });
     const double off = curvature * (3 / (4 * pi)) * reach / radius_;
     Range rates{rate - off, rate + off};
     if (reach < 1) {
