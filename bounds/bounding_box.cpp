@@ -2,8 +2,10 @@
 
 #include <algorithm>
 
+#include "bounds/box_range.hpp"
 #include "bounds/polyhedron_box.hpp"
 #include "bounds/solid_range.hpp"
+#include "bounds/support.hpp"
 
 namespace deburr {
 
@@ -41,9 +43,80 @@ Box bounding_box(const BoundCsg& csg) {
     return all.back().box();
 }
 
+namespace {
+
+// Cuts off the ends of a finite box over which the density does not exceed ½: to a millionth of the box.
+Box without_ends_below_half(const DensityTree& tree, Box box) {
+    constexpr int halvings = 20;
+    for (int k = 0; k < 6; ++k)  // what is known of one axis helps with another
+        for (const bool upper : {false, true}) {
+            double& end = (upper ? box.hi : box.lo)[k % 3];
+            double off = end, on = (upper ? box.lo : box.hi)[k % 3];  // nothing beyond `off`; something beyond `on`
+            for (int i = 0; i < halvings; ++i) {
+                const double middle = 0.5 * (off + on);
+                Box beyond = box;
+                (upper ? beyond.lo : beyond.hi)[k % 3] = middle;
+                (density_range(tree, beyond).hi <= 0.5 ? off : on) = middle;
+            }
+            end = off;
+        }
+    return box;
+}
+
+// The tree with planes that touch them in place of its round parts: where these stand for more of the solid, an
+// intersection of half-spaces that holds them; where for less, nothing.
+DensityTree flattened_around(const DensityTree& tree) {
+    std::vector<char> takes(tree.nodes.size(), false);
+    for (std::size_t i = tree.nodes.size(); i-- > 0;) {
+        const TreeNode& n = tree.nodes[i];
+        if (n.op == Op::half_space || n.op == Op::constant) continue;
+        const bool complement = n.op == Op::complement;
+        takes[n.a] = complement ? !takes[i] : takes[i];
+        if (n.b >= 0) takes[n.b] = n.op == Op::difference ? !takes[i] : takes[i];
+    }
+    DensityTree to;
+    std::vector<int> new_index(tree.nodes.size(), -1);
+    const auto add = [&](TreeNode node) {
+        to.nodes.push_back(node);
+        return int(to.nodes.size()) - 1;
+    };
+    for (std::size_t i = 0; i < tree.nodes.size(); ++i) {
+        TreeNode n = tree.nodes[i];
+        n.support = -1;
+        const HalfSpace* h = n.op == Op::half_space ? &tree.half_spaces[n.a] : nullptr;
+        if (h && h->round) {
+            int all = -1;
+            if (!takes[i])
+                for (const HalfSpace& touching : touching_planes(*h)) {
+                    to.half_spaces.push_back(touching);
+                    const int one = add({Op::half_space, int(to.half_spaces.size()) - 1});
+                    all = all < 0 ? one : add({Op::conjunction, all, one});
+                }
+            new_index[i] = all >= 0 ? all : add({Op::constant, -1, -1, takes[i] ? 0.0 : 1.0});
+            continue;
+        }
+        if (h) {
+            to.half_spaces.push_back(*h);
+            n.a = int(to.half_spaces.size()) - 1;
+        } else if (n.op != Op::constant) {
+            n.a = new_index[n.a];
+            if (n.b >= 0) n.b = new_index[n.b];
+        }
+        new_index[i] = add(n);
+    }
+    return to;
+}
+
+}  // namespace
+
 Box bounding_box(const DensityTree& tree) {
     const int support = tree.nodes.back().support;
     const Box box = support < 0 ? Box::everything() : tree.supports[support];
+    if (tree.rounds) {
+        const bool hold = bounds_hold(tree, Box::everything());
+        const Box around = hold ? intersection(box, bounding_box(outer_bound(flattened_around(tree), 0.5))) : box;
+        return around.finite() && !around.empty() ? without_ends_below_half(tree, around) : around;
+    }
     if (!bounds_hold(tree, Box::everything())) return box;
     return intersection(box, bounding_box(outer_bound(tree, 0.5)));
 }

@@ -79,6 +79,7 @@ public:
             if (needed_[i]) new_index_[i] = copy(int(i));
         const int root = new_index_.back();
         to_.ball = from_.ball;
+        to_.rounds = from_.rounds;
         if (root + 1 < int(to_.nodes.size())) to_.nodes.resize(std::size_t(root) + 1);
         return std::move(to_);
     }
@@ -130,6 +131,7 @@ private:
         if (n.op == Op::half_space) {
             to_.half_spaces.push_back(from_.half_spaces[n.a]);
             n.a = int(to_.half_spaces.size()) - 1;
+            n.support = -1;
             return add(n);
         }
         if (n.op == Op::difference && is(n.a, 1)) return add({Op::complement, new_index_[n.b], -1, 0, n.line});
@@ -188,6 +190,13 @@ struct NodeSizes {
 // density_range in K boxes, in the same order of operations.
 template <int K>
 void set_half_space(NodeSizes<K>& to, const HalfSpace& h, const Box* boxes) {
+    if (h.round) {
+        for (int k = 0; k < K; ++k) {
+            const Range r = density_range(h, boxes[k]);
+            to.set(k, {r, r.hi == 0 || r.lo == 1}, 1);
+        }
+        return;
+    }
     double near[K], far[K];
     for (int k = 0; k < K; ++k) near[k] = far[k] = -h.offset;
     for (int axis = 0; axis < 3; ++axis) {
@@ -277,6 +286,10 @@ void sizes_in(const DensityTree& tree, const Box* boxes, LocalSize* sizes) {
 }  // namespace
 
 Range distance_range(const HalfSpace& h, const Box& box) {
+    if (h.round) {
+        const Range u = h.round->range(box);
+        return {u.lo - h.offset, u.hi - h.offset};
+    }
     double lo = -h.offset, hi = -h.offset;
     for (int k = 0; k < 3; ++k) {
         const double n = h.normal[k];

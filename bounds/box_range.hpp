@@ -14,10 +14,6 @@
 
 namespace deburr {
 
-struct Range {
-    double lo = 0, hi = 0;
-};
-
 /// Range of op(a, b) from the ranges of a and b, whatever half-spaces a and b share; a complement has no b.
 inline Range combine(Op op, Range a, Range b) {
     switch (op) {
@@ -35,7 +31,7 @@ inline Range combine(Op op, Range a, Range b) {
     }
 }
 
-/// Least and greatest n·x − offset over the box; infinite sides are allowed.
+/// Least and greatest n·x − offset over the box, or what holds them for a round part; infinite sides are allowed.
 Range distance_range(const HalfSpace& h, const Box& box);
 
 /// ρ of one half-space over the box.

@@ -14,6 +14,12 @@ void append(std::string& key, const Values&... values) {
     (key.append(reinterpret_cast<const char*>(&values), sizeof values), ...);
 }
 
+// Member by member: what pads them is anything.
+void append_round(std::string& key, const RoundPart& part) {
+    const RoundCoordinate& c = part.coordinate;
+    append(key, c.kind, c.center, c.axis, c.across, c.along, c.ring, part.offset);
+}
+
 // Most parts of long unions are not placed: what they are placed by is left out.
 void append_placed(std::string& key, const CanonicalPlacement& part) {
     append(key, part.canonical, part.material);
@@ -103,6 +109,8 @@ int CanonicalSolids::density(const Density& root) {
                 append(key, n.map());
             else if (n.is_plane())
                 append(key, n.normal(), n.offset());
+            else if (n.kind == DensityNode::Kind::round)
+                append_round(key, n.round());
             else if (n.kind == DensityNode::Kind::radius)
                 append(key, n.radius());
             for (const Density& child : n.children()) {  // half-spaces, of which there are most, need no number

@@ -54,7 +54,7 @@ private:
             literal.family = family_of(h);
             if (std::size_t(literal.family) == offsets.size()) offsets.emplace_back();
             const Vec3 n = diagram_.families[literal.family].normal;
-            literal.above = glm::dot(n, h.normal) < 0;
+            literal.above = !h.round && glm::dot(n, h.normal) < 0;
             offsets[literal.family].push_back({literal.above ? -h.offset : h.offset, node.a});
             scale = std::max(scale, std::abs(h.offset));
         }
@@ -71,12 +71,18 @@ private:
     int family_of(const HalfSpace& h) {
         for (std::size_t f = 0; f < diagram_.families.size(); ++f) {
             const PlaneFamily& family = diagram_.families[f];
+            if (h.round || family.round) {
+                if (h.round && family.round && std::abs(h.radius - family.radius) <= same_radius * family.radius &&
+                    h.round->is_same(*family.round))
+                    return int(f);
+                continue;
+            }
             const Vec3 n = glm::dot(h.normal, family.normal) < 0 ? -h.normal : h.normal;
             if (std::abs(h.radius - family.radius) <= same_radius * family.radius &&
                 glm::length(n - family.normal) <= same_direction)
                 return int(f);
         }
-        diagram_.families.push_back({h.normal, h.radius, {}});
+        diagram_.families.push_back({h.normal, h.radius, {}, h.round});
         return int(diagram_.families.size()) - 1;
     }
 

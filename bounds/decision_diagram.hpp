@@ -3,7 +3,7 @@
 //
 // A Boolean density is the probability that the Boolean function of its half-spaces is true when a
 // point is drawn around x: independently for every direction, but with one draw for all parallel
-// planes of one radius. A family (normals ±n, radius r, thresholds τ₀ < τ₁ < … along n) is one
+// planes of one radius. Round parts of one coordinate share a draw likewise. A family (normals ±n, radius r, thresholds τ₀ < τ₁ < … along n) is one
 // random coordinate; a decision node has one child for each gap between thresholds that makes a
 // difference.
 #pragma once
@@ -34,10 +34,12 @@ struct Decision {
     bool operator==(const Decision&) const = default;
 };
 
+/// Half-spaces, or round parts, of one coordinate.
 struct PlaneFamily {
     Vec3 normal;
     double radius = 0;
-    std::vector<double> thresholds;  // increasing
+    std::vector<double> thresholds;          // increasing
+    const RoundCoordinate* round = nullptr;  // the tree's
 };
 
 /// Nodes 0 and 1 are the constants false and true; children come before parents.

@@ -21,14 +21,16 @@ DensityNode::Operands pair(Density a, Density b) { return {std::move(a), std::mo
 DensityNode::DensityNode(Kind kind, Parts parts, int line)
     : kind(kind),
       has_radius(kind == Kind::radius),
+      has_round(kind == Kind::round),
       may_be_illegal(kind == Kind::sum || kind == Kind::difference),
       line(line),
       parts_(std::move(parts)) {
-    if (is_plane()) return;
+    if (is_plane() || kind == Kind::round) return;
     leaves = 0;
     for (const Density& child : children()) {
         leaves += child.node().leaves;
         has_radius |= child.node().has_radius;
+        has_round |= child.node().has_round;
         may_be_illegal |= child.node().may_be_illegal;
     }
     if (kind == Kind::disjunction || kind == Kind::conjunction || kind == Kind::complement) may_be_illegal = false;
@@ -58,6 +60,32 @@ Density Density::cover(Vec3 normal, double offset) {
     const double length = glm::length(normal);
     assert(length > 0);
     return Density(make(Kind::cover, DensityNode::HalfSpace{normal / length, offset / length}));
+}
+
+Density Density::round(const RoundCoordinate& coordinate, double offset) {
+    return Density(make(Kind::round, std::make_unique<const RoundPart>(RoundPart{coordinate, offset})));
+}
+
+Density Density::sphere(Vec3 center, double radius) {
+    return round(RoundCoordinate::distance_from_point(center), radius);
+}
+
+Density Density::cylinder(Vec3 from, Vec3 to, double radius) { return cone(from, to, radius, radius); }
+
+Density Density::cone(Vec3 from, Vec3 to, double radius_from, double radius_to) {
+    const double height = glm::distance(from, to), widening = radius_to - radius_from;
+    const double slant = std::hypot(height, widening);
+    const Vec3 axis = (to - from) / height;
+    std::vector<Density> parts;
+    const double across = height / slant;
+    parts.push_back(round(RoundCoordinate::across_cone(from, axis, across, -widening / slant), across * radius_from));
+    if (radius_from > 0) parts.push_back(half_space(-axis, -glm::dot(axis, from)));
+    if (radius_to > 0) parts.push_back(half_space(axis, glm::dot(axis, to)));
+    return product(std::move(parts));
+}
+
+Density Density::torus(Vec3 center, Vec3 axis, double radius, double tube) {
+    return round(RoundCoordinate::distance_from_circle(center, axis, radius), tube);
 }
 
 Density Density::box(Vec3 lo, Vec3 hi) {

@@ -14,6 +14,7 @@
 #include <variant>
 #include <vector>
 
+#include "bounds/round_coordinate.hpp"
 #include "bounds/vec.hpp"
 
 namespace deburr {
@@ -27,6 +28,17 @@ public:
     /// A half-space that rounding moves outward by its radius, so that it is 1 where n·x ≤ d, rounded or not: it gives
     /// bounds to what has none of its own, and changes nothing of what lies within.
     static Density cover(Vec3 normal, double offset);
+    /// 1 where the coordinate is at most `offset` > 0, else 0: a ball, a cylinder without ends, a torus, a nappe of a
+    /// cone.
+    static Density round(const RoundCoordinate& coordinate, double offset);
+    /// The ball of this radius.
+    static Density sphere(Vec3 center, double radius);
+    /// Around the segment; `from` ≠ `to`.
+    static Density cylinder(Vec3 from, Vec3 to, double radius);
+    /// From one radius to another, not both 0; `from` ≠ `to`. An end of radius 0 is the apex.
+    static Density cone(Vec3 from, Vec3 to, double radius_from, double radius_to);
+    /// Around the circle of radius `radius` about the unit axis; tube < radius.
+    static Density torus(Vec3 center, Vec3 axis, double radius, double tube);
     /// Product of six half-spaces; lo < hi on each axis.
     static Density box(Vec3 lo, Vec3 hi);
     /// Product of all; at least one.
@@ -69,6 +81,7 @@ public:
     enum class Kind : std::uint8_t {
         half_space,
         cover,
+        round,
         sum,
         product,
         difference,
@@ -91,7 +104,8 @@ public:
         Affine map;
     };
     using Operands = std::array<Density, 2>;
-    using Parts = std::variant<HalfSpace, Density, Operands, std::vector<Density>, Radius, Transform>;
+    using Parts = std::variant<HalfSpace, Density, Operands, std::vector<Density>, Radius, Transform,
+                               std::unique_ptr<const RoundPart>>;
 
     DensityNode(Kind kind, Parts parts, int line = 0);
     DensityNode(const DensityNode&) = delete;
@@ -105,9 +119,11 @@ public:
     double offset() const { return std::get_if<HalfSpace>(&parts_)->offset; }
     double radius() const { return std::get_if<Radius>(&parts_)->radius; }
     const Affine& map() const { return std::get_if<Transform>(&parts_)->map; }
+    const RoundPart& round() const { return **std::get_if<std::unique_ptr<const RoundPart>>(&parts_); }
 
     const Kind kind;
     bool has_radius = false;      // radius, or anything below it
+    bool has_round = false;       // it is round, or anything below it
     bool may_be_illegal = false;  // a sum or difference is in it that no Boolean operator is above
     const int line;               // sum, product, difference: place in the scene
     double leaves = 1.0;          // half-spaces below, counted once per use; may overflow to infinity

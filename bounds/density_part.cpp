@@ -17,6 +17,7 @@ DensityTree part_below(const DensityTree& tree, int root) {
         return int(std::lower_bound(below.begin(), below.end(), old) - below.begin());
     };
     DensityTree part;
+    part.rounds = tree.rounds;
     for (const int i : below) {
         TreeNode n = tree.nodes[i];
         if (n.op == Op::half_space) {

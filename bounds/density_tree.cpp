@@ -59,6 +59,7 @@ public:
             else
                 combine(task);
         }
+        if (rounds_) tree_.rounds = std::move(rounds_);
         return std::move(tree_);
     }
 
@@ -83,6 +84,10 @@ private:
             if (node.kind == Kind::cover) tree_.half_spaces.back().offset += task.placement.radius;
             return;
         }
+        if (node.kind == Kind::round) {
+            done_.push_back(round(image(task.placement.map, node.round()), task.placement));
+            return;
+        }
         Op op = arithmetic(node.kind);
         const bool boolean = task.boolean || op == Op::disjunction || op == Op::conjunction || op == Op::complement;
         if (boolean) op = boolean_reading(op);
@@ -96,6 +101,42 @@ private:
         const std::vector<Task> operands = chain(node, task.placement, boolean, op);
         tasks_.push_back({nullptr, {}, boolean, op, int(operands.size()), node.line});
         tasks_.insert(tasks_.end(), operands.rbegin(), operands.rend());
+    }
+
+    int round_part(const RoundCoordinate& coordinate, double offset, double radius) {
+        if (!rounds_) rounds_ = std::make_shared<std::deque<RoundCoordinate>>();
+        rounds_->push_back(coordinate);
+        tree_.half_spaces.push_back({Vec3(0.0), offset, radius, &rounds_->back()});
+        return add({Op::half_space, int(tree_.half_spaces.size()) - 1});
+    }
+
+    // The draw of a coordinate that is a distance lies in [−offset, offset]; of a cone's, on this side of the axis and
+    // on the other.
+    int round(const RoundPart& part, const Placement& placement) {
+        const RoundCoordinate& c = part.coordinate;
+        const double r = placement.radius;
+        if (even_scale(placement.map) == 0)
+            throw BadRoundPart(
+                "expected scales that keep round parts round, got a density that is longer one way than "
+                "another; scale the rounded solid instead");
+        if (c.kind == RoundCoordinate::Kind::circle && c.ring < part.offset + r)
+            throw BadRoundPart("expected a torus whose radius is at least its tube and the rounding radius, got " +
+                               number(c.ring) + " < " + number(part.offset) + " + " + number(r));
+        const int within = round_part(c, part.offset, r);
+        if (c.is_cone() && r > 0) {
+            const int beyond = round_part(c.mirrored(), part.offset, r);
+            return add({Op::conjunction, within, beyond});
+        }
+        if (c.is_cone() || part.offset >= r) return within;
+        const int below = round_part(c, -part.offset, r);
+        const int above = add({Op::complement, below});
+        return add({Op::conjunction, within, above});
+    }
+
+    static std::string number(double x) {
+        std::ostringstream text;
+        text << x;
+        return text.str();
     }
 
     // The operands of a chain of one associative operator that the scene wrote in one place.
@@ -137,6 +178,7 @@ private:
     }
 
     DensityTree tree_;
+    std::shared_ptr<std::deque<RoundCoordinate>> rounds_;  // a deque: what points to it stays
     std::vector<Task> tasks_;
     std::vector<int> done_;
 };
@@ -160,6 +202,30 @@ HalfSpace transformed(const HalfSpace& h, const Affine& map, bool carry_radius) 
             carry_radius ? h.radius / length : h.radius};
 }
 
+// Carries the round parts along, radii and all.
+static void carry_along(DensityTree& tree, const Affine& to_world) {
+    const double scale = even_scale(to_world);
+    if (scale == 0) throw BadRoundPart("expected a map that keeps angles");
+    auto rounds = std::make_shared<std::deque<RoundCoordinate>>();
+    for (HalfSpace& h : tree.half_spaces) {
+        if (!h.round) continue;
+        const RoundPart part = image(to_world, {*h.round, h.offset});
+        rounds->push_back(part.coordinate);
+        h = {Vec3(0.0), part.offset, h.radius * scale, &rounds->back()};
+    }
+    tree.rounds = std::move(rounds);
+}
+
+DensityTree placed(DensityTree tree, const Affine& map) {
+    if (tree.rounds) carry_along(tree, map);
+    for (HalfSpace& h : tree.half_spaces)
+        if (!h.round) h = transformed(h, map, true);
+    tree.supports.clear();
+    for (TreeNode& n : tree.nodes) n.support = -1;
+    find_supports(tree);
+    return tree;
+}
+
 static DensityTree without_supports(const Density& density, double radius, const Affine& to_world, bool convolved) {
     if (density.node().leaves > max_half_spaces) throw TooManyHalfSpaces(density.node().leaves);
     DensityTree tree = Flattening().run(density.node(), {radius, Affine{}}, convolved);
@@ -168,7 +234,9 @@ static DensityTree without_supports(const Density& density, double radius, const
         tree.nodes.push_back({Op::convolution, tree.root()});
         tree.ball = to_world.linear * radius;
     }
-    for (HalfSpace& h : tree.half_spaces) h = transformed(h, to_world, true);
+    if (tree.rounds) carry_along(tree, to_world);
+    for (HalfSpace& h : tree.half_spaces)
+        if (!h.round) h = transformed(h, to_world, true);
     return tree;
 }
 

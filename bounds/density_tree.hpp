@@ -7,21 +7,29 @@
 // `at` and `gradient_at` prune the tree to the point and evaluate what is left (local_density.cpp); tests
 // hold them against tests/plain_definition.hpp. Not promised: ρ in [0, 1] (density.hpp), nor speed.
 #pragma once
+#include <deque>
+#include <memory>
 #include <stdexcept>
 #include <string>
 #include <vector>
 
 #include "bounds/density.hpp"
 #include "bounds/profile.hpp"
+#include "bounds/round_coordinate.hpp"
 
 namespace deburr {
 
+/// Where n·x ≤ offset; or, with another coordinate in the place of n·x, where that is: such a *round part* is a
+/// half-space whose plane is bent.
 struct HalfSpace {
-    Vec3 normal;    // unit, outward
-    double offset;  // n·x = offset on the plane
-    double radius;  // of the filter; 0: sharp
+    Vec3 normal;                             // unit, outward; of a round part, nothing
+    double offset;                           // n·x = offset on the plane
+    double radius;                           // of the filter; 0: sharp
+    const RoundCoordinate* round = nullptr;  // in place of n·x, if not null; the tree's
 
-    double distance(Vec3 x) const { return glm::dot(normal, x) - offset; }
+    double distance(Vec3 x) const { return (round ? round->at(x) : glm::dot(normal, x)) - offset; }
+    /// Of the distance: a unit vector, but where a round part has none.
+    Vec3 normal_at(Vec3 x) const { return round ? round->gradient(x) : normal; }
     /// Signed distance in radii; a sharp plane counts as inside, so α is −infinity or +infinity.
     double alpha(Vec3 x) const { return alpha_at(distance(x)); }
     double alpha_at(double distance) const {
@@ -61,6 +69,8 @@ struct DensityTree {
     std::vector<TreeNode> nodes;  // children before parents, the root last; never empty
     std::vector<Box> supports = {};
     Mat3 ball{1.0};  // convolution: makes the unit ball the filter
+    /// What half_spaces point to; null where none is round.
+    std::shared_ptr<const std::deque<RoundCoordinate>> rounds = nullptr;
 
     static DensityTree constant(double value) { return {{}, {{Op::constant, -1, -1, value}}, {}}; }
 
@@ -73,6 +83,11 @@ struct DensityTree {
 /// More half-spaces than this are not laid out at once.
 constexpr double max_half_spaces = 4e6;
 
+/// A round part that has no density.
+struct BadRoundPart : std::domain_error {
+    using std::domain_error::domain_error;
+};
+
 /// A count in digits, or in words if it is more than 10^15: shared parts may be used more often than a double can
 /// count.
 std::string count_text(double count);
@@ -83,8 +98,13 @@ struct TooManyHalfSpaces : std::length_error {
 
 /// Rounds and places a density: radius r wherever the scene fixed none, then `to_world`. Below a Boolean operator
 /// + * - become ∨ ∧ ∧¬ [docs/design.md, Boolean densities]. Chains of one associative operator come out balanced, and
-/// bounded parts have their supports. Throws TooManyHalfSpaces.
+/// bounded parts have their supports. Throws TooManyHalfSpaces. With round parts the map has to keep angles, and a
+/// torus has to leave room for its filter: else throws BadRoundPart.
 DensityTree flatten(const Density& density, double radius, const Affine& to_world = {});
+
+/// The tree with its round parts, carried along by a map that keeps angles; else throws BadRoundPart. Supports are
+/// found again.
+DensityTree placed(DensityTree tree, const Affine& map);
 
 /// The half-spaces of flatten() alone.
 std::vector<HalfSpace> flat_half_spaces(const Density& density, double radius, const Affine& to_world = {});
@@ -93,7 +113,7 @@ std::vector<HalfSpace> flat_half_spaces(const Density& density, double radius, c
 /// Boolean function, and radii of its own are not looked at.
 DensityTree flatten_convolved(const Density& density, double radius, const Affine& to_world = {});
 
-/// The half-space's image; the radius scales as distance along the normal does.
+/// The flat half-space's image; the radius scales as distance along the normal does.
 HalfSpace transformed(const HalfSpace& h, const Affine& map, bool carry_radius);
 
 }  // namespace deburr

@@ -38,7 +38,7 @@ public:
         density->ball = map_.linear * density->ball;
         return density;
     }
-    bool is_polyhedral() const override { return inner_->is_polyhedral(); }
+    bool is_density() const override { return inner_->is_density(); }
     std::shared_ptr<const ClosedMesh> sharp_mesh() const override {
         const auto mesh = inner_->sharp_mesh();
         return mesh ? deburr::transformed(*mesh, map_) : nullptr;

@@ -42,8 +42,8 @@ public:
     /// A density of a few half-spaces whose set ρ > ½ is the field's set throughout the box; none if a few are not
     /// enough. Called for boxes in which the range straddles 0.
     virtual std::optional<DensityTree> as_density(const Box&) const { return std::nullopt; }
-    /// Whether it is a rounded polyhedron, with flat faces and a filter's radius: triage can follow it.
-    virtual bool is_polyhedral() const { return false; }
+    /// Whether f is ρ − ½ of some density ρ in [0, 1], with a filter's radius: triage can follow it.
+    virtual bool is_density() const { return false; }
     /// The radius of the filter that rounds it; 0: none.
     virtual double filter_radius() const { return 0; }
     /// The closed mesh that it is the inside of, with no rounding; or null.
@@ -72,6 +72,11 @@ public:
     virtual ValueSlope at(const FieldRay& ray, double t) const = 0;
     /// M, L and G of the same over [t0, t1].
     virtual RayBounds bounds(const FieldRay& ray, double t0, double t1) const = 0;
+};
+
+/// What a field keeps of the latest ray, if numbers are not enough.
+struct FieldRayState {
+    virtual ~FieldRayState() = default;
 };
 
 /// A field along the ray o + t·d, where t0 ≤ t ≤ t1 < ∞. Cheap to set up again and again: keeps its
@@ -104,6 +109,7 @@ public:
     double t0 = 0, t1 = 0;
     double noise_scale = 1;       // of f here, in f's own
     std::vector<double> numbers;  // the field's own
+    std::unique_ptr<FieldRayState> state;  // the field's own, or what another left
 };
 
 /// x ↦ f(A⁻¹x); null if `map` is singular to a double.

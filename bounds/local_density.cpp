@@ -48,7 +48,7 @@ void roots_of_boolean_parts(const DensityTree& tree, const std::vector<char>& bo
 
 }  // namespace
 
-LocalDensity::LocalDensity(const DensityTree& tree) {
+LocalDensity::LocalDensity(const DensityTree& tree) : rounds_(tree.rounds) {
     if (tree.nodes.back().op == Op::convolution) {
         convolution_ = std::make_shared<BallConvolution>(tree);
         half_spaces_ = convolution_->half_spaces();
@@ -120,7 +120,7 @@ int LocalDensity::add_boolean(const DensityTree& tree, int root) {
         int& index = plane[family][threshold];
         if (index < 0) {
             const PlaneFamily& f = diagram.families[family];
-            half_spaces_.push_back({f.normal, f.thresholds[threshold], f.radius});
+            half_spaces_.push_back({f.normal, f.thresholds[threshold], f.radius, f.round});
             index = int(half_spaces_.size()) - 1;
         }
         return index;
@@ -168,6 +168,8 @@ void LocalDensity::find_polarities(const DensityTree& tree, int root, std::size_
             const HalfSpace& h = tree.half_spaces[n.a];
             for (std::size_t k = 0; k < of_plane.size(); ++k) {
                 const HalfSpace& plane = half_spaces_[first + k];
+                if ((h.round != nullptr) != (plane.round != nullptr) || (h.round && !h.round->is_same(*plane.round)))
+                    continue;
                 const double side = glm::dot(h.normal, plane.normal) < 0 ? -1 : 1;
                 if (std::abs(side * h.offset - plane.offset) > same_offset * (1 + std::abs(h.offset)) ||
                     std::abs(h.radius - plane.radius) > same_radius * h.radius ||
@@ -271,7 +273,7 @@ ValueGradient LocalDensity::gradient_at(Vec3 x) const {
         const HalfSpace& h = half_spaces_[i];
         const double alpha = h.alpha(x);
         if (h.radius == 0) return {profile(alpha), Vec3(0.0)};
-        return {profile(alpha), h.normal * (profile_slope(alpha) / h.radius)};
+        return {profile(alpha), h.normal_at(x) * (profile_slope(alpha) / h.radius)};
     });
 }
 
@@ -400,8 +402,17 @@ Range LocalDensity::rate_range(std::span<const Range> half_spaces, std::span<con
 
 void RayDensity::set(const LocalDensity& density, Vec3 origin, Vec3 direction) {
     density_ = &density;
+    origin_ = origin;
+    direction_ = direction;
     lines_.clear();
+    rounds_.clear();
     for (const HalfSpace& h : density.half_spaces_) {
+        if (h.round) {
+            rounds_.push_back({lines_.size(), {}});
+            rounds_.back().on_ray.set(*h.round, origin, direction);
+            lines_.push_back({});
+            continue;
+        }
         const double distance = h.distance(origin), rate = glm::dot(h.normal, direction);
         if (h.radius > 0)
             lines_.push_back({distance, rate, distance / h.radius, rate / h.radius});
@@ -438,7 +449,44 @@ ValueSlope RayDensity::at(double t) const {
         const double alpha = lines_[i].a + lines_[i].b * t;
         leaf_[i] = {profile(alpha), profile_slope(alpha) * lines_[i].b};
     }
+    if (!rounds_.empty()) evaluate_rounds(t);
     return run<ValueSlope>(density_->nodes_, density_->children_, [&](std::size_t i) { return leaf_[i]; });
+}
+
+void RayDensity::evaluate_rounds(double t) const {
+    for (const Round& round : rounds_) {
+        const HalfSpace& h = density_->half_spaces_[round.half_space];
+        const double alpha = h.alpha_at(round.on_ray.at(t) - h.offset);
+        leaf_[round.half_space] = {profile(alpha), profile_slope(alpha) * (round.on_ray.slope(t) / h.radius)};
+    }
+}
+
+// With g, the even function of the distance s from the axis that the parts of one coordinate make up,
+//
+//     ρ″ = g″ s′² + g′ s″,     s″ ≤ speed²/s,     |g′| ≤ s·sup|g″|,
+//
+// so that g′ s″ ≤ speed²·sup|g″| wherever the ray comes near to the axis. A cone's two parts are a function of s and t
+// that is even in s, with across²·(3/2 + 3/2 + 2·(¾)²)/r² as the bound of its second derivative by s.
+RayBounds round_part_bounds(const HalfSpace& part, const RoundOnRay& on_ray, double t0, double t1) {
+    const Range u = on_ray.range(t0, t1);
+    const double r = part.radius, lo = (u.lo - part.offset) / r, hi = (u.hi - part.offset) / r;
+    const RoundCoordinate& c = on_ray.coordinate();
+    const double axis_distance = on_ray.least_distance(t0, t1);
+    const bool is_near = axis_distance < 0.5 * r, is_cone = c.is_cone();
+    if (lo >= 1 && !(is_near && is_cone)) return {};
+    if (hi <= -1 && !(is_near && is_cone)) return {1, 0, 0};
+    const double nearest = std::clamp(lo > 0 ? lo : hi < 0 ? -hi : 0.0, 0.0, 1.0);
+    const double farthest = std::min(1.0, std::max(-lo, hi));
+    const double slope = on_ray.max_slope(t0, t1) / r, steepest = 0.75 * (1 - nearest * nearest);
+    constexpr double most = 1e200;  // products with 0 stay numbers
+    const double alone = steepest > 0 ? std::min(steepest * on_ray.max_curvature(t0, t1) / r, most) : 0;
+    const double along = 1.5 * farthest * slope * slope;
+    if (!is_near) return {profile(lo), steepest * slope, along + alone};
+    const double square = on_ray.square_of_speed() / (r * r);
+    if (is_cone) return {1, steepest * slope, along + 4.2 * c.across * c.across * square};
+    // Beside a circle its distance is that from a point, but for the bend of the circle, which is no more again.
+    const double together = (c.kind == RoundCoordinate::Kind::circle ? 3.0 : 1.5) * square;
+    return {profile(lo), steepest * slope, along + (std::abs(part.offset) < r ? together : std::min(alone, together))};
 }
 
 Vec3 RayDensity::gradient(double t) const {
@@ -450,13 +498,18 @@ Vec3 RayDensity::gradient(double t) const {
             gradient += density_->half_spaces_[i].normal * (slopes_[i] / density_->half_spaces_[i].radius);
         return gradient;
     }
-    return run<ValueGradient>(density_->nodes_, density_->children_,
-                              [&](std::size_t i) -> ValueGradient {
-                                  const double alpha = lines_[i].a + lines_[i].b * t;
-                                  const HalfSpace& h = density_->half_spaces_[i];
-                                  const double rate = h.radius > 0 ? profile_slope(alpha) / h.radius : 0.0;
-                                  return {profile(alpha), h.normal * rate};
-                              })
+    return run<ValueGradient>(
+               density_->nodes_, density_->children_,
+               [&](std::size_t i) -> ValueGradient {
+                   const double alpha = lines_[i].a + lines_[i].b * t;
+                   const HalfSpace& h = density_->half_spaces_[i];
+                   const double rate = h.radius > 0 ? profile_slope(alpha) / h.radius : 0.0;
+                   if (h.round) {
+                       const double at = h.alpha(origin_ + t * direction_);
+                       return {profile(at), h.normal_at(origin_ + t * direction_) * (profile_slope(at) / h.radius)};
+                   }
+                   return {profile(alpha), h.normal * rate};
+               })
         .gradient;
 }
 
@@ -469,6 +522,9 @@ RayBounds RayDensity::bounds(double t0, double t1) const {
     using Step = LocalDensity::Step;
     for (std::size_t i = 0; i < lines_.size(); ++i)
         leaf_bounds_[i] = half_space_bounds(alpha(i, t0), alpha(i, t1), std::abs(lines_[i].b));
+    for (const Round& round : rounds_)
+        leaf_bounds_[round.half_space] =
+            round_part_bounds(density_->half_spaces_[round.half_space], round.on_ray, t0, t1);
     const auto& nodes = density_->nodes_;
     bounds_.resize(nodes.size());
     for (std::size_t i = 0; i < nodes.size(); ++i) {

@@ -29,6 +29,8 @@ public:
     /// The half-spaces that matter, each with its normal as the expression needs it.
     const std::vector<HalfSpace>& half_spaces() const { return half_spaces_; }
     bool has_sharp() const { return has_sharp_; }
+    /// Whether some of them are round parts.
+    bool has_round() const { return rounds_ != nullptr; }
 
     struct Factor {
         int half_space;
@@ -85,6 +87,7 @@ private:
     void find_polarities(const DensityTree& tree, int root, std::size_t first);
 
     FieldPtr field_;
+    std::shared_ptr<const std::deque<RoundCoordinate>> rounds_;  // what half_spaces_ point to
     std::shared_ptr<const BallConvolution> convolution_;  // of a true convolution, which needs no nodes
     std::vector<HalfSpace> half_spaces_;
     std::vector<Node> nodes_;  // operands first, the root last
@@ -94,6 +97,10 @@ private:
     std::vector<signed char> polarity_;
     bool has_sharp_ = false;
 };
+
+/// M, L and G of a round part on [t0, t1], which bound the sum of all in a density: where the ray comes near to the axis
+/// of a filter that is wider, a part alone has a kink there, and what has none is its pair on either side.
+RayBounds round_part_bounds(const HalfSpace& part, const RoundOnRay& on_ray, double t0, double t1);
 
 /// A local density along the ray o + t·d. Cheap to set up again and again: keeps its memory.
 class RayDensity {
@@ -130,6 +137,15 @@ private:
     std::vector<Line> lines_;
     mutable std::vector<ValueSlope> leaf_;
     mutable std::vector<RayBounds> leaf_bounds_, bounds_;
+
+    // Of round parts; they have no line.
+    struct Round {
+        std::size_t half_space;
+        RoundOnRay on_ray;
+    };
+    void evaluate_rounds(double t) const;
+    Vec3 origin_{0.0}, direction_{0.0};
+    std::vector<Round> rounds_;
 
     // Of a true convolution: every α, its rate, and the share's slope by it.
     void alphas(double t, std::vector<double>& all) const;

@@ -42,7 +42,7 @@ public:
     Box bounding_box() const override { return box_; }
     FieldPtr prune(const Box& box) const override;
     std::optional<DensityTree> as_density(const Box& box) const override;
-    bool is_polyhedral() const override { return true; }
+    bool is_density() const override { return true; }
     double filter_radius() const override { return sharp_ ? 0 : radius_; }
     std::shared_ptr<const ClosedMesh> sharp_mesh() const override { return sharp_ && whole_ ? mesh_ : nullptr; }
     std::vector<HalfSpace> planes() const override;

@@ -4,6 +4,8 @@
 #include <cmath>
 
 #include "bounds/expression.hpp"
+#include "bounds/round_density.hpp"
+#include "bounds/sharp_round.hpp"
 
 namespace deburr {
 namespace {
@@ -58,6 +60,10 @@ private:
 
     void open(Task task) {
         const SolidNode& node = through_placements(task);
+        if (node.kind == Kind::rounded && node.density().node().has_round) {
+            open_round(flatten(node.density(), node.radius()), node, task);
+            return;
+        }
         if (node.kind == Kind::rounded) {
             const Density& density = node.density();
             tree_.leaves.push_back({node.convolved() ? flatten_convolved(density, node.radius(), task.map)
@@ -68,10 +74,7 @@ private:
             return;
         }
         if (node.kind == Kind::field) {
-            FieldPtr placed = transformed(node.field(), task.map);
-            if (!placed) throw SingularPlacement(node.line);
-            tree_.leaves.push_back({DensityTree::constant(0), task.material, node.line, std::move(placed)});
-            done_.push_back(add({SolidOp::leaf, int(tree_.leaves.size()) - 1}));
+            open_field(node.field(), node, task);
             return;
         }
         const SolidOp op = node.kind == Kind::unite       ? SolidOp::unite
@@ -96,6 +99,20 @@ private:
         }
         tasks_.push_back({nullptr, {}, 0, op, int(operands.size())});
         tasks_.insert(tasks_.end(), operands.rbegin(), operands.rend());
+    }
+
+    void open_round(DensityTree density, const SolidNode& node, const Task& task) {
+        if (is_sharp_round(density) && even_scale(task.map) > 0)
+            done_.push_back(add_sharp_round(placed(std::move(density), task.map), task.material, node.line, tree_));
+        else
+            open_field(std::make_shared<RoundDensity>(std::move(density)), node, task);
+    }
+
+    void open_field(const FieldPtr& field, const SolidNode& node, const Task& task) {
+        FieldPtr placed = transformed(field, task.map);
+        if (!placed) throw SingularPlacement(node.line);
+        tree_.leaves.push_back({DensityTree::constant(0), task.material, node.line, std::move(placed)});
+        done_.push_back(add({SolidOp::leaf, int(tree_.leaves.size()) - 1}));
     }
 
     void combine(const Task& task) {
@@ -132,7 +149,7 @@ double SolidTree::min_radius() const {
 
 bool SolidTree::has_free_form() const {
     return std::any_of(leaves.begin(), leaves.end(),
-                       [](const SolidLeaf& leaf) { return leaf.field && !leaf.field->is_polyhedral(); });
+                       [](const SolidLeaf& leaf) { return leaf.field && !leaf.field->is_density(); });
 }
 
 bool SolidTree::contains(Vec3 x) const {

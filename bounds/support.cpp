@@ -8,12 +8,33 @@ namespace {
 // Of parts with fewer half-spaces the planes themselves are as quick to look at.
 constexpr int min_half_spaces = 4;
 
+// The part across the unit axis of the k-th coordinate axis, of length 1; 0 where there is none.
+Vec3 component_across(Vec3 axis, int k) {
+    Vec3 v(0.0);
+    v[k] = 1;
+    v -= axis * axis[k];
+    const double length = glm::length(v);
+    constexpr double parallel = 1e-9;
+    return length > parallel ? v / length : Vec3(0.0);
+}
+
 bool is_intersection(Op op) { return op == Op::product || op == Op::conjunction; }
 
 // A half-space varies up to a radius outside its plane, and an ulp or two.
 BoundPlane edge_of(const HalfSpace& h, bool complement) {
     const double reach = h.radius + 4 * epsilon * (std::abs(h.offset) + h.radius);
     return complement ? BoundPlane{-h.normal, reach - h.offset} : BoundPlane{h.normal, h.offset + reach};
+}
+
+void add_edges(const HalfSpace& h, GatheredBox& to) {
+    if (!h.round) {
+        to.planes.push_back(edge_of(h, false));
+        return;
+    }
+    for (const HalfSpace& touching : touching_planes(h)) {
+        to.planes.push_back(edge_of(touching, false));
+        to.planes.back().offset += 4 * epsilon * largest(h.round->center);
+    }
 }
 
 bool bounded_somewhere(const Box& box) {
@@ -23,6 +44,28 @@ bool bounded_somewhere(const Box& box) {
 }
 
 }  // namespace
+
+std::vector<HalfSpace> touching_planes(const HalfSpace& part) {
+    using Kind = RoundCoordinate::Kind;
+    std::vector<HalfSpace> planes;
+    const RoundCoordinate& c = *part.round;
+    if (c.across <= 0 || (!c.is_cone() && part.offset < 0)) return planes;  // all but a nappe
+    for (int k = 0; k < 3; ++k)
+        for (const double side : {1.0, -1.0}) {
+            Vec3 normal(0.0);
+            normal[k] = side;
+            double offset = part.offset;
+            if (c.kind == Kind::axis) {
+                const Vec3 out = component_across(c.axis, k);
+                if (out == Vec3(0.0)) continue;
+                normal = c.across * side * out + c.along * c.axis;
+            } else if (c.kind == Kind::circle) {
+                offset += c.ring * std::sqrt(std::max(0.0, 1 - c.axis[k] * c.axis[k]));
+            }
+            planes.push_back({normal, offset + glm::dot(normal, c.center), part.radius});
+        }
+    return planes;
+}
 
 void find_supports(DensityTree& tree) {
     std::vector<char> whole(tree.nodes.size(), true);  // not merely a part of a larger intersection
@@ -39,12 +82,21 @@ void find_supports(DensityTree& tree) {
                 if (n.value == 0) all[i].rest = {};
                 break;
             case Op::half_space:
-                all[i].planes.push_back(edge_of(tree.half_spaces[n.a], false));
+                add_edges(tree.half_spaces[n.a], all[i]);
                 half_spaces[i] = 1;
+                if (tree.half_spaces[n.a].round) {
+                    half_spaces[i] = min_half_spaces;
+                    const Box box = all[i].box();
+                    if (bounded_somewhere(box)) {
+                        tree.supports.push_back(box);
+                        n.support = int(tree.supports.size()) - 1;
+                    }
+                }
                 continue;
             case Op::complement: {
                 const TreeNode& of = tree.nodes[n.a];
-                if (of.op == Op::half_space) all[i].planes.push_back(edge_of(tree.half_spaces[of.a], true));
+                if (of.op == Op::half_space && !tree.half_spaces[of.a].round)
+                    all[i].planes.push_back(edge_of(tree.half_spaces[of.a], true));
                 half_spaces[i] = half_spaces[n.a];
                 continue;
             }

@@ -9,4 +9,8 @@ namespace deburr {
 /// are certainly 0 outside some box smaller than space.
 void find_supports(DensityTree& tree);
 
+/// Half-spaces of the same radius that hold a round part between them, and touch it where it reaches farthest along the
+/// coordinate axes; none of what has no such planes.
+std::vector<HalfSpace> touching_planes(const HalfSpace& part);
+
 }  // namespace deburr

@@ -70,7 +70,7 @@ double SignedDistance::leaf_value(std::size_t leaf, Vec3 x) const {
     if (sharp_[leaf]) return sharp_at(solid_.leaves[leaf].density, x).distance;
     if (const Field* field = solid_.leaves[leaf].field.get()) {
         const double f = field->at(x).value;
-        return field->is_polyhedral() ? above_level(f + 0.5) : f;
+        return field->is_density() ? above_level(f + 0.5) : f;
     }
     return above_level(density(leaf).at(x));
 }
@@ -102,7 +102,7 @@ SurfaceSample SignedDistance::leaf_at(std::size_t leaf, Vec3 x) const {
     } else {
         const ValueGradient v = field ? field->at(x) : density(leaf).gradient_at(x);
         const double slope = glm::length(v.gradient),
-                     f = field && !field->is_polyhedral() ? v.value : above_level(field ? v.value + 0.5 : v.value);
+                     f = field && !field->is_density() ? v.value : above_level(field ? v.value + 0.5 : v.value);
         if (slope > 0)
             o = {f / slope, -v.gradient / slope};
         else

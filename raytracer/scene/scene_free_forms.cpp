@@ -92,12 +92,20 @@ SceneResult ellipsoid(SceneCall& call) {
     return checked(call, q);
 }
 
+// With `from` they are round parts.
+bool has_ends(const SceneCall& call) {
+    const LuaTable* table = as_table(call.argument(0));
+    return table && (table->fields.contains("from") || table->fields.contains("to"));
+}
+
 SceneResult cylinder(SceneCall& call) {
+    if (has_ends(call)) return round_cylinder(call);
     const Placed p(call, "center", {"center", "axis", "radius"});
     return checked(call, p.revolved({1, 0, 0, -1}));
 }
 
 SceneResult cone(SceneCall& call) {
+    if (has_ends(call)) return round_cone(call);
     const Placed p(call, "apex", {"apex", "axis", "radius", "height"});
     return checked(call, p.revolved({0, 0, 1, -1}));
 }

@@ -266,7 +266,7 @@ void open_scene_functions(lua_State* lua) {
     lua_newtable(lua);
     const int methods = lua_gettop(lua);
     for (const auto* functions :
-         {&shape_functions(), &free_form_functions(), &material_functions(), &model_functions()})
+         {&shape_functions(), &round_functions(), &free_form_functions(), &material_functions(), &model_functions()})
         for (const SceneFunction& function : *functions) {
             push_function(lua, function);
             switch (function.kind) {

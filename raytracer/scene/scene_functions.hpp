@@ -179,12 +179,17 @@ struct SceneFunction {
     SceneResult (*body)(SceneCall&);
 };
 
-/// The tables of functions: shapes, operators and placements; quadrics and free forms; materials,
+/// The tables of functions: shapes, operators and placements; spheres and tori; quadrics and free forms; materials,
 /// textures, lights and views; models.
 const std::vector<SceneFunction>& model_functions();
 const std::vector<SceneFunction>& shape_functions();
+const std::vector<SceneFunction>& round_functions();
 const std::vector<SceneFunction>& free_form_functions();
 const std::vector<SceneFunction>& material_functions();
+
+/// cylinder{ from =, to =, radius = } and cone{ from =, to =, radius = }, which other fields make quadrics.
+SceneResult round_cylinder(SceneCall& call);
+SceneResult round_cone(SceneCall& call);
 
 /// The quadric itself; throws if its coefficients are too large to be cubed.
 const Quadric& ordinary(const Quadric& quadric, const char* function);

@@ -3,6 +3,7 @@
 
 #include <optional>
 
+#include "bounds/density_tree.hpp"
 #include "raytracer/scene/convex_hull.hpp"
 #include "raytracer/scene/polygon.hpp"
 #include "raytracer/scene/scene_functions.hpp"
@@ -19,6 +20,9 @@ constexpr std::int64_t work_per_hull_point = 2'500;
 // Memory of qhull's for each point of a hull, and ours for its faces, which are twice as many. Points on a sphere take
 // it.
 constexpr std::size_t bytes_per_hull_point = 1'000;
+
+// Instructions that take as long as laying out a part.
+constexpr std::int64_t work_per_round_part = 20;
 
 constexpr std::size_t max_polygon_points = 4'096;  // the check that no sides cross takes its square
 constexpr std::size_t max_holes = 4'096;
@@ -179,7 +183,17 @@ SceneResult make_prism(SceneCall& call) {
 SceneResult rounded(SceneCall& call) {
     call.at_most(2);
     const double radius = number_at_least(call.argument(0), call.location("radius"), 0);
-    return call.make(Solid::rounded(radius, need_density(call.argument(1), call.name), call.line));
+    const Density& density = need_density(call.argument(1), call.name);
+    if (density.node().has_round) {
+        SceneBuilder::check_size(density.node().leaves);
+        call.builder.spend(work_per_round_part * std::int64_t(density.node().leaves));
+        try {
+            flatten(density, radius);
+        } catch (const BadRoundPart& error) {
+            throw BadValue(call.name, error.what());
+        }
+    }
+    return call.make(Solid::rounded(radius, density, call.line));
 }
 
 SceneResult convolved(SceneCall& call) {
@@ -188,6 +202,10 @@ SceneResult convolved(SceneCall& call) {
     if (const auto* model = as<PlacedModel>(as_object(call.argument(1))))
         return call.make(call.builder.solid(*model, radius, call.line));
     const Density& density = need_density(call.argument(1), call.name, "a density or a model");
+    if (density.node().has_round)
+        throw BadValue(call.name,
+                       "expected a density of half-spaces, got one with round parts, whose convolution has no closed "
+                       "form; rounded(r, d) keeps their size");
     if (density.has_radius())
         throw BadValue(call.name,
                        "expected a density without radii, got one with :radius(); one ball rounds all of it");
@@ -269,7 +287,13 @@ SceneResult name(SceneCall& call) {
 
 SceneResult transform(SceneCall& call, const Affine& map) {
     const SceneObject& self = need_movable(call.argument(0), call.name);
-    if (const auto* density = as<Density>(&self)) return call.make(density->transformed(map));
+    if (const auto* density = as<Density>(&self)) {
+        if (density->node().has_round && even_scale(map) == 0)
+            throw BadValue(call.name,
+                           "expected one factor for a density with round parts, got several; scale the "
+                           "rounded solid, as in rounded(r, d):scale(x, y, z)");
+        return call.make(density->transformed(map));
+    }
     if (const auto* quadric = as<Quadric>(&self)) return call.make(ordinary(transformed(*quadric, map), call.name));
     if (const auto* model = as<PlacedModel>(&self))
         return call.make(PlacedModel{model->mesh, compose(map, model->map), model->file});

@@ -35,7 +35,7 @@ bool contains(const std::string& text, const std::string& part) { return text.fi
 
 std::vector<const SceneFunction*> all_functions() {
     std::vector<const SceneFunction*> all;
-    for (const auto* functions : {&shape_functions(), &free_form_functions(), &material_functions()})
+    for (const auto* functions : {&shape_functions(), &round_functions(), &free_form_functions(), &material_functions()})
         for (const SceneFunction& function : *functions) all.push_back(&function);
     return all;
 }
