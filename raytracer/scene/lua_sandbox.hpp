@@ -59,7 +59,7 @@ public:
 
     /// Shared by the interpreter and the host. Not to be used by another thread while run() runs.
     MemoryMeter& memory();
-    /// The text's file, and those that the host has added: lines of the state are theirs. The same holds.
+    /// The text's file, and those that the host has added, for places in messages. Not to be used while run() runs.
     const SourceMap& sources() const;
     /// The message with which run() ends where memory() is spent, without the place.
     std::string memory_reason() const;

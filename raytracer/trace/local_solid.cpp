@@ -72,7 +72,8 @@ void LocalSolid::add_leaf(const SolidLeaf& leaf, const Box& box, const Tolerance
         leaves_.push_back({Vec3(0.0), 0, int(softs_.size()), leaf.material});
         const Box seen = intersection(box, inflated(leaf.field->bounding_box(), tolerances.margin()));
         const double max_noise_scale = !seen.empty() && seen.finite() ? leaf.field->max_noise_scale(seen) : 0;
-        softs_.push_back({LocalDensity(leaf.density), {}, {}, {}, {}, false, false, leaf.field, max_noise_scale});
+        softs_.push_back(
+            {.density = LocalDensity(leaf.density), .field = leaf.field, .max_noise_scale = max_noise_scale});
         return;
     }
     const auto prepared = [&] {
@@ -105,24 +106,22 @@ void LocalSolid::add_leaf(const SolidLeaf& leaf, const Box& box, const Tolerance
             to.offset = -p.base / length;
         } else {
             to.soft = int(softs_.size());
-            softs_.push_back({std::move(density), std::move(convex), {}, {}, {}, false, false});
+            softs_.push_back({.density = std::move(density), .convex = std::move(convex)});
         }
     } else if (auto sum =
                    root_method == RootMethod::always ? std::nullopt : ProductSum::of(density, tolerances.clearance())) {
         to.soft = int(softs_.size());
-        softs_.push_back({std::move(density), {}, std::move(sum), {}, {}, false, false});
+        softs_.push_back({.density = std::move(density), .sum = std::move(sum)});
     } else {
         to.soft = int(softs_.size());
         const double clearance = tolerances.clearance();
         const auto is_sharp = [](const HalfSpace& h) { return h.radius == 0; };
         const bool all_sharp = std::all_of(density.half_spaces().begin(), density.half_spaces().end(), is_sharp);
-        softs_.push_back({std::move(density),
-                          {},
-                          {},
-                          outer_bound(leaf.density, 0.5, clearance),
-                          inner_bound(leaf.density, 0.5, clearance),
-                          bounds_hold(leaf.density, box),
-                          all_sharp});
+        softs_.push_back({.density = std::move(density),
+                          .outer = outer_bound(leaf.density, 0.5, clearance),
+                          .inner = inner_bound(leaf.density, 0.5, clearance),
+                          .bounded = bounds_hold(leaf.density, box),
+                          .all_sharp = all_sharp});
     }
     leaves_.push_back(to);
 }

@@ -100,13 +100,13 @@ private:
     };
     struct Soft {
         LocalDensity density;
-        std::optional<ConvexDensity> convex;  // then, and with a sum, the bounds below are empty
-        std::optional<ProductSum> sum;
-        BoundCsg outer, inner;
-        bool bounded;  // the bounds hold
-        bool all_sharp;
-        FieldPtr field = {};         // if not null, all else is void, but
-        double max_noise_scale = 0;  // of any ray here, at most; 0: not known
+        std::optional<ConvexDensity> convex = {};  // then, and with a sum, the bounds below are empty
+        std::optional<ProductSum> sum = {};
+        BoundCsg outer = {}, inner = {};
+        bool bounded = false;  // the bounds hold
+        bool all_sharp = false;
+        FieldPtr field = {};         // if it is set, only it and max_noise_scale count
+        double max_noise_scale = 0;  // upper bound of FieldRay::noise_scale over the rays here; 0: not known
     };
 
     void add_leaf(const SolidLeaf& leaf, const Box& box, const Tolerances& tolerances, RootMethod root_method,

@@ -1,0 +1,102 @@
+// What deburr info prints of a scene.
+#include <nlohmann/json.hpp>
+
+#include "catch.hpp"
+#include "raytracer/cli/scene_folder.hpp"
+
+using namespace deburr::test;
+
+TEST_CASE("info counts what a union places, however often it is more than can be laid out") {
+    const SceneFolder place;
+    // Each step doubles the row: 2^24 cubes one after the other, in 100 million half-spaces.
+    write_file(place.scene,
+               "local a = sharp(cube()) for k = 0, 23 do a = a | a:translate(2^k, 0, 0) end\n"
+               "return { solids = { a:rotate(90, {0, 0, 1}), ellipsoid{} | a } }");
+    const Outcome o = run({"info", place.scene, "--json"});
+    CAPTURE(o.err);
+    REQUIRE(o.code == 0);
+    const auto j = nlohmann::json::parse(o.out);
+    CHECK(j["solids"][0]["half_spaces"] == 6.0 * (1 << 24));
+    CHECK(j["solids"][1]["half_spaces"] == 6.0 * (1 << 24));
+    CHECK(j["solids"][1]["quadrics"] == 1);
+    const auto bounds = j["solids"][0]["bounds"];
+    CHECK(std::abs(bounds["lo"][0].get<double>() + 1) < 0.1);
+    CHECK(std::abs(bounds["hi"][1].get<double>() - (1 << 24)) < 0.1);
+    CHECK(std::abs(bounds["hi"][2].get<double>() - 1) < 0.1);
+    // A mesh has triangles of each.
+    const Outcome mesh = run({"mesh", place.scene, "-o", place / "a.stl"});
+    CHECK(mesh.code == 3);
+    CHECK(mesh.err.find("deburr: expected a solid of at most 4000000 half-spaces") == 0);
+}
+
+TEST_CASE("info says what is in a scene") {
+    const SceneFolder place;
+    const Outcome o = run({"info", place.scene, "-D", "r=0.3"});
+    CHECK(o.code == 0);
+    CHECK(o.err.empty());
+    for (const char* text : {"60x40", "r = 0.3", "solids        2", "half-spaces   12", "lights        1", "point",
+                             "bounds        [-1, 2] x [-1, 1] x [-1, 2]"}) {
+        CAPTURE(text, o.out);
+        CHECK(o.out.find(text) != std::string::npos);
+    }
+    const auto j = nlohmann::json::parse(run({"info", "--json", place.scene}).out);
+    CHECK(j["solids"].size() == 2);
+    CHECK(j["half_spaces"] == 12);
+    CHECK(j["quadrics"] == 0);
+    CHECK(j["parameters"]["r"] == "0.1");
+    CHECK(j["image"]["width"] == 60);
+}
+
+TEST_CASE("info rounds away what a box reaches too far, and minus zero") {
+    const SceneFolder place;
+    const std::string scene = place / "s.lua";
+    const auto bounds = [&](const std::string& solid) {
+        write_file(scene, "return { solids = { " + solid + " } }");
+        const std::string out = run({"info", scene}).out;
+        const std::size_t at = out.find(" in [");
+        return out.substr(at + 4, out.find('\n', at) - at - 4);
+    };
+    CHECK(bounds("cube()") == "[0, 1] x [0, 1] x [0, 1]");
+    CHECK(bounds("cube():translate(0, 0, -1)") == "[0, 1] x [0, 1] x [-1, 0]");
+    CHECK(bounds("halfspace({0, 1, 0}, 0)") == "[-inf, inf] x [-inf, 0] x [-inf, inf]");
+    CHECK(bounds("halfspace({0, 1, 0}, 1e-9)") == "[-inf, inf] x [-inf, 1e-09] x [-inf, inf]");
+    CHECK(bounds("box({0, -0.015, 0}, {110, 0, 83.185})") == "[0, 110] x [-0.015, 0] x [0, 83.185]");
+    CHECK(bounds("box({0, 1e-7, -3e-7}, {1e-6, 2e-6, 0})") == "[0, 1e-06] x [1e-07, 2e-06] x [-3e-07, 0]");
+    CHECK(bounds("box({0, -1e12, 0}, {3e14, 123456, 7})") == "[0, 3e+14] x [-1e+12, 0] x [0, 0]");
+    CHECK(bounds("ellipsoid{ center = {0, 2, 0}, radius = 2 }") == "[-2, 2] x [0, 4] x [-2, 2]");
+    const auto j = nlohmann::json::parse(run({"info", "--json", scene}).out);
+    CHECK(j["solids"][0]["bounds"]["lo"].dump() == "[-2.0,0.0,-2.0]");
+}
+
+TEST_CASE("no name and no text of a scene reaches the terminal as a control character") {
+    const SceneFolder place;
+    const std::string scene = place / "a\33[31m.lua", title = "\33]0;owned\7\302\233";
+    write_file(scene,
+               "print('\\27]0;printed\\7', 'a\\nb') local s = '\\27]0;owned\\7\\194\\155'\n"
+               "return { solids = { rounded(param(s, 0.1), cube()):name(s) } }");
+    const auto is_clean = [](const std::string& text) {
+        return text.find_first_of("\33\7\177") == std::string::npos && text.find("\302\233") == std::string::npos;
+    };
+    const Outcome info = run({"info", scene});
+    CHECK(info.code == 0);
+    CHECK(is_clean(info.out));
+    CHECK(is_clean(info.err));
+    CHECK(info.err == "\\x1b]0;printed\\x07\ta\nb\n");
+    CHECK(info.out.find("scene         ") == 0);
+    CHECK(info.out.find("a\\x1b[31m.lua\n") != std::string::npos);
+    CHECK(info.out.find("\\x1b]0;owned\\x07\\u{9b}: 6 half-spaces") != std::string::npos);
+    CHECK(info.out.find("parameter     \\x1b]0;owned") != std::string::npos);
+    const Outcome json = run({"info", "--json", scene});
+    CHECK(is_clean(json.out));
+    CHECK(nlohmann::json::parse(json.out)["solids"][0]["name"] == title);
+    const Outcome mesh = run({"mesh", scene, "--stats", "-q"});
+    CHECK(mesh.code == 0);
+    CHECK(is_clean(mesh.out));
+    write_file(scene, "error('\\27[2J')");
+    const Outcome wrong = run({"info", scene});
+    CHECK(wrong.code == 2);
+    CHECK(is_clean(wrong.err));
+    CHECK(wrong.err.find("a\\x1b[31m.lua:1: \\x1b[2J\n") != std::string::npos);
+    CHECK(is_clean(run({"info", "\33[31m.lua"}).err));
+    CHECK(is_clean(run({"\33[31m"}).err));
+}
