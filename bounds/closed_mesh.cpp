@@ -8,10 +8,10 @@
 
 namespace deburr {
 
-NotClosed::NotClosed(std::size_t count, Vec3 place)
-    : std::invalid_argument("the mesh is not closed: " + std::to_string(count) + " open edges"),
-      count(count),
-      place(place) {}
+NotClosed::NotClosed(std::size_t open_edges, Vec3 at)
+    : std::invalid_argument("the mesh is not closed: " + std::to_string(open_edges) + " open edges"),
+      count(open_edges),
+      place(at) {}
 
 namespace {
 

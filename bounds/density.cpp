@@ -18,12 +18,12 @@ DensityNode::Operands pair(Density a, Density b) { return {std::move(a), std::mo
 
 }  // namespace
 
-DensityNode::DensityNode(Kind kind, Parts parts, int line)
-    : kind(kind),
-      has_radius(kind == Kind::radius),
-      has_round(kind == Kind::round),
-      may_be_illegal(kind == Kind::sum || kind == Kind::difference),
-      line(line),
+DensityNode::DensityNode(Kind of_kind, Parts parts, int of_line)
+    : kind(of_kind),
+      has_radius(of_kind == Kind::radius),
+      has_round(of_kind == Kind::round),
+      may_be_illegal(of_kind == Kind::sum || of_kind == Kind::difference),
+      line(of_line),
       parts_(std::move(parts)) {
     if (is_plane() || kind == Kind::round) return;
     leaves = 0;

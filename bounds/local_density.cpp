@@ -221,10 +221,10 @@ static T run(const std::vector<Node>& nodes, const std::vector<int>& children, L
             case Step::complement: done[i] = T{1.0} - at(n.a); break;
             case Step::decision: {
                 const int* thresholds = &children[n.a];
-                const int* children = thresholds + n.b;
-                T sum = at(children[n.b]);
+                const int* operands = thresholds + n.b;
+                T sum = at(operands[n.b]);
                 for (int j = 0; j < n.b; ++j)
-                    sum = sum + leaf(std::size_t(thresholds[j])) * (at(children[j]) - at(children[j + 1]));
+                    sum = sum + leaf(std::size_t(thresholds[j])) * (at(operands[j]) - at(operands[j + 1]));
                 done[i] = sum;
                 break;
             }

@@ -215,8 +215,8 @@ private:
 }  // namespace
 
 std::optional<LocalDensity::Sum> LocalDensity::as_sum(std::size_t max_terms) const {
-    constexpr std::size_t max_half_spaces = 64;  // all pairs of them are compared
-    if (convolution_ || field_ || half_spaces_.size() > max_half_spaces) return std::nullopt;
+    constexpr std::size_t max_compared = 64;  // all pairs of them are compared
+    if (convolution_ || field_ || half_spaces_.size() > max_compared) return std::nullopt;
     const Multiplier multiplier(half_spaces_);
     const Polynomial one{{1, {}}};
     std::vector<Polynomial> expanded;

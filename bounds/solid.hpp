@@ -66,8 +66,8 @@ public:
     using Operands = std::array<Solid, 2>;
     using Parts = std::variant<Rounded, std::shared_ptr<const Field>, Operands, Material, Transform>;
 
-    SolidNode(Kind kind, double leaves, Parts parts, int line = 0)
-        : kind(kind), line(line), leaves(leaves), parts_(std::move(parts)) {}
+    SolidNode(Kind of_kind, double leaf_count, Parts parts, int of_line = 0)
+        : kind(of_kind), line(of_line), leaves(leaf_count), parts_(std::move(parts)) {}
     SolidNode(const SolidNode&) = delete;
     SolidNode& operator=(const SolidNode&) = delete;
     ~SolidNode();  // iterative, so that a chain of any length dies without recursion

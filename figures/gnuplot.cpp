@@ -79,7 +79,9 @@ std::string first_words(const std::string& text) {
     std::string out;
     for (std::string line; std::getline(in, line) && out.size() < 200;) {
         const std::size_t start = line.find_first_not_of(" \t");
-        if (start != std::string::npos) out += (out.empty() ? "" : " ") + line.substr(start);
+        if (start == std::string::npos) continue;
+        if (!out.empty()) out += ' ';
+        out.append(line, start);
     }
     return out;
 }

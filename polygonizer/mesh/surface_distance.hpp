@@ -80,8 +80,8 @@ public:
 
 private:
     struct Node {
-        Node(const Box& box, std::shared_ptr<const SignedDistance> of_it, int depth)
-            : box(box), solid(std::move(of_it)), half_spaces(solid->half_spaces()), depth(depth) {}
+        Node(const Box& around, std::shared_ptr<const SignedDistance> of_it, int below_root)
+            : box(around), solid(std::move(of_it)), half_spaces(solid->half_spaces()), depth(below_root) {}
         Box box;
         std::shared_ptr<const SignedDistance> solid;  // of this box, or of one around it
         std::size_t half_spaces;

@@ -113,10 +113,10 @@ private:
             if (std::abs(o.distance) > near_enough * side) continue;
             if (!box.contains(x)) return;
             for (int axis = 0; axis < 3; ++axis)
-                for (const double step : {-side, side}) {
+                for (const double move : {-side, side}) {
                     Vec3 beside = x;
-                    beside[axis] += step;
-                    const double depth = step < 0 ? x[axis] - box.lo[axis] : box.hi[axis] - x[axis];
+                    beside[axis] += move;
+                    const double depth = move < 0 ? x[axis] - box.lo[axis] : box.hi[axis] - x[axis];
                     if (depth < deep * side && sees(tree_.find(beside), x, o.normal, 1)) return;
                 }
             double thickness = 0.5 * side;

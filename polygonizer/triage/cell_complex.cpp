@@ -6,7 +6,7 @@
 
 namespace deburr {
 
-CellComplex::CellComplex(const Box& box, double tolerance) : tolerance(tolerance) {
+CellComplex::CellComplex(const Box& box, double least_distance) : tolerance(least_distance) {
     for (int k = 0; k < 8; ++k)
         vertices.push_back({k & 1 ? box.hi.x : box.lo.x, k & 2 ? box.hi.y : box.lo.y, k & 4 ? box.hi.z : box.lo.z});
     // Counter-clockwise seen from inside, so that the box's cell is the front one.

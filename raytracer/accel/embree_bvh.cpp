@@ -67,10 +67,10 @@ struct EmbreeBvh::Embree {
         embree().set_bounds_function(
             geometry,
             [](const RTCBoundsFunctionArguments* a) {
-                const auto& [frame, boxes] =
+                const auto& [of_all, numbered] =
                     *static_cast<const std::pair<const BoxFrame*, const NumberedBox*>*>(a->geometryUserPtr);
-                const Box& box = boxes[a->primID].box;
-                const Vec3 lo = frame->to_local(box.lo) - slack, hi = frame->to_local(box.hi) + slack;
+                const Box& box = numbered[a->primID].box;
+                const Vec3 lo = of_all->to_local(box.lo) - slack, hi = of_all->to_local(box.hi) + slack;
                 *a->bounds_o = {float(lo.x), float(lo.y), float(lo.z), 0, float(hi.x), float(hi.y), float(hi.z), 0};
             },
             nullptr);

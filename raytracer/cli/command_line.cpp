@@ -69,7 +69,8 @@ void refuse_rest(const CLI::App& app, const std::string& name, const char* kind,
     }
 }
 
-// CLI11's own words for what is wrong begin with the option, "--size: 1 required WxH missing",
+// CLI11's errors carry no option and no value but in their words; tests hold these words on every system that is
+// supported. They begin with the option, "--size: 1 required WxH missing",
 // or, where a flag was given a value, are "Could not convert: --quiet = foo".
 std::string in_our_words(const CLI::ParseError& error) {
     const std::string what = error.what();

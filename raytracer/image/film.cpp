@@ -37,8 +37,8 @@ void put(ImageLayer layer, const PixelLayers& from, double* to) {
 
 }  // namespace
 
-Film::Film(int width, int height, Window window, const std::vector<ImageLayer>& layers)
-    : width(width), height(height), window(window), pixels(std::size_t(window.width) * std::size_t(window.height)) {
+Film::Film(int full_width, int full_height, Window kept, const std::vector<ImageLayer>& layers)
+    : width(full_width), height(full_height), window(kept), pixels(std::size_t(kept.width) * std::size_t(kept.height)) {
     for (const ImageLayer layer : layers) {
         LayerPlane& plane = planes_.try_emplace(layer, layer, pixels.size()).first->second;
         for (std::size_t i = 0; i < pixels.size(); ++i) put(layer, {}, plane.pixel(i));

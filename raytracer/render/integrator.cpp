@@ -116,8 +116,8 @@ Vec3 Integrator::transmittance(const Hit& hit, const Incident& light, const Path
     return Vec3(0.0);
 }
 
-Integrator::Surface::Surface(const Integrator& in, const Hit& hit, Vec3 color_here, Vec3 direction)
-    : hit(hit),
+Integrator::Surface::Surface(const Integrator& in, const Hit& of_hit, Vec3 color_here, Vec3 direction)
+    : hit(of_hit),
       bsdf(in.layers_[hit.material], color_here, towards_ray(hit.normal, direction), -direction),
       emission(glm::dot(hit.normal, direction) < 0 ? in.material(hit).emission : Vec3(0.0)) {}
 
@@ -166,8 +166,8 @@ Vec3 Integrator::color_of_glass(const Hit& hit, Vec3 tint, Vec3 direction, const
     if (path.depth >= scene_.bounces)
         return share * sky_.towards(back) + (passes ? (1 - share) * tint * sky_.towards(through) : Vec3(0.0));
 
-    const auto along = [&](Vec3 direction, const Path& next) {
-        return next.weight < min_weight ? sky_.towards(direction) : color_along(leave(hit, direction), next);
+    const auto along = [&](Vec3 onwards, const Path& next) {
+        return next.weight < min_weight ? sky_.towards(onwards) : color_along(leave(hit, onwards), next);
     };
     Path passing = path.on(1 - share), returning = path.reflected(share);
     passing.sees_lights = false;

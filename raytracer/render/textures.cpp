@@ -64,8 +64,8 @@ Vec3 wood(const Texture& t, Vec3 p) {
         strength * glm::smoothstep(late_start, late_full, part) * (1 - glm::smoothstep(late_end, 1.0, part));
     const double fibre = fibre_depth * grain(fibre_width, fibre_length);
     const double pore = pore_depth * glm::smoothstep(0.25, 0.6, grain(pore_width, pore_length));
-    const double dark = glm::clamp(late + fibre, 0.0, 1.0);
-    return glm::mix(t.a, t.b, dark) * (1 - pore * (1 - dark));
+    const double darkness = glm::clamp(late + fibre, 0.0, 1.0);
+    return glm::mix(t.a, t.b, darkness) * (1 - pore * (1 - darkness));
 }
 
 }  // namespace

@@ -42,7 +42,7 @@ constexpr std::chrono::milliseconds grace(200);
 }  // namespace
 
 struct Sandbox::State {
-    State(SandboxLimits limits, void* host) : limits(limits), host(host), memory(limits.memory) {}
+    State(SandboxLimits of_limits, void* of_host) : limits(of_limits), host(of_host), memory(limits.memory) {}
 
     const SandboxLimits limits;
     void* const host;
@@ -184,27 +184,27 @@ int Sandbox::State::execute() {
     lua_sethook(lua, sample, LUA_MASKCOUNT, sample_interval);
     lua_pushcfunction(lua, placed_error);
     lua_pushcfunction(lua, body);
-    const int status = lua_pcall(lua, 0, 1, 1);
+    const int result = lua_pcall(lua, 0, 1, 1);
     lua_remove(lua, 1);
     armed = false;
-    return status;
+    return result;
 }
 
 // The values are texts. False: that would be more than a scene may print.
-bool Sandbox::State::print_line(lua_State* lua, int first, int last) noexcept try {
-    std::string line;
+bool Sandbox::State::print_line(lua_State* caller, int first, int last) noexcept try {
+    std::string text_line;
     for (int i = first; i <= last; ++i) {
         std::size_t size = 0;
-        const char* value = lua_tolstring(lua, i, &size);
+        const char* value = lua_tolstring(caller, i, &size);
         if (size > limits.output) return false;
-        if (i > first) line += '\t';
-        line += printable({value, size}, "\n\t");
-        if (line.size() > limits.output) return false;
+        if (i > first) text_line += '\t';
+        text_line += printable({value, size}, "\n\t");
+        if (text_line.size() > limits.output) return false;
     }
-    line += '\n';
-    if (line.size() > limits.output - printed) return false;
-    printed += line.size();
-    if (!limits.mute) std::fwrite(line.data(), 1, line.size(), stderr);
+    text_line += '\n';
+    if (text_line.size() > limits.output - printed) return false;
+    printed += text_line.size();
+    if (!limits.mute) std::fwrite(text_line.data(), 1, text_line.size(), stderr);
     return true;
 } catch (const std::bad_alloc&) {
     return false;

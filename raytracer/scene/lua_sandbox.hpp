@@ -96,8 +96,8 @@ public:
     std::int64_t work_left;
 
 private:
-    HostCall(void* host, MemoryMeter* memory, SourceMap* sources, std::int64_t work_left, lua_State* lua)
-        : host(host), memory(memory), sources(sources), work_left(work_left), lua_(lua) {}
+    HostCall(void* of_host, MemoryMeter* of_memory, SourceMap* of_sources, std::int64_t work, lua_State* lua)
+        : host(of_host), memory(of_memory), sources(of_sources), work_left(work), lua_(lua) {}
     lua_State* lua_;
 };
 

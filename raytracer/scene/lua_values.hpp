@@ -37,8 +37,8 @@ struct LuaTable {
 /// A value that is not what is expected; what() is "place: expected …, got …".
 class BadValue : public std::runtime_error {
 public:
-    BadValue(std::string location, const std::string& message)
-        : std::runtime_error(location + ": " + message), location(std::move(location)) {}
+    BadValue(std::string of_value, const std::string& message)
+        : std::runtime_error(of_value + ": " + message), location(std::move(of_value)) {}
 
     std::string location;  // names joined by dots, as in "camera.fov"
 };

@@ -55,12 +55,12 @@ private:
 /// A ray from far away, in two parts. The first ends halfway to the prototype's surfaces, where rounding from either
 /// end is the same. The second is the moved ray's. A surface between them is in both.
 struct FarRay {
-    FarRay(const Ray& ray, double start, double t_max, double scale)
-        : start(start),
+    FarRay(const Ray& ray, double moved_by, double until, double scale)
+        : start(moved_by),
           middle(0.5 * start),
           moved{ray.origin + ray.direction * start, ray.direction},
           begin(-middle - rounding_of(scale + largest(ray.origin), middle)),
-          t_max(t_max - start) {}
+          t_max(until - start) {}
 
     double start, middle;
     Ray moved;

@@ -204,9 +204,9 @@ BspStatistics ImplicitTracer::statistics() const {
             s.depth = std::max(s.depth, tree.depth);
             for (const BspCell& cell : tree.cells) {
                 bool flat = cell.count > 0;
-                for (std::uint32_t i = first + cell.first; i < first + cell.first + cell.count; ++i) {
-                    local += primitives.half_spaces(i);
-                    flat &= primitives[i].kind == CellPrimitive::Kind::plane;
+                for (std::uint32_t p = first + cell.first; p < first + cell.first + cell.count; ++p) {
+                    local += primitives.half_spaces(p);
+                    flat &= primitives[p].kind == CellPrimitive::Kind::plane;
                 }
                 s.empty_cells += cell.count == 0;
                 s.flat_cells += flat;

@@ -48,11 +48,11 @@ TEST_CASE("mesh --up z turns the scene's y into the files' z, and a GLB's not") 
         Assimp::Importer importer;
         const aiScene* scene = importer.ReadFile(folder / name, aiProcess_PreTransformVertices);
         REQUIRE(scene != nullptr);
-        deburr::Box box;
+        deburr::Box all;
         int outward = 0, inward = 0;
         for (unsigned v = 0; v < scene->mMeshes[0]->mNumVertices; ++v) {
             const aiVector3D x = scene->mMeshes[0]->mVertices[v], n = scene->mMeshes[0]->mNormals[v];
-            box = hull(box, {deburr::Vec3(x.x, x.y, x.z), deburr::Vec3(x.x, x.y, x.z)});
+            all = hull(all, {deburr::Vec3(x.x, x.y, x.z), deburr::Vec3(x.x, x.y, x.z)});
             const deburr::Vec3 middle =
                 more.empty() || name == "b.glb" ? deburr::Vec3(1, 4.5, 2) : deburr::Vec3(1, -2, 4.5);
             const auto from_middle = deburr::Vec3(x.x, x.y, x.z) - middle;
@@ -60,7 +60,7 @@ TEST_CASE("mesh --up z turns the scene's y into the files' z, and a GLB's not") 
         }
         CHECK(outward > 20);
         CHECK(inward == 0);
-        return box;
+        return all;
     };
     using deburr::Vec3;
     for (const std::string name : {"a.stl", "a.obj", "a.ply"}) {
@@ -84,12 +84,12 @@ TEST_CASE("a scene with z up goes out as it is, and a GLB of it y-up") {
         Assimp::Importer importer;
         const aiScene* scene = importer.ReadFile(folder / name, aiProcess_PreTransformVertices);
         REQUIRE(scene != nullptr);
-        deburr::Box box;
+        deburr::Box all;
         for (unsigned v = 0; v < scene->mMeshes[0]->mNumVertices; ++v) {
             const aiVector3D x = scene->mMeshes[0]->mVertices[v];
-            box = hull(box, {deburr::Vec3(x.x, x.y, x.z), deburr::Vec3(x.x, x.y, x.z)});
+            all = hull(all, {deburr::Vec3(x.x, x.y, x.z), deburr::Vec3(x.x, x.y, x.z)});
         }
-        return box;
+        return all;
     };
     using deburr::Vec3;
     CHECK(box("a.stl", {}).hi == Vec3(3, 7, 4));

@@ -25,7 +25,7 @@ struct Picture {
 
     /// byte(x, y, channel)
     template <class Byte>
-    Picture(int width, int height, Byte byte) : width(width), height(height) {
+    Picture(int columns, int rows, Byte byte) : width(columns), height(rows) {
         for (int y = 0; y < height; ++y)
             for (int x = 0; x < width; ++x)
                 for (int k = 0; k < 3; ++k) rgb.push_back(static_cast<unsigned char>(byte(x, y, k)));

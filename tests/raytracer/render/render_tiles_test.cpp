@@ -19,7 +19,8 @@ void places(const Window& block, Pixel* pixels, PixelLayers* layers, TraceCounte
             ++counters.rays;
             counters.evaluations += std::uint64_t(x);
             *pixels++ = {.color = {double(x), double(y), 1}};
-            if (layers) *layers++ = {.position = {double(x), 0, double(y)}, .id = std::uint32_t(1000 * y + x)};
+            if (layers)
+                *layers++ = {.position = {double(x), 0, double(y)}, .id = std::uint32_t(1000 * y + x), .solids = {}};
         }
 }
 
@@ -115,7 +116,7 @@ TEST_CASE("what a block throws comes through") {
 TEST_CASE("a tile that does not end is abandoned once the grace period is over") {
     static std::atomic<bool> stop{false}, go_on{false};  // the thread that is left behind still looks at them
     static std::atomic<int> left{0};
-    const auto block = [](const Window& block, Pixel* pixels, PixelLayers* layers, TraceCounters& counters) {
+    const auto shade = [](const Window& block, Pixel* pixels, PixelLayers* layers, TraceCounters& counters) {
         if (block.x == 16 && block.y == 0) {
             stop = true;
             while (!go_on) std::this_thread::sleep_for(std::chrono::milliseconds(1));
@@ -124,7 +125,7 @@ TEST_CASE("a tile that does not end is abandoned once the grace period is over")
         places(block, pixels, layers, counters);
     };
     const Rendering r =
-        render(Film(100, 100, {0, 0, 100, 100}, {ImageLayer::z}), block, stop, {}, std::chrono::milliseconds(50));
+        render(Film(100, 100, {0, 0, 100, 100}, {ImageLayer::z}), shade, stop, {}, std::chrono::milliseconds(50));
     CHECK(r.abandoned);
     CHECK(any_tiles_abandoned());
     CHECK(left == 0);
