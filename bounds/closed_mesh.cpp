@@ -344,10 +344,11 @@ bool ClosedMesh::is_inside(Vec3 x, const Nearest& nearest) const {
     return glm::dot(normal, x - nearest.point) <= 0;
 }
 
-bool ClosedMesh::contains(Vec3 x, std::span<const int> triangles) const {
+bool ClosedMesh::contains(Vec3 x, std::span<const int> triangles, double reach) const {
     Nearest best;
+    best.square = reach * reach;
     for (const int t : triangles) look(x, t, best);
-    return is_inside(x, best);
+    return best.triangle >= 0 ? is_inside(x, best) : contains(x);
 }
 
 bool ClosedMesh::contains(Vec3 x) const {

@@ -72,9 +72,9 @@ public:
     bool reaches(int triangle, const Box& box, double reach) const;
     /// The point of the triangle that is nearest to x.
     Vec3 nearest(int triangle, Vec3 x) const;
-    /// Whether x is inside, told by the nearest of these triangles, which must be nearer than all others, or all but
-    /// for farther ones; on the surface either is right.
-    bool contains(Vec3 x, std::span<const int> triangles) const;
+    /// Whether x is inside; on the surface either is right. `triangles` are all that come within `reach` of x, or more:
+    /// if one does, the nearest tells.
+    bool contains(Vec3 x, std::span<const int> triangles, double reach) const;
     /// Whether x is inside.
     bool contains(Vec3 x) const;
 

@@ -70,8 +70,9 @@ void Subdivision::range_over_cell(const std::vector<HalfSpace>& half_spaces) {
 OpenLeaf Subdivision::localize_field(const OpenLeaf& leaf, Side& side) {
     Box box;
     for (const Vec3& x : corners_) box = hull(box, Box{x, x});
-    // What touches the cell within rounding does not reach it.
+    // What touches the cell within rounding does not reach it; but vertices may lie beside it by as much.
     const Vec3 half = 0.5 * (box.hi - box.lo), slack = glm::min(Vec3(4 * complex.tolerance), half);
+    const Box around = inflated(box, 4 * complex.tolerance);
     box = {box.lo + slack, box.hi - slack};
     OpenLeaf local = leaf;
     if (std::optional<DensityTree> density = leaf.field->as_density(box)) {
@@ -83,7 +84,7 @@ OpenLeaf Subdivision::localize_field(const OpenLeaf& leaf, Side& side) {
     const Range f = leaf.field->range(box);
     side = classify_with_slack({f.lo + 0.5, f.hi + 0.5});
     if (side != Side::straddling) return local;
-    if (FieldPtr left = leaf.field->prune(box)) {
+    if (FieldPtr left = leaf.field->prune(around)) {
         local.field = std::move(left);
         local.tree = std::make_shared<DensityTree>(planes_of(*local.field));
         local.density = nullptr;

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <filesystem>
 
-#include "bounds/mesh_convolution.hpp"
+#include "bounds/mesh_field.hpp"
 #include "raytracer/model/model_file.hpp"
 #include "raytracer/scene/default_light.hpp"
 #include "raytracer/scene/frame_camera.hpp"

@@ -1,7 +1,7 @@
 // Models in a scene: closed meshes from files.
 #include <fmt/format.h>
 
-#include "bounds/mesh_convolution.hpp"
+#include "bounds/mesh_field.hpp"
 #include "raytracer/model/model_file.hpp"
 #include "raytracer/scene/scene_functions.hpp"
 #include "raytracer/util/errors.hpp"

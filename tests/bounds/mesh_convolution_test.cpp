@@ -1,5 +1,6 @@
 #include "bounds/mesh_convolution.hpp"
 
+#include "bounds/mesh_field.hpp"
 #include "bounds/root_finder.hpp"
 #include "catch.hpp"
 #include "closed_shapes.hpp"
@@ -235,6 +236,57 @@ TEST_CASE("ranges over boxes hold the share and its rate, and what is pruned to 
     CHECK(decided > 500);
     CHECK(dense > 500);
     CHECK(falling > 300);
+}
+
+TEST_CASE("what is pruned to a box tells inside from outside where none of its triangles is near") {
+    // A cavity, and a box from its middle through its wall to where the outer face is near. The face is nearer to the
+    // middle than that wall, and what lies between is not within the radius of the box.
+    Shape shell = Shape::prism({{-5, -5}, {10, -5}, {10, 0.4}, {-5, 4.4}}, {{0, 1, 2}, {0, 2, 3}}, -5, 5);
+    const Shape cavity = Shape::box({-2, -2, -3}, {4, 1.5, 3});
+    const int before = int(shell.vertices.size());
+    for (const Corners& t : cavity.triangles) shell.triangles.push_back({t[0] + before, t[2] + before, t[1] + before});
+    shell.vertices.insert(shell.vertices.end(), cavity.vertices.begin(), cavity.vertices.end());
+    const MeshField field(std::make_shared<ClosedMesh>(shell.mesh()), 0.5);
+    const Box box{{0, 0, 0}, {10.2, 0.05, 0.05}};
+    const FieldPtr local = field.prune(box);
+    REQUIRE(local);
+    CHECK(field.at(box.lo).value == -0.5);
+    CHECK(local->at(box.lo).value == -0.5);
+    CHECK(local->at({6, 0, 0}).value == 0.5);
+}
+
+TEST_CASE("a share is right where a triangle that the sphere cuts is not among those that are given") {
+    const ClosedMesh mesh = Shape::l_prism().mesh();
+    int cut = 0;
+    for (auto seed : seeds(2'000)) {
+        CAPTURE(seed);
+        Gen g(seed);
+        const double r = g.between(0.1, 1);
+        const Vec3 x = adversarial(g, mesh, r);
+        std::vector<int> near;
+        mesh.near({x, x}, r, near);
+        if (near.size() < 2) continue;
+        const ValueGradient all = ball_share(mesh, x, r);
+        // Whose border the sphere cuts: it holds a corner of it and not all.
+        const int missing = near[std::size_t(g.below(int(near.size())))];
+        int corners = 0;
+        for (int k = 0; k < 3; ++k) corners += glm::distance(mesh.corner(missing, k), x) < 0.99 * r;
+        bool far = false;
+        for (int k = 0; k < 3; ++k) far |= glm::distance(mesh.corner(missing, k), x) > 1.01 * r;
+        if (corners == 0 || !far) continue;
+        std::erase(near, missing);
+        CHECK(std::abs(ball_share(mesh, near, x, r).value - all.value) <= 1e-12);
+        ++cut;
+    }
+    CHECK(cut > 300);
+}
+
+TEST_CASE("a share falls in every direction that all triangles face, however large the box") {
+    const MeshField field(std::make_shared<ClosedMesh>(Shape::sphere(1, 12).mesh()), 0.05);
+    const Box cap{{-0.4, -0.4, 0.85}, {0.4, 0.4, 1.1}};
+    CHECK(field.rate_range(cap, {0, 0, 1}).hi <= 0);
+    CHECK(field.rate_range(cap, {0, 0, -1}).lo >= 0);
+    CHECK(field.rate_range(cap, {1, 0, 0}).hi > 0);
 }
 
 TEST_CASE("an open mesh is told with the number of its open edges, and where one is") {

@@ -1,0 +1,377 @@
+#include "bounds/mesh_field.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include "bounds/mesh_convolution.hpp"
+
+namespace deburr {
+namespace {
+
+// A share is a sum over triangles: RootFinder::rounding of this bounds what its terms' rounding adds up to.
+constexpr double noise_scale = 64;
+
+constexpr double sharp_radius = 0x1p-26;  // of the mesh's size
+
+constexpr double pi = 3.14159265358979323846;
+
+constexpr double steepest = 0.75;  // what the largest disc changes the share by, for each radius
+
+bool same_plane(const ClosedMesh::Plane& a, const ClosedMesh::Plane& b, double scale) {
+    if (a.id == b.id) return true;
+    return glm::dot(a.normal, b.normal) > 0 && largest(a.normal - b.normal) <= 4 * epsilon &&
+           std::abs(a.offset - b.offset) <= 8 * epsilon * scale;
+}
+
+// At least the distance of the box from a convex set whose nearest point to any is `nearest`: from one to the other
+// and back, a few times.
+template <class Nearest>
+double distance_bound(const Box& box, Vec3 start, Nearest nearest) {
+    double distance = infinity;
+    Vec3 on = start;
+    for (int k = 0; k < 8; ++k) {
+        const Vec3 in = glm::clamp(on, box.lo, box.hi);
+        distance = std::min(distance, glm::distance(in, on));
+        on = nearest(in);
+    }
+    return std::min(distance, glm::distance(on, glm::clamp(on, box.lo, box.hi)));
+}
+
+double distance_bound(Vec3 a, Vec3 b, const Box& box) {
+    return distance_bound(box, 0.5 * (a + b), [&](Vec3 x) {
+        const Vec3 d = b - a;
+        return a + std::clamp(glm::dot(x - a, d) / glm::dot(d, d), 0.0, 1.0) * d;
+    });
+}
+
+// What one triangle adds to bounds on the share's derivatives, in radii: where |h| is between these, and the sphere
+// may cut it.
+struct Steepness {
+    double area = 0;    // |D|
+    double across = 0;  // |h| φ: φ, the angle of the arcs that bound D
+    double along = 0;   // length of the sum of the unit vectors along them
+};
+
+Steepness steepness(double area, double perimeter, double least_h, double greatest_h, bool may_be_cut) {
+    if (least_h >= 1) return {};
+    const double widest = 1 - least_h * least_h, h = std::min(greatest_h, 1.0), narrowest = std::sqrt(1 - h * h);
+    Steepness s;
+    s.area = std::min(area, pi * widest);
+    if (!may_be_cut) return s;
+    // Arcs in a triangle are no longer than its border.
+    s.across = h * (perimeter < 2 * pi * narrowest ? perimeter / narrowest : 2 * pi);
+    s.along = std::min(2 * std::sqrt(widest), perimeter);
+    return s;
+}
+
+// Calls visit(triangle, steepness) with what holds for balls whose centres are within `half` of the center, and within
+// `reach` radii across the directions in which nothing changes.
+template <class Visit>
+void each_steepness(const ClosedMesh& mesh, std::span<const int> triangles, Vec3 center, double r, Vec3 half,
+                    double reach, Visit visit) {
+    const double away = glm::length(half);
+    for (const int t : triangles) {
+        const ClosedMesh::Plane& plane = mesh.plane(t);
+        const double h = std::abs(plane.offset - glm::dot(plane.normal, center)) / r;
+        const ClosedMesh::Ball& ball = mesh.ball(t);
+        const double farthest = (glm::distance(center, ball.center) + ball.radius + away) / r;
+        visit(t, steepness(0, mesh.perimeter(t) / r, std::max(0.0, h - reach), h + reach, farthest >= 1));
+    }
+}
+
+// How far the box reaches from its middle in directions in which the share changes: where all planes have a direction
+// in common it is the same along that.
+double reach_across(const ClosedMesh& mesh, std::span<const int> triangles, Vec3 half) {
+    constexpr double same_direction = 1e-9;  // sine of the angle between normals
+    const Vec3 first = mesh.plane(triangles[0]).normal;
+    Vec3 sweep(0.0);
+    for (const int t : triangles) {
+        const Vec3 n = mesh.plane(t).normal;
+        if (sweep == Vec3(0.0)) {
+            const Vec3 common = glm::cross(first, n);
+            const double sine = glm::length(common);
+            if (sine > same_direction) sweep = common / sine;
+        } else if (std::abs(glm::dot(sweep, n)) > same_direction) {
+            return glm::length(half);
+        }
+    }
+    if (sweep == Vec3(0.0)) return glm::dot(glm::abs(first), half);
+    double square = 0;
+    for (int corner = 0; corner < 4; ++corner) {
+        const Vec3 d(half.x, (corner & 1) != 0 ? -half.y : half.y, (corner & 2) != 0 ? -half.z : half.z);
+        square = std::max(square, glm::dot(d, d) - glm::dot(d, sweep) * glm::dot(d, sweep));
+    }
+    return std::sqrt(square);
+}
+
+// Calls visit(triangle, least, greatest) with what |D| can be, in squared radii, for balls whose centres are within
+// `reach` radii of x: such a ball holds one that is smaller by this, and lies in one that is larger.
+template <class Visit>
+void each_area_range(const ClosedMesh& mesh, std::span<const int> triangles, Vec3 x, double r, double reach,
+                     Visit visit) {
+    const auto area = [&](int t, double of) { return area_in_ball(mesh, t, x, of) / (r * r); };
+    for (const int t : triangles) {
+        const double greatest = area(t, (1 + reach) * r);
+        if (greatest > 0) visit(t, area(t, (1 - reach) * r), std::min(greatest, pi));
+    }
+}
+
+}  // namespace
+
+MeshField::MeshField(ClosedMeshPtr mesh, double radius)
+    : mesh_(std::move(mesh)), radius_(radius), sharp_(radius == 0), box_(mesh_->bounding_box()) {
+    const double size = box_.empty() ? 1 : largest(box_.hi - box_.lo);
+    if (sharp_) radius_ = sharp_radius * size;
+}
+
+MeshField::MeshField(Part, const MeshField& of, std::vector<int> triangles)
+    : mesh_(of.mesh_),
+      radius_(of.radius_),
+      sharp_(of.sharp_),
+      whole_(false),
+      triangles_(std::move(triangles)),
+      box_(of.box_) {}
+
+std::span<const int> MeshField::near(const Box& box, std::vector<int>& memory) const {
+    memory.clear();
+    if (whole_) {
+        mesh_->near(box, radius_, memory);
+    } else {
+        for (const int t : triangles_)
+            if (mesh_->reaches(t, box, radius_)) memory.push_back(t);
+    }
+    return memory;
+}
+
+// Of points that no triangle is near.
+bool MeshField::is_inside(Vec3 x) const { return box_.contains(x) && mesh_->contains(x); }
+
+ValueGradient MeshField::at(Vec3 x) const {
+    thread_local std::vector<int> memory;
+    std::span<const int> found = triangles_;
+    if (whole_) {
+        found = near({x, x}, memory);
+        if (found.empty()) return {is_inside(x) ? 0.5 : -0.5};
+    }
+    ValueGradient v = ball_share(*mesh_, found, x, radius_);
+    v.value -= 0.5;
+    return v;
+}
+
+Range MeshField::range(const Box& box) const {
+    thread_local std::vector<int> memory;
+    return range(box, near(box, memory));
+}
+
+Range MeshField::range(const Box& box, std::span<const int> triangles) const {
+    const Box seen = intersection(box, inflated(box_, radius_));
+    if (seen.empty()) return {-0.5, -0.5};
+    const Vec3 center = 0.5 * (seen.lo + seen.hi), half = 0.5 * (seen.hi - seen.lo);
+    if (triangles.empty()) {
+        const double f = is_inside(center) ? 0.5 : -0.5;
+        return seen.lo == box.lo && seen.hi == box.hi ? Range{f, f} : Range{-0.5, f};
+    }
+    const double reach = reach_across(*mesh_, triangles, half) / radius_;
+    if (steepest * reach > 1) return {-0.5, 0.5};
+    const ValueGradient v = ball_share(*mesh_, triangles, center, radius_);
+    double off = steepest * reach, curvature = 0;
+    each_steepness(*mesh_, triangles, center, radius_, half, reach, [&](int, const Steepness& s) {
+        curvature += 0.5 * (s.across + std::sqrt(s.across * s.across + s.along * s.along));
+    });
+    curvature *= 3 / (4 * pi);
+    off = std::min(off, glm::dot(glm::abs(v.gradient), half) + 0.5 * curvature * reach * reach);
+    if (reach < 1) {
+        Vec3 lo(0.0), hi(0.0);  // of Σ n |D|
+        each_area_range(*mesh_, triangles, center, radius_, reach, [&](int t, double least, double greatest) {
+            const Vec3 n = mesh_->plane(t).normal;
+            lo += glm::min(n * least, n * greatest);
+            hi += glm::max(n * least, n * greatest);
+        });
+        off = std::min(off, 3 / (4 * pi * radius_) * glm::dot(glm::max(glm::abs(lo), glm::abs(hi)), half));
+    }
+    off += 64 * epsilon;
+    return {std::max(-0.5, v.value - 0.5 - off), std::min(0.5, v.value - 0.5 + off)};
+}
+
+Range MeshField::rate_range(const Box& box, Vec3 direction) const {
+    thread_local std::vector<int> memory;
+    const std::span<const int> found = near(box, memory);
+    if (found.empty()) return {0, 0};
+    // Where no triangle faces against the direction the share does not grow, whatever the ball holds of them.
+    Range cosine{infinity, -infinity};
+    for (const int t : found) {
+        const double along = glm::dot(mesh_->plane(t).normal, direction);
+        cosine = {std::min(cosine.lo, along), std::max(cosine.hi, along)};
+    }
+    if (cosine.lo >= 0) return {-steepest / radius_, 0};
+    if (cosine.hi <= 0) return {0, steepest / radius_};
+    const Vec3 center = 0.5 * (box.lo + box.hi), half = 0.5 * (box.hi - box.lo);
+    const double reach = reach_across(*mesh_, found, half) / radius_;
+    const double rate = glm::dot(ball_share(*mesh_, found, center, radius_).gradient, direction);
+    double curvature = 0;
+    each_steepness(*mesh_, found, center, radius_, half, reach, [&](int t, const Steepness& s) {
+        // d(∇f·n)/dx = Σ (n·N) ∇|D|, and |∇|D|| ≤ |h| φ + the arcs' sum.
+        curvature += std::abs(glm::dot(mesh_->plane(t).normal, direction)) * std::hypot(s.across, s.along);
+    });
+    const double off = curvature * (3 / (4 * pi)) * reach / radius_;
+    Range rates{rate - off, rate + off};
+    if (reach < 1) {
+        Range sum;  // of Σ n·direction |D|
+        each_area_range(*mesh_, found, center, radius_, reach, [&](int t, double least, double greatest) {
+            const double along = glm::dot(mesh_->plane(t).normal, direction);
+            sum.lo += std::min(along * least, along * greatest);
+            sum.hi += std::max(along * least, along * greatest);
+        });
+        const double unit = 3 / (4 * pi * radius_), slack = 1e-12 * unit;
+        rates = {std::max(rates.lo, -unit * sum.hi - slack), std::min(rates.hi, -unit * sum.lo + slack)};
+    }
+    return rates;
+}
+
+FieldPtr MeshField::prune(const Box& box) const {
+    std::vector<int> found;
+    near(box, found);
+    if (found.empty() || (!whole_ && found.size() == triangles_.size())) return nullptr;
+    found.shrink_to_fit();
+    return FieldPtr(new MeshField(Part{}, *this, std::move(found)));
+}
+
+std::optional<DensityTree> MeshField::as_density(const Box& box) const {
+    thread_local std::vector<int> memory;
+    const std::span<const int> found = near(box, memory);
+    if (found.empty()) return std::nullopt;
+    const double scale = std::max(largest(box_.lo), largest(box_.hi));
+    const ClosedMesh::Plane *a = &mesh_->plane(found[0]), *b = nullptr;
+    for (const int t : found) {
+        const ClosedMesh::Plane& plane = mesh_->plane(t);
+        if (same_plane(plane, *a, scale) || (b && same_plane(plane, *b, scale))) continue;
+        if (b) return std::nullopt;
+        b = &plane;
+    }
+    const auto half_space = [&](const ClosedMesh::Plane& p) {
+        return HalfSpace{p.normal, p.offset, sharp_ ? 0 : radius_};
+    };
+    if (!b) {
+        // Where none of it surely reaches there may be nothing.
+        const bool reached = std::any_of(found.begin(), found.end(), [&](int t) {
+            return distance_bound(box, mesh_->ball(t).center, [&](Vec3 x) { return mesh_->nearest(t, x); }) < radius_;
+        });
+        if (!reached) return std::nullopt;
+        return DensityTree{{half_space(*a)}, {{Op::half_space, 0}}, {}};
+    }
+    // They meet in edges of one kind, one of which is surely near.
+    bool convex = false, concave = false, meet = false;
+    for (const int t : found) {
+        if (!same_plane(mesh_->plane(t), *a, scale)) continue;
+        for (int k = 0; k < 3; ++k) {
+            const ClosedMesh::Neighbour& other = mesh_->across(t, k);
+            if (same_plane(mesh_->plane(other.triangle), *a, scale)) continue;
+            if (!std::binary_search(found.begin(), found.end(), other.triangle)) continue;
+            const Vec3 beyond = mesh_->corner(other.triangle, (other.edge + 2) % 3);
+            (glm::dot(a->normal, beyond) < a->offset ? convex : concave) = true;
+            meet = meet || distance_bound(mesh_->corner(t, k), mesh_->corner(t, (k + 1) % 3), box) < radius_;
+        }
+    }
+    if (!meet || convex == concave) return std::nullopt;
+    DensityTree wedge{{half_space(*a), half_space(*b)},
+                      {{Op::half_space, 0}, {Op::half_space, 1}, {convex ? Op::conjunction : Op::disjunction, 0, 1}},
+                      {}};
+    if (!sharp_) {
+        wedge.nodes.push_back({Op::convolution, wedge.root()});
+        wedge.ball = Mat3(radius_);
+    }
+    return wedge;
+}
+
+std::vector<HalfSpace> MeshField::planes() const {
+    constexpr std::size_t few = 32;
+    std::vector<HalfSpace> found;
+    std::vector<int> ids;
+    const auto add = [&](int t) {
+        const ClosedMesh::Plane& plane = mesh_->plane(t);
+        if (std::find(ids.begin(), ids.end(), plane.id) != ids.end()) return;
+        ids.push_back(plane.id);
+        found.push_back({plane.normal, plane.offset, radius_});
+    };
+    const std::size_t count = triangle_count();
+    for (std::size_t i = 0; i < count && found.size() < few; ++i) add(whole_ ? int(i) : triangles_[i]);
+    return found;
+}
+
+int MeshField::size() const {
+    // A triangle costs about as much as this many half-spaces.
+    constexpr double triangle = 2;
+    return int(std::min(1e9, std::max(1.0, triangle * double(triangle_count()))));
+}
+
+LocalSize MeshField::local_size(const Box& box) const {
+    thread_local std::vector<int> memory;
+    const std::span<const int> found = near(box, memory);
+    return {range(box, found), std::max(1, 2 * int(found.size()))};
+}
+
+double MeshField::last_sign_change_bound(Vec3 origin, Vec3 direction) const {
+    return leaves_box(inflated(box_, radius_), origin, direction);
+}
+
+void MeshField::begin_ray(FieldRay& ray) const {
+    ray.noise_scale = noise_scale;
+    ray.numbers.clear();
+    const Vec3 a = ray.origin + ray.t0 * ray.direction, b = ray.origin + ray.t1 * ray.direction;
+    const auto add = [&](int t) {
+        const ClosedMesh::Ball& ball = mesh_->ball(t);
+        if (distance_to_segment(ball.center, a, b) <= (ball.radius + radius_) * (1 + 16 * epsilon))
+            ray.numbers.push_back(t);
+    };
+    if (whole_) {
+        thread_local std::vector<int> memory;
+        const Box along{glm::min(a, b), glm::max(a, b)};
+        memory.clear();
+        mesh_->near(along, radius_, memory);
+        for (const int t : memory) add(t);
+    } else {
+        for (const int t : triangles_) add(t);
+    }
+}
+
+ValueSlope MeshField::at(const FieldRay& ray, double t) const {
+    thread_local std::vector<int> triangles;
+    triangles.clear();
+    const Vec3 x = ray.origin + t * ray.direction;
+    for (const double number : ray.numbers) {
+        const ClosedMesh::Ball& ball = mesh_->ball(int(number));
+        const Vec3 away = x - ball.center;
+        const double reach = ball.radius + radius_;
+        if (glm::dot(away, away) <= reach * reach) triangles.push_back(int(number));
+    }
+    if (triangles.empty()) return {(is_inside(x) ? 0.5 : -0.5) / noise_scale, 0};
+    const ValueGradient v = ball_share(*mesh_, triangles, x, radius_);
+    return {(v.value - 0.5) / noise_scale, glm::dot(v.gradient, ray.direction) / noise_scale};
+}
+
+RayBounds MeshField::bounds(const FieldRay& ray, double t0, double t1) const {
+    const double speed = glm::length(ray.direction);
+    const Vec3 a = ray.origin + t0 * ray.direction, b = ray.origin + t1 * ray.direction, u = ray.direction / speed;
+    double slope = 0, curvature = 0;
+    for (const double number : ray.numbers) {
+        const int t = int(number);
+        const ClosedMesh::Ball& ball = mesh_->ball(t);
+        if (distance_to_segment(ball.center, a, b) >= ball.radius + radius_) continue;
+        const double farthest = std::max(glm::distance(ball.center, a), glm::distance(ball.center, b)) + ball.radius;
+        const ClosedMesh::Plane& plane = mesh_->plane(t);
+        const double ha = (plane.offset - glm::dot(plane.normal, a)) / radius_,
+                     hb = (plane.offset - glm::dot(plane.normal, b)) / radius_;
+        const double greatest = std::max(std::abs(ha), std::abs(hb));
+        const double least = ha * hb <= 0 ? 0 : std::min(std::abs(ha), std::abs(hb));
+        const Steepness s = steepness(mesh_->area(t) / (radius_ * radius_), mesh_->perimeter(t) / radius_, least,
+                                      greatest, farthest >= radius_);
+        const double along = std::abs(glm::dot(plane.normal, u)), across = std::sqrt(std::max(0.0, 1 - along * along));
+        slope += along * s.area;
+        curvature += along * (along * s.across + across * s.along);
+    }
+    const double unit = 3 / (4 * pi) / noise_scale;
+    const double rate = speed / radius_;
+    return {0.5 / noise_scale, unit * std::min(slope, pi) * rate, unit * curvature * rate * rate};
+}
+
+}  // namespace deburr

@@ -1,0 +1,55 @@
+// A closed mesh as a field whose f is share − ½: the share of a ball inside it [mesh_convolution.hpp]. Where one plane
+// reaches a box it is a half-space there, and where two meet in one line a wedge: Field::as_density.
+#pragma once
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "bounds/closed_mesh.hpp"
+#include "bounds/field.hpp"
+
+namespace deburr {
+
+/// The set share > ½. A radius of 0 stands for one that no picture and no mesh tells from it: 2⁻²⁶ of the mesh's size;
+/// faces and edges are exact.
+class MeshField final : public Field {
+public:
+    MeshField(ClosedMeshPtr mesh, double radius);
+
+    const ClosedMesh& mesh() const { return *mesh_; }
+    /// How many triangles may matter here.
+    std::size_t triangle_count() const { return whole_ ? mesh_->size() : triangles_.size(); }
+
+    ValueGradient at(Vec3 x) const override;
+    Range range(const Box& box) const override;
+    Range rate_range(const Box& box, Vec3 direction) const override;
+    Box bounding_box() const override { return box_; }
+    FieldPtr prune(const Box& box) const override;
+    std::optional<DensityTree> as_density(const Box& box) const override;
+    bool is_density() const override { return true; }
+    double filter_radius() const override { return sharp_ ? 0 : radius_; }
+    std::shared_ptr<const ClosedMesh> sharp_mesh() const override { return sharp_ && whole_ ? mesh_ : nullptr; }
+    std::vector<HalfSpace> planes() const override;
+    int size() const override;
+    LocalSize local_size(const Box& box) const override;
+    double last_sign_change_bound(Vec3 origin, Vec3 direction) const override;
+    void begin_ray(FieldRay& ray) const override;
+    ValueSlope at(const FieldRay& ray, double t) const override;
+    RayBounds bounds(const FieldRay& ray, double t0, double t1) const override;
+
+private:
+    struct Part {};  // of another
+    MeshField(Part, const MeshField& of, std::vector<int> triangles);
+    std::span<const int> near(const Box& box, std::vector<int>& memory) const;
+    bool is_inside(Vec3 x) const;
+    Range range(const Box& box, std::span<const int> triangles) const;
+
+    ClosedMeshPtr mesh_;
+    double radius_;
+    bool sharp_;
+    bool whole_ = true;           // all triangles; else
+    std::vector<int> triangles_;  // those that reach a box
+    Box box_;
+};
+
+}  // namespace deburr
