@@ -3,9 +3,9 @@
 //
 // A Boolean density is the probability that the Boolean function of its half-spaces is true when a
 // point is drawn around x: independently for every direction, but with one draw for all parallel
-// planes of one radius. Round parts of one coordinate share a draw likewise. A family (normals ±n, radius r, thresholds τ₀ < τ₁ < … along n) is one
-// random coordinate; a decision node has one child for each gap between thresholds that makes a
-// difference.
+// planes of one radius. Round parts of one coordinate share a draw likewise. A family (normals ±n, radius r, thresholds
+// τ₀ < τ₁ < … along n) is one random coordinate; a decision node has one child for each gap between thresholds that
+// makes a difference.
 #pragma once
 #include <stdexcept>
 #include <string>

@@ -107,8 +107,8 @@ public:
     const Field* field = nullptr;
     Vec3 origin{0.0}, direction{0.0};
     double t0 = 0, t1 = 0;
-    double noise_scale = 1;       // of f here, in f's own
-    std::vector<double> numbers;  // the field's own
+    double noise_scale = 1;                // of f here, in f's own
+    std::vector<double> numbers;           // the field's own
     std::unique_ptr<FieldRayState> state;  // the field's own, or what another left
 };
 

@@ -31,6 +31,8 @@ public:
     bool has_sharp() const { return has_sharp_; }
     /// Whether some of them are round parts.
     bool has_round() const { return rounds_ != nullptr; }
+    /// What they point to.
+    const std::shared_ptr<const std::deque<RoundCoordinate>>& rounds() const { return rounds_; }
 
     struct Factor {
         int half_space;
@@ -88,7 +90,7 @@ private:
 
     FieldPtr field_;
     std::shared_ptr<const std::deque<RoundCoordinate>> rounds_;  // what half_spaces_ point to
-    std::shared_ptr<const BallConvolution> convolution_;  // of a true convolution, which needs no nodes
+    std::shared_ptr<const BallConvolution> convolution_;         // of a true convolution, which needs no nodes
     std::vector<HalfSpace> half_spaces_;
     std::vector<Node> nodes_;  // operands first, the root last
     std::vector<int> children_;
@@ -98,8 +100,8 @@ private:
     bool has_sharp_ = false;
 };
 
-/// M, L and G of a round part on [t0, t1], which bound the sum of all in a density: where the ray comes near to the axis
-/// of a filter that is wider, a part alone has a kink there, and what has none is its pair on either side.
+/// M, L and G of a round part on [t0, t1], which bound the sum of all in a density: where the ray comes near to the
+/// axis of a filter that is wider, a part alone has a kink there, and what has none is its pair on either side.
 RayBounds round_part_bounds(const HalfSpace& part, const RoundOnRay& on_ray, double t0, double t1);
 
 /// A local density along the ray o + t·d. Cheap to set up again and again: keeps its memory.

@@ -23,7 +23,7 @@ public:
             if (n.op == Op::half_space || n.op == Op::constant) continue;
             flat[i] = flat[n.a] && (n.b < 0 || flat[n.b]);
         }
-        wanted.back() = true;
+        wanted[std::size_t(density_.root())] = true;
         for (std::size_t i = flat.size(); i-- > 0;) {
             const TreeNode& n = density_.nodes[i];
             if (!wanted[i] || flat[i] || n.op == Op::half_space) continue;

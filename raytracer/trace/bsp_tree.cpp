@@ -240,13 +240,18 @@ private:
             at.push_back(item.box.lo[axis] - 2 * margin_);
             at.push_back(item.box.hi[axis] + 2 * margin_);
             if (item.size.half_spaces > few_half_spaces) continue;
-            for (const SolidLeaf& leaf : item.tree->leaves)
-                for (const HalfSpace& h : leaf.density.half_spaces) {
+            const auto add = [&](const std::vector<HalfSpace>& planes) {
+                for (const HalfSpace& h : planes) {
                     if (std::abs(h.normal[axis]) < 1 - 1e-9) continue;
                     const double position = h.offset / h.normal[axis];
                     at.push_back(position - h.radius - 2 * margin_);
                     at.push_back(position + h.radius + 2 * margin_);
                 }
+            };
+            for (const SolidLeaf& leaf : item.tree->leaves) {
+                add(leaf.density.half_spaces);
+                if (leaf.field) add(leaf.field->planes());
+            }
         }
         part = intersection(part, world_);
         for (int k = 1; k <= 3; ++k) at.push_back(part.lo[axis] + (part.hi[axis] - part.lo[axis]) * k / 4);

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "bounds/decision_diagram.hpp"
+#include "bounds/round_density.hpp"
 
 namespace deburr {
 namespace {
@@ -74,6 +75,10 @@ void LocalSolid::add_leaf(const SolidLeaf& leaf, const Box& box, const Tolerance
         const double max_noise_scale = !seen.empty() && seen.finite() ? leaf.field->max_noise_scale(seen) : 0;
         softs_.push_back(
             {.density = LocalDensity(leaf.density), .field = leaf.field, .max_noise_scale = max_noise_scale});
+        const auto* round = dynamic_cast<const RoundDensity*>(leaf.field.get());
+        if (!round || !round->local() || root_method == RootMethod::always) return;
+        softs_.back().surface = RoundSurface::of(*round->local());
+        if (!softs_.back().surface) softs_.back().product = RoundProduct::of(*round->local());
         return;
     }
     const auto prepared = [&] {

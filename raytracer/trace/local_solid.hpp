@@ -4,7 +4,8 @@
 // half-spaces needs no search either (convex_density.hpp), and a sum of few products little
 // (product_sum.hpp). For the others the ray is first cut by inner and outer bound [Lobb §3.2,
 // figure 7]; in a stretch where a single half-space varies the crossing is a plane's too, and only what
-// remains needs the root finder. A field goes straight to it.
+// remains needs the root finder. A field goes straight to it, unless it is a round part, or a product of convex ones
+// (round_product.hpp).
 #pragma once
 #include <optional>
 #include <vector>
@@ -14,6 +15,7 @@
 #include "bounds/local_density.hpp"
 #include "bounds/product_sum.hpp"
 #include "bounds/root_finder.hpp"
+#include "bounds/round_product.hpp"
 #include "bounds/solid_range.hpp"
 #include "raytracer/trace/trace_settings.hpp"
 
@@ -105,8 +107,10 @@ private:
         BoundCsg outer = {}, inner = {};
         bool bounded = false;  // the bounds hold
         bool all_sharp = false;
-        FieldPtr field = {};         // if it is set, only it and max_noise_scale count
+        FieldPtr field = {};         // if it is set, only what follows counts
         double max_noise_scale = 0;  // upper bound of FieldRay::noise_scale over the rays here; 0: not known
+        std::optional<RoundSurface> surface = {};  // the field's, if it is as simple as that
+        std::optional<RoundProduct> product = {};  // likewise
     };
 
     void add_leaf(const SolidLeaf& leaf, const Box& box, const Tolerances& tolerances, RootMethod root_method,
@@ -117,6 +121,9 @@ private:
     template <class Visit>
     void field_crossings(const Field& field, double max_noise_scale, const Vec3& origin, const Vec3& direction,
                          double t0, double t1, CrossingScratch& scratch, bool* start_inside, Visit visit) const;
+    template <class Visit>
+    void round_crossings(const Soft& soft, const Vec3& origin, const Vec3& direction, double t0, double t1,
+                         CrossingScratch& scratch, bool* start_inside, Visit visit) const;
     template <class Visit>
     void sum_crossings(const ProductSum& sum, const Vec3& origin, const Vec3& direction, double t0, double t1,
                        bool coarse, CrossingScratch& scratch, bool* start_inside, Visit visit) const;

@@ -115,6 +115,24 @@ void LocalSolid::field_crossings(const Field& field, double max_noise_scale, con
     }
 }
 
+// visit(t, entering, normal) → go on?
+template <class Visit>
+void LocalSolid::round_crossings(const Soft& soft, const Vec3& origin, const Vec3& direction, double t0, double t1,
+                                 CrossingScratch& scratch, bool* start_inside, Visit visit) const {
+    const ConvexCrossings all = soft.surface
+                                    ? soft.surface->crossings(origin, direction, t0, t1)
+                                    : soft.product->crossings(origin, direction, t0, t1, Tolerances{scale_}.along(t0),
+                                                              scratch.counters.roots.evaluations);
+    if (start_inside) *start_inside = all.start_inside;
+    scratch.error = 4 * epsilon * scale_;
+    for (int i = 0; i < all.count; ++i) {
+        const Vec3 x = origin + direction * all.at[i].t;
+        const Vec3 normal = soft.surface ? soft.surface->normal(x) : soft.product->normal(x);
+        // At an apex there is none: the ray's own will do.
+        if (!visit(all.at[i].t, all.at[i].entering, normal == Vec3(0.0) ? direction : normal)) return;
+    }
+}
+
 // visit(t, entering, normal; 0 where t is `coarse`) → go on?
 template <class Visit>
 void LocalSolid::sum_crossings(const ProductSum& sum, const Vec3& origin, const Vec3& direction, double t0, double t1,
@@ -131,6 +149,8 @@ void LocalSolid::sum_crossings(const ProductSum& sum, const Vec3& origin, const 
 template <class Visit>
 void LocalSolid::soft_crossings(const Soft& soft, const Vec3& origin, const Vec3& direction, double t0, double t1,
                                 CrossingScratch& scratch, bool* start_inside, Visit visit) const {
+    if (soft.surface || soft.product)
+        return round_crossings(soft, origin, direction, t0, t1, scratch, start_inside, visit);
     if (soft.field)
         return field_crossings(*soft.field, soft.max_noise_scale, origin, direction, t0, t1, scratch, start_inside,
                                visit);

@@ -1,0 +1,43 @@
+// What is left of a density with round parts in most cells: one round part, whose surface is intersected at once, or a
+// product of convex parts, planes and round ones mixed, whose logarithm is concave along every ray
+// [docs/design.md, Round primitives].
+#pragma once
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "bounds/convex_density.hpp"
+#include "bounds/round_coordinate.hpp"
+
+namespace deburr {
+
+/// The surface u = offset of a sphere, cylinder or cone; the solid is on the side where u is less, or on the other.
+struct RoundSurface {
+    RoundCoordinate coordinate;
+    double offset = 0;
+    bool complement = false;
+
+    /// The surface ρ = ½ of a density of one round part; none of a torus, or where ρ does not cross ½.
+    static std::optional<RoundSurface> of(const LocalDensity& density);
+    ConvexCrossings crossings(const Vec3& origin, const Vec3& direction, double t0, double t1) const;
+    /// Out of the solid.
+    Vec3 normal(const Vec3& x) const;
+};
+
+class RoundProduct {
+public:
+    static std::optional<RoundProduct> of(const LocalDensity& density);
+
+    ConvexCrossings crossings(const Vec3& origin, const Vec3& direction, double t0, double t1, double t_tolerance,
+                              std::uint64_t& evaluations) const;
+    /// Unit normal of the surface at x, either way round.
+    Vec3 normal(const Vec3& x) const;
+
+private:
+    friend class RoundProductRay;
+    std::vector<HalfSpace> factors_;
+    std::shared_ptr<const std::deque<RoundCoordinate>> rounds_;  // what they point to
+    bool complement_ = false;
+};
+
+}  // namespace deburr
