@@ -1,7 +1,7 @@
 // Coordinates whose level sets are round: the distances from a point, an axis or a circle, and the coordinate across a
 // cone. They are to spheres, cylinders, cones and tori what n·x is to a half-space: the surface u = R has the signed
-// distance u − R beside it, so that the density profile((u − R)/r) keeps it where it is [docs/design.md, Round
-// primitives].
+// distance u − R beside it, so that the density profile((u − R)/r) keeps it where it is
+// [docs/design.md, Round primitives].
 //
 // Surfaces of one coordinate are parallel: concentric spheres, coaxial cylinders, coaxial cones of one angle.
 #pragma once

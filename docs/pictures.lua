@@ -38,6 +38,19 @@ local function quadrics()
   return list
 end
 
+local function rod(x, z, y0, y1, r) return cylinder{ from = {x, y0, z}, to = {x, y1, z}, radius = r } end
+
+local function round_parts()
+  local stand = box({0, 0, 0}, {1, 0.35, 1}) & ~rod(0.5, 0.5, -1, 1, 0.22)
+  for x = 0.17, 1, 0.66 do for z = 0.17, 1, 0.66 do stand = stand | rod(x, z, 0.1, 0.75, 0.09) end end
+  return {
+    rounded(0.05, stand),
+    rounded(0.06, cone{ from = {0.5, 0, 0.5}, to = {0.5, 1, 0.5}, radius = {0.5, 0} }),
+    rounded(0.05, rod(0.5, 0.5, 0, 0.5, 0.5) & ~torus{ center = {0.5, 0.25, 0.5}, radius = 0.5, tube = 0.15 } & ~rod(0.5, 0.5, -1, 1, 0.15)),
+    rounded(0.05, sphere{ center = {0.5, 0.5, 0.5}, radius = 0.5 } & ~cylinder{ from = {0, 0.5, -1}, to = {1, 0.5, 2}, radius = 0.2 }),
+  }
+end
+
 local pebble = ellipsoid{ center = {0.5, 0.45, 0.5}, radii = {0.55, 0.45, 0.5} }
 local bump = ellipsoid{ center = {0.85, 0.75, 0.7}, radius = 0.4 }
 
@@ -53,6 +66,7 @@ local pictures = {
   flow = { rounded(0.15, cube() | other):scale(0.68), (rounded(0.15, cube()) | rounded(0.15, other)):scale(0.68) },
   radius = { rounded(0.25, cube()), rounded(0.25, cube() * halfspace({0, 1, 0}, 0.8):radius(0.03)) },
   quadrics = quadrics(),
+  round_parts = round_parts(),
   freeform = { pebble | pebble, freeform(pebble, { perturbation(3, bump) }),
                freeform(pebble, { perturbation(-3, bump) }) },
   materials = { die:material(matte{ color = palette[2] }), die:material(plastic{ color = palette[2] }),

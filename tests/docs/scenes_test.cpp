@@ -65,6 +65,7 @@ std::vector<FieldTable> field_tables() {
         {"Materials", "return { solids = { cube():material(VALUE) } }"},
         {"Textures", "return { solids = { cube():material(matte{ color = VALUE }) } }"},
         {"Lights", "return { lights = { VALUE }, solids = { cube() } }"},
+        {"Round parts", "return { solids = { VALUE } }"},
         {"Quadrics", "return { solids = { VALUE } }"}};
     std::vector<FieldTable> tables;
     std::string topic;
@@ -96,7 +97,7 @@ std::string fields_beside(const FieldTable& table, const std::string& name) {
     const std::map<std::string, std::string> values = {
         {"solids", "{ cube() }"}, {"position", "{0, 5, 0}"}, {"direction", "{1, -2, -1}"},
         {"radius", "1"},          {"file", "'room.exr'"},    {"u", "{1, 0, 0}"},
-        {"v", "{0, 0, 1}"}};
+        {"v", "{0, 0, 1}"},       {"tube", "0.5"}};
     std::string fields;
     for (const Row& row : table.rows)
         if (const std::string other = quoted(row.cell("field")); row.cell("default") == "required" && other != name)
@@ -223,7 +224,7 @@ TEST_CASE("docs/scenes.md has the fields that the program knows, and no others")
         };
         CHECK(split(on_page) == split(error.substr(from, error.find(end) - from)));
     }
-    CHECK(tables.size() == 4 + 6 + 6 + 2 + 6);  // scene, quadrics, materials, textures, lights with the sky
+    CHECK(tables.size() == 4 + 2 + 6 + 6 + 2 + 6);  // scene, round parts, quadrics, materials, textures, lights with the sky
 }
 
 TEST_CASE("docs/scenes.md says of every field what the program says that it takes") {

@@ -1,0 +1,38 @@
+-- A ball bearing, cut open: two rings with grooves, balls, and a cage of rivets; spheres, cylinders and tori as densities.
+local r = param("r", 0.06)
+
+local function about(radius, low, high) return cylinder{ from = {0, low, 0}, to = {0, high, 0}, radius = radius } end
+local pitch, ball = 2.5, 0.52
+local groove = torus{ radius = pitch, tube = 0.56 }
+
+local outer = about(3.4, -0.75, 0.75) & ~about(2.86, -2, 2) & ~groove
+local inner = about(2.14, -0.75, 0.75) & ~about(1.5, -2, 2) & ~groove
+local cage = about(2.62, -0.3, 0.3) & ~about(2.38, -2, 2)
+
+local count = 11
+local balls = {}
+for i = 1, count do
+  local a = 2 * math.pi * (i + 0.5) / count
+  local at = { pitch * math.cos(a), 0, pitch * math.sin(a) }
+  balls[i] = sphere{ center = at, radius = ball }
+  cage = cage & ~sphere{ center = at, radius = ball + 0.06 }
+end
+
+-- A quarter of the outer ring is away, so that one sees in.
+local away = box({0, -2, 0}, {9, 2, 9})
+local steel = metal{ color = {0.62, 0.63, 0.65}, roughness = 0.22 }
+local brass = metal{ color = {0.83, 0.58, 0.25}, roughness = 0.25 }
+local solids = { rounded(r, outer & ~away):material(steel), rounded(r, inner):material(steel),
+                 rounded(0.03, cage):material(brass) }
+for _, b in ipairs(balls) do solids[#solids + 1] = rounded(r, b):material(metal{ color = {0.75, 0.75, 0.77}, roughness = 0.08 }) end
+for i, solid in ipairs(solids) do solids[i] = solid:rotate(-62, {1, 0, 0}):rotate(18, {0, 1, 0}):translate(0, 3.36, 0) end
+solids[#solids + 1] = sharp(halfspace({0, 1, 0}, 0)):material(matte{ color = 0.35 })
+
+return {
+  image = { width = 720, height = 456 },
+  camera = { eye = {3, 6.5, 13}, target = {0.1, 3.1, 0}, fov = 32 },
+  lights = { area_light{ position = {-6, 11, 6}, u = {0, 3, -4}, v = {5, 0, 0}, power = 900 },
+             area_light{ position = {9, 6, 4}, u = {-2, 0, 3}, v = {0, 4, 0}, power = 180, color = {1, 0.85, 0.7} } },
+  background = sky{ horizon = {0.75, 0.8, 0.9}, zenith = {0.35, 0.45, 0.7} },
+  solids = solids,
+}
