@@ -1,4 +1,5 @@
 // Rays that meet models, and meshes of models, against the plain definition: the share of a ball with all triangles.
+#include "bounds/mesh_convolution.hpp"
 #include "bounds/mesh_field.hpp"
 #include "catch.hpp"
 #include "closed_shapes.hpp"
