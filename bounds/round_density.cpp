@@ -27,7 +27,13 @@ struct RayState final : FieldRayState {
     RayDensity density;
 };
 
-// Of gradient(x)·direction over the box.
+Range product(Range a, Range b) {
+    const auto [lo, hi] = std::minmax({a.lo * b.lo, a.lo * b.hi, a.hi * b.lo, a.hi * b.hi});
+    return {lo, hi};
+}
+
+}  // namespace
+
 Range cosine_range(const HalfSpace& h, const Box& box, Vec3 direction) {
     if (!h.round) {
         const double cosine = glm::dot(h.normal, direction);
@@ -49,13 +55,6 @@ Range cosine_range(const HalfSpace& h, const Box& box, Vec3 direction) {
     const double off = bend * reach;
     return {std::max(-1.0, here - off), std::min(1.0, here + off)};
 }
-
-Range product(Range a, Range b) {
-    const auto [lo, hi] = std::minmax({a.lo * b.lo, a.lo * b.hi, a.hi * b.lo, a.hi * b.hi});
-    return {lo, hi};
-}
-
-}  // namespace
 
 RoundDensity::RoundDensity(DensityTree tree) : tree_(std::move(tree)) {
     const double least = sharp_radius * size_of(tree_);

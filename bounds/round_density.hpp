@@ -11,6 +11,9 @@
 
 namespace deburr {
 
+/// Holds normal_at(x)·direction over the finite box, with a unit direction.
+Range cosine_range(const HalfSpace& h, const Box& box, Vec3 direction);
+
 class RoundDensity final : public Field {
 public:
     /// Sharp parts of a density that is rounded elsewhere get a radius that no picture tells from 0.

@@ -13,6 +13,8 @@
 #include <queue>
 
 #include "bounds/decision_diagram.hpp"
+#include "bounds/round_density.hpp"
+#include "raytracer/pov/pov_round.hpp"
 #include "raytracer/util/errors.hpp"
 
 namespace deburr {
@@ -68,6 +70,7 @@ Range slope_range(Range alpha) {
 }
 
 std::string rho_of(const HalfSpace& h) {
+    if (h.round) return fmt::format("Rho(({}{:+})*{})", pov_coordinate(*h.round), -h.offset, 1 / h.radius);
     std::string text = "Rho(";
     const char* const names[3] = {"*x", "*y", "*z"};
     bool first = true;
@@ -84,7 +87,8 @@ std::string rho_of(const HalfSpace& h) {
 
 }  // namespace
 
-PovField::PovField(const DensityTree& tree, int line) : line_(line), half_spaces_(tree.half_spaces) {
+PovField::PovField(const DensityTree& tree, int line)
+    : line_(line), half_spaces_(tree.half_spaces), rounds_(tree.rounds) {
     // What the papers' arithmetic reaches; below lie the Boolean parts, each decided as a whole.
     std::vector<char> arithmetic(tree.nodes.size(), false);
     arithmetic.back() = true;
@@ -125,7 +129,8 @@ int PovField::add_boolean(const DensityTree& tree, int root) {
     std::vector<int> first_plane;  // of each family
     for (const PlaneFamily& family : diagram.families) {
         first_plane.push_back(int(half_spaces_.size()));
-        for (const double t : family.thresholds) half_spaces_.push_back({family.normal, t, family.radius});
+        for (const double t : family.thresholds)
+            half_spaces_.push_back({family.normal, t, family.radius, family.round});
     }
     std::vector<char> reached(diagram.nodes.size(), false);
     reached[diagram.root] = true;
@@ -209,8 +214,10 @@ PovField::Slopes PovField::slopes(const Box& box) const {
         const Range along = slope_range({distance.lo / h.radius, distance.hi / h.radius});
         Slopes s{density_range(h, box), {}};
         for (int k = 0; k < 3; ++k) {
-            const double c = h.normal[k] / h.radius;
-            s.slope[k] = times(along, {c, c});
+            Vec3 axis(0.0);
+            axis[k] = 1;
+            const Range cosine = cosine_range(h, box, axis);
+            s.slope[k] = times(along, {cosine.lo / h.radius, cosine.hi / h.radius});
         }
         planes.push_back(s);
     }

@@ -44,7 +44,8 @@ private:
 
     int line_;
     std::vector<HalfSpace> half_spaces_;
-    std::vector<Node> nodes_;  // operands first, the root last
+    std::shared_ptr<const std::deque<RoundCoordinate>> rounds_;  // what they point to
+    std::vector<Node> nodes_;                                    // operands first, the root last
 };
 
 }  // namespace deburr

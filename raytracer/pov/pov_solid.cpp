@@ -4,8 +4,10 @@
 
 #include "bounds/bounding_box.hpp"
 #include "bounds/box_range.hpp"
+#include "bounds/round_density.hpp"
 #include "raytracer/pov/pov_csg.hpp"
 #include "raytracer/pov/pov_field.hpp"
+#include "raytracer/pov/pov_round.hpp"
 #include "raytracer/pov/pov_text.hpp"
 #include "raytracer/util/errors.hpp"
 
@@ -20,7 +22,7 @@ constexpr double clear_of_walls = 1e-3;
 constexpr double default_accuracy = 1e-4;
 
 // Of the sharp half-spaces, the operators' sets.
-PovCsg sharp_csg(const DensityTree& tree) {
+PovCsg sharp_csg(const DensityTree& tree, const Box& as_far_as) {
     std::vector<PovCsg> done;
     for (const TreeNode& n : tree.nodes) {
         const auto take = [&](int i) { return std::move(done[i]); };
@@ -31,7 +33,12 @@ PovCsg sharp_csg(const DensityTree& tree) {
                 break;
             case Op::half_space: {
                 const HalfSpace& h = tree.half_spaces[n.a];
-                csg = PovCsg::plane({h.normal, h.offset});
+                if (!h.round)
+                    csg = PovCsg::plane({h.normal, h.offset});
+                else if (h.round->is_concave())  // of a cone's sides: it cuts nothing off the other
+                    csg = PovCsg::everything();
+                else if (h.offset > 0 || h.round->is_cone())  // a distance is never less than 0
+                    csg = PovCsg::object(pov_round_part(*h.round, h.offset, as_far_as));
                 break;
             }
             case Op::sum:
@@ -54,8 +61,13 @@ public:
         : surface_(surface), leaf_(leaf), all_roots_(in_csg) {}
 
     PovCsg csg() {
-        if (leaf_.field)
-            throw UnsupportedError(of_leaf("expected rounded densities for POV-Ray, got another function"));
+        if (const auto* round = dynamic_cast<const RoundDensity*>(leaf_.field.get())) return csg(round->tree());
+        if (leaf_.field) {
+            const std::string smooth = pov_smooth(*leaf_.field);
+            if (smooth.empty())
+                throw UnsupportedError(of_leaf("expected rounded densities for POV-Ray, got another function"));
+            return PovCsg::object(smooth);
+        }
         if (leaf_.density.nodes.back().op == Op::convolution && !surface_.sharp)
             throw UnsupportedError(of_leaf("expected rounded densities for POV-Ray, got a true convolution"));
         return csg(leaf_.density);
@@ -70,7 +82,8 @@ private:
     PovCsg csg(const DensityTree& tree) {
         const auto is_sharp = [&](const HalfSpace& h) { return surface_.sharp || h.radius == 0; };
         const auto first_sharp = std::find_if(tree.half_spaces.begin(), tree.half_spaces.end(), is_sharp);
-        if (std::all_of(tree.half_spaces.begin(), tree.half_spaces.end(), is_sharp)) return sharp_csg(tree);
+        if (std::all_of(tree.half_spaces.begin(), tree.half_spaces.end(), is_sharp))
+            return sharp_csg(tree, surface_.limit);
         if (first_sharp == tree.half_spaces.end()) return isosurface(tree);
         all_roots_ = true;
         const BoundPlane plane{first_sharp->normal, first_sharp->offset};
@@ -96,9 +109,11 @@ private:
     PovCsg isosurface(const DensityTree& tree) {
         if (tree.nodes.back().op == Op::half_space) {  // ρ = ½ on the plane itself
             const HalfSpace& h = tree.half_spaces[tree.nodes.back().a];
+            if (h.round) return PovCsg::object(pov_round_part(*h.round, h.offset, surface_.limit));
             return PovCsg::plane({h.normal, h.offset});
         }
-        Box box = intersection(bounding_box(tree), bounding_box(leaf_.density));
+        Box box =
+            intersection(bounding_box(tree), leaf_.field ? leaf_.field->bounding_box() : bounding_box(leaf_.density));
         if (box.empty()) return PovCsg::nothing();
         if (!box.finite()) {
             cut_ = true;

@@ -9,6 +9,7 @@
 #include "bounds/bounding_box.hpp"
 #include "bounds/decision_diagram.hpp"
 #include "catch.hpp"
+#include "plain_round.hpp"
 #include "random_case.hpp"
 #include "raytracer/pov/pov_field.hpp"
 #include "raytracer/program.hpp"
@@ -23,11 +24,17 @@ class Formula {
 public:
     explicit Formula(const std::string& text) : lua_(luaL_newstate(), lua_close) {
         const std::string program =
+            "local sqrt = ... local function pow(a, b) return a^b end "
             "local function Rho(a) if a <= -1 then return 1 elseif a >= 1 then return 0 end "
             "return 0.5 + a*(a*a - 3)*0.25 end "
             "return function(x, y, z) return " +
             text + " end";
-        REQUIRE(luaL_dostring(lua_.get(), program.c_str()) == LUA_OK);
+        luaL_requiref(lua_.get(), "math", luaopen_math, 1);
+        REQUIRE(luaL_loadstring(lua_.get(), program.c_str()) == LUA_OK);
+        lua_getglobal(lua_.get(), "math");
+        lua_getfield(lua_.get(), -1, "sqrt");
+        lua_remove(lua_.get(), -2);
+        REQUIRE(lua_pcall(lua_.get(), 1, 1, 0) == LUA_OK);
     }
     double at(Vec3 x) {
         lua_pushvalue(lua_.get(), -1);
@@ -119,6 +126,43 @@ TEST_CASE("a formula for POV-Ray has the density's value everywhere") {
         }
     }
     CHECK(varying > 300);
+}
+
+TEST_CASE("a formula for POV-Ray has the value of round parts, and their slope is bounded") {
+    int varying = 0;
+    for (const auto seed : seeds(150)) {
+        CAPTURE(seed);
+        Gen g(seed);
+        const RoundCase c = RoundGen(g, g.between(0.05, 0.5)).make(1 + g.below(3));
+        const DensityTree tree = flatten(c.density, c.radius);
+        const PovField field(tree);
+        Formula formula(field.formula());
+        const double most = seed % 5 == 0 ? field.greatest_slope({Vec3(-1), Vec3(1)}) : infinity;
+        for (int i = 0; i < 20; ++i) {
+            const Vec3 x = g.point(1);
+            const double rho = c.plain.density(x, c.radius);
+            varying += rho > 0.01 && rho < 0.99;
+            CHECK(std::abs(formula.at(x) - rho) < 1e-8);
+            CHECK(glm::length(tree.gradient_at(x).gradient) <= most + 1e-9);
+        }
+    }
+    CHECK(varying > 300);
+}
+
+TEST_CASE("POV-Ray sees the silhouettes of round parts, rounded and sharp") {
+    if (!has_povray()) return;
+    for (const char* form : {"rounded(0.08, ", "sharp("})
+        for (const char* density : {"cylinder{ from = {0.5, 0, 0.5}, to = {0.5, 1, 0.5}, radius = 0.4 } & ~cylinder{ "
+                                    "from = {0.5, -1, 0.5}, to = "
+                                    "{0.5, 2, 0.5}, radius = 0.2 })",
+                                    "cone{ from = {0.5, 0, 0.5}, to = {0.9, 1.1, 0.5}, radius = {0.45, 0} })",
+                                    "cone{ from = {0.5, 0, 0.5}, to = {0.5, 1, 0.2}, radius = {0.2, 0.5} })",
+                                    "torus{ center = {0.5, 0.5, 0.5}, axis = {1, 2, 1}, radius = 0.5, tube = 0.2 })",
+                                    "cube() & ~sphere{ center = {1, 1, 1}, radius = 0.6 })"}) {
+            const std::string solid = std::string(form) + density;
+            CAPTURE(solid);
+            CHECK(mismatch(solid) < 0.005);
+        }
 }
 
 TEST_CASE("no slope is steeper than what is proved for POV-Ray", "[slow]") {
