@@ -26,6 +26,7 @@
 #include "raytracer/render/bsdf.hpp"
 #include "raytracer/render/camera.hpp"
 #include "raytracer/render/lights.hpp"
+#include "raytracer/render/pixel_sums.hpp"
 #include "raytracer/scene/scene.hpp"
 #include "raytracer/trace/ray_tracer.hpp"
 
@@ -53,7 +54,12 @@ class Integrator {
 public:
     /// Keeps references to both.
     Integrator(const Scene& scene, const RayTracer& tracer, RenderSettings settings);
-    /// Of a block, row by row; sets `layers` unless it is null. Neither ever holds a NaN.
+    /// Takes these samples of a block's pixels, each by itself, and adds them to what earlier ranges have brought, row
+    /// by row; to `layers`, too, unless it is null. Whether a picture has one sample, and so rays through centres, is
+    /// what settings.spp says; settings.noise does not matter.
+    void take(SampleRange range, const Window& block, PixelSums* sums, LayerSums* layers,
+              TraceCounters& counters) const;
+    /// A block with all of its samples, row by row; sets `layers` unless it is null. Neither ever holds a NaN.
     void block(const Window& block, Pixel* pixels, PixelLayers* layers, TraceCounters& counters) const;
     /// The same of one pixel.
     Pixel pixel(int x, int y, PixelLayers* layers, TraceCounters& counters) const;

@@ -2,6 +2,7 @@
 #include <memory>
 
 #include "raytracer/render/integrator_path.hpp"
+#include "raytracer/render/noise_bound.hpp"
 #include "raytracer/render/path_integrator.hpp"
 
 namespace deburr {
@@ -42,9 +43,9 @@ public:
         std::unique_ptr<bool[]> hidden{new bool[max_rays]};
     };
 
-    CameraRays(const Integrator& integrator, Pixel* pixels, PixelLayers* layers, TraceCounters& counters,
+    CameraRays(const Integrator& integrator, PixelSums* sums, LayerSums* layers, TraceCounters& counters,
                Memory& memory)
-        : in_(integrator), pixels_(pixels), layers_(layers), counters_(counters), m_(memory) {
+        : in_(integrator), sums_(sums), layers_(layers), counters_(counters), m_(memory) {
         clear();
     }
 
@@ -62,9 +63,8 @@ public:
         light();
         for (std::size_t j = 0; j < m_.surfaces.size(); ++j)
             m_.colors[m_.seen_by[j]] = in_.color_of(m_.surfaces[j], m_.lit[j], path(m_.seen_by[j]));
-        // In their order: a pixel's sum does not depend on what travels with it.
         for (std::size_t i = 0; i < m_.rays.size(); ++i)
-            if (m_.uses[i].sample) pixels_[m_.uses[i].pixel].color += finite_or_zero(m_.colors[i]);
+            if (m_.uses[i].sample) sums_[m_.uses[i].pixel].color += finite_or_zero(m_.colors[i]);
         clear();
     }
 
@@ -82,23 +82,18 @@ private:
         const Hit& hit = m_.hits[i];
         const Vec3 direction = m_.rays[i].direction;
         const Use& use = m_.uses[i];
-        PixelLayers* layers = layers_ ? layers_ + use.pixel : nullptr;
-        if (use.center && layers && hit) {
-            layers->position = finite_or_zero(hit.position);
-            layers->normal = finite_or_zero(hit.normal);
-            layers->z = hit.t * glm::dot(direction, in_.camera_.forward());
-            layers->id = std::uint32_t(hit.solid + 1);
-        }
+        LayerSums* layers = layers_ ? layers_ + use.pixel : nullptr;
+        if (use.center && layers && hit) layers->set_center(hit, direction, in_.camera_.forward());
         if (!use.sample) return;
         if (!hit) {
             m_.colors[i] = in_.settings_.background ? in_.seen_.towards(direction) : Vec3(0.0);
             return;
         }
         const Vec3 albedo = in_.texture_color(hit);
-        pixels_[use.pixel].alpha += 1.0;
+        ++sums_[use.pixel].hits;
         if (layers) {
             layers->albedo += finite_or_zero(albedo);
-            layers->solids.add(std::uint32_t(hit.solid + 1));
+            layers->rest.solids.add(std::uint32_t(hit.solid + 1));
         }
         if (in_.layers_[hit.material].kind() == Material::Kind::glass) {
             m_.colors[i] = in_.color_of_glass(hit, albedo, direction, path(i));
@@ -146,36 +141,35 @@ private:
     }
 
     const Integrator& in_;
-    Pixel* pixels_;
-    PixelLayers* layers_;
+    PixelSums* sums_;
+    LayerSums* layers_;
     TraceCounters& counters_;
     Memory& m_;
 };
 
-void Integrator::block(const Window& block, Pixel* pixels, PixelLayers* layers, TraceCounters& counters) const {
-    if (paths_) return paths_->block(block, pixels, layers, counters);
-    const std::size_t count = std::size_t(block.width) * std::size_t(block.height);
-    std::fill_n(pixels, count, Pixel{});
-    if (layers) std::fill_n(layers, count, PixelLayers{});
-    const int spp = std::max(1, settings_.spp);
+void Integrator::take(SampleRange range, const Window& block, PixelSums* sums, LayerSums* layers,
+                      TraceCounters& counters) const {
+    if (paths_) return paths_->take(range, block, sums, layers, counters);
+    const bool is_centered = settings_.spp <= 1;
     const bool apart = layers && settings_.cost;
     thread_local CameraRays::Memory memory;
-    CameraRays rays(*this, pixels, layers, counters, memory);
+    CameraRays rays(*this, sums, layers, counters, memory);
     std::uint64_t evaluations = counters.evaluations;
     const auto pixel = [&](int x, int y) {
         const auto i = std::uint32_t(y * block.width + x);
         x += block.x;
         y += block.y;
-        if (spp == 1 || layers)
-            rays.add(camera_.ray(x + 0.5, y + 0.5), {Sampler(settings_.seed, x, y, 0), i, true, spp == 1});
-        for (int s = 0; spp > 1 && s < spp; ++s) {
+        if (range.first == 0 && (is_centered || layers))
+            rays.add(camera_.ray(x + 0.5, y + 0.5), {Sampler(settings_.seed, x, y, 0), i, true, is_centered});
+        for (int s = range.first; !is_centered && s < range.end; ++s) {
             const Sampler sampler(settings_.seed, x, y, s);
             const Vec2 offset = filter_offset(sampler.square(lens));
             rays.add(camera_.ray(x + 0.5 + offset.x, y + 0.5 + offset.y), {sampler, i, false, true});
         }
+        sums[i].samples += std::uint32_t(range.end - range.first);
         if (!apart) return;
         rays.finish();
-        layers[i].cost = double(counters.evaluations - evaluations);
+        layers[i].rest.cost += double(counters.evaluations - evaluations);
         evaluations = counters.evaluations;
     };
     for (int top = 0; top < block.height; top += patch)
@@ -183,14 +177,31 @@ void Integrator::block(const Window& block, Pixel* pixels, PixelLayers* layers, 
             for (int y = top; y < std::min(top + patch, block.height); ++y)
                 for (int x = left; x < std::min(left + patch, block.width); ++x) pixel(x, y);
     rays.finish();
-    if (spp == 1) return;
-    for (std::size_t i = 0; i < count; ++i) {
-        pixels[i].color /= spp;
-        pixels[i].alpha /= spp;
-        if (!layers) continue;
-        layers[i].albedo /= spp;
-        layers[i].solids.divide(spp);
-    }
+}
+
+void Integrator::block(const Window& block, Pixel* pixels, PixelLayers* layers, TraceCounters& counters) const {
+    const Window window = settings_.noise > 0 ? grown_to_cells(block, settings_.width, settings_.height) : block;
+    thread_local std::vector<PixelSums> sums;
+    thread_local std::vector<LayerSums> layer_sums;
+    thread_local std::vector<ColorSum> halves;
+    const std::size_t count = std::size_t(window.width) * std::size_t(window.height);
+    sums.assign(count, {});
+    layer_sums.assign(layers ? count : 0, {});
+    halves.assign(settings_.noise > 0 ? count : 0, {});
+    const SampleArrays arrays{sums.data(), layers ? layer_sums.data() : nullptr, halves.data()};
+    const SampleRange all{0, std::max(1, settings_.spp)};
+    if (settings_.noise > 0)
+        for (SampleRange pass = next_pass(all, 0); pass.first < all.end; pass = next_pass(all, pass.end))
+            take_until_quiet(*this, settings_.noise, pass, window, arrays, counters);
+    else
+        take(all, window, arrays.sums, arrays.layers, counters);
+    for (int y = 0; y < block.height; ++y)
+        for (int x = 0; x < block.width; ++x) {
+            const std::size_t from =
+                std::size_t(block.y - window.y + y) * std::size_t(window.width) + std::size_t(block.x - window.x + x);
+            *pixels++ = mean(sums[from]);
+            if (layers) *layers++ = mean(layer_sums[from], sums[from].samples);
+        }
 }
 
 Pixel Integrator::pixel(int x, int y, PixelLayers* layers, TraceCounters& counters) const {

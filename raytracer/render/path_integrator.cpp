@@ -18,11 +18,6 @@ static_assert(light_places + max_all_lights <= draws_a_depth);
 // What is added to the dimensions of a path that was split from another.
 constexpr std::uint32_t split_draws = 1u << 30;
 
-// Pixels each way of a cell that ends by itself, and samples before it may: fewer could miss what is small and bright.
-constexpr int cell_side = 8, min_cell_samples = 32;
-// Darker than this, noise is seen as if it were this bright: a hundredth of white is 10 % of the display's range.
-constexpr double dark = 0.01;
-
 // Rays at a time: many packets, whose hits fit into the processor's cache.
 constexpr std::size_t max_paths = 128;
 // Pixels each way whose rays travel together.
@@ -108,8 +103,8 @@ public:
         std::size_t hidden_size = 0;
     };
 
-    Batch(const PathIntegrator& integrator, Pixel* pixels, PixelLayers* layers, TraceCounters& counters, Memory& memory)
-        : in_(integrator), pixels_(pixels), layers_(layers), counters_(counters), m_(memory) {
+    Batch(const PathIntegrator& integrator, PixelSums* sums, LayerSums* layers, TraceCounters& counters, Memory& memory)
+        : in_(integrator), sums_(sums), layers_(layers), counters_(counters), m_(memory) {
         clear();
     }
 
@@ -125,10 +120,10 @@ public:
         rays_ = m_.paths.size();
         for (std::uint32_t i = 0; i < rays_; ++i) m_.alive.push_back(i);
         for (depth_ = 0; !m_.alive.empty(); ++depth_) bounce();
-        // In their order: a pixel's sum does not depend on what travels with it.
+        // In their order: a sample does not depend on what travels with it.
         for (std::size_t i = rays_; i < m_.paths.size(); ++i) m_.paths[m_.paths[i].parent].color += m_.paths[i].color;
         for (std::size_t i = 0; i < rays_; ++i)
-            if (m_.uses[i].sample) pixels_[m_.uses[i].pixel].color += zero_unless_finite(m_.paths[i].color);
+            if (m_.uses[i].sample) sums_[m_.uses[i].pixel].color += zero_unless_finite(m_.paths[i].color);
         clear();
     }
 
@@ -180,13 +175,8 @@ private:
     bool begin(std::uint32_t i, const Hit& hit) {
         const Use& use = m_.uses[i];
         const Vec3 direction = m_.paths[i].ray.direction;
-        PixelLayers* layers = layers_ ? layers_ + use.pixel : nullptr;
-        if (use.center && layers && hit) {
-            layers->position = zero_unless_finite(hit.position);
-            layers->normal = zero_unless_finite(hit.normal);
-            layers->z = hit.t * glm::dot(direction, in_.camera_.forward());
-            layers->id = std::uint32_t(hit.solid + 1);
-        }
+        LayerSums* layers = layers_ ? layers_ + use.pixel : nullptr;
+        if (use.center && layers && hit) layers->set_center(hit, direction, in_.camera_.forward());
         return use.sample;
     }
 
@@ -238,7 +228,7 @@ private:
         const Emitters::Met met = in_.emitters_.met(path.ray, hit.t);
         take_lights(path, std::min(hit.t, met.t));
         if (met.t < hit.t) {
-            if (depth_ == 0) pixels_[use.pixel].alpha += 1.0;
+            if (depth_ == 0) ++sums_[use.pixel].hits;
             if (!is_counted_already(path))
                 path.color += path.throughput * met.radiance * reflection_weight(path, met.emitter, met.density);
             return false;
@@ -250,10 +240,10 @@ private:
         const Material& material = in_.scene_.materials[hit.material];
         const Vec3 color = color_at(material.color, hit.position, hit.normal);
         if (depth_ == 0) {
-            pixels_[use.pixel].alpha += 1.0;
+            ++sums_[use.pixel].hits;
             if (layers_) {
                 layers_[use.pixel].albedo += zero_unless_finite(color);
-                layers_[use.pixel].solids.add(std::uint32_t(hit.solid + 1));
+                layers_[use.pixel].rest.solids.add(std::uint32_t(hit.solid + 1));
             }
         }
         take_emission(path, hit, material);
@@ -398,8 +388,8 @@ private:
     }
 
     const PathIntegrator& in_;
-    Pixel* pixels_;
-    PixelLayers* layers_;
+    PixelSums* sums_;
+    LayerSums* layers_;
     TraceCounters& counters_;
     Memory& m_;
     int depth_ = 0;
@@ -407,8 +397,8 @@ private:
 };
 
 // Of one pixel, named `pixel` in the batch.
-void PathIntegrator::samples(Batch& batch, int x, int y, std::uint32_t pixel, int first, int end) const {
-    for (int s = first; s < end; ++s) {
+void PathIntegrator::samples(Batch& batch, int x, int y, std::uint32_t pixel, SampleRange range) const {
+    for (int s = range.first; s < range.end; ++s) {
         const Sampler sampler(settings_.seed, x, y, s);
         const Vec2 offset = filter_offset(sampler.square(filter_draw));
         const double at_x = x + 0.5 + offset.x, at_y = y + 0.5 + offset.y;
@@ -417,100 +407,23 @@ void PathIntegrator::samples(Batch& batch, int x, int y, std::uint32_t pixel, in
     }
 }
 
-// How far two pictures of a cell, each of half of the samples, are apart as a display shows it (its curve is near a
-// root, so that d√I = dI / 2√I): the root of the mean square.
-static double seen_noise(const std::vector<Pixel>& a, const std::vector<Pixel>& b, std::size_t count, double samples) {
-    double sum = 0;
-    for (std::size_t i = 0; i < count; ++i)
-        for (int k = 0; k < 3; ++k) {
-            const double mean = (a[i].color[k] + b[i].color[k]) / (2 * samples);
-            const double error = (a[i].color[k] - b[i].color[k]) / (2 * samples);
-            sum += error * error / (4 * std::max(mean, dark));
-        }
-    return std::sqrt(sum / (3 * double(count)));
-}
-
-void PathIntegrator::cell(const Window& cell, Pixel* pixels, PixelLayers* layers, TraceCounters& counters) const {
-    const std::size_t count = std::size_t(cell.width) * cell.height;
-    if (layers) std::fill_n(layers, count, PixelLayers{});
-    thread_local Batch::Memory memory;
-    std::vector<Pixel> done(count), more(count);
-    const auto take = [&](std::vector<Pixel>& into, int first, int end) {
-        Batch batch(*this, into.data(), layers, counters, memory);
-        for (std::size_t i = 0; i < count; ++i) {
-            const int x = cell.x + int(i) % cell.width, y = cell.y + int(i) / cell.width;
-            const std::uint64_t evaluations = counters.evaluations;
-            if (layers && first == 0)
-                batch.add(camera_.ray(x + 0.5, y + 0.5),
-                          {Sampler(settings_.seed, x, y, 0), std::uint32_t(i), true, false});
-            samples(batch, x, y, std::uint32_t(i), first, end);
-            if (!layers || !settings_.cost) continue;
-            batch.finish();
-            layers[i].cost += double(counters.evaluations - evaluations);
-        }
-        batch.finish();
-    };
-    const int most = std::max(1, settings_.spp);
-    int n = std::min(min_cell_samples / 2, most);
-    take(done, 0, n);
-    while (n < most) {
-        const int next = std::min(2 * n, most);
-        std::fill(more.begin(), more.end(), Pixel{});
-        take(more, n, next);
-        const bool is_enough = next == 2 * n && seen_noise(done, more, count, n) <= settings_.noise;
-        for (std::size_t i = 0; i < count; ++i) {
-            done[i].color += more[i].color;
-            done[i].alpha += more[i].alpha;
-        }
-        n = next;
-        if (is_enough) break;
-    }
-    for (std::size_t i = 0; i < count; ++i) {
-        pixels[i] = {done[i].color / double(n), done[i].alpha / n};
-        if (!layers) continue;
-        layers[i].albedo /= n;
-        layers[i].solids.divide(n);
-    }
-}
-
-void PathIntegrator::cells(const Window& block, Pixel* pixels, PixelLayers* layers, TraceCounters& counters) const {
-    std::vector<Pixel> part(cell_side * cell_side);
-    std::vector<PixelLayers> part_layers(layers ? part.size() : 0);
-    const auto down = [](int i) { return i / cell_side * cell_side; };
-    for (int y = down(block.y); y < block.y + block.height; y += cell_side)
-        for (int x = down(block.x); x < block.x + block.width; x += cell_side) {
-            const Window window{x, y, std::min(cell_side, settings_.width - x),
-                                std::min(cell_side, settings_.height - y)};
-            cell(window, part.data(), layers ? part_layers.data() : nullptr, counters);
-            for (int j = 0; j < window.height; ++j)
-                for (int i = 0; i < window.width; ++i) {
-                    const int to_x = x + i - block.x, to_y = y + j - block.y;
-                    if (to_x < 0 || to_y < 0 || to_x >= block.width || to_y >= block.height) continue;
-                    pixels[to_y * block.width + to_x] = part[j * window.width + i];
-                    if (layers) layers[to_y * block.width + to_x] = part_layers[j * window.width + i];
-                }
-        }
-}
-
-void PathIntegrator::block(const Window& block, Pixel* pixels, PixelLayers* layers, TraceCounters& counters) const {
-    if (settings_.noise > 0) return cells(block, pixels, layers, counters);
-    const std::size_t count = std::size_t(block.width) * block.height;
-    std::fill_n(pixels, count, Pixel{});
-    if (layers) std::fill_n(layers, count, PixelLayers{});
-    const int spp = std::max(1, settings_.spp);
+void PathIntegrator::take(SampleRange range, const Window& block, PixelSums* sums, LayerSums* layers,
+                          TraceCounters& counters) const {
     const bool apart = layers && settings_.cost;
     thread_local Batch::Memory memory;
-    Batch batch(*this, pixels, layers, counters, memory);
+    Batch batch(*this, sums, layers, counters, memory);
     std::uint64_t evaluations = counters.evaluations;
     const auto pixel = [&](int x, int y) {
         const auto i = std::uint32_t(y * block.width + x);
         x += block.x;
         y += block.y;
-        if (layers) batch.add(camera_.ray(x + 0.5, y + 0.5), {Sampler(settings_.seed, x, y, 0), i, true, false});
-        samples(batch, x, y, i, 0, spp);
+        if (layers && range.first == 0)
+            batch.add(camera_.ray(x + 0.5, y + 0.5), {Sampler(settings_.seed, x, y, 0), i, true, false});
+        samples(batch, x, y, i, range);
+        sums[i].samples += std::uint32_t(range.end - range.first);
         if (!apart) return;
         batch.finish();
-        layers[i].cost = double(counters.evaluations - evaluations);
+        layers[i].rest.cost += double(counters.evaluations - evaluations);
         evaluations = counters.evaluations;
     };
     for (int top = 0; top < block.height; top += path_patch)
@@ -518,13 +431,6 @@ void PathIntegrator::block(const Window& block, Pixel* pixels, PixelLayers* laye
             for (int y = top; y < std::min(top + path_patch, block.height); ++y)
                 for (int x = left; x < std::min(left + path_patch, block.width); ++x) pixel(x, y);
     batch.finish();
-    for (std::size_t i = 0; i < count; ++i) {
-        pixels[i].color /= spp;
-        pixels[i].alpha /= spp;
-        if (!layers) continue;
-        layers[i].albedo /= spp;
-        layers[i].solids.divide(spp);
-    }
 }
 
 }  // namespace deburr

@@ -11,10 +11,6 @@
 // does all other light, and no path goes from a rough surface over glass to a light; and the highlights that a rough
 // surface would see on others, and seldom find, are wider and dimmer, of the same energy [Kaplanyan & Dachsbacher
 // 2013].
-//
-// With a noise bound, the cells of an even grid over the whole picture, 8 pixels wide, each end by themselves: when two
-// halves of their samples are alike [Dammertz et al., A Hierarchical Automatic Stopping Condition, 2010]. A part of a
-// cell is rendered as all of it, so that no pixel depends on a crop.
 #pragma once
 #include <memory>
 #include <vector>
@@ -29,14 +25,13 @@ class PathIntegrator {
 public:
     /// Keeps references to both.
     PathIntegrator(const Scene& scene, const RayTracer& tracer, const RenderSettings& settings);
-    /// As Integrator::block.
-    void block(const Window& block, Pixel* pixels, PixelLayers* layers, TraceCounters& counters) const;
+    /// As Integrator::take.
+    void take(SampleRange range, const Window& block, PixelSums* sums, LayerSums* layers,
+              TraceCounters& counters) const;
 
 private:
     class Batch;
-    void samples(Batch& batch, int x, int y, std::uint32_t pixel, int first, int end) const;
-    void cell(const Window& cell, Pixel* pixels, PixelLayers* layers, TraceCounters& counters) const;
-    void cells(const Window& block, Pixel* pixels, PixelLayers* layers, TraceCounters& counters) const;
+    void samples(Batch& batch, int x, int y, std::uint32_t pixel, SampleRange range) const;
 
     bool lets_light_pass(const Material& m) const { return m.kind == Material::Kind::glass || m.transmission > 0; }
 

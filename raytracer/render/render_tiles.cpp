@@ -23,39 +23,13 @@ std::int64_t tiles_along(int first, int pixels) {
 // A picture in the making. It outlives its caller where tiles are abandoned.
 class Making {
 public:
-    Making(Film film, const BlockFunction& block, const std::atomic<bool>& stop, const PixelsDone& done)
-        : block_(block), stop_(stop), done_(done), window_(film.window), with_layers_(film.keeps_layers()) {
+    Making(Film film, const BlockFunction& block, const PixelsDone& done)
+        : block_(block), done_(done), window_(film.window), with_layers_(film.keeps_layers()) {
         result_.film = std::move(film);
     }
 
-    void run() {
-        // The scheduler hands out tickets in an order of its own; whoever holds one takes the next tile
-        // from the top, so that an interrupted picture has no holes above its lower edge.
-        tbb::parallel_for(
-            tbb::blocked_range<std::int64_t>(0, tile_count(window_)),
-            [&](const tbb::blocked_range<std::int64_t>& tickets) {
-                Work& mine = work_.local();
-                for (std::int64_t i = tickets.begin(); i != tickets.end(); ++i)
-                    if (!stop_.load(std::memory_order_relaxed)) fill(tile(window_, next_++), mine);
-            },
-            tbb::simple_partitioner{});
-    }
-
-    // What is finished by now; nothing is added to it any more.
-    Rendering take() {
-        const std::unique_lock all(film_);
-        closed_ = true;
-        result_.film.complete = result_.pixels_done == std::int64_t(window_.width) * std::int64_t(window_.height);
-        return std::move(result_);
-    }
-
-private:
-    struct Work {
-        std::array<Pixel, tile_side * tile_side> pixels;
-        std::vector<PixelLayers> layers;
-    };
-
-    void fill(const Window& part, Work& work) {
+    void fill(const Window& part) {
+        Work& work = work_.local();
         if (with_layers_) work.layers.resize(work.pixels.size());
         TraceCounters counters;
         block_(part, work.pixels.data(), with_layers_ ? work.layers.data() : nullptr, counters);
@@ -74,12 +48,26 @@ private:
         if (done_) done_(pixels);
     }
 
+    // What is finished by now; nothing is added to it any more.
+    Rendering take() {
+        const std::unique_lock all(film_);
+        closed_ = true;
+        result_.film.complete = result_.pixels_done == std::int64_t(window_.width) * std::int64_t(window_.height);
+        return std::move(result_);
+    }
+
+    const Window& window() const { return window_; }
+
+private:
+    struct Work {
+        std::array<Pixel, tile_side * tile_side> pixels;
+        std::vector<PixelLayers> layers;
+    };
+
     const BlockFunction block_;
-    const std::atomic<bool>& stop_;
     const PixelsDone done_;
     const Window window_;
     const bool with_layers_;
-    std::atomic<std::int64_t> next_{0};
     tbb::enumerable_thread_specific<Work> work_;
     std::shared_mutex film_;  // shared by those who add tiles of their own
     std::mutex sums_;
@@ -104,9 +92,60 @@ Window tile(const Window& window, std::int64_t index) {
             std::min(top + tile_side, window.y + window.height) - y};
 }
 
+namespace {
+
+// The scheduler hands out tickets in an order of its own; whoever holds one takes the next tile from the top, so that
+// an interrupted picture has no holes above its lower edge.
+void run_tiles(const Window& window, const std::function<void(const Window&)>& work, const std::atomic<bool>& stop,
+               const std::atomic<bool>& pause) {
+    std::atomic<std::int64_t> next{0};
+    tbb::parallel_for(
+        tbb::blocked_range<std::int64_t>(0, tile_count(window)),
+        [&](const tbb::blocked_range<std::int64_t>& tickets) {
+            for (std::int64_t i = tickets.begin(); i != tickets.end(); ++i)
+                if (!stop.load(std::memory_order_relaxed) && !pause.load(std::memory_order_relaxed))
+                    work(tile(window, next++));
+        },
+        tbb::simple_partitioner{});
+}
+
+}  // namespace
+
+TilesEnd for_each_tile(const Window& window, const std::function<void(const Window&)>& work,
+                       const std::atomic<bool>& stop, const Pause& pause, std::chrono::milliseconds grace) {
+    // How soon a stop is noticed.
+    constexpr std::chrono::milliseconds poll_interval = std::chrono::milliseconds(20);
+    const auto paused = std::make_shared<std::atomic<bool>>(false);
+    const auto ended = [&] { return stop || *paused ? TilesEnd::stopped : TilesEnd::all; };
+    std::packaged_task<void()> run([window, work, &stop, paused] { run_tiles(window, work, stop, *paused); });
+    std::future<void> end = run.get_future();
+    std::thread thread;
+    try {
+        thread = std::thread(std::move(run));
+    } catch (const std::system_error&) {  // none is to be had: then this one does the work
+        run_tiles(window, work, stop, *paused);
+        return ended();
+    }
+    std::chrono::milliseconds waited(0);
+    while (end.wait_for(poll_interval) != std::future_status::ready) {
+        if (pause && !*paused && pause()) *paused = true;
+        if (stop && waited >= grace) break;
+        if (stop) waited += poll_interval;
+    }
+    if (end.wait_for(std::chrono::seconds(0)) == std::future_status::ready) {
+        thread.join();
+        end.get();
+        return ended();
+    }
+    thread.detach();
+    abandoned = true;
+    return TilesEnd::abandoned;
+}
+
 Rendering render(Film film, const BlockFunction& block, const std::atomic<bool>& stop, const PixelsDone& done) {
-    Making making(std::move(film), block, stop, done);
-    making.run();
+    Making making(std::move(film), block, done);
+    run_tiles(
+        making.window(), [&](const Window& part) { making.fill(part); }, stop, std::atomic<bool>(false));
     return making.take();
 }
 
@@ -117,30 +156,11 @@ Rendering render(Film film, const BlockFunction& block) {
 
 Rendering render(Film film, const BlockFunction& block, const std::atomic<bool>& stop, const PixelsDone& done,
                  std::chrono::milliseconds grace) {
-    // How soon a stop is noticed, and an end told.
-    constexpr std::chrono::milliseconds poll_interval = std::chrono::milliseconds(20);
-    const auto making = std::make_shared<Making>(std::move(film), block, stop, done);
-    std::packaged_task<void()> run([making] { making->run(); });
-    std::future<void> end = run.get_future();
-    std::thread thread;
-    try {
-        thread = std::thread(std::move(run));
-    } catch (const std::system_error&) {  // none is to be had: then this one does the work
-        making->run();
-        return making->take();
-    }
-    std::chrono::milliseconds waited(0);
-    while (end.wait_for(poll_interval) != std::future_status::ready && waited < grace)
-        if (stop) waited += poll_interval;
-    if (end.wait_for(std::chrono::seconds(0)) == std::future_status::ready) {
-        thread.join();
-        end.get();
-        return making->take();
-    }
-    thread.detach();
-    abandoned = true;
+    const auto making = std::make_shared<Making>(std::move(film), block, done);
+    const TilesEnd end = for_each_tile(
+        making->window(), [making](const Window& part) { making->fill(part); }, stop, {}, grace);
     Rendering result = making->take();
-    result.abandoned = true;
+    result.abandoned = end == TilesEnd::abandoned;
     return result;
 }
 

@@ -23,6 +23,23 @@ constexpr int tile_side = 16;
 std::int64_t tile_count(const Window& window);
 Window tile(const Window& window, std::int64_t index);
 
+/// How work over tiles came to its end.
+enum class TilesEnd {
+    all,
+    stopped,    // with tiles left
+    abandoned,  // threads are still at work on tiles that nobody waits for
+};
+
+/// Asked every 20 ms whether no further tile shall start.
+using Pause = std::function<bool()>;
+
+/// Calls work(tile) for all tiles of a window, in parallel and from the top. Once `stop` is set or `pause` has said so
+/// no further tile starts; those in hand are finished, or, if that takes longer than `grace`, abandoned. Their threads
+/// go on until the process ends, with copies of `work`, which shares in the ownership of all that it uses; `stop`
+/// outlives them. What `work` throws comes through.
+TilesEnd for_each_tile(const Window& window, const std::function<void(const Window&)>& work,
+                       const std::atomic<bool>& stop, const Pause& pause, std::chrono::milliseconds grace);
+
 /// Sets all pixels of a block of the picture, row by row, and, unless null, their layers; a block is
 /// a tile or a part of one. Called from many threads at once.
 using BlockFunction =

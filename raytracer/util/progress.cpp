@@ -11,6 +11,7 @@ namespace deburr {
 namespace {
 
 constexpr double bar_interval = 0.1;                // seconds: looks smooth and costs nothing
+constexpr double json_interval = 1;                 // seconds: soon enough for a page that shows it
 constexpr double line_interval = 10;                // seconds: a log shows that the work goes on
 constexpr int line_percent = 10;                    // or every so many percent
 constexpr double first_line_after = 1;              // seconds: short work needs no account of itself
@@ -25,7 +26,12 @@ std::string clock_time(double seconds) {
 }
 
 Progress::Output Progress::standard_error(bool quiet) {
+    return standard_error(quiet ? Style::none : isatty(STDERR_FILENO) ? Style::bar : Style::lines);
+}
+
+Progress::Output Progress::standard_error(Style style) {
     Output output;
+    output.style = style;
     output.now = [] {
         return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
     };
@@ -33,17 +39,18 @@ Progress::Output Progress::standard_error(bool quiet) {
         std::fwrite(text.data(), 1, text.size(), stderr);
         std::fflush(stderr);
     };
-    if (quiet) return output;
-    output.style = isatty(STDERR_FILENO) ? Style::bar : Style::lines;
     winsize size{};
     if (ioctl(STDERR_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 0) output.columns = size.ws_col;
     return output;
 }
 
-Progress::Progress(double total, Output output)
-    : output_(std::move(output)), total_(total), start_(output_.now ? output_.now() : 0) {
-    shown_at_ = start_;
-}
+Progress::Progress(double total, Output output, double done)
+    : output_(std::move(output)),
+      total_(total),
+      start_(output_.now ? output_.now() : 0),
+      start_done_(done),
+      done_(done),
+      shown_at_(start_) {}
 
 void Progress::advance(double work) {
     if (output_.style == Style::none) return;
@@ -60,9 +67,15 @@ void Progress::show(double now) {
     std::string rest;
     if (finished_)
         rest = elapsed < 60 ? fmt::format("in {:.1f} s", elapsed) : "in " + clock_time(elapsed);
-    else if (share > 0)
-        rest = clock_time(elapsed * (1 / share - 1)) + " left";
-    if (output_.style == Style::bar) {
+    else if (const auto seconds = left(now))
+        rest = clock_time(*seconds) + " left";
+    if (output_.style == Style::json) {
+        if (!finished_ && now - shown_at_ < json_interval) return;
+        show_json(share, now, finished_ ? "done" : "progress");
+    } else if (output_.style == Style::farm) {
+        if (!finished_ && percent == shown_percent_) return;
+        output_.print(fmt::format("Progress: {}%  {}\n", percent, rest));
+    } else if (output_.style == Style::bar) {
         if (open_ && !finished_ && now - shown_at_ < bar_interval) return;
         const int room = output_.columns - 1 - int(std::string_view("[] 100 %  00:00:00 left").size());
         const int bar = std::clamp(room, narrowest_bar, widest_bar);
@@ -80,6 +93,18 @@ void Progress::show(double now) {
     shown_percent_ = percent;
 }
 
+std::optional<double> Progress::left(double now) const {
+    if (!(done_ > start_done_)) return std::nullopt;
+    return (now - start_) * (total_ - done_) / (done_ - start_done_);
+}
+
+void Progress::show_json(double share, double now, const char* event) {
+    const auto seconds = left(now);
+    output_.print(
+        fmt::format("{{\"event\": \"{}\", \"fraction\": {:.4f}, \"seconds\": {:.1f}, \"seconds_left\": {}}}\n", event,
+                    share, now - start_, seconds ? fmt::format("{:.1f}", *seconds) : "null"));
+}
+
 void Progress::finish() {
     if (output_.style == Style::none || finished_) return;
     const std::lock_guard lock(mutex_);
@@ -92,6 +117,10 @@ void Progress::finish() {
 
 void Progress::stop() {
     const std::lock_guard lock(mutex_);
+    if (output_.style == Style::json && !finished_) {
+        show_json(std::min(done_ / total_, 0.99), output_.now(), "stopped");
+        finished_ = true;
+    }
     if (open_) output_.print("\n");
     open_ = false;
 }

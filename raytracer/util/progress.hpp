@@ -1,4 +1,5 @@
-// How far the work is: a bar with the time left on a terminal, a line now and then elsewhere.
+// How far the work is: a bar with the time left on a terminal, a line now and then elsewhere; for other programs, lines
+// of a fixed form or JSON.
 //
 // Measured in work, with the writing of files in it, so that 100 % means that everything is done;
 // it never goes back. The time left supposes that the rest goes as fast as what is done.
@@ -6,6 +7,7 @@
 #include <chrono>
 #include <functional>
 #include <mutex>
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -13,7 +15,13 @@ namespace deburr {
 
 class Progress {
 public:
-    enum class Style { none, bar, lines };
+    enum class Style {
+        none,
+        bar,
+        lines,
+        farm,  // "Progress: 42%" at every percent, as render farms look for it
+        json,  // an object a line, once a second and at the end
+    };
 
     struct Output {
         Style style = Style::none;
@@ -24,9 +32,10 @@ public:
 
     /// Output to stderr: a bar if it is a terminal, else lines. `quiet`: nothing at all.
     static Output standard_error(bool quiet);
+    static Output standard_error(Style style);
 
-    /// The clock starts here. total > 0, in units of the caller's choice.
-    Progress(double total, Output output);
+    /// The clock starts here. total > 0, in units of the caller's choice; `done` of it were done by an earlier run.
+    Progress(double total, Output output, double done = 0);
 
     /// `work` ≥ 0 more is done; safe from many threads.
     void advance(double work);
@@ -37,11 +46,14 @@ public:
 
 private:
     void show(double now);
+    void show_json(double share, double now, const char* event);
+    /// Seconds, once anything is known of them.
+    std::optional<double> left(double now) const;
 
     const Output output_;
     const double total_;
     std::mutex mutex_;
-    double start_, done_ = 0, shown_at_;
+    double start_, start_done_, done_, shown_at_;
     int shown_percent_ = 0;
     bool open_ = false, finished_ = false;
 };

@@ -46,6 +46,15 @@ int incomplete(const std::string& path) {
     return input ? input->spec().get_int_attribute("deburr.incomplete", 0) : -1;
 }
 
+std::vector<float> pixels(const std::string& path) {
+    const auto input = OIIO::ImageInput::open(path);
+    REQUIRE(input);
+    const OIIO::ImageSpec& spec = input->spec();
+    std::vector<float> values(std::size_t(spec.width) * std::size_t(spec.height) * std::size_t(spec.nchannels));
+    REQUIRE(input->read_image(0, 0, 0, spec.nchannels, OIIO::TypeDesc::FLOAT, values.data()));
+    return values;
+}
+
 }  // namespace
 
 TEST_CASE("the first interrupt saves what there is, marked incomplete") {
@@ -95,7 +104,7 @@ TEST_CASE("the second SIGINT ends at once and leaves nothing") {
     CHECK(place.names() == Words{"cube.lua"});
 }
 
-TEST_CASE("a tile that takes long is not waited for") {
+TEST_CASE("an interrupted picture has the samples that all pixels have, and ends within a second") {
     const Place place;
     Call call({"render", place.scene, "-o", place / "a.exr", "-v", "--spp", "1048576"});
     REQUIRE(call.says(" half-spaces"));
@@ -105,8 +114,33 @@ TEST_CASE("a tile that takes long is not waited for") {
     const Outcome o = call.wait();
     CHECK(std::chrono::steady_clock::now() - start < std::chrono::seconds(1));
     CHECK(o.code == 130);
-    CHECK(o.err.find("interrupted before the first tile: nothing is written\n") != std::string::npos);
-    CHECK(place.names() == Words{"cube.lua"});
+    CAPTURE(o.err);
+    const std::size_t at = o.err.find("interrupted after ");
+    REQUIRE(at != std::string::npos);
+    CHECK(o.err.find(" of 1048576 samples of all pixels: the picture is marked incomplete\n") != std::string::npos);
+    CHECK(incomplete(place / "a.exr") == 1);
+    // As many samples as it says, and no pixel has more.
+    const std::string samples = std::to_string(std::stoi(o.err.substr(at + std::string("interrupted after ").size())));
+    REQUIRE(run({"render", place.scene, "-o", place / "b.exr", "-q", "--spp", samples}).code == 0);
+    CHECK(pixels(place / "a.exr") == pixels(place / "b.exr"));
+}
+
+TEST_CASE("--write-every writes what all pixels have, and the picture at the end is the same") {
+    const Place place;
+    Call call({"render", place.scene, "-o", place / "a.exr", "-q", "--size", "300x300", "--spp", "4000",
+               "--write-every", "0.2"});
+    for (int i = 0; i < 1000 && !std::filesystem::exists(place / "a.exr"); ++i) pause_for(0.02);
+    CHECK(call.running());
+    CHECK(incomplete(place / "a.exr") == 1);
+    call.send(SIGTERM);
+    CHECK(call.wait().code == 130);
+    for (const char* name : {"b.exr", "c.exr"}) {
+        Words words = {"render", place.scene, "-o", place / name, "-q", "--size", "200x200", "--spp", "150"};
+        if (name[0] == 'c') words.insert(words.end(), {"--write-every", "0.05"});
+        REQUIRE(run(words).code == 0);
+    }
+    CHECK(incomplete(place / "c.exr") == 0);
+    CHECK(pixels(place / "b.exr") == pixels(place / "c.exr"));
 }
 
 TEST_CASE("an interrupt is heeded within a second in every phase") {

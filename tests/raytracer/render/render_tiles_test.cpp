@@ -145,6 +145,11 @@ TEST_CASE("without a stop the grace period changes nothing") {
     CHECK_FALSE(b.abandoned);
     CHECK(b.counters.evaluations == a.counters.evaluations);
     for (std::size_t i = 0; i < a.film.pixels.size(); ++i) REQUIRE(a.film.pixels[i].color == b.film.pixels[i].color);
+    const auto slow = [](const Window& block, Pixel* pixels, PixelLayers* layers, TraceCounters& counters) {
+        std::this_thread::sleep_for(std::chrono::milliseconds(100));
+        places(block, pixels, layers, counters);
+    };
+    CHECK(render(Film(16, 16, {0, 0, 16, 16}), slow, never, {}, std::chrono::milliseconds(0)).film.complete);
     const auto thrower = [](const Window&, Pixel*, PixelLayers*, TraceCounters&) { throw std::bad_alloc(); };
     CHECK_THROWS_AS(render(Film(64, 64, {0, 0, 64, 64}), thrower, never, {}, std::chrono::milliseconds(0)),
                     std::bad_alloc);

@@ -96,3 +96,43 @@ TEST_CASE("clock_time rounds up to seconds") {
     CHECK(clock_time(75) == "1:15");
     CHECK(clock_time(3675) == "1:01:15");
 }
+
+TEST_CASE("what an earlier run has done does not count for the time that is left") {
+    Screen screen;
+    Progress progress(8, screen.output(Progress::Style::bar), 4);
+    screen.now += 25;
+    progress.advance(1);
+    REQUIRE(screen.printed.size() == 1);
+    CHECK(screen.printed[0].find(" 62 %  1:15 left") != std::string::npos);
+}
+
+TEST_CASE("progress for render farms is a line at every percent") {
+    Screen screen;
+    Progress progress(200, screen.output(Progress::Style::farm));
+    for (int i = 0; i < 200; ++i) {
+        screen.now += 1;
+        progress.advance(1);
+    }
+    progress.finish();
+    REQUIRE(screen.printed.size() == 100);  // 1 to 99 %, and the end
+    CHECK(screen.printed[0] == "Progress: 1%  3:18 left\n");
+    CHECK(screen.printed.back() == "Progress: 100%  in 3:20\n");
+}
+
+TEST_CASE("progress as JSON is an object a line, once a second, and one that says how it ended") {
+    for (const bool done : {true, false}) {
+        Screen screen;
+        Progress progress(100, screen.output(Progress::Style::json));
+        for (int i = 0; i < 50; ++i) {
+            screen.now += 0.25;
+            progress.advance(2);
+        }
+        done ? progress.finish() : progress.stop();
+        if (done) progress.stop();
+        REQUIRE(screen.printed.size() == 13);
+        CHECK(screen.printed[0] ==
+              "{\"event\": \"progress\", \"fraction\": 0.0800, \"seconds\": 1.0, \"seconds_left\": 11.5}\n");
+        CHECK(screen.printed.back().find(done ? "{\"event\": \"done\", \"fraction\": 1.0000"
+                                              : "{\"event\": \"stopped\"") == 0);
+    }
+}

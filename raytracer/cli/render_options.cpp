@@ -1,0 +1,169 @@
+#include "raytracer/cli/render_options.hpp"
+
+#include <fmt/format.h>
+
+#include "raytracer/util/errors.hpp"
+
+namespace deburr {
+namespace {
+
+void check_via(const std::string& via) {
+    try {
+        if (via != "implicit") parse_mesh_method("--via", via);
+    } catch (const UsageError&) {
+        throw UsageError(fmt::format("--via: expected implicit, {}, got '{}'", mesh_method_names(), via));
+    }
+}
+
+void check_mesh_options(const RenderOptions& o) {
+    check_via(o.via);
+    if (!o.tolerance.empty()) {
+        if (o.via != "triage" && o.via != "octree")
+            throw UsageError("--tolerance: expected --via triage or octree, got '" + o.via + "'");
+        parse_tolerance(o.tolerance);
+    }
+    if (o.accel && o.via != "implicit") throw UsageError("--accel: expected --via implicit, got '" + o.via + "'");
+    for (const auto& [name, given] : {std::pair{"--flat", o.flat}, {"--edges", o.edges}, {"--wire", !o.wire.empty()}})
+        if (given && o.via == "implicit")
+            throw UsageError(fmt::format("{}: expected --via {}, got 'implicit'", name, mesh_method_names()));
+    if (!o.wire.empty() && o.wire != "visible" && o.wire != "front")
+        throw UsageError("--wire: expected visible or front, got '" + o.wire + "'");
+}
+
+// Where samples are taken until something is reached.
+void check_sample_options(const RenderOptions& o) {
+    if (o.draft && o.spp) throw UsageError("--draft: expected it without --spp, for it is --spp 1");
+    if (o.integrator == IntegratorKind::preview)
+        for (const auto& [name, given] : {std::pair{"--noise", o.noise.has_value()}, {"--time", o.seconds.has_value()}})
+            if (given) throw UsageError(fmt::format("{}: expected --integrator path, got 'preview'", name));
+    if (o.draft && (o.noise || o.seconds))
+        throw UsageError(
+            fmt::format("{}: expected it without --draft, which is one sample", o.noise ? "--noise" : "--time"));
+    if (o.seconds && o.spp) throw UsageError("--time: expected no --spp beside it, got one");
+}
+
+}  // namespace
+
+void check_render_options(const RenderOptions& o) {
+    check_mesh_options(o);
+    if (o.scene.empty()) throw UsageError("render: expected a scene file");
+    if (o.outputs.empty()) throw UsageError("render: expected an output file, -o FILE");
+    check_image_names("-o", o.outputs);
+    check_sample_options(o);
+    bool exr = false, png = false;
+    for (const std::string& path : o.outputs) {
+        exr |= image_kind(path) == ImageKind::exr;
+        png |= image_extension(path) == ".png";
+        if (o.alpha && image_extension(path) != ".png" && image_kind(path) != ImageKind::exr)
+            throw UsageError("--alpha: expected outputs that end in .exr or .png, got '" + path + "'");
+    }
+    if (!png && o.bits != 8) throw UsageError("--bits: expected an output that ends in .png, got none");
+    if (!exr && !o.layers.empty()) throw UsageError("--aov: expected an output that ends in .exr, got none");
+    if (!exr && o.float_color) throw UsageError("--float: expected an output that ends in .exr, got none");
+    check_outputs(o.outputs, {o.stats_json}, {o.scene});
+}
+
+CLI::App* add_render_options(CLI::App& program, const std::shared_ptr<RenderOptions>& options) {
+    CLI::App* command = program.add_subcommand("render", "render a scene to image files");
+    add_scene_options(*command, *options);
+    add_output_option(*command, *options, known_extensions());
+    add_picture_options(*command, *options, "the scene's, or as many as leave hardly any noise, 16 to 256");
+    command->add_flag("--draft", options->draft, "one sample per pixel, whatever the scene says: quick, without noise");
+    command
+        ->add_option("--via", options->via,
+                     "how surfaces are found: implicit (exact, the default), or as a mesh by " + mesh_method_names())
+        ->type_name("NAME");
+    command
+        ->add_option_function<std::string>(
+            "--accel", [options](const std::string& text) { options->accel = parse_accel("--accel", text); },
+            "implicit only: find surfaces by our own BVH over BSP cells or by Embree's, with the same picture; "
+            "default: bvh")
+        ->type_name("bvh|embree");
+    command
+        ->add_option_function<std::string>(
+            "--integrator",
+            [options](const std::string& text) { options->integrator = parse_integrator("--integrator", text); },
+            "path finds all light; preview has no noise, shadows and polished reflections; default: path from two "
+            "samples per pixel on, preview with one")
+        ->type_name("path|preview");
+    command
+        ->add_option_function<std::string>(
+            "--noise", [options](const std::string& text) { options->noise = parse_positive("--noise", text); },
+            "paths only: take samples until this much noise is left in each part of the picture, as a share of white "
+            "on a display, 0.01: hardly seen; --spp is their limit, 4096 by default")
+        ->type_name("X");
+    command
+        ->add_option_function<std::string>(
+            "--time", [options](const std::string& text) { options->seconds = parse_positive("--time", text); },
+            "paths only: as many samples as take about so many seconds")
+        ->type_name("SECONDS");
+    command
+        ->add_option_function<std::string>(
+            "--view",
+            [options](const std::string& text) {
+                if (text != "standard" && text != "agx")
+                    throw UsageError("--view: expected standard or agx, got '" + text + "'");
+                options->view = text == "agx" ? ViewTransform::agx : ViewTransform::standard;
+            },
+            "tone curve of files for the screen, not of an EXR: standard clips what is brighter than white, agx lets "
+            "it "
+            "go to white softly; default: standard")
+        ->type_name("standard|agx");
+    command->add_flag("--denoise", options->denoise,
+                      "smooth the noise that is left, guided by normals and albedo, which an EXR then has, too: for a "
+                      "quick look, not for measurements");
+    command
+        ->add_option("--tolerance", options->tolerance,
+                     "meshes only: the mesh's tolerance, as for mesh; default: 0.03 of each solid's least radius")
+        ->type_name("D");
+    command->add_flag("--flat", options->flat, "meshes only: shade each facet with one normal");
+    command->add_flag("--edges", options->edges, "meshes only: draw the polygons' edges as black lines");
+    command
+        ->add_option(
+            "--wire", options->wire,
+            "meshes only: draw edges alone, with hidden lines removed (visible), or all of faces towards the camera "
+            "(front)")
+        ->type_name("visible|front");
+    command
+        ->add_option_function<std::string>(
+            "--bits",
+            [options](const std::string& text) {
+                if (text != "8" && text != "16") throw UsageError("--bits: expected 8 or 16, got '" + text + "'");
+                options->bits = text == "8" ? 8 : 16;
+            },
+            "of each number in a PNG; default: 8")
+        ->type_name("8|16");
+    command
+        ->add_option_function<std::string>(
+            "--exposure",
+            [options](const std::string& text) { options->exposure = parse_exposure("--exposure", text); },
+            "of pictures for the screen, in stops: 1 shows the light twice as bright, -1 half as bright; .exr and .hdr "
+            "keep the light as it is; default: the scene's")
+        ->type_name("E");
+    command->add_flag("--alpha", options->alpha,
+                      "without the background that the camera sees: a PNG is transparent there, and an EXR black");
+    command
+        ->add_option_function<std::string>(
+            "--write-every",
+            [options](const std::string& text) { options->write_every = parse_positive("--write-every", text); },
+            "write the outputs every so many seconds, too, with the samples that all pixels have by then")
+        ->type_name("SECONDS");
+    command
+        ->add_option_function<std::string>(
+            "--progress",
+            [options](const std::string& text) {
+                const std::string word = parse_word("--progress", text, {"bar", "lines", "json", "none"});
+                options->progress = word == "bar"     ? Progress::Style::bar
+                                    : word == "lines" ? Progress::Style::farm
+                                    : word == "json"  ? Progress::Style::json
+                                                      : Progress::Style::none;
+            },
+            "how stderr tells how far the work is: lines of 'Progress: 42%' and json, an object a line, are for other "
+            "programs; default: a bar on a terminal, else a line now and then")
+        ->type_name("bar|lines|json|none");
+    add_run_options(*command, *options);
+    add_statistics_options(*command, *options);
+    return command;
+}
+
+}  // namespace deburr

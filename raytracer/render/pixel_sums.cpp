@@ -1,0 +1,42 @@
+#include "raytracer/render/pixel_sums.hpp"
+
+#include <algorithm>
+
+namespace deburr {
+namespace {
+
+// Samples of a pass at most: a tile of them is soon done, and to hand it out costs nothing beside it.
+constexpr int largest_pass = 32;
+
+Vec3 zero_unless_all_finite(Vec3 v) {
+    return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z) ? v : Vec3(0.0);
+}
+
+}  // namespace
+
+SampleRange next_pass(SampleRange all, int done) {
+    done = std::max(done, all.first);
+    return {std::min(done, all.end), std::min(done + std::clamp(done - all.first, 1, largest_pass), all.end)};
+}
+
+void LayerSums::set_center(const Hit& hit, Vec3 direction, Vec3 forward) {
+    rest.position = zero_unless_all_finite(hit.position);
+    rest.normal = zero_unless_all_finite(hit.normal);
+    rest.z = hit.t * glm::dot(direction, forward);
+    rest.id = std::uint32_t(hit.solid + 1);
+}
+
+Pixel mean(const PixelSums& sums) {
+    if (sums.samples == 0) return {};
+    return {sums.color.value() / double(sums.samples), double(sums.hits) / sums.samples};
+}
+
+PixelLayers mean(const LayerSums& sums, std::uint32_t samples) {
+    PixelLayers layers = sums.rest;
+    if (samples == 0) return layers;
+    layers.albedo = sums.albedo.value() / double(samples);
+    layers.solids.divide(samples);
+    return layers;
+}
+
+}  // namespace deburr
