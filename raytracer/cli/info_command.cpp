@@ -8,6 +8,7 @@
 #include "raytracer/cli/options.hpp"
 #include "raytracer/scene/illegal_densities.hpp"
 #include "raytracer/scene/scene_descriptions.hpp"
+#include "raytracer/scene/seam_warnings.hpp"
 #include "raytracer/scene/solid_survey.hpp"
 #include "raytracer/scene/vanished_parts.hpp"
 #include "raytracer/scene/view_warnings.hpp"
@@ -106,8 +107,8 @@ Json describe(const Scene& scene, Size size) {
     j["illegal_densities"] = illegal_densities(scene);
     const VanishedParts vanished = vanished_parts(scene, nodes_to_look_at);
     j["warnings"] = Json::array();
-    for (const auto& lines :
-         {vanished.rounded_away, vanished.empty, view_warnings(scene, double(size.width) / size.height)})
+    for (const auto& lines : {vanished.rounded_away, vanished.empty, seam_warnings(scene),
+                              view_warnings(scene, double(size.width) / size.height)})
         for (const std::string& line : lines) j["warnings"].push_back(line);
     return j;
 }

@@ -13,6 +13,7 @@
 #include "raytracer/render/render_tiles.hpp"
 #include "raytracer/render/sample_count.hpp"
 #include "raytracer/scene/illegal_densities.hpp"
+#include "raytracer/scene/seam_warnings.hpp"
 #include "raytracer/scene/vanished_parts.hpp"
 #include "raytracer/scene/view_warnings.hpp"
 #include "raytracer/util/message.hpp"
@@ -91,8 +92,8 @@ Frame frame_of(const RenderOptions& o, const Scene& scene) {
 
 void warn_of_scene(const Scene& scene, double aspect) {
     const VanishedParts vanished = vanished_parts(scene);
-    for (const std::vector<std::string>& lines :
-         {illegal_densities(scene, boxes_to_warn), vanished.rounded_away, vanished.empty, view_warnings(scene, aspect)})
+    for (const std::vector<std::string>& lines : {illegal_densities(scene, boxes_to_warn), vanished.rounded_away,
+                                                  vanished.empty, seam_warnings(scene), view_warnings(scene, aspect)})
         for (const std::string& line : lines) message("warning: " + line);
 }
 

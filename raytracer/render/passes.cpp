@@ -72,9 +72,9 @@ struct Passes::Store {
         std::size_t i = 0;
         for (int y = shown.y; y < shown.y + shown.height; ++y)
             for (int x = shown.x; x < shown.x + shown.width; ++x, ++i) {
-                const PixelSums& sums = state.sums[index(x, y)];
-                film.at(x, y) = mean(sums);
-                if (layers) mine.pixel_layers[i] = mean(state.layers[index(x, y)], sums.samples);
+                const PixelSums& pixel = state.sums[index(x, y)];
+                film.at(x, y) = mean(pixel);
+                if (layers) mine.pixel_layers[i] = mean(state.layers[index(x, y)], pixel.samples);
             }
         if (layers) film.set_layers(shown, mine.pixel_layers.data());
     }
