@@ -1,4 +1,4 @@
--- A ball bearing, cut open: two rings with grooves, balls, and a cage of rivets; spheres, cylinders and tori as densities.
+-- A ball bearing, cut open: two rings with grooves, balls, and a cage; spheres, cylinders and tori as densities.
 local r = param("r", 0.06)
 
 local function about(radius, low, high) return cylinder{ from = {0, low, 0}, to = {0, high, 0}, radius = radius } end
@@ -30,9 +30,9 @@ solids[#solids + 1] = sharp(halfspace({0, 1, 0}, 0)):material(matte{ color = 0.3
 
 return {
   image = { width = 720, height = 456 },
-  camera = { eye = {3, 6.5, 13}, target = {0.1, 3.1, 0}, fov = 32 },
-  lights = { area_light{ position = {-6, 11, 6}, u = {0, 3, -4}, v = {5, 0, 0}, power = 900 },
-             area_light{ position = {9, 6, 4}, u = {-2, 0, 3}, v = {0, 4, 0}, power = 180, color = {1, 0.85, 0.7} } },
-  background = sky{ horizon = {0.75, 0.8, 0.9}, zenith = {0.35, 0.45, 0.7} },
+  camera = { eye = {2.6, 8, 12.5}, target = {0.05, 2.95, 0}, fov = 33 },
+  lights = { area_light{ position = {-6, 11, 6}, u = {0, 3, -4}, v = {5, 0, 0}, power = 1500 },
+             area_light{ position = {9, 6, 4}, u = {-2, 0, 3}, v = {0, 4, 0}, power = 260, color = {1, 0.85, 0.7} } },
+  background = sky{ horizon = {0.92, 0.92, 0.94}, zenith = {0.62, 0.68, 0.8} },
   solids = solids,
 }
