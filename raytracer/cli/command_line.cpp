@@ -125,7 +125,8 @@ int answer(int argc, char** argv, const std::vector<Command (*)(CLI::App&)>& mor
         program.require_subcommand(0, 1);  // "help render" names one command, and a scene may be called "mesh"
         std::vector<Command> commands = {add_render_command(program),     add_mesh_command(program),
                                          add_compare_command(program),    add_info_command(program),
-                                         add_export_pov_command(program), add_help_command(program)};
+                                         add_export_pov_command(program), add_merge_command(program),
+                                         add_help_command(program)};
         for (const auto add : more) commands.push_back(add(program));
         for (const Command& command : commands) command.app->allow_extras();
         const int code = run(program, commands, argc, argv);

@@ -1,12 +1,12 @@
 // deburr compare SCENE, deburr compare A B: how far the two roads, or two files, are apart.
 #include <fmt/format.h>
 #include <tbb/global_control.h>
-#include <tbb/info.h>
 
 #include <memory>
 #include <nlohmann/json.hpp>
 
 #include "raytracer/cli/commands.hpp"
+#include "raytracer/cli/farm_options.hpp"
 #include "raytracer/cli/options.hpp"
 #include "raytracer/image/image_difference.hpp"
 #include "raytracer/image/image_file.hpp"
@@ -73,7 +73,7 @@ int run_compare(const CompareOptions& o) {
     const double max_missed = limit_of("--max-missed", o.max_missed);
     const double max_distance = limit_of("--max-distance", o.max_distance);
     const double max_rmse = limit_of("--max-rmse", o.max_rmse);
-    const int threads = o.threads.value_or(tbb::info::default_concurrency());
+    const int threads = o.threads.value_or(default_threads());
     const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, std::size_t(threads));
 
     Film a, b;

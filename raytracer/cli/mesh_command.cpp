@@ -1,7 +1,6 @@
 // deburr mesh SCENE -o FILE …: the solids as a closed mesh.
 #include <fmt/format.h>
 #include <tbb/global_control.h>
-#include <tbb/info.h>
 
 #include <algorithm>
 #include <memory>
@@ -11,6 +10,7 @@
 #include "polygonizer/mesh/metrics.hpp"
 #include "polygonizer/mesh/single_precision.hpp"
 #include "raytracer/cli/commands.hpp"
+#include "raytracer/cli/farm_options.hpp"
 #include "raytracer/cli/mesh_outputs.hpp"
 #include "raytracer/cli/options.hpp"
 #include "raytracer/cli/solid_choice.hpp"
@@ -257,7 +257,7 @@ int run_mesh(const MeshCommandOptions& o) {
     notes.unit = unit(o);
     parse_up(o.up, false);  // before the work
     const auto faces = o.faces.empty() ? 0 : std::size_t(parse_whole("--faces", o.faces, 4, 100'000'000));
-    const int threads = o.threads.value_or(tbb::info::default_concurrency());
+    const int threads = o.threads.value_or(default_threads());
     const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, std::size_t(threads));
 
     PhaseClock clock;

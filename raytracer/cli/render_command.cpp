@@ -1,16 +1,18 @@
 // deburr render SCENE -o FILE …: a picture, exact from the implicit surfaces.
 #include <fmt/format.h>
 #include <tbb/global_control.h>
-#include <tbb/info.h>
 
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <filesystem>
 #include <memory>
 
 #include "raytracer/cli/commands.hpp"
+#include "raytracer/cli/farm_options.hpp"
 #include "raytracer/cli/render_pictures.hpp"
 #include "raytracer/cli/statistics.hpp"
+#include "raytracer/cli/sums_file.hpp"
 #include "raytracer/image/denoise.hpp"
 #include "raytracer/image/exposure.hpp"
 #include "raytracer/image/surroundings_file.hpp"
@@ -30,6 +32,8 @@ using Clock = std::chrono::steady_clock;
 constexpr double line_width = 1;
 // What tiles in hand are given once a stop is asked for.
 constexpr std::chrono::milliseconds grace(300);
+// EX_TEMPFAIL of sysexits.h: schedulers run the job again, and it goes on from its checkpoint.
+constexpr int to_be_resumed_exit_code = 75;
 
 bool is_for_screen(const std::string& path) { return image_kind(path) == ImageKind::display; }
 
@@ -37,6 +41,18 @@ void write_statistics(const RenderOptions& o, const RunStatistics& run) {
     if (o.stats) fmt::print("{}", statistics_table(run));
     if (!o.stats_json.empty()) write_whole_file(o.stats_json, statistics_json(run));
 }
+
+// Something that is due every so many seconds, or never.
+class Timer {
+public:
+    explicit Timer(std::optional<double> seconds) : seconds_(seconds) {}
+    bool is_due() const { return seconds_ && Clock::now() - begin_ >= std::chrono::duration<double>(*seconds_); }
+    void restart() { begin_ = Clock::now(); }
+
+private:
+    std::optional<double> seconds_;
+    Clock::time_point begin_ = Clock::now();
+};
 
 // One picture on its way.
 class RenderRun {
@@ -46,34 +62,115 @@ public:
 
     int answer() {
         read();
-        clock_.begin("build");
-        build_tracer(o_, frame_, *world_);
-        build_integrator(o_, frame_, *world_);
         exposure_ = exposure_of(o_, world_->scene);
+        const std::optional<SumsFile> earlier = checkpoint_to_resume();
+        if (!earlier || !earlier->head.at("finished").get<bool>()) {
+            clock_.begin("build");
+            build_tracer(o_, frame_, *world_);
+            if (earlier) frame_.spp = earlier->head.at("spp");
+            build_integrator(o_, frame_, *world_);
+        }
         clock_.begin("trace");
-        if (frame_.spp == 1)
+        if (frame_.spp == 1 && o_.checkpoint.empty())
             trace_at_once();
         else
-            trace_passes();
+            trace_passes(earlier);
         clock_.end();
         if (pixels_done_ == 0) {
             progress_->stop();
             message("interrupted before the first tile: nothing is written");
-            return interrupted_exit_code;
+        } else {
+            finish(*film_);
         }
-        finish(*film_);
-        return complete_ ? 0 : interrupted_exit_code;
+        return complete_ ? 0 : kept_ && is_terminated() ? to_be_resumed_exit_code : interrupted_exit_code;
     }
 
 private:
+    // What pixels depend on, but for windows and samples.
+    std::string scene_hash() const {
+        ContentHash hash;
+        const Scene& scene = world_->scene;
+        hash.add_file(scene.file);
+        std::vector<std::string> files = scene.model_files;
+        for (const Background* b : {&scene.background, scene.environment ? &*scene.environment : nullptr})
+            if (b && !b->file.empty()) files.push_back(b->file);
+        for (const std::string& path : files) hash.add_file(path);
+        for (const auto& [name, value] : scene.parameters) hash.add(name + "=" + value);
+        const ModelSettings& m = o_.model;
+        hash.add(fmt::format("{} {} {} {}", m.round, m.z_up ? int(*m.z_up) : 2, m.material, m.ground));
+        const auto add_vector = [&](const std::optional<Vec3>& v) {
+            hash.add(v ? fmt::format("{} {} {}", v->x, v->y, v->z) : "");
+        };
+        add_vector(m.color);
+        add_vector(o_.from);
+        hash.add(fmt::format("{} {} {} {} {}", frame_.size.width, frame_.size.height, o_.frame, o_.seed, o_.alpha));
+        hash.add(fmt::format("{} {} {} {} {}", int(o_.integrator), o_.noise.value_or(0), int(o_.criterion), o_.draft,
+                             o_.spp.value_or(scene.spp.value_or(0))));
+        hash.add(o_.via);
+        hash.add(o_.tolerance);
+        hash.add(o_.flat ? "flat" : "");
+        for (const ImageLayer layer : o_.layers) hash.add(layer_name(layer));
+        return hash.text();
+    }
+
+    std::optional<SumsFile> checkpoint_to_resume() {
+        if (o_.checkpoint.empty()) return std::nullopt;
+        hash_ = scene_hash();
+        std::error_code error;
+        if (!o_.resume || !std::filesystem::exists(o_.checkpoint, error)) return std::nullopt;
+        SumsFile file = read_sums(o_.checkpoint);
+        const auto fail = [&](const std::string& what) { throw UsageError(o_.checkpoint + ": " + what); };
+        if (file.head.at("scene") != hash_)
+            fail("expected a checkpoint of this scene and these options, got one of others");
+        if (window_of(file.head.at("window")) != frame_.window || window_of(file.head.at("whole")) != frame_.whole)
+            fail("expected a checkpoint of this part of the picture, got one of another");
+        frame_.spp = file.head.at("spp");
+        const SampleRange range{file.head.at("samples").at(0), file.head.at("samples").at(1)};
+        if (range != samples())
+            fail(fmt::format("expected a checkpoint of the samples {}-{}, got one of {}-{}", samples().first,
+                             samples().end, range.first, range.end));
+        return file;
+    }
+
+    SampleRange samples() const { return o_.samples.value_or(SampleRange{0, frame_.spp}); }
+
+    // What cannot be kept is told, and the work goes on: the picture may still be written elsewhere.
+    void keep() {
+        if (o_.checkpoint.empty()) return;
+        SumsFile file;
+        file.head["version"] = DEBURR_VERSION;
+        file.head["scene"] = hash_;
+        file.head["size"] = {frame_.size.width, frame_.size.height};
+        file.head["whole"] = window_head(frame_.whole);
+        file.head["window"] = window_head(frame_.window);
+        file.head["samples"] = {samples().first, samples().end};
+        file.head["spp"] = frame_.spp;
+        file.head["noise"] = o_.noise.value_or(0);
+        file.head["finished"] = passes_->finished();
+        file.head["layers"] = nlohmann::ordered_json::array();
+        for (const ImageLayer layer : o_.layers) file.head["layers"].push_back(layer_name(layer));
+        file.head["notes"] = notes_head(notes_of(o_, *world_, frame_.spp, 0), format_of(o_, exposure_, 1), o_.denoise);
+        file.bytes = passes_->bytes();
+        try {
+            write_sums(o_.checkpoint, file);
+            kept_ = true;
+        } catch (const WorkError& error) {
+            kept_ = false;
+            if (passes_->finished() && o_.outputs.empty()) throw;
+            progress_->stop();
+            message(std::string("warning: ") + error.what() + "; going on without");
+        }
+    }
+
     void read() {
         clock_.begin("read");
         Scene& scene = world_->scene = load_scene(o_);
-        check_outputs(o_.outputs, {o_.stats_json}, scene.model_files);
+        check_outputs(o_.outputs, {o_.stats_json, o_.checkpoint}, scene.model_files);
         load_surroundings(scene);
         frame_ = frame_of(o_, scene);
         for (const std::string& path : o_.outputs) check_writable(path);
-        if (!o_.stats_json.empty()) check_writable(o_.stats_json);
+        for (const std::string& path : {o_.stats_json, o_.checkpoint})
+            if (!path.empty()) check_writable(path);
         say(o_, fmt::format("{}: {} solids, {} lights; picture {}x{}, {} threads", o_.scene, scene.solids.size(),
                             scene.lights.size(), frame_.size.width, frame_.size.height, threads_));
         if (!o_.quiet) warn_of_scene(scene, double(frame_.size.width) / frame_.size.height);
@@ -112,24 +209,39 @@ private:
         film_ = finished(std::move(rendering.film));
     }
 
-    void trace_passes() {
-        passes_.emplace(Passes::Settings{frame_.size.width, frame_.size.height, frame_.window, o_.layers,
-                                         SampleRange{0, frame_.spp}, o_.noise.value_or(0)},
-                        std::shared_ptr<const Integrator>(world_, &*world_->integrator));
+    void trace_passes(const std::optional<SumsFile>& earlier) {
+        passes_.emplace(Passes::Settings{frame_.size.width, frame_.size.height, frame_.window, o_.layers, samples(),
+                                         o_.noise.value_or(0)},
+                        world_->integrator ? std::shared_ptr<const Integrator>(world_, &*world_->integrator) : nullptr);
+        if (earlier && !passes_->restore(earlier->bytes))
+            throw WorkError(o_.checkpoint + ": expected the sums of this picture, got others");
+        kept_ = earlier.has_value();
         const std::atomic<bool>& stop = catch_interrupts(!o_.quiet);
         begin_progress(passes_->work(), passes_->work_done());
-        Clock::time_point written = Clock::now();
+        Timer write_timer(o_.write_every),
+            keep_timer(o_.checkpoint.empty() ? std::nullopt : std::optional(o_.checkpoint_every));
+        bool asked = false;
         const auto is_due = [&] {
-            return o_.write_every && Clock::now() - written >= std::chrono::duration<double>(*o_.write_every);
+            asked = asked || take_save_request();
+            return asked || write_timer.is_due() || keep_timer.is_due();
         };
-        TilesEnd end = TilesEnd::all;
-        while (end != TilesEnd::abandoned && !stop && !passes_->finished()) {
-            end = passes_->go_on(
+        bool changed = false;
+        while (!stop && !passes_->finished()) {
+            const TilesEnd end = passes_->go_on(
                 stop, is_due, [&](std::int64_t done) { progress_->advance(double(done)); }, grace);
-            if (!is_due() || stop || passes_->finished() || passes_->samples_of_all() == 0) continue;
-            write(finished(passes_->film()), passes_->samples_of_all(), [](double) {});
-            written = Clock::now();
+            changed = true;
+            if (end == TilesEnd::abandoned || stop || passes_->finished()) break;
+            if (asked || keep_timer.is_due()) {
+                keep();
+                asked = changed = false;
+                keep_timer.restart();
+            }
+            if (write_timer.is_due() && passes_->samples_of_all() > 0 && !o_.outputs.empty()) {
+                write(finished(passes_->film()), passes_->samples_of_all(), [](double) {});
+                write_timer.restart();
+            }
         }
+        if (changed) keep();
         complete_ = passes_->finished();
         samples_ = passes_->samples_of_all();
         pixels_done_ = passes_->pixels_begun();
@@ -152,10 +264,10 @@ private:
 
     void finish(const Film& film) {
         // Of a first pass that was not finished, pixels have one sample or none.
-        const int samples = complete_ ? frame_.spp : std::max(samples_, 1);
+        const int taken = complete_ ? samples().end - samples().first : std::max(samples_, 1);
         clock_.begin("write");
         try {
-            write(film, samples, [&](double work) { progress_->advance(work); });
+            write(film, taken, [&](double work) { progress_->advance(work); });
         } catch (...) {
             progress_->stop();
             throw;
@@ -169,13 +281,18 @@ private:
             if (const auto advice = exposure_advice(film, exposure_)) message("warning: " + *advice);
         const Scene& scene = world_->scene;
         write_statistics(o_, {scene.file, o_.via, world_->bsp ? name(o_.accel.value_or(Accel::bvh)) : "",
-                              frame_.size.width, frame_.size.height, frame_.window, samples, threads_, o_.seed,
+                              frame_.size.width, frame_.size.height, frame_.window, taken, threads_, o_.seed,
                               complete_, pixels_done_, clock_.times(), counters_, world_->bsp});
         for (const std::string& path : o_.outputs) say(o_, "wrote " + path);
         if (complete_) return;
+        if (kept_ && o_.outputs.empty()) {
+            message(fmt::format("interrupted after {} of {} samples of all pixels: --resume goes on from there",
+                                samples_, samples().end - samples().first));
+            return;
+        }
         message(fmt::format(
             "interrupted after {}: the picture is marked incomplete",
-            samples_ > 0 ? fmt::format("{} of {} samples of all pixels", samples_, frame_.spp)
+            samples_ > 0 ? fmt::format("{} of {} samples of all pixels", samples_, samples().end - samples().first)
                          : fmt::format("{:.0f} % of the pixels", std::floor(100 * double(pixels_done_) / pixels()))));
     }
 
@@ -189,7 +306,9 @@ private:
     std::optional<Progress> progress_;
     std::optional<Film> film_;
     bool complete_ = false;
-    int samples_ = 0;  // that all pixels have, of a picture in passes
+    bool kept_ = false;  // the checkpoint holds all samples
+    std::string hash_;   // scene_hash(), where there are checkpoints
+    int samples_ = 0;    // that all pixels have, of a picture in passes
     std::int64_t pixels_done_ = 0;
     TraceCounters counters_;
 };
@@ -203,8 +322,12 @@ int run_render(const RenderOptions& given) {
             if (std::count(o.layers.begin(), o.layers.end(), layer) == 0) o.layers.push_back(layer);
     }
     check_source_date_epoch();  // or what is wrong with it is said when the work is done
-    const int threads = o.threads.value_or(tbb::info::default_concurrency());
+    const int threads = o.threads.value_or(default_threads());
     const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, std::size_t(threads));
+    if (!o.checkpoint.empty()) {
+        catch_save_requests();
+        set_exit_code_of_terminated(to_be_resumed_exit_code);
+    }
     return RenderRun(o, threads).answer();
 }
 

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "raytracer/util/errors.hpp"
 
 namespace deburr {
@@ -42,14 +44,37 @@ void check_sample_options(const RenderOptions& o) {
     if (o.seconds && o.spp) throw UsageError("--time: expected no --spp beside it, got one");
 }
 
+// What goes on later, or elsewhere, is passes of samples.
+void check_checkpoint_options(const RenderOptions& o) {
+    if (o.checkpoint.empty()) {
+        if (o.resume) throw UsageError("--resume: expected --checkpoint FILE, which it goes on from");
+        if (o.samples) throw UsageError("--samples: expected --checkpoint FILE, which takes their sums for merge");
+        return;
+    }
+    if (!o.wire.empty() || o.edges)
+        throw UsageError(
+            fmt::format("--checkpoint: expected no lines to be drawn, got {}", o.edges ? "--edges" : "--wire"));
+    if (o.seconds) throw UsageError("--checkpoint: expected no --time, which is another number of samples every time");
+    if (!o.samples) return;
+    if (!o.spp) throw UsageError("--samples: expected --spp N beside it, of which they are a part");
+    if (o.noise) throw UsageError("--samples: expected no --noise, which decides by all samples");
+    if (*o.spp == 1) throw UsageError("--samples: expected an --spp of 2 and more, got 1");
+    if (o.samples->end > *o.spp)
+        throw UsageError(fmt::format("--samples: expected some of the {} of --spp, got {}-{}", *o.spp, o.samples->first,
+                                     o.samples->end));
+    if (std::count(o.layers.begin(), o.layers.end(), ImageLayer::cost) > 0)
+        throw UsageError("--samples: expected no layer cost, which depends on how samples travel together");
+}
+
 }  // namespace
 
 void check_render_options(const RenderOptions& o) {
     check_mesh_options(o);
     if (o.scene.empty()) throw UsageError("render: expected a scene file");
-    if (o.outputs.empty()) throw UsageError("render: expected an output file, -o FILE");
+    if (o.outputs.empty() && o.checkpoint.empty()) throw UsageError("render: expected an output file, -o FILE");
     check_image_names("-o", o.outputs);
     check_sample_options(o);
+    check_checkpoint_options(o);
     bool exr = false, png = false;
     for (const std::string& path : o.outputs) {
         exr |= image_kind(path) == ImageKind::exr;
@@ -57,10 +82,13 @@ void check_render_options(const RenderOptions& o) {
         if (o.alpha && image_extension(path) != ".png" && image_kind(path) != ImageKind::exr)
             throw UsageError("--alpha: expected outputs that end in .exr or .png, got '" + path + "'");
     }
-    if (!png && o.bits != 8) throw UsageError("--bits: expected an output that ends in .png, got none");
-    if (!exr && !o.layers.empty()) throw UsageError("--aov: expected an output that ends in .exr, got none");
-    if (!exr && o.float_color) throw UsageError("--float: expected an output that ends in .exr, got none");
-    check_outputs(o.outputs, {o.stats_json}, {o.scene});
+    if (!png && o.bits != 8 && o.checkpoint.empty())
+        throw UsageError("--bits: expected an output that ends in .png, got none");
+    if (!exr && !o.layers.empty() && o.checkpoint.empty())
+        throw UsageError("--aov: expected an output that ends in .exr, got none");
+    if (!exr && o.float_color && o.checkpoint.empty())
+        throw UsageError("--float: expected an output that ends in .exr, got none");
+    check_outputs(o.outputs, {o.stats_json, o.checkpoint}, {o.scene});
 }
 
 CLI::App* add_render_options(CLI::App& program, const std::shared_ptr<RenderOptions>& options) {
@@ -161,6 +189,32 @@ CLI::App* add_render_options(CLI::App& program, const std::shared_ptr<RenderOpti
             "how stderr tells how far the work is: lines of 'Progress: 42%' and json, an object a line, are for other "
             "programs; default: a bar on a terminal, else a line now and then")
         ->type_name("bar|lines|json|none");
+    command
+        ->add_option("--checkpoint", options->checkpoint,
+                     "keep the sums of all samples in this file, every minute and at the end; after SIGTERM the exit "
+                     "code is then 75")
+        ->type_name("FILE");
+    command
+        ->add_option_function<std::string>(
+            "--checkpoint-every",
+            [options](const std::string& text) {
+                options->checkpoint_every = parse_positive("--checkpoint-every", text);
+            },
+            "seconds from one checkpoint to the next; default: 60. SIGUSR1 asks for one at once")
+        ->type_name("SECONDS");
+    command->add_flag("--resume", options->resume,
+                      "go on from the checkpoint, if there is one, to the same picture as without a break");
+    command
+        ->add_option_function<std::string>(
+            "--tile", [options](const std::string& text) { options->tile = parse_tile("--tile", text); },
+            "of N shares of the picture's rows only the one with the number i, 0 to N-1; auto: number and N of a job's "
+            "array, auto/N: the number")
+        ->type_name("i/N|auto");
+    command
+        ->add_option_function<std::string>(
+            "--samples", [options](const std::string& text) { options->samples = parse_samples("--samples", text); },
+            "of the samples that --spp says only a to b-1, the first is 0, into the checkpoint: a part for merge")
+        ->type_name("a-b");
     add_run_options(*command, *options);
     add_statistics_options(*command, *options);
     return command;

@@ -4,6 +4,7 @@
 #include <optional>
 #include <string>
 
+#include "raytracer/cli/farm_options.hpp"
 #include "raytracer/cli/options.hpp"
 #include "raytracer/image/view_transform.hpp"
 #include "raytracer/util/progress.hpp"
@@ -24,6 +25,11 @@ struct RenderOptions : Options {
     ViewTransform view = ViewTransform::standard;
     bool denoise = false;
     std::optional<double> write_every;  // seconds
+    std::string checkpoint;             // "": none
+    bool resume = false;
+    double checkpoint_every = 60;        // seconds
+    std::optional<TileShare> tile;       // of the rows
+    std::optional<SampleRange> samples;  // of those that --spp says
     std::optional<Progress::Style> progress;
 };
 

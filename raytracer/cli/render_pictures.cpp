@@ -31,6 +31,8 @@ std::string date_text(std::time_t time) {
 
 void check_source_date_epoch() { source_date_epoch(); }
 
+std::string picture_date() { return date_text(source_date_epoch().value_or(std::time(nullptr))); }
+
 ImageNotes notes_of(const RenderOptions& o, const RenderWorld& world, int spp, double trace_seconds) {
     const auto epoch = source_date_epoch();
     const Scene& scene = world.scene;
@@ -39,7 +41,7 @@ ImageNotes notes_of(const RenderOptions& o, const RenderWorld& world, int spp, d
     notes.spp = spp;
     for (std::size_t i = 0; i < scene.solids.size(); ++i)
         notes.solids.push_back(scene.names[i].empty() ? fmt::format("solid {}", i + 1) : scene.names[i]);
-    notes.date = date_text(epoch.value_or(std::time(nullptr)));
+    notes.date = picture_date();
     if (!epoch) notes.render_seconds = trace_seconds;
     notes.attributes = {{"scene", scene.file},
                         {"seed", fmt::format("{}", o.seed)},
@@ -50,7 +52,7 @@ ImageNotes notes_of(const RenderOptions& o, const RenderWorld& world, int spp, d
         notes.attributes.push_back({"exposure", fmt::format("{}", exposure)});
     if (o.noise) notes.attributes.push_back({"noise", fmt::format("{}", *o.noise)});
     if (o.view != ViewTransform::standard) notes.attributes.push_back({"view", "agx"});
-    if (world.bsp) notes.attributes.push_back({"accel", name(o.accel.value_or(Accel::bvh))});
+    if (o.via == "implicit") notes.attributes.push_back({"accel", name(o.accel.value_or(Accel::bvh))});
     for (const auto& [name, value] : scene.parameters) notes.attributes.push_back({"parameter." + name, value});
     return notes;
 }

@@ -12,6 +12,9 @@ constexpr double writing_work = 0.1;
 /// Throws UsageError if the environment's SOURCE_DATE_EPOCH is wrong.
 void check_source_date_epoch();
 
+/// The date for a picture's header: the environment's, or now.
+std::string picture_date();
+
 /// `spp`: samples that all pixels have.
 ImageNotes notes_of(const RenderOptions& options, const RenderWorld& world, int spp, double trace_seconds);
 

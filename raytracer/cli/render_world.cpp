@@ -85,8 +85,22 @@ double exposure_of(const RenderOptions& o, const Scene& scene) {
 Frame frame_of(const RenderOptions& o, const Scene& scene) {
     Frame frame;
     frame.size = picture_size(o, scene);
-    frame.window = picture_window(o, scene, Film::bytes_per_pixel(o.layers));
     frame.spp = o.draft || !o.wire.empty() ? 1 : o.spp.value_or(scene.spp.value_or(0));
+    const bool sums = frame.spp != 1 || !o.checkpoint.empty();
+    Passes::Settings settings;
+    settings.layers = o.layers;
+    settings.noise = o.noise.value_or(0);
+    const double bytes = sums ? Passes::bytes_per_pixel(settings) : Film::bytes_per_pixel(o.layers);
+    if (!o.tile) {
+        frame.whole = frame.window = picture_window(o, scene, bytes);
+        return frame;
+    }
+    // The whole picture need not fit in here.
+    frame.whole = o.crop.value_or(Window{0, 0, frame.size.width, frame.size.height});
+    check_crop("--crop", frame.whole, frame.size);
+    Options share = o;
+    share.crop = share_of("--tile", *o.tile, frame.whole);
+    frame.window = picture_window(share, scene, bytes);
     return frame;
 }
 

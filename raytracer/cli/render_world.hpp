@@ -25,7 +25,8 @@ struct RenderWorld {
 struct Frame {
     Size size;
     Window window;
-    int spp = 0;  // 0: to be found
+    Window whole;  // of which --tile has left the window
+    int spp = 0;   // 0: to be found
 };
 
 /// Throws as picture_window() does.

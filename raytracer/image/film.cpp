@@ -58,6 +58,20 @@ void Film::set_layers(const Window& block, const PixelLayers* layers) {
                 put(layer, layers[y * block.width + x], plane.pixel(index(block.x + x, block.y + y)));
 }
 
+std::vector<double> Film::layer_values() const {
+    std::vector<double> all;
+    for (const auto& [layer, plane] : planes_) all.insert(all.end(), plane.values().begin(), plane.values().end());
+    return all;
+}
+
+void Film::set_layer_values(const std::vector<double>& values) {
+    auto from = values.begin();
+    for (auto& [layer, plane] : planes_) {
+        std::copy_n(from, plane.values().size(), plane.values().begin());
+        from += std::ptrdiff_t(plane.values().size());
+    }
+}
+
 double Film::bytes_per_pixel(const std::vector<ImageLayer>& layers) {
     double bytes = sizeof(Pixel);
     for (const ImageLayer layer : std::set<ImageLayer>(layers.begin(), layers.end()))

@@ -56,6 +56,8 @@ public:
     /// Value at pixel i of a layer with three components.
     Vec3 vec(std::size_t i) const { return {at(i, 0), at(i, 1), at(i, 2)}; }
     double* pixel(std::size_t i) { return &values_[i * components_]; }
+    auto& values() { return values_; }
+    const auto& values() const { return values_; }
 
 private:
     std::size_t components_;
@@ -85,6 +87,10 @@ struct Film {
     const LayerPlane& layer(ImageLayer layer) const;
     /// Sets the layers of a block within the window, row by row; layers that the film does not keep are dropped.
     void set_layers(const Window& block, const PixelLayers* layers);
+
+    /// The numbers of all layers, one layer after the other; and back, of a film that keeps the same.
+    std::vector<double> layer_values() const;
+    void set_layer_values(const std::vector<double>& values);
 
     static double bytes_per_pixel(const std::vector<ImageLayer>& layers);
 

@@ -22,12 +22,12 @@ struct SolidShares {
     std::array<std::uint32_t, ranks> id{};  // as in the layer id; 0: none
     std::array<double, ranks> share{};
 
-    /// One sample more. What no rank is left for is not counted.
-    void add(std::uint32_t solid) {
+    /// So many samples more. What no rank is left for is not counted.
+    void add(std::uint32_t solid, double samples = 1) {
         for (int k = 0; k < ranks; ++k) {
             if (id[k] != solid && id[k] != 0) continue;
             id[k] = solid;
-            share[k] += 1;
+            share[k] += samples;
             return;
         }
     }

@@ -4,8 +4,11 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <array>
+#include <cstring>
 #include <mutex>
 #include <shared_mutex>
+#include <stdexcept>
 
 #include "raytracer/render/noise_bound.hpp"
 
@@ -36,9 +39,10 @@ struct Passes::Store {
     Film film;
     SampleRange pass;  // under way
     TraceCounters counters;
+    std::array<std::uint64_t, 8> counter_list{};  // the same, for files
     PixelsDone done;
     std::shared_mutex tiles;  // shared by those who add a tile of their own
-    std::mutex sums;
+    std::mutex counting;
     bool closed = false;
     tbb::enumerable_thread_specific<TileWork> work;
 
@@ -104,7 +108,7 @@ struct Passes::Store {
         taken = pass.end;
         const std::int64_t gained = work_of(part) - before;
         {
-            const std::lock_guard lock(sums);
+            const std::lock_guard lock(counting);
             counters += here;
         }
         if (done) done(gained);
@@ -197,6 +201,88 @@ double Passes::work_done() const { return double(store_->work_of(store_->state.w
 double Passes::work() const {
     const PassState& state = store_->state;
     return double(state.sums.size()) * (state.samples.end - state.samples.first);
+}
+
+namespace {
+
+// Numbers one after the other, as they are in memory.
+class Writer {
+public:
+    template <class List>
+    void add(const List& list) {
+        bytes_.append(reinterpret_cast<const char*>(list.data()), list.size() * sizeof(list[0]));
+    }
+    std::string take() { return std::move(bytes_); }
+
+private:
+    std::string bytes_;
+};
+
+class Reader {
+public:
+    explicit Reader(std::string_view bytes) : left_(bytes) {}
+    template <class List>
+    void take(List& list) {
+        const std::size_t size = list.size() * sizeof(list[0]);
+        if (size > left_.size()) throw std::length_error("the bytes end early");
+        if (size > 0) std::memcpy(static_cast<void*>(list.data()), left_.data(), size);
+        left_.remove_prefix(size);
+    }
+    bool at_end() const { return left_.empty(); }
+
+private:
+    std::string_view left_;
+};
+
+// Everything that is kept, in its order.
+template <class Archive, class Store>
+void exchange(Archive&& with, Store& store, std::vector<double>& planes) {
+    with(store.state.taken);
+    with(store.state.sums);
+    with(store.state.layers);
+    with(store.state.halves);
+    // What the film shows of tiles that a pass under way has brought on.
+    with(store.film.pixels);
+    with(planes);
+    with(store.counter_list);
+}
+
+}  // namespace
+
+std::string Passes::bytes() const {
+    Store& s = *store_;
+    film();
+    Writer writer;
+    std::vector<double> planes = s.film.layer_values();
+    s.counter_list = {s.counters.rays,      s.counters.shadow_rays, s.counters.instances, s.counters.cells,
+                      s.counters.flat_hits, s.counters.segments,    s.counters.splits,    s.counters.evaluations};
+    exchange([&](const auto& list) { writer.add(list); }, s, planes);
+    return writer.take();
+}
+
+bool Passes::restore(std::string_view bytes) {
+    Store& s = *store_;
+    std::size_t size = 0;
+    std::vector<double> planes = s.film.layer_values();
+    exchange([&](const auto& list) { size += list.size() * sizeof(list[0]); }, s, planes);
+    if (bytes.size() != size) return false;
+    Reader reader(bytes);
+    exchange([&](auto& list) { reader.take(list); }, s, planes);
+    s.film.set_layer_values(planes);
+    const auto& c = s.counter_list;
+    s.counters = {c[0], c[1], c[2], c[3], c[4], c[5], c[6], c[7]};
+    return true;
+}
+
+const PixelSums& Passes::sums_at(std::size_t i) const {
+    const Window& w = store_->film.window;
+    return store_->state.sums[store_->index(w.x + int(i % std::size_t(w.width)), w.y + int(i / std::size_t(w.width)))];
+}
+
+const LayerSums& Passes::layers_at(std::size_t i) const {
+    const Window& w = store_->film.window;
+    return store_->state
+        .layers[store_->index(w.x + int(i % std::size_t(w.width)), w.y + int(i / std::size_t(w.width)))];
 }
 
 double Passes::bytes_per_pixel(const Settings& settings) {

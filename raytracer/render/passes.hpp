@@ -5,6 +5,7 @@
 #pragma once
 #include <memory>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "raytracer/render/integrator.hpp"
@@ -57,6 +58,16 @@ public:
     /// count as taken.
     double work_done() const;
     double work() const;
+
+    /// Everything that has been summed up, as bytes for restore() of passes with the same settings by the same program,
+    /// while no pass is going on.
+    std::string bytes() const;
+    /// Takes over what bytes() gave; false where it cannot have, and then nothing has changed.
+    bool restore(std::string_view bytes);
+
+    /// The sums of the film's pixel i; layers where some are kept.
+    const PixelSums& sums_at(std::size_t i) const;
+    const LayerSums& layers_at(std::size_t i) const;
 
     /// Memory for a pixel.
     static double bytes_per_pixel(const Settings& settings);

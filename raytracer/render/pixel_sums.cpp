@@ -19,6 +19,22 @@ SampleRange next_pass(SampleRange all, int done) {
     return {std::min(done, all.end), std::min(done + std::clamp(done - all.first, 1, largest_pass), all.end)};
 }
 
+PixelSums& PixelSums::operator+=(const PixelSums& other) {
+    color += other.color;
+    hits += other.hits;
+    samples += other.samples;
+    is_quiet |= other.is_quiet;
+    return *this;
+}
+
+LayerSums& LayerSums::operator+=(const LayerSums& other) {
+    albedo += other.albedo;
+    rest.cost += other.rest.cost;
+    for (int k = 0; k < SolidShares::ranks; ++k)
+        if (other.rest.solids.id[k] != 0) rest.solids.add(other.rest.solids.id[k], other.rest.solids.share[k]);
+    return *this;
+}
+
 void LayerSums::set_center(const Hit& hit, Vec3 direction, Vec3 forward) {
     rest.position = zero_unless_all_finite(hit.position);
     rest.normal = zero_unless_all_finite(hit.normal);

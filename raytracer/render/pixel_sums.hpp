@@ -76,6 +76,8 @@ struct PixelSums {
     ColorSum color;
     std::uint32_t hits = 0, samples = 0;
     std::uint64_t is_quiet = 0;  // 1: its cell has so little noise that it gets no more samples (noise_bound.hpp)
+
+    PixelSums& operator+=(const PixelSums& other);
 };
 static_assert(sizeof(PixelSums) == 64);  // without gaps: it is written as it is
 
@@ -84,6 +86,8 @@ struct LayerSums {
     PixelLayers rest;  // of the centre's ray; but cost and shares of solids are sums
     ColorSum albedo;
 
+    /// Adds later samples, without the centre's ray.
+    LayerSums& operator+=(const LayerSums& other);
     void set_center(const Hit& hit, Vec3 direction, Vec3 forward);
 };
 

@@ -12,6 +12,8 @@ namespace deburr {
 namespace {
 
 std::atomic<bool> stop{false}, saving{false}, announced{false}, terminal{false};
+std::atomic<bool> terminated{false}, save_requested{false};
+std::atomic<int> terminated_exit_code{interrupted_exit_code};
 std::atomic<int> interrupts{0};                         // SIGINTs while there is something to save
 static_assert(std::atomic<bool>::is_always_lock_free);  // or a handler might deadlock
 
@@ -24,9 +26,9 @@ void say(std::string_view text) {
     [[maybe_unused]] const auto n = write(STDERR_FILENO, text.data(), text.size());
 }
 
-[[noreturn]] void end() {
+[[noreturn]] void end(int signal) {
     remove_unfinished_files();
-    _exit(interrupted_exit_code);
+    _exit(signal == SIGTERM ? terminated_exit_code.load() : interrupted_exit_code);
 }
 
 void handle(int signal) {
@@ -34,9 +36,10 @@ void handle(int signal) {
     if (!saving) {
         say(any_file_written() ? "deburr: interrupted: the files written before are kept\n"
                                : "deburr: interrupted: nothing is written\n");
-        end();
+        end(signal);
     }
-    if (signal == SIGINT && ++interrupts > 1) end();
+    if (signal == SIGINT && ++interrupts > 1) end(signal);
+    if (!stop && signal == SIGTERM) terminated = true;
     if (!stop.exchange(true) && announced)
         say("deburr: stopping after the work in hand; another Ctrl-C stops at once\n");
     errno = error;
@@ -65,5 +68,19 @@ const std::atomic<bool>& catch_interrupts(bool announce) {
     install();
     return stop;
 }
+
+void set_exit_code_of_terminated(int code) { terminated_exit_code = code; }
+
+bool is_terminated() { return terminated; }
+
+void catch_save_requests() {
+    struct sigaction action {};
+    action.sa_handler = [](int) { save_requested = true; };
+    action.sa_flags = SA_RESTART;
+    sigemptyset(&action.sa_mask);
+    sigaction(SIGUSR1, &action, nullptr);
+}
+
+bool take_save_request() { return save_requested.exchange(false); }
 
 }  // namespace deburr

@@ -19,4 +19,16 @@ void end_on_interrupt();
 /// a line on stderr at the first.
 const std::atomic<bool>& catch_interrupts(bool announce);
 
+/// From now on a SIGTERM that ends the process does so with this exit code in place of 130.
+void set_exit_code_of_terminated(int code);
+
+/// Whether the first signal since catch_interrupts() was SIGTERM.
+bool is_terminated();
+
+/// From now on SIGUSR1 sets a flag instead of ending the process.
+void catch_save_requests();
+
+/// Whether there was a SIGUSR1 since it was last asked.
+bool take_save_request();
+
 }  // namespace deburr

@@ -1,0 +1,29 @@
+// Options by which one picture is shared among machines.
+#pragma once
+#include <string_view>
+
+#include "raytracer/render/pixel_sums.hpp"
+
+namespace deburr {
+
+/// One of `count` shares of a picture's rows.
+struct TileShare {
+    int index = 0, count = 1;
+};
+
+/// "i/N", "auto" or "auto/N", of which the environment of a job's array says the rest: Slurm's SLURM_ARRAY_TASK_ID and
+/// _COUNT, counted from SLURM_ARRAY_TASK_MIN; Kubernetes' JOB_COMPLETION_INDEX; OpenCue's CUE_IFRAME. Throws
+/// UsageError.
+TileShare parse_tile(std::string_view option, std::string_view text);
+
+/// "a-b": samples a to b - 1. Throws UsageError.
+SampleRange parse_samples(std::string_view option, std::string_view text);
+
+/// Those rows of a window; throws UsageError if it has fewer rows than there are shares.
+Window share_of(std::string_view option, const TileShare& share, const Window& window);
+
+/// Threads by default: SLURM_CPUS_PER_TASK, or the quota of the process's control group, or as many as there are
+/// processors that it may use, whichever is least.
+int default_threads();
+
+}  // namespace deburr

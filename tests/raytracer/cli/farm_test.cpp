@@ -1,0 +1,250 @@
+// --checkpoint, --resume, --tile, --samples and merge, as schedulers use them.
+#include <signal.h>
+
+#include <chrono>
+#include <filesystem>
+#include <random>
+#include <thread>
+
+#include "catch.hpp"
+#include "raytracer/program.hpp"
+
+using namespace deburr::test;
+using Words = std::vector<std::string>;
+
+namespace {
+
+void pause_for(double seconds) { std::this_thread::sleep_for(std::chrono::duration<double>(seconds)); }
+
+struct Place : Folder {
+    std::string scene = *this / "cube.lua";
+    Place() { write_file(scene, cube_scene()); }
+
+    Words words(const Words& more) const {
+        Words all = {"render", scene, "-q"};
+        all.insert(all.end(), more.begin(), more.end());
+        return all;
+    }
+    Outcome render(const Words& more, const Words& environment = {}) const {
+        Words all = {"SOURCE_DATE_EPOCH=0"};
+        all.insert(all.end(), environment.begin(), environment.end());
+        return run(words(more), all);
+    }
+    Outcome merge(const Words& more) const {
+        Words all = {"merge"};
+        all.insert(all.end(), more.begin(), more.end());
+        return run(all, {"SOURCE_DATE_EPOCH=0"});
+    }
+    std::string bytes(const std::string& name) const { return read_file(*this / name); }
+};
+
+const Words layers = {"--aov", "P,N,Z,albedo,id,crypto"};
+
+Words with(Words words, const Words& more) {
+    words.insert(words.end(), more.begin(), more.end());
+    return words;
+}
+
+// Kills a run at random moments, and starts it again until it comes to its end.
+void check_kills(int kills, unsigned seed) {
+    const Place place;
+    const Words call = with(layers, {"--size", "160x100", "--spp", "300"});
+    REQUIRE(place.render(with(call, {"-o", place / "whole.exr"})).code == 0);
+    std::mt19937 random(seed);
+    int killed = 0, ended = 0;
+    while (killed < kills) {
+        Call run(place.words(with(call, {"-o", place / "a.exr", "--checkpoint", place / "a.sums", "--checkpoint-every",
+                                         "0.02", "--resume"})),
+                 {"SOURCE_DATE_EPOCH=0"});
+        pause_for(0.001 * double(random() % 400));
+        if (run.running()) {
+            run.send(SIGKILL);
+            run.wait();
+            ++killed;
+            continue;
+        }
+        const Outcome o = run.wait();
+        CAPTURE(o.err);
+        REQUIRE(o.code == 0);
+        CHECK(place.bytes("a.exr") == place.bytes("whole.exr"));
+        ++ended;
+        std::filesystem::remove(place / "a.sums");
+        std::filesystem::remove(place / "a.exr");
+    }
+    CAPTURE(ended);
+    const Outcome last = place.render(with(
+        call, {"-o", place / "a.exr", "--checkpoint", place / "a.sums", "--checkpoint-every", "0.02", "--resume"}));
+    CAPTURE(last.err);
+    CHECK(last.code == 0);
+    CHECK(place.bytes("a.exr") == place.bytes("whole.exr"));
+    CHECK(place.names() == Words{"a.exr", "a.sums", "cube.lua", "whole.exr"});
+}
+
+}  // namespace
+
+TEST_CASE("a run that is killed at random moments and resumed makes the picture of an uninterrupted one") {
+    check_kills(10, 1);
+}
+
+TEST_CASE("200 kills at random moments lose nothing", "[slow]") { check_kills(200, 2); }
+
+TEST_CASE("SIGTERM leaves a checkpoint and exit code 75, SIGINT 130, and --resume goes on to the same bytes") {
+    for (const int signal : {SIGTERM, SIGINT}) {
+        const Place place;
+        const Words call = {"--size", "200x200", "--spp", "400"};
+        Call run(place.words(with(
+                     call, {"-o", place / "a.exr", "--checkpoint", place / "a.sums", "--checkpoint-every", "0.05"})),
+                 {"SOURCE_DATE_EPOCH=0"});
+        for (int i = 0; i < 3000 && !std::filesystem::exists(place / "a.sums"); ++i) pause_for(0.01);
+        run.send(signal);
+        CHECK(run.wait().code == (signal == SIGTERM ? 75 : 130));
+        REQUIRE(std::filesystem::exists(place / "a.sums"));
+        const Words resumed = with(call, {"-o", place / "a.exr", "--checkpoint", place / "a.sums", "--resume"});
+        REQUIRE(place.render(resumed).code == 0);
+        REQUIRE(place.render(with(call, {"-o", place / "b.exr"})).code == 0);
+        CHECK(place.bytes("a.exr") == place.bytes("b.exr"));
+        // All is done: written again without a ray.
+        std::filesystem::remove(place / "a.exr");
+        REQUIRE(place.render(with(resumed, {"--stats-json", place / "s.json"})).code == 0);
+        CHECK(place.bytes("s.json").find("\"build\"") == std::string::npos);
+        CHECK(place.bytes("a.exr") == place.bytes("b.exr"));
+    }
+}
+
+TEST_CASE("SIGUSR1 asks for a checkpoint at once") {
+    const Place place;
+    Call run(place.words({"--size", "200x200", "--spp", "100000", "--checkpoint", place / "a.sums"}));
+    REQUIRE(run.handles(SIGUSR1));
+    run.send(SIGUSR1);
+    for (int i = 0; i < 500 && !std::filesystem::exists(place / "a.sums"); ++i) pause_for(0.01);
+    CHECK(std::filesystem::exists(place / "a.sums"));
+    CHECK(run.running());
+    run.send(SIGTERM);
+    CHECK(run.wait().code == 75);
+}
+
+TEST_CASE("a checkpoint of something else is refused with one line") {
+    const Place place;
+    const Words call = {"--spp", "4", "-o", place / "a.png", "--checkpoint", place / "a.sums", "--resume"};
+    REQUIRE(place.render(call).code == 0);
+    const auto refused = [&](const Words& more, int code, const std::string& line) {
+        const Outcome o = place.render(more);
+        CAPTURE(o.err);
+        CHECK(o.code == code);
+        CHECK(o.err.find(line) != std::string::npos);
+        CHECK(std::count(o.err.begin(), o.err.end(), '\n') == 1);
+    };
+    refused(with(call, {"--seed", "1"}), 2, "a.sums: expected a checkpoint of this scene and these options");
+    refused(with(call, {"-D", "r=0.05"}), 2, "a.sums: expected a checkpoint of this scene and these options");
+    refused(with(call, {"--tile", "0/2"}), 2, "a.sums: expected a checkpoint of this part of the picture");
+    refused(with(call, {"--samples", "0-2"}), 2, "a.sums: expected a checkpoint of the samples 0-2, got one of 0-4");
+    const std::string scene = read_file(place.scene), sums = place.bytes("a.sums");
+    write_file(place.scene, scene + "\n");
+    refused(call, 2, "a.sums: expected a checkpoint of this scene");
+    write_file(place.scene, scene);
+    std::string damaged = sums;
+    damaged[damaged.size() / 2] ^= 1;
+    write_file(place / "a.sums", damaged);
+    refused(call, 1, "a.sums: expected the sums that were written, got a damaged file");
+    write_file(place / "a.sums", sums.substr(0, sums.size() - 9));
+    refused(call, 1, "a.sums: expected the sums that were written, got a damaged file");
+    write_file(place / "a.sums", "");
+    refused(call, 1, "a.sums: expected a file of sums by --checkpoint, got another one");
+    write_file(place / "a.sums", sums);
+    CHECK(place.render(call).code == 0);
+    refused({"--spp", "4", "-o", place / "a.png", "--resume"}, 2, "--resume: expected --checkpoint FILE");
+    refused({"--time", "3", "-o", place / "a.png", "--checkpoint", place / "b.sums"}, 2,
+            "--checkpoint: expected no --time");
+    refused({"--samples", "0-2", "--checkpoint", place / "b.sums"}, 2, "--samples: expected --spp N beside it");
+}
+
+TEST_CASE("a disk that is full is told, and the picture is made all the same") {
+    const Place place;
+    const Outcome o = place.render({"--spp", "4", "-o", place / "a.png", "--checkpoint", "/dev/full"});
+    CHECK(o.code == 0);
+    CHECK(o.err == "deburr: warning: cannot write '/dev/full': No space left on device; going on without\n");
+    CHECK(std::filesystem::exists(place / "a.png"));
+}
+
+TEST_CASE("tiles and ranges of samples merge to the bytes of the whole picture") {
+    const Place place;
+    const Words call = with(layers, {"--float", "--spp", "40"});
+    REQUIRE(place.render(with(call, {"-o", place / "whole.exr"})).code == 0);
+    Words tiles, ranges, both;
+    for (const std::string i : {"0", "1", "2"}) {
+        tiles.push_back(place / ("tile" + i));
+        REQUIRE(place.render(with(call, {"--tile", i + "/3", "--checkpoint", tiles.back()})).code == 0);
+    }
+    for (const std::string range : {"7-40", "0-3", "3-7"}) {
+        ranges.push_back(place / ("range" + range));
+        REQUIRE(place.render(with(call, {"--samples", range, "--checkpoint", ranges.back()})).code == 0);
+    }
+    for (const std::string i : {"0", "1"})
+        for (const std::string range : {"0-16", "16-40"}) {
+            both.push_back(place / ("both" + i + range));
+            REQUIRE(
+                place.render(with(call, {"--tile", i + "/2", "--samples", range, "--checkpoint", both.back()})).code ==
+                0);
+        }
+    for (const Words& parts : {tiles, ranges, both}) {
+        const Outcome o = place.merge(with(parts, {"-o", place / "merged.exr"}));
+        CAPTURE(o.err);
+        REQUIRE(o.code == 0);
+        CHECK(place.bytes("merged.exr") == place.bytes("whole.exr"));
+    }
+    const auto refused = [&](const Words& parts, const std::string& line) {
+        const Outcome o = place.merge(with(parts, {"-o", place / "no.exr"}));
+        CAPTURE(o.err);
+        CHECK(o.code == 2);
+        CHECK(o.err.find(line) != std::string::npos);
+        CHECK_FALSE(std::filesystem::exists(place / "no.exr"));
+    };
+    refused({tiles[0], tiles[2]}, "merge: expected all parts, got none with the samples 0-40 of the rows 13 to 25");
+    refused({ranges[0], ranges[1]}, "merge: expected all parts, got none with the samples 3-7 of the rows 0 to 39");
+    refused({ranges[1], ranges[2]}, "got none with the samples 7-40 of the rows 0 to 39");
+    refused({tiles[0], tiles[1], tiles[2], tiles[1]}, "merge: expected parts that do not overlap, got ");
+    refused({ranges[0], ranges[1], ranges[2], both[0]}, "merge: expected parts that do not overlap, got ");
+    REQUIRE(place.render(with(call, {"--seed", "1", "--tile", "1/3", "--checkpoint", place / "other"})).code == 0);
+    refused({tiles[0], place / "other", tiles[2]}, "other: expected a part of the picture that ");
+}
+
+TEST_CASE("tiles of a picture with a noise bound merge to the whole, too") {
+    const Place place;
+    const Words call = {"--noise", "0.05", "--spp", "64"};
+    REQUIRE(place.render(with(call, {"-o", place / "whole.exr"})).code == 0);
+    Words parts;
+    for (const std::string i : {"0", "1", "2"}) {
+        parts.push_back(place / i);
+        REQUIRE(place.render(with(call, {"--tile", i + "/3", "--checkpoint", parts.back()})).code == 0);
+    }
+    REQUIRE(place.merge(with(parts, {"-o", place / "merged.exr"})).code == 0);
+    CHECK(place.bytes("merged.exr") == place.bytes("whole.exr"));
+}
+
+TEST_CASE("--tile auto reads the environment of a job's array") {
+    const Place place;
+    const Words call = {"--draft", "-o", place / "a.png"};
+    const auto same = [&](const std::string& tile, const std::string& given, const Words& environment) {
+        REQUIRE(place.render({"--draft", "-o", place / "b.png", "--tile", given}).code == 0);
+        const Outcome o = place.render(with(call, {"--tile", tile}), environment);
+        CAPTURE(o.err);
+        CHECK(o.code == 0);
+        CHECK(place.bytes("a.png") == place.bytes("b.png"));
+    };
+    same("auto", "2/4", {"SLURM_ARRAY_TASK_ID=2", "SLURM_ARRAY_TASK_COUNT=4"});
+    same("auto", "2/4", {"SLURM_ARRAY_TASK_ID=3", "SLURM_ARRAY_TASK_MIN=1", "SLURM_ARRAY_TASK_COUNT=4"});
+    same("auto/5", "3/5", {"JOB_COMPLETION_INDEX=3"});
+    same("auto/5", "0/5", {"CUE_IFRAME=0"});
+    const auto refused = [&](const std::string& tile, const Words& environment, const std::string& line) {
+        const Outcome o = place.render(with(call, {"--tile", tile}), environment);
+        CAPTURE(o.err);
+        CHECK(o.code == 2);
+        CHECK(o.err.find(line) != std::string::npos);
+    };
+    refused("auto", {}, "--tile: expected auto/N where the environment has no SLURM_ARRAY_TASK_COUNT, got auto");
+    refused("auto/4", {}, "--tile: expected SLURM_ARRAY_TASK_ID, JOB_COMPLETION_INDEX or CUE_IFRAME");
+    refused("auto/4", {"CUE_IFRAME=4"}, "--tile: expected a number from 0 to 3 in the environment, got 4");
+    refused("4/4", {}, "--tile: expected a whole number from 0 to 3, got '4'");
+    refused("4", {}, "--tile: expected i/N, auto or auto/N, got '4'");
+    refused("0/41", {}, "--tile: expected at most one share for each of the 40 rows, got 41");
+}
