@@ -63,13 +63,11 @@ void ClosedMesh::drop_degenerate() {
     };
     std::erase_if(triangles_, [](const Corners& t) { return t[0] == t[1] || t[1] == t[2] || t[2] == t[0]; });
     for (std::size_t round = 0; round < 64; ++round) {
+        if (std::none_of(triangles_.begin(), triangles_.end(), is_flat)) return;
         std::map<std::pair<int, int>, int> owner;  // of directed edges
-        bool any = false;
         for (std::size_t t = 0; t < triangles_.size(); ++t) {
-            any = any || is_flat(triangles_[t]);
             for (int k = 0; k < 3; ++k) owner[{triangles_[t][k], triangles_[t][(k + 1) % 3]}] = int(t);
         }
-        if (!any) return;
         std::vector<char> touched(triangles_.size(), false), dropped(triangles_.size(), false);
         std::vector<Corners> added;
         for (std::size_t t = 0; t < triangles_.size(); ++t) {
@@ -278,23 +276,31 @@ bool ClosedMesh::reaches(int t, const Box& box, double reach) const {
 }
 
 void ClosedMesh::near(const Box& box, double reach, std::vector<int>& found) const {
-    if (nodes_.empty()) return;
     const std::size_t before = found.size();
+    visit_near(box, reach, [&](int t) {
+        found.push_back(t);
+        return true;
+    });
+    std::sort(found.begin() + std::ptrdiff_t(before), found.end());
+}
+
+std::size_t ClosedMesh::count_near(const Box& box, double reach) const {
+    if (nodes_.empty()) return 0;
     const Box wide = inflated(box, reach * (1 + 8 * epsilon));
+    std::size_t count = 0;
     int stack[128], depth = 0;
     stack[depth++] = 0;
     while (depth > 0) {
         const Node& node = nodes_[stack[--depth]];
         if (intersection(node.box, wide).empty()) continue;
-        if (node.left >= 0) {
-            stack[depth++] = node.left;
-            stack[depth++] = node.right;
+        if (node.left < 0 || (wide.contains(node.box.lo) && wide.contains(node.box.hi))) {
+            count += std::size_t(node.end - node.begin);
             continue;
         }
-        for (int i = node.begin; i < node.end; ++i)
-            if (reaches(order_[i], box, reach)) found.push_back(order_[i]);
+        stack[depth++] = node.left;
+        stack[depth++] = node.right;
     }
-    std::sort(found.begin() + std::ptrdiff_t(before), found.end());
+    return count;
 }
 
 // The nearest point of the triangle, by the regions around it [Ericson, Real-Time Collision Detection, §5.1.5].

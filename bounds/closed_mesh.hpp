@@ -68,6 +68,11 @@ public:
 
     /// Appends the triangles that may come within `reach` of the box, in rising order.
     void near(const Box& box, double reach, std::vector<int>& found) const;
+    /// Calls visit(triangle) for those in no order, until it returns false.
+    template <class Visit>
+    void visit_near(const Box& box, double reach, Visit visit) const;
+    /// At least how many they are, by the hierarchy's boxes alone.
+    std::size_t count_near(const Box& box, double reach) const;
     /// Whether the triangle may come within `reach` of the box: never false where it does.
     bool reaches(int triangle, const Box& box, double reach) const;
     /// The point of the triangle that is nearest to x.
@@ -111,6 +116,25 @@ private:
     std::size_t plane_count_ = 0;
     Box box_;
 };
+
+template <class Visit>
+void ClosedMesh::visit_near(const Box& box, double reach, Visit visit) const {
+    if (nodes_.empty()) return;
+    const Box wide = inflated(box, reach * (1 + 8 * epsilon));
+    int stack[128], depth = 0;
+    stack[depth++] = 0;
+    while (depth > 0) {
+        const Node& node = nodes_[stack[--depth]];
+        if (intersection(node.box, wide).empty()) continue;
+        if (node.left >= 0) {
+            stack[depth++] = node.left;
+            stack[depth++] = node.right;
+            continue;
+        }
+        for (int i = node.begin; i < node.end; ++i)
+            if (reaches(order_[i], box, reach) && !visit(order_[i])) return;
+    }
+}
 
 using ClosedMeshPtr = std::shared_ptr<const ClosedMesh>;
 

@@ -132,8 +132,13 @@ MeshField::MeshField(Part, const MeshField& of, std::vector<int> triangles)
       triangles_(std::move(triangles)),
       box_(of.box_) {}
 
-std::span<const int> MeshField::near(const Box& box, std::vector<int>& memory) const {
+// Cells may be infinite; what is beyond this part of one no triangle reaches.
+Box MeshField::reached(const Box& box) const { return intersection(box, inflated(box_, 2 * radius_)); }
+
+std::span<const int> MeshField::near(const Box& cell, std::vector<int>& memory) const {
     memory.clear();
+    const Box box = reached(cell);
+    if (box.empty()) return memory;
     if (whole_) {
         mesh_->near(box, radius_, memory);
     } else {
@@ -236,18 +241,39 @@ FieldPtr MeshField::prune(const Box& box) const {
     return FieldPtr(new MeshField(Part{}, *this, std::move(found)));
 }
 
-std::optional<DensityTree> MeshField::as_density(const Box& box) const {
-    thread_local std::vector<int> memory;
-    const std::span<const int> found = near(box, memory);
-    if (found.empty()) return std::nullopt;
+std::optional<DensityTree> MeshField::as_density(const Box& cell) const {
+    const Box box = reached(cell);
+    if (box.empty()) return std::nullopt;
+    thread_local std::vector<int> found;
+    found.clear();
     const double scale = std::max(largest(box_.lo), largest(box_.hi));
-    const ClosedMesh::Plane *a = &mesh_->plane(found[0]), *b = nullptr;
-    for (const int t : found) {
+    const ClosedMesh::Plane *a = nullptr, *b = nullptr;
+    // False for a triangle of a third plane.
+    const auto place = [&](int t) {
         const ClosedMesh::Plane& plane = mesh_->plane(t);
-        if (same_plane(plane, *a, scale) || (b && same_plane(plane, *b, scale))) continue;
-        if (b) return std::nullopt;
-        b = &plane;
+        if ((a && same_plane(plane, *a, scale)) || (b && same_plane(plane, *b, scale))) return true;
+        if (b) return false;
+        (a ? b : a) = &plane;
+        return true;
+    };
+    bool many = false;
+    const auto add = [&](int t) {
+        found.push_back(t);
+        many = !place(t);
+        return !many;
+    };
+    if (whole_) {
+        mesh_->visit_near(box, radius_, add);
+    } else {
+        for (const int t : triangles_)
+            if (mesh_->reaches(t, box, radius_) && !add(t)) break;
     }
+    if (found.empty() || many) return std::nullopt;
+    // Which plane stands for those that are equal to rounding is told by the triangles' order.
+    std::sort(found.begin(), found.end());
+    a = b = nullptr;
+    for (const int t : found)
+        if (!place(t)) return std::nullopt;
     const auto half_space = [&](const ClosedMesh::Plane& p) {
         return HalfSpace{p.normal, p.offset, sharp_ ? 0 : radius_};
     };
@@ -305,6 +331,15 @@ int MeshField::size() const {
 }
 
 LocalSize MeshField::local_size(const Box& box) const {
+    // Of a large box that many triangles reach nothing would be proved by looking at each.
+    constexpr std::size_t many = 256;
+    constexpr double large = 4;  // shortest side, in radii
+    const Box seen = reached(box);
+    const Vec3 sides = seen.hi - seen.lo;
+    if (std::min({sides.x, sides.y, sides.z}) > large * radius_) {
+        const std::size_t count = mesh_->count_near(seen, radius_);
+        if (count > many) return {{-0.5, 0.5}, int(std::min<std::size_t>(count, 500'000'000) * 2)};
+    }
     thread_local std::vector<int> memory;
     const std::span<const int> found = near(box, memory);
     return {range(box, found), std::max(1, 2 * int(found.size()))};

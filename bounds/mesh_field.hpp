@@ -40,6 +40,7 @@ public:
 private:
     struct Part {};  // of another
     MeshField(Part, const MeshField& of, std::vector<int> triangles);
+    Box reached(const Box& box) const;
     std::span<const int> near(const Box& box, std::vector<int>& memory) const;
     bool is_inside(Vec3 x) const;
     Range range(const Box& box, std::span<const int> triangles) const;

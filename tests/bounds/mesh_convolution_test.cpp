@@ -289,6 +289,18 @@ TEST_CASE("a share falls in every direction that all triangles face, however lar
     CHECK(field.rate_range(cap, {1, 0, 0}).hi > 0);
 }
 
+TEST_CASE("a cell without an end holds no more of a mesh than its finite part") {
+    const MeshField field(std::make_shared<ClosedMesh>(Shape::sphere(1, 40).mesh()), 0.01);
+    const Box left{{-infinity, -infinity, -infinity}, {-0.2, infinity, infinity}},
+        cap{{-infinity, -infinity, -infinity}, {-0.98, infinity, infinity}};
+    const FieldPtr local = field.prune(left);
+    REQUIRE(local);
+    CHECK(local->local_size(cap).half_spaces < field.size() / 20);
+    CHECK(local->local_size({{-infinity, -infinity, 2}, {-0.2, infinity, infinity}}).range.hi <= 0);
+    // Of many triangles in a large box the number is a bound.
+    CHECK(local->local_size({{-1.1, -1.1, -1.1}, {-0.5, 1.1, 1.1}}).half_spaces >= field.size() / 8);
+}
+
 TEST_CASE("an open mesh is told with the number of its open edges, and where one is") {
     Shape box = Shape::box({0, 0, 0}, {1, 1, 1});
     box.triangles.pop_back();
