@@ -82,7 +82,7 @@ Json describe(const Scene& scene, Size size) {
                    {"fov", scene.camera.fov}};
     j["parameters"] = scene.parameters;
     Box all;
-    double half_spaces = 0, quadrics = 0;
+    double half_spaces = 0, quadrics = 0, triangles = 0;
     SolidSurvey survey;
     j["solids"] = Json::array();
     for (std::size_t i = 0; i < scene.solids.size(); ++i) {
@@ -90,14 +90,21 @@ Json describe(const Scene& scene, Size size) {
         all = own.box.empty() ? all : hull(all, own.box);
         half_spaces += own.half_spaces;
         quadrics += own.quadrics;
+        triangles += own.triangles;
         j["solids"].push_back({{"id", i + 1},
                                {"name", i < scene.names.size() ? scene.names[i] : ""},
                                {"half_spaces", own.half_spaces},
                                {"quadrics", own.quadrics},
                                {"bounds", json_of(own.box)}});
+        if (own.triangles > 0)
+            j["solids"].back()["models"] = {{"triangles", own.triangles},
+                                            {"faces", own.faces},
+                                            {"sharp_volume", own.model_volume},
+                                            {"radius", own.model_radius}};
     }
     j["half_spaces"] = half_spaces;
     j["quadrics"] = quadrics;
+    j["triangles"] = triangles;
     j["bounds"] = json_of(all);
     j["materials"] = Json::array();
     for (const Material& material : scene.materials) j["materials"].push_back(name_of(material.kind));
@@ -140,6 +147,16 @@ std::string some(const Json& count, const char* of_what) {
     return count > 0 ? fmt::format("{:.0f} {} ", count.get<double>(), of_what) : "";
 }
 
+// As in "12 triangles on 6 faces, volume 8 when sharp, rounded by 0.5, "; nothing of a solid without models.
+std::string text_of_models(const Json& solid) {
+    if (!solid.contains("models")) return "";
+    const Json& m = solid["models"];
+    const double radius = m["radius"].get<double>();
+    return fmt::format("{:.0f} triangles on {:.0f} faces, volume {:.6g} when sharp, {}", m["triangles"].get<double>(),
+                       m["faces"].get<double>(), m["sharp_volume"].get<double>(),
+                       radius > 0 ? fmt::format("rounded by {:g}, ", radius) : "");
+}
+
 void print(const Json& j) {
     const auto row = [](const std::string& name, const std::string& value) {
         fmt::print("{:<14}{}\n", name, printable(value));
@@ -154,14 +171,16 @@ void print(const Json& j) {
     for (const auto& [name, value] : j["parameters"].items())
         row("parameter", fmt::format("{} = {}", name, value.get<std::string>()));
     row("bounds", text_of_box(j["bounds"]));
-    row("half-spaces", fmt::format("{:.0f}", j["half_spaces"].get<double>()));
+    if (j["half_spaces"] > 0 || j["triangles"] == 0)
+        row("half-spaces", fmt::format("{:.0f}", j["half_spaces"].get<double>()));
+    if (j["triangles"] > 0) row("triangles", fmt::format("{:.0f}", j["triangles"].get<double>()));
     if (j["quadrics"] > 0) row("quadrics", fmt::format("{:.0f}", j["quadrics"].get<double>()));
     row("solids", fmt::format("{}", j["solids"].size()));
     for (const Json& solid : j["solids"]) {
         const auto name = solid["name"].get<std::string>();
         row(fmt::format("  {}", solid["id"].get<std::size_t>()),
-            fmt::format("{}{}{}in {}", name.empty() ? "" : name + ": ", some(solid["half_spaces"], "half-spaces"),
-                        some(solid["quadrics"], "quadrics"), text_of_box(solid["bounds"])));
+            fmt::format("{}{}{}{}in {}", name.empty() ? "" : name + ": ", some(solid["half_spaces"], "half-spaces"),
+                        some(solid["quadrics"], "quadrics"), text_of_models(solid), text_of_box(solid["bounds"])));
     }
     row("materials", fmt::format("{}", j["materials"].size()));
     for (std::size_t i = 0; i < j["materials"].size(); ++i)

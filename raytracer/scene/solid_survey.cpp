@@ -1,9 +1,12 @@
 #include "raytracer/scene/solid_survey.hpp"
 
+#include <algorithm>
+#include <cmath>
 #include <vector>
 
 #include "bounds/bounding_box.hpp"
 #include "bounds/free_form.hpp"
+#include "bounds/mesh_field.hpp"
 
 namespace deburr {
 namespace {
@@ -19,16 +22,40 @@ SolidFacts facts_of(const SolidTree& tree) {
     return facts;
 }
 
+// Of a scale by which the map makes volumes larger.
+double scale_of(const Affine& map) { return std::cbrt(std::abs(glm::determinant(map.linear))); }
+
+void add_models(const Solid& solid, SolidFacts& facts) {
+    for_each_leaf(
+        {solid}, [](const SolidNode&) { return true; },
+        [&](const Solid& leaf, const Affine& map) {
+            const auto* model = dynamic_cast<const MeshField*>(leaf.node().field().get());
+            if (!model) return;
+            const double scale = scale_of(map);
+            facts.triangles += double(model->mesh().size());
+            facts.faces += double(model->mesh().planes());
+            facts.model_volume += model->mesh().volume() * scale * scale * scale;
+            facts.model_radius = std::max(facts.model_radius, scale * model->filter_radius());
+        });
+}
+
 SolidFacts placed(const Affine& map, const SolidFacts& facts) {
     SolidFacts result = facts;
     if (!facts.box.empty()) result.box = facts.box.finite() ? image(map, facts.box) : Box::everything();
+    const double scale = scale_of(map);
+    result.model_volume *= scale * scale * scale;
+    result.model_radius *= scale;
     return result;
 }
 
 }  // namespace
 
 SolidFacts SolidSurvey::at(const Solid& solid) {
-    if (solid.node().leaves <= max_half_spaces) return facts_of(flatten(solid));
+    if (solid.node().leaves <= max_half_spaces) {
+        SolidFacts facts = facts_of(flatten(solid));
+        add_models(solid, facts);
+        return facts;
+    }
     const CanonicalPlacement placement = canonical_.of(solid);
     return placed(placement.map, of_canonical(placement.canonical));
 }
@@ -57,6 +84,10 @@ const SolidFacts& SolidSurvey::of_canonical(int root) {
                 if (!facts.box.empty()) all.box = hull(all.box, facts.box);
                 all.half_spaces += facts.half_spaces;
                 all.quadrics += facts.quadrics;
+                all.triangles += facts.triangles;
+                all.faces += facts.faces;
+                all.model_volume += facts.model_volume;
+                all.model_radius = std::max(all.model_radius, facts.model_radius);
             }
             if (open.size() == before) known_[canonical] = all;
         }

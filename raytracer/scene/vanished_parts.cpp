@@ -11,6 +11,7 @@
 #include "bounds/density_part.hpp"
 #include "bounds/emptiness.hpp"
 #include "raytracer/scene/box_text.hpp"
+#include "raytracer/scene/thin_walls.hpp"
 
 namespace deburr {
 namespace {
@@ -108,6 +109,20 @@ private:
     std::vector<DensityTree> sharp_parts_;
 };
 
+// What to say of a model's walls that vanish, but for the place; nothing if there are none.
+std::string thin_walls_text(const MeshField& model, const Affine& map) {
+    const ThinWalls walls = thin_walls(model);
+    if (walls.facets == 0) return {};
+    const double scale = std::cbrt(std::abs(glm::determinant(map.linear))), thickness = scale * walls.thickness;
+    const Vec3 at = map(walls.place);
+    return fmt::format(
+        "walls behind {} facet{} vanish at radius {:.4g}, the thinnest {:.4g} thick near ({:.4g}, {:.4g}, {:.4g}); up "
+        "to "
+        "{:.3g} they stay",
+        walls.facets, walls.facets == 1 ? "" : "s", scale * model.filter_radius(), thickness, at.x, at.y, at.z,
+        rounded_down(thickness / vanishing_thickness));
+}
+
 // Errs towards no.
 bool is_empty(const Solid& solid, std::int64_t& nodes) {
     if (solid.node().leaves > max_leaves || nodes <= 0) return false;
@@ -134,6 +149,13 @@ VanishedParts vanished_parts(const Scene& scene, std::int64_t nodes) {
         const auto look = [&](const Solid& leaf, const Affine& map) {
             const SolidNode& node = leaf.node();
             if (first_line == 0) first_line = node.line;
+            const auto* model = dynamic_cast<const MeshField*>(node.field().get());
+            if (model && seen.insert(canonical.of(leaf).canonical).second) {
+                const std::string what = thin_walls_text(*model, map);
+                if (what.empty()) return;
+                result.rounded_away.push_back(said(node.line, what));
+                told = true;
+            }
             if (node.field() || node.convolved() || node.radius() == 0 || node.leaves > max_leaves) return;
             if (!seen.insert(canonical.of(leaf).canonical).second) return;
             for (const std::string& what : Leaf(node, map, nodes).vanished()) {

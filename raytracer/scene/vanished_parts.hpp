@@ -10,7 +10,7 @@ namespace deburr {
 
 struct VanishedParts {
     /// A line for each part that rounding leaves nothing of, such as `lid.lua:7: solid 2: a part in [0, 1] x [0, 0.1] x
-    /// [0, 1] vanishes at radius 0.2; up to 0.178 it stays`.
+    /// [0, 1] vanishes at radius 0.2; up to 0.178 it stays`, and one for each model with walls that are too thin.
     std::vector<std::string> rounded_away;
     /// A line for each other solid that is empty.
     std::vector<std::string> empty;

@@ -100,3 +100,22 @@ TEST_CASE("no name and no text of a scene reaches the terminal as a control char
     CHECK(is_clean(run({"info", "\33[31m.lua"}).err));
     CHECK(is_clean(run({"\33[31m"}).err));
 }
+
+TEST_CASE("info says of a model its triangles, its faces, its volume and its radius") {
+    const Folder folder;
+    const std::string file = folder / "box.off";
+    write_file(file,
+               "OFF\n8 12 0\n0 0 0\n3 0 0\n3 2 0\n0 2 0\n0 0 1\n3 0 1\n3 2 1\n0 2 1\n"
+               "3 2 1 0\n3 3 2 0\n3 4 5 6\n3 4 6 7\n3 0 1 5\n3 0 5 4\n3 1 2 6\n3 1 6 5\n3 2 3 7\n3 2 7 6\n"
+               "3 3 0 4\n3 3 4 7\n");
+    const Outcome text = run({"info", file, "--round", "0.25"});
+    CHECK(text.code == 0);
+    CHECK(text.out.find("triangles     12\n") != std::string::npos);
+    CHECK(text.out.find(
+              "box: 12 triangles on 6 faces, volume 6 when sharp, rounded by 0.25, in [0, 3] x [0, 2] x [0, 1]") !=
+          std::string::npos);
+    const auto j = nlohmann::json::parse(run({"info", "--json", file}).out);
+    CHECK(j["triangles"] == 12);
+    CHECK(j["solids"][0]["models"] ==
+          nlohmann::json::parse(R"({"triangles": 12.0, "faces": 6.0, "sharp_volume": 6.0, "radius": 0.0})"));
+}

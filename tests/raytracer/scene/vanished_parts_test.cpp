@@ -4,8 +4,10 @@
 
 #include "bounds/emptiness.hpp"
 #include "catch.hpp"
+#include "closed_shapes.hpp"
 #include "raytracer/program.hpp"
 #include "raytracer/scene/scene_reader.hpp"
+#include "raytracer/scene/thin_walls.hpp"
 
 using namespace deburr;
 using namespace deburr::test;
@@ -34,6 +36,40 @@ TEST_CASE("a solid that rounding leaves nothing of is told with the largest radi
     CHECK(radius < 0.5 / 0.5674);
     CHECK(radius > 0.99 * 0.5 / 0.5675);
     CHECK(of("rounded(0.88, box({0, 0, 0}, {10, 0.5, 10}))").rounded_away.empty());
+}
+
+namespace {
+
+std::vector<std::string> of_model(const Shape& shape, double radius, const Affine& map = {}) {
+    Scene scene;
+    scene.file = "part.stl";
+    const Solid solid =
+        Solid::of_field(std::make_shared<MeshField>(std::make_shared<ClosedMesh>(shape.mesh()), radius));
+    scene.solids.push_back(solid.transformed(map));
+    scene.names.push_back("part");
+    return vanished_parts(scene).rounded_away;
+}
+
+}  // namespace
+
+TEST_CASE("walls of a model that its radius leaves nothing of are told with the largest radius that keeps them") {
+    const Shape plate = Shape::box({0, 0, 0}, {10, 10, 0.5});
+    // A wall of 0.6946 r is as thick as half of the ball around its middle.
+    const std::vector<std::string> found = of_model(plate, 0.75);
+    REQUIRE(found.size() == 1);
+    CHECK(found[0].find("solid 1 (part): walls behind 4 facets vanish at radius 0.75, the thinnest 0.5 thick near (") !=
+          std::string::npos);
+    CHECK(radius_in(found[0]) <= 0.5 / vanishing_thickness);
+    CHECK(radius_in(found[0]) > 0.99 * 0.5 / vanishing_thickness);
+    CHECK(of_model(plate, 0.71).empty());
+    // The edges of what is thick enough are no walls, however much rounding takes of them.
+    CHECK(of_model(Shape::l_prism(), 0.9).empty());
+    CHECK(of_model(Shape::box({0, 0, 0}, {1, 1, 1}), 0).empty());
+    Affine twice;
+    twice.linear = Mat3(2.0);
+    const std::vector<std::string> larger = of_model(plate, 0.75, twice);
+    REQUIRE(larger.size() == 1);
+    CHECK(larger[0].find("at radius 1.5, the thinnest 1 thick") != std::string::npos);
 }
 
 TEST_CASE("a part of a union that vanishes is told by its place, unless its neighbours hold it") {
