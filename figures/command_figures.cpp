@@ -108,7 +108,7 @@ int run_figures(const FiguresOptions& o) {
 
 Command add_figures_command(CLI::App& program) {
     CLI::App* command =
-        program.add_subcommand("figures", "make the papers' figures and tables, with a page that shows them");
+        add_command(program, "figures", "make the papers' figures and tables, with a page that shows them");
     const auto options = std::make_shared<FiguresOptions>();
     command->add_option("NAME", options->names, "figures, or papers for all of theirs; default: all")->type_name("");
     command

@@ -2,7 +2,7 @@
 //
 // Options and commands of an empty group are hidden and left out.
 #pragma once
-#include <CLI/CLI.hpp>
+#include <CLI/App.hpp>
 #include <string>
 #include <vector>
 

@@ -5,6 +5,7 @@
 #include <signal.h>
 #include <unistd.h>
 
+#include <CLI/CLI.hpp>
 #include <cstdio>
 #include <exception>
 #include <new>
@@ -152,6 +153,10 @@ int answer(int argc, char** argv, const std::vector<Command (*)(CLI::App&)>& mor
 }
 
 }  // namespace
+
+CLI::App* add_command(CLI::App& program, const std::string& name, const std::string& description) {
+    return program.add_subcommand(name, description);
+}
 
 int run_program(int argc, char** argv, const std::vector<Command (*)(CLI::App&)>& more) {
     return leave(answer(argc, argv, more));

@@ -1,8 +1,9 @@
 // The program's commands. Each is a file of its own, NAME_command.cpp; it is declared here and added to the program by
 // run_program().
 #pragma once
-#include <CLI/CLI.hpp>
+#include <CLI/App.hpp>
 #include <functional>
+#include <string>
 
 namespace deburr {
 
@@ -11,6 +12,10 @@ struct Command {
     CLI::App* app;
     std::function<int()> run;
 };
+
+/// Adds an empty command to the program. So only command_line.cpp compiles what CLI11 constructs with it, the parser and
+/// the writer of help, and <CLI/CLI.hpp>, which defines them: 2 s of every other file with <CLI/App.hpp> instead.
+CLI::App* add_command(CLI::App& program, const std::string& name, const std::string& description);
 
 Command add_render_command(CLI::App& program);
 Command add_info_command(CLI::App& program);

@@ -132,8 +132,8 @@ int run_compare(const CompareOptions& o) {
 }  // namespace
 
 Command add_compare_command(CLI::App& program) {
-    CLI::App* command = program.add_subcommand(
-        "compare", "say how far a scene's implicit picture and its mesh's, or two pictures, are apart");
+    CLI::App* command = add_command(
+        program, "compare", "say how far a scene's implicit picture and its mesh's, or two pictures, are apart");
     const auto options = std::make_shared<CompareOptions>();
     add_scene_options(*command, *options);
     command->add_option("SECOND", options->second, "a second picture; the first takes the scene's place")

@@ -46,7 +46,7 @@ int run_export_pov(const ExportPovOptions& o) {
 }  // namespace
 
 Command add_export_pov_command(CLI::App& program) {
-    CLI::App* command = program.add_subcommand("export-pov", "write a scene for POV-Ray 3.7, to compare with");
+    CLI::App* command = add_command(program, "export-pov", "write a scene for POV-Ray 3.7, to compare with");
     const auto options = std::make_shared<ExportPovOptions>();
     ExportPovOptions& o = *options;
     add_scene_options(*command, o);

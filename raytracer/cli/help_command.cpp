@@ -96,7 +96,7 @@ int run_help(const CLI::App& program, const HelpOptions& o) {
 }  // namespace
 
 Command add_help_command(CLI::App& program) {
-    CLI::App* command = program.add_subcommand("help", "explain a command, or a name of the scene language");
+    CLI::App* command = add_command(program, "help", "explain a command, or a name of the scene language");
     const auto options = std::make_shared<HelpOptions>();
     command
         ->add_option("NAME", options->names,

@@ -208,7 +208,7 @@ int run_info(const InfoOptions& o) {
 }  // namespace
 
 Command add_info_command(CLI::App& program) {
-    CLI::App* command = program.add_subcommand("info", "say what is in a scene, and whether its densities are legal");
+    CLI::App* command = add_command(program, "info", "say what is in a scene, and whether its densities are legal");
     const auto options = std::make_shared<InfoOptions>();
     add_scene_options(*command, *options);
     add_view_options(*command, *options);

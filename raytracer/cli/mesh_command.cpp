@@ -331,7 +331,7 @@ int run_mesh(const MeshCommandOptions& o) {
 }  // namespace
 
 Command add_mesh_command(CLI::App& program) {
-    CLI::App* command = program.add_subcommand("mesh", "write a scene's solids as a closed mesh");
+    CLI::App* command = add_command(program, "mesh", "write a scene's solids as a closed mesh");
     const auto options = std::make_shared<MeshCommandOptions>();
     add_scene_options(*command, *options);
     add_output_option(*command, *options, known_mesh_extensions(),

@@ -1,7 +1,7 @@
 // The command line's options. Those that several commands share are added here, so that they are
 // spelled, explained and checked alike everywhere.
 #pragma once
-#include <CLI/CLI.hpp>
+#include <CLI/App.hpp>
 #include <cstdint>
 #include <map>
 #include <optional>
