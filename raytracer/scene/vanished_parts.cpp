@@ -22,6 +22,11 @@ constexpr double max_leaves = 3'000;
 constexpr int halvings = 12;
 // Points along each side of a part's box where it is compared with the whole.
 constexpr int points_along = 12;
+// A plate of this many radii holds half of the ball around its middle: 3u - u³ = 1 of u, half of it, = 2 sin 10°.
+constexpr double thinnest_plate = 0.694592;
+// A value of a true convolution takes as long as this many nodes for each of its own, and of more leaves much longer.
+constexpr int nodes_of_convolution = 100;
+constexpr double max_convolved_leaves = 100;
 
 double rounded_down(double x) {
     const double unit = std::pow(10.0, std::floor(std::log10(x)) - 2);
@@ -33,12 +38,32 @@ DensityTree sharpened(DensityTree tree) {
     return tree;
 }
 
-// A rounded density where it is placed first.
+// Whether the Boolean function below a true convolution lies between two planes too close to one another for it. So is
+// any plate or small box told at once; the ranges of true convolutions take long.
+bool is_thin_plate(const DensityTree& tree) {
+    constexpr double parallel = 1e-12;
+    std::vector<HalfSpace> between;
+    std::vector<int> open{tree.nodes.back().a};
+    while (!open.empty()) {
+        const TreeNode& n = tree.nodes[open.back()];
+        open.pop_back();
+        if (n.op == Op::conjunction) open.insert(open.end(), {n.a, n.b});
+        if (n.op == Op::half_space && !tree.half_spaces[n.a].round) between.push_back(tree.half_spaces[n.a]);
+    }
+    for (std::size_t i = 0; i < between.size(); ++i)
+        for (std::size_t k = 0; k < i; ++k)
+            if (largest(between[i].normal + between[k].normal) <= parallel &&
+                between[i].offset + between[k].offset < thinnest_plate * between[i].radius)
+                return true;
+    return false;
+}
+
+// A rounded density, or a true convolution, where it is placed first.
 class Leaf {
 public:
     Leaf(const SolidNode& node, const Affine& map, std::int64_t& nodes) : node_(node), map_(map), nodes_(nodes) {
         whole_ = rounded(node.radius());
-        parts_ = summands(whole_);
+        parts_ = summands(node.convolved() ? part_below(whole_, whole_.nodes.back().a) : whole_);
         for (const int part : parts_) sharp_parts_.push_back(sharpened(part_below(whole_, part)));
     }
 
@@ -48,35 +73,66 @@ public:
         for (std::size_t i = 0; i < parts_.size() && nodes_ > 0; ++i) {
             const Box box = bounding_box(sharp_parts_[i]);
             if (box.empty() || !box.finite() || !vanishes(i, box)) continue;
-            const auto kept = [&](double r) {
-                return emptiness(part_below(rounded(r), parts_[i]), box, nodes_) == Emptiness::not_empty;
-            };
+            const auto kept = [&](double r) { return is_surely_kept(rounded_part(rounded(r), i), box); };
             said.push_back((parts_.size() > 1 ? fmt::format("a part in {}", box_text(box)) : "it") + at_radius(kept));
         }
         return said;
     }
 
 private:
-    DensityTree rounded(double r) const { return flatten(node_.density(), r, map_); }
+    DensityTree rounded(double r) const {
+        return node_.convolved() ? flatten_convolved(node_.density(), r, map_) : flatten(node_.density(), r, map_);
+    }
+
+    // One part of such a tree as if it were alone.
+    DensityTree rounded_part(const DensityTree& tree, std::size_t i) const {
+        DensityTree part = part_below(tree, parts_[i]);
+        if (!node_.convolved()) return part;
+        part.nodes.push_back({Op::convolution, part.root()});
+        part.ball = tree.ball;
+        return part;
+    }
 
     // Errs towards yes.
-    bool is_kept(const DensityTree& tree, const Box& box) { return emptiness(tree, box, nodes_) != Emptiness::empty; }
+    bool is_kept(const DensityTree& tree, const Box& box) {
+        if (node_.convolved()) return !is_thin_plate(tree);
+        return emptiness(tree, box, nodes_) != Emptiness::empty;
+    }
+
+    // Errs towards no.
+    bool is_surely_kept(const DensityTree& tree, const Box& box) {
+        if (node_.convolved()) return some_point(box, [&](Vec3 x) { return value(tree, x) > 0.5; });
+        return emptiness(tree, box, nodes_) == Emptiness::not_empty;
+    }
+
+    double value(const DensityTree& tree, Vec3 x) {
+        nodes_ -= (node_.convolved() ? nodes_of_convolution : 1) * std::int64_t(tree.nodes.size());
+        return tree.at(x);
+    }
+
+    // Whether the predicate holds at the box's middle or at a point of a grid in it.
+    template <class Predicate>
+    static bool some_point(const Box& box, Predicate predicate) {
+        if (predicate(0.5 * (box.lo + box.hi))) return true;
+        for (int n = 0; n < points_along * points_along * points_along; ++n) {
+            const Vec3 at(n % points_along, n / points_along % points_along, n / points_along / points_along);
+            if (predicate(glm::mix(box.lo, box.hi, (at + 0.5) / double(points_along)))) return true;
+        }
+        return false;
+    }
 
     // It has a volume, none when it is rounded alone, and its neighbours do not hold it either.
     bool vanishes(std::size_t i, const Box& box) {
-        const DensityTree alone = part_below(whole_, parts_[i]);
+        const DensityTree alone = rounded_part(whole_, i);
         if (is_kept(alone, box) || emptiness(sharp_parts_[i], box, nodes_) != Emptiness::not_empty) return false;
-        nodes_ -= points_along * points_along * points_along * std::int64_t(sharp_parts_[i].nodes.size());
         bool own = parts_.size() == 1;
-        for (int n = 0; n < points_along * points_along * points_along; ++n) {
-            const Vec3 at(n % points_along, n / points_along % points_along, n / points_along / points_along);
-            const Vec3 x = glm::mix(box.lo, box.hi, (at + 0.5) / double(points_along));
-            if (!(sharp_parts_[i].at(x) > 0.5) || in_another(i, x)) continue;
+        const bool held = some_point(box, [&](Vec3 x) {
+            nodes_ -= std::int64_t(sharp_parts_[i].nodes.size());
+            if (nodes_ <= 0 || !(sharp_parts_[i].at(x) > 0.5) || in_another(i, x)) return false;
             own = true;
-            nodes_ -= std::int64_t(whole_.nodes.size());
-            if (whole_.at(x) > 0.5) return false;
-        }
-        return own;
+            return value(whole_, x) > 0.5;
+        });
+        return own && !held && nodes_ > 0;
     }
 
     bool in_another(std::size_t i, Vec3 x) {
@@ -128,7 +184,15 @@ bool is_empty(const Solid& solid, std::int64_t& nodes) {
     if (solid.node().leaves > max_leaves || nodes <= 0) return false;
     const SolidTree tree = flatten(solid);
     const Box box = bounding_box(tree);
-    return box.empty() || (box.finite() && emptiness(tree, box, nodes) == Emptiness::empty);
+    if (box.empty() || !box.finite()) return box.empty();
+    const bool is_convolved = std::any_of(tree.leaves.begin(), tree.leaves.end(), [](const SolidLeaf& leaf) {
+        return !leaf.density.nodes.empty() && leaf.density.nodes.back().op == Op::convolution;
+    });
+    const std::int64_t each = is_convolved ? nodes_of_convolution : 1, given = nodes / each;
+    std::int64_t left = given;
+    const Emptiness found = emptiness(tree, box, left);
+    nodes -= each * (given - left);
+    return found == Emptiness::empty;
 }
 
 }  // namespace
@@ -156,7 +220,8 @@ VanishedParts vanished_parts(const Scene& scene, std::int64_t nodes) {
                 result.rounded_away.push_back(said(node.line, what));
                 told = true;
             }
-            if (node.field() || node.convolved() || node.radius() == 0 || node.leaves > max_leaves) return;
+            if (node.field() || node.radius() == 0) return;
+            if (node.leaves > (node.convolved() ? max_convolved_leaves : max_leaves)) return;
             if (!seen.insert(canonical.of(leaf).canonical).second) return;
             for (const std::string& what : Leaf(node, map, nodes).vanished()) {
                 result.rounded_away.push_back(said(node.line, what));

@@ -16,9 +16,8 @@ struct VanishedParts {
     std::vector<std::string> empty;
 };
 
-/// The parts of rounded sums and unions that have a volume before they are rounded and none then, and the solids that
-/// are empty. `nodes` is how long to look. What cannot be proved is not told, and
-/// true convolutions are not looked at.
+/// The parts of sums and unions that have a volume before they are rounded, or convolved, and none then, and the solids
+/// that are empty. `nodes` is how long to look. What cannot be proved is not told.
 VanishedParts vanished_parts(const Scene& scene, std::int64_t nodes = 20'000'000);
 
 /// Whether every solid is proved to be empty: soon known where one is not.

@@ -1,6 +1,7 @@
 #include "raytracer/scene/vanished_parts.hpp"
 
 #include <cmath>
+#include <numbers>
 
 #include "bounds/emptiness.hpp"
 #include "catch.hpp"
@@ -89,6 +90,26 @@ TEST_CASE("a part of a union that vanishes is told by its place, unless its neig
         of("rounded(0.3, box({0, 0, 0}, {9, 0.1, 9}) | box({0, 0.1, 0}, {9, 0.2, 9}) | box({0, 0.2, 0}, {9, 0.3, 9}))")
             .rounded_away.empty());
     CHECK(of("rounded(0.3, " + plate + " | box({1, 1, 1}, {1.1, 1.5, 2}))").rounded_away.empty());
+}
+
+TEST_CASE("what a true convolution leaves nothing of is told with the largest radius that keeps it") {
+    // A ball around the middle of a plate of thickness t has half of its volume there where 3u - u^3 = 1 of u = t/2r.
+    const double u = 2 * std::sin(std::numbers::pi / 18);
+    const VanishedParts plates = of("convolved(0.9, box({0, 0, 0}, {10, 0.5, 10}))");
+    REQUIRE(plates.rounded_away.size() == 1);
+    CHECK(plates.empty.empty());
+    CHECK(plates.rounded_away[0].find("s.lua:2: solid 1: it vanishes at radius 0.9; up to ") == 0);
+    CHECK(radius_in(plates.rounded_away[0]) < 0.25 / u);
+    CHECK(radius_in(plates.rounded_away[0]) > 0.98 * 0.25 / u);
+    CHECK(of("convolved(0.7, box({0, 0, 0}, {10, 0.5, 10}))").rounded_away.empty());
+
+    const std::string plate = "box({0, 0, 0}, {10, 2, 10})";
+    const VanishedParts found = of("convolved(0.3, " + plate + " | box({4, 2, 0}, {4.1, 6, 10}))");
+    REQUIRE(found.rounded_away.size() == 1);
+    CHECK(found.rounded_away[0].find("a part in [4, 4.1] x [2, 6] x [0, 10] vanishes at radius 0.3; up to ") !=
+          std::string::npos);
+    CHECK(radius_in(found.rounded_away[0]) < 0.05 / u);
+    CHECK(of("convolved(0.3, box({0, 0, 0}, {9, 0.1, 9}) | box({0, 0.1, 0}, {9, 0.4, 9}))").rounded_away.empty());
 }
 
 TEST_CASE("a solid that an operator leaves nothing of is told") {
