@@ -16,12 +16,12 @@
 #include "polygonizer/triage/triage.hpp"
 #include "raytracer/cli/command_documents.hpp"
 #include "raytracer/cli/commands.hpp"
-#include "raytracer/cli/nearest_name.hpp"
 #include "raytracer/render/render_tiles.hpp"
 #include "raytracer/scene/scene_reader.hpp"
 #include "raytracer/util/errors.hpp"
 #include "raytracer/util/interrupt.hpp"
 #include "raytracer/util/message.hpp"
+#include "raytracer/util/nearest_name.hpp"
 #include "raytracer/util/whole_file.hpp"
 
 namespace deburr {

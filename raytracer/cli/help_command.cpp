@@ -7,9 +7,9 @@
 
 #include "raytracer/cli/command_documents.hpp"
 #include "raytracer/cli/commands.hpp"
-#include "raytracer/cli/nearest_name.hpp"
 #include "raytracer/cli/scene_page.hpp"
 #include "raytracer/util/errors.hpp"
+#include "raytracer/util/nearest_name.hpp"
 
 namespace deburr {
 namespace {

@@ -7,8 +7,8 @@
 #include <map>
 #include <set>
 
-#include "raytracer/cli/nearest_name.hpp"
 #include "raytracer/util/errors.hpp"
+#include "raytracer/util/nearest_name.hpp"
 #include "raytracer/util/printable.hpp"
 
 namespace deburr {

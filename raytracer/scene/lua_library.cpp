@@ -1,12 +1,17 @@
 #include "raytracer/scene/lua_library.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cstring>
 #include <limits>
 #include <lua.hpp>
+#include <new>
+#include <string>
+#include <vector>
 
 #include "raytracer/scene/lua_replacements.hpp"
 #include "raytracer/scene/lua_sandbox.hpp"
+#include "raytracer/util/nearest_name.hpp"
 
 namespace deburr {
 namespace {
@@ -24,6 +29,31 @@ bool among(const Names& names, const char* name) {
                        [&](const char* other) { return std::strcmp(other, name) == 0; });
 }
 
+std::int64_t as_work(double amount) {
+    return amount < 1e18 ? std::int64_t(std::max(amount, 0.0)) : std::numeric_limits<std::int64_t>::max();
+}
+
+// Longer names are not compared, and of a larger table none is.
+constexpr std::size_t longest_name = 64, most_names = 2'000;
+
+// Of the table's names, index 1, the one that is nearest to `name`, as far as there is one. Nothing of C++ is left when
+// Lua jumps.
+std::array<char, longest_name + 1> nearest_of_table(lua_State* lua, const char* name) noexcept {
+    std::array<char, longest_name + 1> nearest{};
+    try {
+        std::vector<std::string> names;
+        for (lua_pushnil(lua); lua_next(lua, 1); lua_pop(lua, 1))
+            if (std::size_t size = 0;
+                lua_type(lua, -2) == LUA_TSTRING && lua_tolstring(lua, -2, &size) && size <= longest_name)
+                names.emplace_back(lua_tostring(lua, -2), size);
+        std::sort(names.begin(), names.end());  // the table's own order is another on every run
+        const std::string found = nearest_name(name, names);
+        std::copy(found.begin(), found.end(), nearest.begin());
+    } catch (const std::bad_alloc&) {  // then there is no word on it
+    }
+    return nearest;
+}
+
 // __index of the libraries; upvalue: "" or the prefix of the library's names.
 int missing_name(lua_State* lua) {
     const char* prefix = lua_tostring(lua, lua_upvalueindex(1));
@@ -37,7 +67,14 @@ int missing_name(lua_State* lua) {
         (std::strcmp(prefix, "string.") == 0 && among(gone_from_string, name)))
         return luaL_error(lua, "%s%s: not available in a scene%s", prefix, name,
                           std::strcmp(name, "next") == 0 ? ", use pairs" : "");
-    return luaL_error(lua, "expected a known name, got '%s%s'", prefix, name);
+    std::size_t count = 0;
+    for (lua_pushnil(lua); lua_next(lua, 1); lua_pop(lua, 1)) ++count;
+    constexpr double work_of_name = 200;  // about as many steps as there are pairs of letters
+    Sandbox::spend(lua, as_work(work_of_name * double(std::min(count, most_names))));
+    const auto nearest = nearest_of_table(lua, count <= most_names ? name : "");
+    if (nearest[0] == 0) return luaL_error(lua, "expected a known name, got '%s%s'", prefix, name);
+    return luaL_error(lua, "expected a known name, got '%s%s', did you mean %s%s?", prefix, name, prefix,
+                      nearest.data());
 }
 
 // The library is at the top of the stack.
@@ -60,10 +97,6 @@ void wrap(lua_State* lua, const char* name, lua_CFunction wrapper) {
     lua_getfield(lua, -1, name);
     lua_pushcclosure(lua, wrapper, 1);
     lua_setfield(lua, -2, name);
-}
-
-std::int64_t as_work(double amount) {
-    return amount < 1e18 ? std::int64_t(std::max(amount, 0.0)) : std::numeric_limits<std::int64_t>::max();
 }
 
 // Finalizers run with hooks off. Lua marks an object for one when its metatable is set, so what is

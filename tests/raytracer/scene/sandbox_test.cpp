@@ -112,6 +112,11 @@ TEST_CASE("what a scene may not use says so, and unknown names are errors") {
     }
     CHECK(result_of("\n('a'):find('a')") == "s.lua:2: string.find: not available in a scene");
     CHECK(result_of("local x = plastik") == "s.lua:1: expected a known name, got 'plastik'");
+    CHECK(result_of("return math.flor(1)") ==
+          "s.lua:1: expected a known name, got 'math.flor', did you mean math.floor?");
+    CHECK(result_of("return prind") == "s.lua:1: expected a known name, got 'prind', did you mean print?");
+    CHECK(result_of("for i = 1, 3000 do _G['name' .. i] = i end return prind") ==
+          "s.lua:1: expected a known name, got 'prind'");
     CHECK(result_of("return math.cosine(1)") == "s.lua:1: expected a known name, got 'math.cosine'");
     CHECK(result_of("x = 1 return x") == "1");
     CHECK(result_of("return getmetatable(_G)") == "false");

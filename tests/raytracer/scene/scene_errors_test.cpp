@@ -203,7 +203,7 @@ TEST_CASE("operators and methods say what they expect") {
 
 TEST_CASE("materials, textures and lights say what they expect") {
     check(GENERATE(values<Case>({
-        {"plastik{ color = 1 }", "s.lua:1: expected a known name, got 'plastik'"},
+        {"plastik{ color = 1 }", "s.lua:1: expected a known name, got 'plastik', did you mean plastic?"},
         {"plastic{ colour = 1 }",
          "s.lua:1: plastic.colour: expected one of the fields color, roughness, ior, emission, got 'colour'"},
         {"matte{ {1, 0, 0} }", "s.lua:1: matte: expected a table of named fields, got a list of 1"},

@@ -1,4 +1,4 @@
-#include "raytracer/cli/nearest_name.hpp"
+#include "raytracer/util/nearest_name.hpp"
 
 #include <algorithm>
 #include <cctype>
