@@ -231,6 +231,15 @@ Mesh as_mesh(const Surface& surface) {
     return mesh;
 }
 
+// Six times the volume that triangles enclose, less than 0 where they face inward.
+double six_volumes(const Surface& surface, const std::vector<Corners>& triangles) {
+    double six = 0;
+    const Vec3 o = surface.vertices[triangles[0][0]];
+    for (const Corners& c : triangles)
+        six += glm::dot(surface.vertices[c[0]] - o, glm::cross(surface.vertices[c[1]] - o, surface.vertices[c[2]] - o));
+    return six;
+}
+
 // Shells as solids of their own, to see which lies in which.
 struct Shell {
     std::vector<int> triangles;
@@ -245,17 +254,10 @@ std::vector<Shell> shells(const Surface& surface) {
     all.resize(std::size_t(count));
     for (std::size_t t = 0; t < shell_of.size(); ++t) all[shell_of[t]].triangles.push_back(int(t));
     for (Shell& shell : all) {
-        double six = 0;
-        const Vec3 o = surface.vertices[surface.triangles[shell.triangles[0]][0]];
         std::vector<Corners> own;
-        for (const int t : shell.triangles) {
-            const Corners& c = surface.triangles[t];
-            six += glm::dot(surface.vertices[c[0]] - o,
-                            glm::cross(surface.vertices[c[1]] - o, surface.vertices[c[2]] - o));
-            own.push_back(c);
-        }
-        shell.sign = six < 0 ? -1 : 1;
-        if (six < 0)
+        for (const int t : shell.triangles) own.push_back(surface.triangles[t]);
+        shell.sign = six_volumes(surface, own) < 0 ? -1 : 1;
+        if (shell.sign < 0)
             for (Corners& c : own) std::swap(c[1], c[2]);
         try {
             shell.mesh = std::make_unique<ClosedMesh>(surface.vertices, std::move(own));
@@ -285,12 +287,7 @@ void settle_shells(Surface& surface, bool trusted, std::vector<std::string>& men
     constexpr std::size_t most = 2'000;  // their pairs are looked at
     if (all.size() > most) return;
     std::size_t turned = 0, dropped = 0;
-    double six = 0;
-    const Vec3 origin = surface.vertices[surface.triangles[0][0]];
-    for (const Corners& c : surface.triangles)
-        six += glm::dot(surface.vertices[c[0]] - origin,
-                        glm::cross(surface.vertices[c[1]] - origin, surface.vertices[c[2]] - origin));
-    if (trusted && six < 0) {  // all of it is inside out
+    if (trusted && six_volumes(surface, surface.triangles) < 0) {  // all of it is inside out
         for (Corners& c : surface.triangles) std::swap(c[1], c[2]);
         for (Shell& shell : all) shell.sign = -shell.sign;
         turned = surface.triangles.size();

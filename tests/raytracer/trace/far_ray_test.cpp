@@ -332,3 +332,34 @@ TEST_CASE("what is beside a ray's origin is hit as exactly as ever, however far 
         }
     }
 }
+
+TEST_CASE("rays leave their own surface at any scale and place of the scene") {
+    int left = 0;
+    for (const double scale : {1e-6, 1.0, 1e6})
+        for (const double away : {0.0, 1e3}) {
+            CAPTURE(scale, away);
+            Affine m{Mat3(scale), Vec3(away * scale, 0, 0)};
+            const std::vector<Solid> solids{Solid::rounded(0.2, Density::box(Vec3(0), Vec3(1))).transformed(m),
+                                            Solid::sharp(Density::box({2, 0, 0}, {3, 1, 1})).transformed(m)};
+            const ImplicitTracer tracer(solids);
+            Gen g(3);
+            TraceCounters counters;
+            for (int i = 0; i < 2'000; ++i) {
+                const Vec3 o = m(g.direction() * 5.0), d = glm::normalize(m(Vec3(0.5) + g.point(0.5)) - o);
+                const Hit hit = tracer.closest_hit({o, d}, infinity, counters);
+                if (!hit || hit.solid != 0) continue;
+                // A convex solid does not see itself, however flat the ray leaves it.
+                Vec3 out = g.direction();
+                const double steep = std::pow(10.0, g.between(-6, 0));
+                out = glm::normalize(out - hit.normal * glm::dot(out, hit.normal) + hit.normal * steep);
+                const Hit next = tracer.closest_hit(leave(hit, out), infinity, counters);
+                REQUIRE(next.solid != 0);
+                // Through it, the ray comes out on the other side, not where it went in.
+                const Hit through = tracer.closest_hit(leave(hit, d), infinity, counters);
+                REQUIRE(through.solid == 0);
+                REQUIRE(glm::dot(through.normal, d) > 0);
+                ++left;
+            }
+        }
+    CHECK(left > 6'000);
+}
