@@ -127,7 +127,7 @@ int answer(int argc, char** argv, const std::vector<Command (*)(CLI::App&)>& mor
         std::vector<Command> commands = {add_render_command(program),     add_mesh_command(program),
                                          add_compare_command(program),    add_info_command(program),
                                          add_export_pov_command(program), add_merge_command(program),
-                                         add_help_command(program)};
+                                         add_view_command(program),       add_help_command(program)};
         for (const auto add : more) commands.push_back(add(program));
         for (const Command& command : commands) command.app->allow_extras();
         const int code = run(program, commands, argc, argv);

@@ -23,6 +23,7 @@ Command add_mesh_command(CLI::App& program);
 Command add_compare_command(CLI::App& program);
 Command add_export_pov_command(CLI::App& program);
 Command add_merge_command(CLI::App& program);
+Command add_view_command(CLI::App& program);
 Command add_help_command(CLI::App& program);
 
 }  // namespace deburr

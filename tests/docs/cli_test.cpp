@@ -93,7 +93,7 @@ TEST_CASE("bash completes commands, options and their values") {
         return output_of("bash -c '. \"" + script + "\"; COMP_WORDS=(" + words + "); COMP_CWORD=" + std::to_string(at) +
                          "; _deburr; echo \"${COMPREPLY[*]}\"'");
     };
-    CHECK(completed("deburr me", 1) == "mesh\nmerge\n");
+    CHECK(completed("deburr me", 1) == "mesh merge\n");
     CHECK(completed("deburr render --cr", 2) == "--crop --criterion\n");
     CHECK(completed("deburr render a.lua --accel e", 4) == "embree\n");
     CHECK(completed("deburr info --cr", 2) == "\n");

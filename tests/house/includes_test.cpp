@@ -37,8 +37,9 @@ std::map<std::string, Folders> allowed_includes() {
     may["raytracer/trace"] = {"bounds", "raytracer/accel", "raytracer/simd", "raytracer/util"};
     may["raytracer/render"] = may["raytracer/trace"] + Folders{"raytracer/trace", "raytracer/image", "raytracer/scene"};
     may["raytracer/mesh"] = may["raytracer/render"] + polygonizer + Folders{"raytracer/render"};
+    may["raytracer/view"] = may["raytracer/mesh"] + Folders{"raytracer/mesh"};
     may["raytracer/pov"] = {"bounds", "raytracer/image", "raytracer/render", "raytracer/scene", "raytracer/util"};
-    may["raytracer/cli"] = may["raytracer/mesh"] + Folders{"raytracer/mesh", "raytracer/model", "raytracer/pov"};
+    may["raytracer/cli"] = may["raytracer/mesh"] + Folders{"raytracer/mesh", "raytracer/model", "raytracer/pov", "raytracer/view"};
     return may;
 }
 

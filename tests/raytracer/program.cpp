@@ -56,6 +56,17 @@ bool Call::says(const std::string& text) {
     return false;
 }
 
+std::string Call::first_line() {
+    for (int i = 0; i < 6000; ++i) {
+        const bool last = !running();
+        const std::string out = read_file(folder_ / "out");
+        if (const std::size_t end = out.find('\n'); end != std::string::npos) return out.substr(0, end);
+        if (last) break;
+        std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    }
+    return "";
+}
+
 bool Call::handles(int signal) {
     const std::string file = "/proc/" + std::to_string(pid_) + "/status", name = "SigCgt:";
     for (int i = 0; i < 60000 && running(); ++i) {

@@ -27,6 +27,8 @@ public:
     bool running();
     /// Waits until stderr holds `text`, for a minute at most; false: it never did.
     bool says(const std::string& text);
+    /// The first line of stdout, waited for a minute at most; "": none came.
+    std::string first_line();
     /// Waits until the program has a handler of its own for a signal, for a minute at most; false: it never had.
     bool handles(int signal);
     Outcome wait();
