@@ -33,8 +33,8 @@ double length_inside(const Surface& s, Vec3 x, Vec3 direction, double half) {
     return in + half;
 }
 
-// The share of a ball of radius r, whose center is `distance` beyond the surface, that is inside: lines along the normal,
-// added up over the disc across it.
+// The share of a ball of radius r, whose center is `distance` beyond the surface, that is inside: lines along the
+// normal, added up over the disc across it.
 double share(const Surface& s, double distance, double r) {
     const Vec3 u = glm::normalize(glm::cross(s.normal, std::abs(s.normal.x) < 0.5 ? Vec3(1, 0, 0) : Vec3(0, 1, 0)));
     const Vec3 v = glm::cross(s.normal, u), center = s.at + distance * s.normal;
@@ -64,9 +64,7 @@ double shift(const Surface& s, double r) {
 }
 
 Surface sphere() { return {RoundCoordinate::distance_from_point(Vec3(0.0)), 1, {1, 0, 0}, {1, 0, 0}, 1}; }
-Surface cylinder() {
-    return {RoundCoordinate::distance_from_axis(Vec3(0.0), {0, 0, 1}), 1, {1, 0, 0}, {1, 0, 0}, 0.5};
-}
+Surface cylinder() { return {RoundCoordinate::distance_from_axis(Vec3(0.0), {0, 0, 1}), 1, {1, 0, 0}, {1, 0, 0}, 0.5}; }
 // Of half an angle of 30°, where the distance along its normal from the axis is 1.
 Surface cone() {
     const double a = std::cos(pi / 6), b = std::sin(pi / 6);
@@ -110,7 +108,8 @@ void make(FigureContext& context) {
         plot.curves.push_back(exact);
         plot.curves.push_back(second);
     }
-    plot.curves.push_back({.points = {{0, 0}, {1, 0}}, .title = "density of the distance", .color = house::ink, .width = 2.4});
+    plot.curves.push_back(
+        {.points = {{0, 0}, {1, 0}}, .title = "density of the distance", .color = house::ink, .width = 2.4});
     context.plot(plot);
     context.measured("Shift of the surface by true convolution, by quadrature: " + told +
                      ". Dotted: −H r²/4, with H the mean curvature. A density of the distance shifts nothing.");
@@ -119,10 +118,12 @@ void make(FigureContext& context) {
 const RegisteredFigure registered{{
     .name = "beyond-round",
     .title = "Round surfaces under true convolution, and under a density of the distance",
-    .shows = "Where the level ½ of the exact share of a ball lies beside a sphere, a cylinder, a cone and a torus, over the "
-             "filter's radius in units of the radius R of curvature.",
-    .claim = "Smoothing of objects that are no polyhedra is an open question (Lobb §5, e). The profile of a signed distance "
-             "keeps round things where they are, where the convolution makes them smaller.",
+    .shows =
+        "Where the level ½ of the exact share of a ball lies beside a sphere, a cylinder, a cone and a torus, over the "
+        "filter's radius in units of the radius R of curvature.",
+    .claim =
+        "Smoothing of objects that are no polyhedra is an open question (Lobb §5, e). The profile of a signed distance "
+        "keeps round things where they are, where the convolution makes them smaller.",
     .plots = true,
     .seconds = 10,
     .make = make,

@@ -13,8 +13,8 @@ struct Command {
     std::function<int()> run;
 };
 
-/// Adds an empty command to the program. So only command_line.cpp compiles what CLI11 constructs with it, the parser and
-/// the writer of help, and <CLI/CLI.hpp>, which defines them: 2 s of every other file with <CLI/App.hpp> instead.
+/// Adds an empty command to the program. So only command_line.cpp compiles what CLI11 constructs with it, the parser
+/// and the writer of help, and <CLI/CLI.hpp>, which defines them: 2 s of every other file with <CLI/App.hpp> instead.
 CLI::App* add_command(CLI::App& program, const std::string& name, const std::string& description);
 
 Command add_render_command(CLI::App& program);

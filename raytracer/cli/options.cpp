@@ -97,7 +97,8 @@ void add_picture_options(CLI::App& command, Options& o, const std::string& defau
 }
 
 void add_run_options(CLI::App& command, Options& o) {
-    add(command, "--threads", "N", "number of threads; default: as many as there are processors, or the job or control group may use",
+    add(command, "--threads", "N",
+        "number of threads; default: as many as there are processors, or the job or control group may use",
         [&o](const std::string& text) { o.threads = int(parse_whole("--threads", text, 1, max_threads)); });
     command.add_flag("-q,--quiet", o.quiet, "say nothing but errors");
     command.add_flag("-v,--verbose", o.verbose, "say what is done");

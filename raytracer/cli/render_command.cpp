@@ -281,8 +281,8 @@ private:
             if (const auto advice = exposure_advice(film, exposure_)) message("warning: " + *advice);
         const Scene& scene = world_->scene;
         write_statistics(o_, {scene.file, o_.via, world_->bsp ? name(o_.accel.value_or(Accel::bvh)) : "",
-                              frame_.size.width, frame_.size.height, frame_.window, taken, threads_, o_.seed,
-                              complete_, pixels_done_, clock_.times(), counters_, world_->bsp});
+                              frame_.size.width, frame_.size.height, frame_.window, taken, threads_, o_.seed, complete_,
+                              pixels_done_, clock_.times(), counters_, world_->bsp});
         for (const std::string& path : o_.outputs) say(o_, "wrote " + path);
         if (complete_) return;
         if (kept_ && o_.outputs.empty()) {

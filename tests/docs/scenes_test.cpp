@@ -35,7 +35,8 @@ bool contains(const std::string& text, const std::string& part) { return text.fi
 
 std::vector<const SceneFunction*> all_functions() {
     std::vector<const SceneFunction*> all;
-    for (const auto* functions : {&shape_functions(), &round_functions(), &free_form_functions(), &material_functions()})
+    for (const auto* functions :
+         {&shape_functions(), &round_functions(), &free_form_functions(), &material_functions()})
         for (const SceneFunction& function : *functions) all.push_back(&function);
     return all;
 }
@@ -95,9 +96,8 @@ std::vector<FieldTable> field_tables() {
 std::string fields_beside(const FieldTable& table, const std::string& name) {
     if (table.owner == "quadric") return name == "xy" ? "c = 0.5, xz = 1, " : "xy = 1, ";
     const std::map<std::string, std::string> values = {
-        {"solids", "{ cube() }"}, {"position", "{0, 5, 0}"}, {"direction", "{1, -2, -1}"},
-        {"radius", "1"},          {"file", "'room.exr'"},    {"u", "{1, 0, 0}"},
-        {"v", "{0, 0, 1}"},       {"tube", "0.5"}};
+        {"solids", "{ cube() }"}, {"position", "{0, 5, 0}"}, {"direction", "{1, -2, -1}"}, {"radius", "1"},
+        {"file", "'room.exr'"},   {"u", "{1, 0, 0}"},        {"v", "{0, 0, 1}"},           {"tube", "0.5"}};
     std::string fields;
     for (const Row& row : table.rows)
         if (const std::string other = quoted(row.cell("field")); row.cell("default") == "required" && other != name)
@@ -224,7 +224,8 @@ TEST_CASE("docs/scenes.md has the fields that the program knows, and no others")
         };
         CHECK(split(on_page) == split(error.substr(from, error.find(end) - from)));
     }
-    CHECK(tables.size() == 4 + 2 + 6 + 6 + 2 + 6);  // scene, round parts, quadrics, materials, textures, lights with the sky
+    CHECK(tables.size() ==
+          4 + 2 + 6 + 6 + 2 + 6);  // scene, round parts, quadrics, materials, textures, lights with the sky
 }
 
 TEST_CASE("docs/scenes.md says of every field what the program says that it takes") {

@@ -39,7 +39,8 @@ std::map<std::string, Folders> allowed_includes() {
     may["raytracer/mesh"] = may["raytracer/render"] + polygonizer + Folders{"raytracer/render"};
     may["raytracer/view"] = may["raytracer/mesh"] + Folders{"raytracer/mesh"};
     may["raytracer/pov"] = {"bounds", "raytracer/image", "raytracer/render", "raytracer/scene", "raytracer/util"};
-    may["raytracer/cli"] = may["raytracer/mesh"] + Folders{"raytracer/mesh", "raytracer/model", "raytracer/pov", "raytracer/view"};
+    may["raytracer/cli"] =
+        may["raytracer/mesh"] + Folders{"raytracer/mesh", "raytracer/model", "raytracer/pov", "raytracer/view"};
     return may;
 }
 
