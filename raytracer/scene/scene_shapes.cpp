@@ -51,8 +51,8 @@ const Density& need_density(const LuaValue& value, const char* location, const c
         expected(location, "a density; convolved(r, m) rounds a model, sharp(m) leaves it as it is", value);
     if (as<Quadric>(as_object(value)))
         throw BadValue(location,
-                       "expected a density, got a quadric; it has no edges to round: leave it as it is, and join "
-                       "it to rounded solids by | & -");
+                       "expected a density, got a quadric, which cannot be rounded with others: write sphere{…}, "
+                       "cylinder{ from =, to = } or cone{ from =, to = }, or join it to rounded solids by | & -");
     if (as<Solid>(as_object(value)))
         throw BadValue(
             location,

@@ -143,9 +143,32 @@ TEST_CASE("quadrics, perturbations and free forms say what they expect") {
         {"local a = ellipsoid{} + ellipsoid{}",
          "s.lua:1: operator +: expected densities on both sides (solids have | & -), got a quadric"},
         {"rounded(0.1, ellipsoid{})",
-         "s.lua:1: rounded: expected a density, got a quadric; it has no edges to round: leave it as it is, and join "
-         "it to "
-         "rounded solids by | & -"},
+         "s.lua:1: rounded: expected a density, got a quadric, which cannot be rounded with others: write sphere{…}, "
+         "cylinder{ from =, to = } or cone{ from =, to = }, or join it to rounded solids by | & -"},
+        {"sphere{ radius = 0 }", "s.lua:1: sphere.radius: expected a number > 0, got 0"},
+        {"sphere(1)", "s.lua:1: sphere: expected a table of fields, got 1"},
+        {"sphere{ size = 1 }", "s.lua:1: sphere: expected one of the fields center, radius, got 'size'"},
+        {"cylinder{ from = {0,0,0} }", "s.lua:1: cylinder.to: expected three finite numbers {x, y, z}, got nothing"},
+        {"cylinder{ from = {0,1,0}, to = {0,1,0} }",
+         "s.lua:1: cylinder: expected two ends, from and to, that are apart, got the same point twice"},
+        {"cylinder{ from = {0,0,0}, to = {0,1,0}, axis = {0,1,0} }",
+         "s.lua:1: cylinder: expected one of the fields from, to, radius, got 'axis'"},
+        {"cone{ from = {0,0,0}, to = {0,1,0}, radius = 1 }",
+         "s.lua:1: cone.radius: expected two radii {at from, at to}, got 1"},
+        {"cone{ from = {0,0,0}, to = {0,1,0}, radius = {0, 0} }",
+         "s.lua:1: cone.radius: expected two radii that are not both 0, got {0, 0}"},
+        {"torus{ radius = 1, tube = 2 }",
+         "s.lua:1: torus: expected a tube that is at most the radius, so that the hole stays open, got 2 > 1"},
+        {"torus{ tube = 2 }", "s.lua:1: torus.radius: expected a number > 0, got nothing"},
+        {"rounded(0.6, torus{ radius = 1, tube = 0.5 })",
+         "s.lua:1: rounded: expected a torus whose radius is at least its tube and the rounding radius, got 1 < 0.5 + "
+         "0.6"},
+        {"convolved(0.1, sphere{})",
+         "s.lua:1: convolved: expected a density of half-spaces, got one with round parts, whose convolution has no "
+         "closed form; rounded(r, d) keeps their size"},
+        {"sphere{}:scale(1, 2, 1)",
+         "s.lua:1: scale: expected one factor for a density with round parts, got several; scale the rounded solid, as "
+         "in rounded(r, d):scale(x, y, z)"},
         {"rounded(0.1, rounded(0.1, cube()))",
          "s.lua:1: rounded: expected a density, got a solid, which is rounded already: join densities first, then "
          "round, "
