@@ -6,6 +6,7 @@
 
 local softness = param("softness", 1)
 local closeup = param("closeup", "none")  -- punch, hinge or pins
+local round = param("columns", "octagonal") == "round"  -- the paper's are octagonal
 
 local function part(r, density, material) return rounded(softness * r, density):material(material) end
 
@@ -14,8 +15,9 @@ local rubber = plastic{ color = {0.016, 0.016, 0.018}, roughness = 0.6 }
 local steel = metal{ color = {0.60, 0.59, 0.57}, roughness = 0.36 }
 local dark_steel = metal{ color = {0.37, 0.37, 0.38}, roughness = 0.4 }
 
--- Eight planes around the z axis.
+-- Eight planes around the z axis, or a cylinder.
 local function column(radius)
+  if round then return cylinder{ from = {0, 0, -50}, to = {0, 0, 50}, radius = radius } end
   local sides
   for i = 0, 7 do
     local a = math.pi * (i + 0.5) / 4
