@@ -97,6 +97,38 @@ SampleRange parse_samples(std::string_view option, std::string_view text) {
     return range;
 }
 
+FrameRange parse_frames(std::string_view option, std::string_view text) {
+    constexpr int most = 1'000'000;
+    const std::size_t slash = text.find('/');
+    const std::string_view range = text.substr(0, slash);
+    FrameRange frames;
+    if (slash != std::string_view::npos) frames.count = int(parse_whole(option, text.substr(slash + 1), 1, most));
+    if (range == "auto" && slash != std::string_view::npos) {
+        frames.first = frames.last = number_in_array(option) + 1;
+        if (frames.last > frames.count)
+            throw UsageError(fmt::format("{}: expected a number from 0 to {} in the environment, got {}", option,
+                                         frames.count - 1, frames.last - 1));
+        return frames;
+    }
+    const std::size_t dash = range.find('-');
+    if (dash == std::string_view::npos)
+        throw UsageError(fmt::format("{}: expected a-b, a-b/N or auto/N, got '{}'", option, text));
+    frames.first = int(parse_whole(option, range.substr(0, dash), 1, most));
+    frames.last = int(parse_whole(option, range.substr(dash + 1), frames.first,
+                                  slash == std::string_view::npos ? most : frames.count));
+    if (slash == std::string_view::npos) frames.count = frames.last;
+    return frames;
+}
+
+std::string numbered(std::string_view option, const std::string& path, int frame) {
+    const std::size_t end = path.rfind('#');
+    if (end == std::string::npos)
+        throw UsageError(fmt::format("{}: expected names with # for the frame's number, got '{}'", option, path));
+    const std::size_t before = path.find_last_not_of('#', end);
+    const std::size_t begin = before == std::string::npos ? 0 : before + 1;
+    return path.substr(0, begin) + fmt::format("{:0{}}", frame, end + 1 - begin) + path.substr(end + 1);
+}
+
 Window share_of(std::string_view option, const TileShare& share, const Window& w) {
     if (w.height < share.count)
         throw UsageError(fmt::format("{}: expected at most one share for each of the {} rows, got {}", option, w.height,

@@ -1,5 +1,6 @@
 // Options by which one picture is shared among machines.
 #pragma once
+#include <string>
 #include <string_view>
 
 #include "raytracer/render/pixel_sums.hpp"
@@ -18,6 +19,21 @@ TileShare parse_tile(std::string_view option, std::string_view text);
 
 /// "a-b": samples a to b - 1. Throws UsageError.
 SampleRange parse_samples(std::string_view option, std::string_view text);
+
+/// Frames `first` to `last` of an animation of `count`, which are counted from 1.
+struct FrameRange {
+    int first = 1, last = 1, count = 1;
+
+    /// From 0 for the first frame to what is less than 1, so that the animation can run in a circle.
+    double time(int frame) const { return double(frame - 1) / count; }
+};
+
+/// "a-b", of b frames, "a-b/N", or "auto/N", of which the environment says the number, from 0. Throws UsageError.
+FrameRange parse_frames(std::string_view option, std::string_view text);
+
+/// The name with the last run of '#' replaced by the frame's number, with as many digits at least; throws UsageError
+/// where there is none.
+std::string numbered(std::string_view option, const std::string& path, int frame);
 
 /// Those rows of a window; throws UsageError if it has fewer rows than there are shares.
 Window share_of(std::string_view option, const TileShare& share, const Window& window);

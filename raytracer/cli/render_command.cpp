@@ -313,6 +313,27 @@ private:
     TraceCounters counters_;
 };
 
+// One after the other: each is a picture of its own, with checkpoint and exit code.
+int render_frames(const RenderOptions& o, int threads) {
+    Options asking = o;
+    asking.quiet = true;
+    const auto& parameters = load_scene(asking).parameters;
+    const bool has_frame = parameters.count("frame") > 0, has_time = parameters.count("t") > 0;
+    if (!has_frame && !has_time)
+        throw UsageError(o.scene +
+                         ": expected a scene with param(\"frame\", 1) or param(\"t\", 0) for --frames, got neither");
+    for (int frame = o.frames->first; frame <= o.frames->last; ++frame) {
+        RenderOptions one = o;
+        if (has_frame) one.defines["frame"] = fmt::format("{}", frame);
+        if (has_time) one.defines["t"] = fmt::format("{}", o.frames->time(frame));
+        for (std::string& path : one.outputs) path = numbered("--frames", path, frame);
+        for (std::string* path : {&one.checkpoint, &one.stats_json})
+            if (!path->empty()) *path = numbered("--frames", *path, frame);
+        if (const int code = RenderRun(one, threads).answer()) return code;
+    }
+    return 0;
+}
+
 int run_render(const RenderOptions& given) {
     RenderOptions o = given;
     check_render_options(o);
@@ -328,7 +349,7 @@ int run_render(const RenderOptions& given) {
         catch_save_requests();
         set_exit_code_of_terminated(to_be_resumed_exit_code);
     }
-    return RenderRun(o, threads).answer();
+    return o.frames ? render_frames(o, threads) : RenderRun(o, threads).answer();
 }
 
 }  // namespace

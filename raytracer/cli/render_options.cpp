@@ -206,6 +206,13 @@ CLI::App* add_render_options(CLI::App& program, const std::shared_ptr<RenderOpti
                       "go on from the checkpoint, if there is one, to the same picture as without a break");
     command
         ->add_option_function<std::string>(
+            "--frames", [options](const std::string& text) { options->frames = parse_frames("--frames", text); },
+            "frames a to b of N, or of b, of an animation: the scene's param(\"frame\", 1) and param(\"t\", 0), which "
+            "is "
+            "(frame - 1) / N; names have #### for the number. auto/N: the frame of a job's array")
+        ->type_name("a-b[/N]|auto/N");
+    command
+        ->add_option_function<std::string>(
             "--tile", [options](const std::string& text) { options->tile = parse_tile("--tile", text); },
             "of N shares of the picture's rows only the one with the number i, 0 to N-1; auto: number and N of a job's "
             "array, auto/N: the number")

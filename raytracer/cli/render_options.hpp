@@ -27,7 +27,8 @@ struct RenderOptions : Options {
     std::optional<double> write_every;  // seconds
     std::string checkpoint;             // "": none
     bool resume = false;
-    double checkpoint_every = 60;        // seconds
+    double checkpoint_every = 60;  // seconds
+    std::optional<FrameRange> frames;
     std::optional<TileShare> tile;       // of the rows
     std::optional<SampleRange> samples;  // of those that --spp says
     std::optional<Progress::Style> progress;

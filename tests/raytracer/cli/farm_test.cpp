@@ -248,3 +248,33 @@ TEST_CASE("--tile auto reads the environment of a job's array") {
     refused("4", {}, "--tile: expected i/N, auto or auto/N, got '4'");
     refused("0/41", {}, "--tile: expected at most one share for each of the 40 rows, got 41");
 }
+
+TEST_CASE("--frames renders an animation, in one run or as an array, with t from 0 to less than 1") {
+    const Place place;
+    std::string scene = cube_scene();
+    scene.replace(scene.find("0.1"), 3, "0.1 + 0.3 * param(\"t\", 0) + 0 * param(\"frame\", 1)");
+    scene.replace(scene.find("param(\"r\", "), 11, "(");
+    write_file(place.scene, scene);
+    REQUIRE(place.render({"--frames", "1-4", "-o", place / "a.###.png"}).code == 0);
+    CHECK(place.names() == Words{"a.001.png", "a.002.png", "a.003.png", "a.004.png", "cube.lua"});
+    REQUIRE(place.render({"-D", "t=0.5", "-D", "frame=3", "-o", place / "b.png"}).code == 0);
+    CHECK(place.bytes("a.003.png") == place.bytes("b.png"));
+    CHECK(place.bytes("a.001.png") != place.bytes("a.002.png"));
+    REQUIRE(place.render({"--frames", "3-3/4", "-o", place / "c.#.png"}).code == 0);
+    CHECK(place.bytes("c.3.png") == place.bytes("b.png"));
+    REQUIRE(place.render({"--frames", "auto/4", "-o", place / "d#.png"}, {"JOB_COMPLETION_INDEX=2"}).code == 0);
+    CHECK(place.bytes("d3.png") == place.bytes("b.png"));
+    const auto refused = [&](const Words& more, const std::string& line) {
+        const Outcome o = place.render(more);
+        CAPTURE(o.err);
+        CHECK(o.code == 2);
+        CHECK(o.err.find(line) != std::string::npos);
+    };
+    refused({"--frames", "1-4", "-o", place / "a.png"},
+            "--frames: expected names with # for the frame's number, got '");
+    refused({"--frames", "3", "-o", place / "a.#.png"}, "--frames: expected a-b, a-b/N or auto/N, got '3'");
+    refused({"--frames", "3-5/4", "-o", place / "a.#.png"}, "--frames: expected a whole number from 3 to 4, got '5'");
+    write_file(place.scene, cube_scene());
+    refused({"--frames", "1-4", "-o", place / "a.#.png"},
+            "cube.lua: expected a scene with param(\"frame\", 1) or param(\"t\", 0)");
+}
