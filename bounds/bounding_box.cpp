@@ -45,9 +45,9 @@ Box bounding_box(const BoundCsg& csg) {
 
 namespace {
 
-// Cuts off the ends of a finite box over which the density does not exceed ½: to a millionth of the box.
+// Cuts off the ends of a finite box over which the density does not exceed ½: to 10⁻⁹ of the box.
 Box without_ends_below_half(const DensityTree& tree, Box box) {
-    constexpr int halvings = 20;
+    constexpr int halvings = 32;
     for (int k = 0; k < 6; ++k)  // what is known of one axis helps with another
         for (const bool upper : {false, true}) {
             double& end = (upper ? box.hi : box.lo)[k % 3];

@@ -82,7 +82,7 @@ Json describe(const Scene& scene, Size size) {
                    {"fov", scene.camera.fov}};
     j["parameters"] = scene.parameters;
     Box all;
-    double half_spaces = 0, quadrics = 0, triangles = 0;
+    double half_spaces = 0, quadrics = 0, round_parts = 0, triangles = 0;
     SolidSurvey survey;
     j["solids"] = Json::array();
     for (std::size_t i = 0; i < scene.solids.size(); ++i) {
@@ -90,11 +90,13 @@ Json describe(const Scene& scene, Size size) {
         all = own.box.empty() ? all : hull(all, own.box);
         half_spaces += own.half_spaces;
         quadrics += own.quadrics;
+        round_parts += own.round_parts;
         triangles += own.triangles;
         j["solids"].push_back({{"id", i + 1},
                                {"name", i < scene.names.size() ? scene.names[i] : ""},
                                {"half_spaces", own.half_spaces},
                                {"quadrics", own.quadrics},
+                               {"round_parts", own.round_parts},
                                {"bounds", json_of(own.box)}});
         if (own.triangles > 0)
             j["solids"].back()["models"] = {{"triangles", own.triangles},
@@ -104,6 +106,7 @@ Json describe(const Scene& scene, Size size) {
     }
     j["half_spaces"] = half_spaces;
     j["quadrics"] = quadrics;
+    j["round_parts"] = round_parts;
     j["triangles"] = triangles;
     j["bounds"] = json_of(all);
     j["materials"] = Json::array();
@@ -175,12 +178,14 @@ void print(const Json& j) {
         row("half-spaces", fmt::format("{:.0f}", j["half_spaces"].get<double>()));
     if (j["triangles"] > 0) row("triangles", fmt::format("{:.0f}", j["triangles"].get<double>()));
     if (j["quadrics"] > 0) row("quadrics", fmt::format("{:.0f}", j["quadrics"].get<double>()));
+    if (j["round_parts"] > 0) row("round parts", fmt::format("{:.0f}", j["round_parts"].get<double>()));
     row("solids", fmt::format("{}", j["solids"].size()));
     for (const Json& solid : j["solids"]) {
         const auto name = solid["name"].get<std::string>();
         row(fmt::format("  {}", solid["id"].get<std::size_t>()),
-            fmt::format("{}{}{}{}in {}", name.empty() ? "" : name + ": ", some(solid["half_spaces"], "half-spaces"),
-                        some(solid["quadrics"], "quadrics"), text_of_models(solid), text_of_box(solid["bounds"])));
+            fmt::format("{}{}{}{}{}in {}", name.empty() ? "" : name + ": ", some(solid["half_spaces"], "half-spaces"),
+                        some(solid["round_parts"], "round parts"), some(solid["quadrics"], "quadrics"),
+                        text_of_models(solid), text_of_box(solid["bounds"])));
     }
     row("materials", fmt::format("{}", j["materials"].size()));
     for (std::size_t i = 0; i < j["materials"].size(); ++i)

@@ -7,9 +7,14 @@
 #include "bounds/bounding_box.hpp"
 #include "bounds/free_form.hpp"
 #include "bounds/mesh_field.hpp"
+#include "bounds/round_density.hpp"
+#include "bounds/torus.hpp"
 
 namespace deburr {
 namespace {
+
+// The other side of a cone, and the lower end of a draw, are no parts of their own.
+bool is_part(const HalfSpace& h) { return h.round && !h.round->is_concave() && (h.offset > 0 || h.round->is_cone()); }
 
 SolidFacts facts_of(const SolidTree& tree) {
     SolidFacts facts;
@@ -18,6 +23,10 @@ SolidFacts facts_of(const SolidTree& tree) {
         const auto* form = dynamic_cast<const FreeForm*>(leaf.field.get());
         if (form) facts.quadrics += 1.0 + double(form->perturbations().size());
         facts.half_spaces += double(leaf.density.half_spaces.size());
+        if (dynamic_cast<const Torus*>(leaf.field.get())) ++facts.round_parts;
+        if (const auto* density = dynamic_cast<const RoundDensity*>(leaf.field.get()))
+            for (const HalfSpace& h : density->tree().half_spaces)
+                (h.round ? facts.round_parts : facts.half_spaces) += !h.round || is_part(h);
     }
     return facts;
 }
@@ -84,6 +93,7 @@ const SolidFacts& SolidSurvey::of_canonical(int root) {
                 if (!facts.box.empty()) all.box = hull(all.box, facts.box);
                 all.half_spaces += facts.half_spaces;
                 all.quadrics += facts.quadrics;
+                all.round_parts += facts.round_parts;
                 all.triangles += facts.triangles;
                 all.faces += facts.faces;
                 all.model_volume += facts.model_volume;

@@ -9,6 +9,7 @@ namespace deburr {
 struct SolidFacts {
     Box box;                               // holds the solid; sides may be infinite
     double half_spaces = 0, quadrics = 0;  // counted once per use
+    double round_parts = 0;                // spheres, cylinders, cones and tori of densities, once per use
     double triangles = 0, faces = 0;       // of models; faces: triangles of one plane that hang together count once
     double model_volume = 0;               // of models, before they are rounded and combined
     double model_radius = 0;               // greatest by which one is rounded

@@ -47,6 +47,28 @@ TEST_CASE("info says what is in a scene") {
     CHECK(j["image"]["width"] == 60);
 }
 
+TEST_CASE("info counts round parts, and tells with render where they run on smoothly into other surfaces") {
+    const SceneFolder place;
+    const std::string scene = place / "s.lua";
+    write_file(scene, R"(return { image = { width = 8, height = 8 }, solids = {
+  rounded(0.1, box({0, 0, 0}, {2, 1, 1}) | cylinder{ from = {2, 0.5, 0}, to = {2, 0.5, 1}, radius = 0.5 }),
+  rounded(0.1, cone{ from = {5, 0, 0}, to = {5, 1, 0}, radius = {1, 0} } & ~sphere{ center = {5, 0, 0}, radius = 0.3 }),
+  sharp(torus{ center = {0, 5, 0}, radius = 1, tube = 0.2 }) } })");
+    const Outcome o = run({"info", scene});
+    CAPTURE(o.out);
+    CHECK(o.code == 0);
+    const std::string warning =
+        "s.lua:2: a round part runs on smoothly into another surface and bulges there by 0.016, 0.16 of the radius, at "
+        "(2, 1, ";
+    for (const std::string& text : {std::string("half-spaces   9"), std::string("round parts   4"),
+                                    std::string("8 half-spaces 1 round parts in [0, 2.5] x"), warning}) {
+        CAPTURE(text);
+        CHECK(o.out.find(text) != std::string::npos);
+    }
+    CHECK(o.out.find("s.lua:3: a round part") == std::string::npos);
+    CHECK(run({"render", scene, "--spp", "1", "-o", place / "a.png"}).err.find(warning) != std::string::npos);
+}
+
 TEST_CASE("info rounds away what a box reaches too far, and minus zero") {
     const SceneFolder place;
     const std::string scene = place / "s.lua";
