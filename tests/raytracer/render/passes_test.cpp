@@ -83,7 +83,10 @@ TEST_CASE("passes are 1, 1, 2, 4, … 32, 32, …, and every power of two ends o
 TEST_CASE("exact sums depend on neither order nor grouping, and are right to the last bit that they keep") {
     std::mt19937_64 random(5);
     std::vector<double> numbers;
-    for (int i = 0; i < 10'000; ++i) numbers.push_back(std::ldexp(double(random() >> 11), int(random() % 40) - 70));
+    for (int i = 0; i < 10'000; ++i) {  // drawn one after the other: arguments have no order of their own
+        const int exponent = int(random() % 40) - 70;
+        numbers.push_back(std::ldexp(double(random() >> 11), exponent));
+    }
     ExactSum forward, backward, halves[2];
     double plain = 0, plain_backward = 0;
     for (std::size_t i = 0; i < numbers.size(); ++i) {
