@@ -13,6 +13,7 @@
 
 #include "figures/plot.hpp"
 #include "raytracer/util/errors.hpp"
+#include "raytracer/util/temporary_folder.hpp"
 
 extern char** environ;
 
@@ -22,26 +23,6 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* absent = "plots need the program gnuplot, which is not here (Debian: gnuplot-nox)";
-
-class ScratchFolder {
-public:
-    ScratchFolder() {
-        std::string name = (fs::temp_directory_path() / "deburr-XXXXXX").string();
-        if (!mkdtemp(name.data()))
-            throw WorkError(fmt::format("cannot make a folder '{}': {}", name, std::strerror(errno)));
-        path_ = name;
-    }
-    ~ScratchFolder() {
-        std::error_code ignored;
-        fs::remove_all(path_, ignored);
-    }
-    ScratchFolder(const ScratchFolder&) = delete;
-    ScratchFolder& operator=(const ScratchFolder&) = delete;
-    std::string operator/(const char* name) const { return (path_ / name).string(); }
-
-private:
-    fs::path path_;
-};
 
 std::string contents(const std::string& path) {
     std::ifstream file(path, std::ios::binary);
@@ -89,7 +70,7 @@ std::string first_words(const std::string& text) {
 }  // namespace
 
 std::string run_gnuplot(const std::string& terminal, const std::string& script) {
-    const ScratchFolder folder;
+    const TemporaryFolder folder;
     const std::string picture = folder / "picture", log = folder / "log", file = folder / "script";
     std::string quoted;  // for gnuplot's single quotes
     for (const char c : picture) quoted += c == '\'' ? std::string("''") : std::string(1, c);
@@ -104,7 +85,7 @@ std::string run_gnuplot(const std::string& terminal, const std::string& script) 
 }
 
 void require_gnuplot() {
-    const ScratchFolder folder;
+    const TemporaryFolder folder;
     call({"gnuplot", "--version"}, folder / "log");
 }
 

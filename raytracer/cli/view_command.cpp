@@ -1,6 +1,5 @@
 // deburr view FILE: a page in the browser that shows the exact picture while the file is being edited.
 #include <fmt/format.h>
-#include <stdlib.h>
 #include <tbb/global_control.h>
 
 #include <algorithm>
@@ -18,6 +17,7 @@
 #include "raytracer/scene/vanished_parts.hpp"
 #include "raytracer/util/errors.hpp"
 #include "raytracer/util/interrupt.hpp"
+#include "raytracer/util/temporary_folder.hpp"
 #include "raytracer/view/file_watch.hpp"
 #include "raytracer/view/view_server.hpp"
 
@@ -31,26 +31,6 @@ struct ViewOptions : RenderOptions {
 // How soon Ctrl-C is noticed, in milliseconds.
 constexpr int poll_interval = 100;
 
-// A folder that vanishes with what is in it.
-class ScratchFolder {
-public:
-    ScratchFolder() {
-        std::string name = (std::filesystem::temp_directory_path() / "deburr-XXXXXX").string();
-        if (!mkdtemp(name.data())) throw WorkError("cannot make a folder in " + name);
-        path_ = name;
-    }
-    ~ScratchFolder() {
-        std::error_code ignored;
-        std::filesystem::remove_all(path_, ignored);
-    }
-    ScratchFolder(const ScratchFolder&) = delete;
-    ScratchFolder& operator=(const ScratchFolder&) = delete;
-    const std::filesystem::path& path() const { return path_; }
-
-private:
-    std::filesystem::path path_;
-};
-
 // What `deburr render` and `deburr mesh` would write.
 std::string encoded(const RenderOptions& o, const std::string& extension, const Scene& scene, const Film* film,
                     int samples) {
@@ -62,8 +42,8 @@ std::string encoded(const RenderOptions& o, const std::string& extension, const 
     }
     RenderWorld world;
     world.scene = scene;
-    const ScratchFolder folder;
-    const std::string path = folder.path() / ("picture" + extension);
+    const TemporaryFolder folder;
+    const std::string path = folder / ("picture" + extension);
     write_image(path, *film, format_of(o, exposure_of(o, scene), default_threads()), notes_of(o, world, samples, 0));
     std::ifstream in(path, std::ios::binary);
     return {std::istreambuf_iterator<char>(in), {}};

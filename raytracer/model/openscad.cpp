@@ -18,6 +18,7 @@
 #include "raytracer/util/errors.hpp"
 #include "raytracer/util/printable.hpp"
 #include "raytracer/util/scene_error.hpp"
+#include "raytracer/util/temporary_folder.hpp"
 
 extern char** environ;
 
@@ -25,27 +26,6 @@ namespace deburr {
 namespace {
 
 namespace fs = std::filesystem;
-
-// A folder that goes when this does.
-class TemporaryFolder {
-public:
-    TemporaryFolder() {
-        std::string name = (fs::temp_directory_path() / "deburr-XXXXXX").string();
-        if (!mkdtemp(name.data()))
-            throw WorkError("a folder for openscad's output: " + std::string(std::strerror(errno)));
-        path_ = name;
-    }
-    TemporaryFolder(const TemporaryFolder&) = delete;
-    TemporaryFolder& operator=(const TemporaryFolder&) = delete;
-    ~TemporaryFolder() {
-        std::error_code ignored;
-        fs::remove_all(path_, ignored);
-    }
-    fs::path operator/(const char* name) const { return path_ / name; }
-
-private:
-    fs::path path_;
-};
 
 std::string text_of(const fs::path& path) {
     std::ifstream in(path, std::ios::binary);
