@@ -10,6 +10,7 @@
 #include <thread>
 
 #include "bounds/canonical_solids.hpp"
+#include "raytracer/scene/scene_descriptions.hpp"
 #include "raytracer/util/errors.hpp"
 
 namespace deburr {
@@ -39,18 +40,6 @@ Vec3 finite_vec(const Json& j) {
 
 Json camera_json(const Camera& c) {
     return {{"eye", vec_json(c.eye)}, {"target", vec_json(c.target)}, {"up", vec_json(c.up)}, {"fov", c.fov}};
-}
-
-const char* material_name(Material::Kind kind) {
-    switch (kind) {
-        case Material::Kind::matte: return "matte";
-        case Material::Kind::plastic: return "plastic";
-        case Material::Kind::metal: return "metal";
-        case Material::Kind::mirror: return "mirror";
-        case Material::Kind::glass: return "glass";
-        case Material::Kind::pbr: return "pbr";
-    }
-    return "";
 }
 
 // What the scene says of a solid.
@@ -175,7 +164,7 @@ struct ViewServer::Parts {
             j = {{"solid", name.empty() ? fmt::format("solid {}", i + 1) : name},
                  {"place", scene->place(notes.line)},
                  {"material", found->material < int(scene->materials.size())
-                                  ? material_name(scene->materials[std::size_t(found->material)].kind)
+                                  ? name_of(scene->materials[std::size_t(found->material)].kind)
                                   : ""},
                  {"radii", notes.radii},
                  {"position", vec_json(found->position)},
