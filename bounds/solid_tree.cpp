@@ -61,7 +61,7 @@ private:
     void open(Task task) {
         const SolidNode& node = through_placements(task);
         if (node.kind == Kind::rounded && node.density().node().has_round) {
-            open_round(flatten(node.density(), node.radius()), node, task);
+            open_round(node, task);
             return;
         }
         if (node.kind == Kind::rounded) {
@@ -101,11 +101,18 @@ private:
         tasks_.insert(tasks_.end(), operands.rbegin(), operands.rend());
     }
 
-    void open_round(DensityTree density, const SolidNode& node, const Task& task) {
-        if (is_sharp_round(density) && even_scale(task.map) > 0)
-            done_.push_back(add_sharp_round(placed(std::move(density), task.map), task.material, node.line, tree_));
+    // A map that keeps angles carries the parts along; any other carries the field.
+    void open_round(const SolidNode& node, const Task& task) {
+        const double scale = even_scale(task.map);
+        const bool keeps_angles =
+            scale > 0 && std::isfinite(scale) && std::isfinite(task.map.shift.x + task.map.shift.y + task.map.shift.z);
+        DensityTree density = flatten(node.density(), node.radius(), keeps_angles ? task.map : Affine{});
+        Task rest = task;
+        if (keeps_angles) rest.map = {};
+        if (keeps_angles && is_sharp_round(density))
+            done_.push_back(add_sharp_round(density, task.material, node.line, tree_));
         else
-            open_field(std::make_shared<RoundDensity>(std::move(density)), node, task);
+            open_field(std::make_shared<RoundDensity>(std::move(density)), node, rest);
     }
 
     void open_field(const FieldPtr& field, const SolidNode& node, const Task& task) {
