@@ -25,8 +25,10 @@ SolidFacts facts_of(const SolidTree& tree) {
         facts.half_spaces += double(leaf.density.half_spaces.size());
         if (dynamic_cast<const Torus*>(leaf.field.get())) ++facts.round_parts;
         if (const auto* density = dynamic_cast<const RoundDensity*>(leaf.field.get()))
-            for (const HalfSpace& h : density->tree().half_spaces)
-                (h.round ? facts.round_parts : facts.half_spaces) += !h.round || is_part(h);
+            for (const HalfSpace& h : density->tree().half_spaces) {
+                facts.half_spaces += h.round == nullptr;
+                facts.round_parts += is_part(h);
+            }
     }
     return facts;
 }
