@@ -8,7 +8,7 @@
 #include <embree3/rtcore.h>
 #endif
 
-#include <memory>
+#include <atomic>
 #include <mutex>
 #include <string>
 
@@ -57,15 +57,22 @@ struct EmbreeContext : RTCIntersectContext {
 /// One scene, to be filled and then committed.
 class EmbreeScene {
 public:
-    EmbreeScene() : device_(shared_device()), scene_(library_.new_scene(device_.get())) {
+    EmbreeScene() : device_(shared_device()), scene_(library_.new_scene(device_)) {
+        if (!scene_) fail("a scene");
         library_.set_scene_flags(scene_, RTC_SCENE_FLAG_ROBUST);
         library_.set_scene_build_quality(scene_, RTC_BUILD_QUALITY_HIGH);
     }
     EmbreeScene(const EmbreeScene&) = delete;
     EmbreeScene& operator=(const EmbreeScene&) = delete;
-    ~EmbreeScene() { library_.release_scene(scene_); }
+    ~EmbreeScene() {
+        if (!out_of_memory) library_.release_scene(scene_);
+    }
 
-    RTCGeometry new_geometry(RTCGeometryType type) { return library_.new_geometry(device_.get(), type); }
+    RTCGeometry new_geometry(RTCGeometryType type) {
+        const RTCGeometry geometry = library_.new_geometry(device_, type);
+        if (!geometry) fail("a geometry");
+        return geometry;
+    }
     void add(RTCGeometry geometry) {
         library_.commit_geometry(geometry);
         library_.attach_geometry(scene_, geometry);
@@ -74,8 +81,7 @@ public:
     /// `what` is in it, if it does not fit.
     void commit(const std::string& what) {
         library_.commit_scene(scene_);
-        if (library_.device_error(device_.get()) != RTC_ERROR_NONE)
-            throw WorkError("Embree cannot hold " + what + ": out of memory");
+        if (library_.device_error(device_) != RTC_ERROR_NONE) fail(what);
     }
 
 #if RTC_VERSION_MAJOR >= 4
@@ -97,23 +103,29 @@ public:
 #endif
 
 private:
-    using Device = std::shared_ptr<RTCDeviceTy>;
-    static Device shared_device() {
+    /// Set once an allocation of Embree's failed. It leaves locks of its allocator held, and a release after that may
+    /// wait for them without an end; so nothing of it is released any more.
+    static inline std::atomic<bool> out_of_memory{false};
+
+    [[noreturn]] static void fail(const std::string& what) {
+        out_of_memory = true;
+        throw WorkError("Embree cannot hold " + what + ": out of memory");
+    }
+
+    /// The one device of the process. It is never released: once memory was short, that may wait without an end, too.
+    static RTCDevice shared_device() {
         static std::mutex mutex;
-        static std::weak_ptr<RTCDeviceTy> known;
+        static RTCDevice device = nullptr;
         const std::lock_guard lock(mutex);
-        Device device = known.lock();
         if (device) return device;
-        RTCDevice fresh = embree().new_device(nullptr);
-        if (!fresh && embree().device_error(nullptr) == RTC_ERROR_OUT_OF_MEMORY) throw std::bad_alloc();
-        if (!fresh) throw WorkError("Embree does not start on this machine");
-        device = Device(fresh, embree().release_device);
-        known = device;
+        device = embree().new_device(nullptr);
+        if (!device && embree().device_error(nullptr) == RTC_ERROR_OUT_OF_MEMORY) throw std::bad_alloc();
+        if (!device) throw WorkError("Embree does not start on this machine");
         return device;
     }
 
     const EmbreeLibrary& library_ = embree();
-    Device device_;
+    RTCDevice device_;
     RTCScene scene_;
 };
 

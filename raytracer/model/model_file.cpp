@@ -93,8 +93,10 @@ struct Sizes {
     std::signal(SIGINT, SIG_DFL);
     prctl(PR_SET_PDEATHSIG, SIGKILL);
     limit(RLIMIT_CORE, 0);
-    limit(RLIMIT_CPU, least_seconds + bytes.size() / bytes_per_second);
-#if !DEBURR_IS_SANITIZED  // whose shadow memory takes all addresses
+    const std::size_t seconds = least_seconds + bytes.size() / bytes_per_second;
+    limit(RLIMIT_CPU, seconds);
+    alarm(unsigned(10 * seconds));  // a reader that waits takes no time of the processor
+#if !DEBURR_IS_SANITIZED            // whose shadow memory takes all addresses
     // What is mapped already counts, too: the program's own arenas.
     limit(RLIMIT_AS, least_memory + memory_per_byte * bytes.size() + (std::size_t(8) << 30));
     limit(RLIMIT_DATA, least_memory + memory_per_byte * bytes.size() + bytes.size());
@@ -159,7 +161,7 @@ TriangleSoup read_apart(const std::string& bytes, const std::string& format, con
     if (!whole) {
         const int signal = WIFSIGNALED(status) ? WTERMSIG(status) : 0;
         fail(path, fmt::format("expected {} data, got a file that {}", format,
-                               signal == SIGXCPU || signal == SIGKILL ? "takes its reader too long"
+                               signal == SIGXCPU || signal == SIGALRM || signal == SIGKILL ? "takes its reader too long"
                                : signal != 0 ? fmt::format("stops its reader (signal {})", signal)
                                              : "stops its reader"));
     }

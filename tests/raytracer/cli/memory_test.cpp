@@ -51,7 +51,7 @@ TEST_CASE("running out of memory is one line and exit code 1, at whatever limit"
         for (int kib = 48'000; kib < 330'000; kib += kib / 3) {
             // Both without dumps of memory, which take seconds to write.
             const std::string call = "cd '" + folder / "" + "' && ulimit -c 0 -v " + std::to_string(kib) +
-                                     " && exec '" DEBURR_PROGRAM "' " + command + " 2>err";
+                                     " && exec timeout 60 '" DEBURR_PROGRAM "' " + command + " 2>err";
             const int status = std::system(("bash -c \"" + call + "\"").c_str());
             const std::string err = read_file(folder / "err");
             CAPTURE(command, kib, err);

@@ -74,10 +74,20 @@ struct Page : Folder {
 
 }  // namespace
 
-TEST_CASE("a page sees the picture coarse, sharp, and refined to the bytes of render") {
+TEST_CASE("a camera that moves is answered by a picture before its samples") {
     Page page({"--spp", "20"});
-    const Frame first = page.frame([](const Frame&) { return true; });
-    CHECK(first.head["samples"] == 0);
+    // A page that asks late sees only what came last; of many pictures one is seen at its beginning.
+    bool coarse = false;
+    for (int i = 0; i < 100 && !coarse; ++i) {
+        coarse = page.frame([](const Frame&) { return true; }).head["samples"] == 0;
+        const char* const camera = i % 2 ? "null" : R"({"eye": [4, 1, 1], "target": [0, 0, 0], "up": [0, 1, 0]})";
+        REQUIRE(page.post("camera", camera) == 200);
+    }
+    CHECK(coarse);
+}
+
+TEST_CASE("a page sees the picture refined to the bytes of render") {
+    Page page({"--spp", "20"});
     const Frame last = page.finished();
     CHECK(last.head["width"] == 60);
     CHECK(last.head["samples"] == 20);
