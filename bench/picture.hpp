@@ -31,6 +31,12 @@ inline void render_picture(const Scene& scene, const RayTracer& tracer, TraceCou
 /// of any tracer.
 class Recording final : public RayTracer {
 public:
+    struct Question {
+        std::vector<Ray> rays;
+        std::vector<double> t_max;  // empty: infinity
+        bool any, alone;
+    };
+
     explicit Recording(const RayTracer& tracer) : tracer_(tracer) {}
     Hit closest_hit(const Ray& ray, double t_max, TraceCounters& counters) const override {
         questions_.push_back({{ray}, {t_max}, false, true});
@@ -54,6 +60,18 @@ public:
         for (const Question& q : questions_) sum += q.rays.size();
         return sum;
     }
+    const std::vector<Question>& questions() const { return questions_; }
+    /// Ray by ray, though they were asked together.
+    void ask_alone(const RayTracer& tracer, TraceCounters& counters) const {
+        for (const Question& q : questions_)
+            for (std::size_t i = 0; i < q.rays.size(); ++i) {
+                const double t_max = q.t_max.empty() ? infinity : q.t_max[i];
+                if (q.any)
+                    keep(tracer.any_hit(q.rays[i], t_max, counters));
+                else
+                    keep(tracer.closest_hit(q.rays[i], t_max, counters));
+            }
+    }
     void ask(const RayTracer& tracer, TraceCounters& counters) const {
         std::vector<Hit> hits(most());
         const std::unique_ptr<bool[]> occluded(new bool[most()]);
@@ -72,11 +90,6 @@ public:
     }
 
 private:
-    struct Question {
-        std::vector<Ray> rays;
-        std::vector<double> t_max;
-        bool any, alone;
-    };
     std::size_t most() const {
         std::size_t most = 1;
         for (const Question& q : questions_) most = std::max(most, q.rays.size());
