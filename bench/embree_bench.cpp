@@ -21,7 +21,7 @@ void compare_rays(Report& report, const char* name, const Scene& scene, const Im
     render_picture(scene, recording, counters);
     const EmbreeRays together(recording, false), alone(recording, true);
     const Ratio packets = ratio_of([&] { recording.ask(implicit, counters); }, [&] { together.ask(embree); }, 9);
-    const double rays = 1e-6 * double(recording.rays());
+    const double rays = 1e-6 * double(recording.rays().size());
     report.ratio(fmt::format("{}: packets of 16", name), packets, at_most(packets_bar));
     report.figure(fmt::format("{}: exact rays in packets", name), rays / packets.a, "million/s");
     report.figure(fmt::format("{}: Embree's rays in packets", name), rays / packets.b, "million/s");

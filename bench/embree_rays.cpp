@@ -57,10 +57,11 @@ EmbreeMesh::EmbreeMesh(const Mesh& mesh)
 }
 
 EmbreeRays::EmbreeRays(const Recording& recording, bool alone) {
+    const auto ray = [&](std::size_t i) { return ray_of(recording.rays()[i], recording.t_max()[i]); };
     for (const Recording::Question& q : recording.questions()) {
-        const auto ray = [&](std::size_t i) { return ray_of(q.rays[i], q.t_max.empty() ? infinity : q.t_max[i]); };
+        const std::size_t end = q.first + q.count;
         if (alone || q.alone) {
-            for (std::size_t i = 0; i < q.rays.size(); ++i)
+            for (std::size_t i = q.first; i < end; ++i)
                 if (q.any) {
                     any_.push_back(ray(i));
                 } else {
@@ -69,21 +70,19 @@ EmbreeRays::EmbreeRays(const Recording& recording, bool alone) {
                 }
             continue;
         }
-        for (std::size_t first = 0; first < q.rays.size(); first += 16)
+        for (std::size_t first = q.first; first < end; first += 16) {
+            int valid[16];
+            RTCRayHit16 rays{};
             for (std::size_t k = 0; k < 16; ++k) {
-                const std::size_t i = std::min(first + k, q.rays.size() - 1);
-                if (k == 0 && q.any) any_packets_.emplace_back();
-                if (k == 0 && !q.any) closest_packets_.emplace_back();
-                const int valid = first + k < q.rays.size() ? -1 : 0;
-                if (q.any) {
-                    any_packets_.back().valid[k] = valid;
-                    set(any_packets_.back().rays, int(k), ray(i));
-                } else {
-                    closest_packets_.back().valid[k] = valid;
-                    set(closest_packets_.back().rays.ray, int(k), ray(i));
-                    closest_packets_.back().rays.hit.geomID[k] = RTC_INVALID_GEOMETRY_ID;
-                }
+                valid[k] = first + k < end ? -1 : 0;
+                set(rays.ray, int(k), ray(std::min(first + k, end - 1)));
+                rays.hit.geomID[k] = RTC_INVALID_GEOMETRY_ID;
             }
+            if (q.any)
+                std::copy_n(valid, 16, any_packets_.emplace_back(Packet<RTCRay16>{{}, rays.ray}).valid);
+            else
+                std::copy_n(valid, 16, closest_packets_.emplace_back(Packet<RTCRayHit16>{{}, rays}).valid);
+        }
     }
 }
 

@@ -28,75 +28,79 @@ inline void render_picture(const Scene& scene, const RayTracer& tracer, TraceCou
 }
 
 /// Every ray that a picture asks for, in the order it does and together with those it does, to be asked again
-/// of any tracer.
+/// of any tracer. Rays lie one after the other, so that whoever is asked reads them as fast as memory allows.
 class Recording final : public RayTracer {
 public:
     struct Question {
-        std::vector<Ray> rays;
-        std::vector<double> t_max;  // empty: infinity
+        std::size_t first, count;  // in rays() and t_max()
         bool any, alone;
     };
 
     explicit Recording(const RayTracer& tracer) : tracer_(tracer) {}
     Hit closest_hit(const Ray& ray, double t_max, TraceCounters& counters) const override {
-        questions_.push_back({{ray}, {t_max}, false, true});
+        add({&ray, 1}, {&t_max, 1}, false, true);
         return tracer_.closest_hit(ray, t_max, counters);
     }
     bool any_hit(const Ray& ray, double t_max, TraceCounters& counters) const override {
-        questions_.push_back({{ray}, {t_max}, true, true});
+        add({&ray, 1}, {&t_max, 1}, true, true);
         return tracer_.any_hit(ray, t_max, counters);
     }
     void closest_hits(std::span<const Ray> rays, Hit* hits, TraceCounters& counters) const override {
-        questions_.push_back({{rays.begin(), rays.end()}, {}, false, false});
+        add(rays, {}, false, false);
         tracer_.closest_hits(rays, hits, counters);
     }
     void any_hits(std::span<const Ray> rays, std::span<const double> t_max, bool* occluded,
                   TraceCounters& counters) const override {
-        questions_.push_back({{rays.begin(), rays.end()}, {t_max.begin(), t_max.end()}, true, false});
+        add(rays, t_max, true, false);
         tracer_.any_hits(rays, t_max, occluded, counters);
     }
-    std::size_t rays() const {
-        std::size_t sum = 0;
-        for (const Question& q : questions_) sum += q.rays.size();
-        return sum;
-    }
+
     const std::vector<Question>& questions() const { return questions_; }
-    /// Ray by ray, though they were asked together.
-    void ask_alone(const RayTracer& tracer, TraceCounters& counters) const {
-        for (const Question& q : questions_)
-            for (std::size_t i = 0; i < q.rays.size(); ++i) {
-                const double t_max = q.t_max.empty() ? infinity : q.t_max[i];
-                if (q.any)
-                    keep(tracer.any_hit(q.rays[i], t_max, counters));
-                else
-                    keep(tracer.closest_hit(q.rays[i], t_max, counters));
-            }
-    }
+    const std::vector<Ray>& rays() const { return rays_; }
+    const std::vector<double>& t_max() const { return t_max_; }
+
     void ask(const RayTracer& tracer, TraceCounters& counters) const {
-        std::vector<Hit> hits(most());
-        const std::unique_ptr<bool[]> occluded(new bool[most()]);
+        std::size_t most = 1;
+        for (const Question& q : questions_) most = std::max(most, q.count);
+        std::vector<Hit> hits(most);
+        const std::unique_ptr<bool[]> occluded(new bool[most]);
         for (const Question& q : questions_) {
-            if (q.alone && q.any)
-                keep(tracer.any_hit(q.rays[0], q.t_max[0], counters));
-            else if (q.alone)
-                keep(tracer.closest_hit(q.rays[0], q.t_max[0], counters));
+            const std::span<const Ray> rays(&rays_[q.first], q.count);
+            if (q.alone)
+                ask_alone(tracer, q.first, q.any, counters);
             else if (q.any)
-                tracer.any_hits(q.rays, q.t_max, occluded.get(), counters);
+                tracer.any_hits(rays, {&t_max_[q.first], q.count}, occluded.get(), counters);
             else
-                tracer.closest_hits(q.rays, hits.data(), counters);
+                tracer.closest_hits(rays, hits.data(), counters);
         }
         keep(hits);
         keep(occluded);
     }
+    /// Ray by ray, though they were asked together.
+    void ask_alone(const RayTracer& tracer, TraceCounters& counters) const {
+        for (const Question& q : questions_)
+            for (std::size_t i = q.first; i < q.first + q.count; ++i) ask_alone(tracer, i, q.any, counters);
+    }
 
 private:
-    std::size_t most() const {
-        std::size_t most = 1;
-        for (const Question& q : questions_) most = std::max(most, q.rays.size());
-        return most;
+    void add(std::span<const Ray> rays, std::span<const double> t_max, bool any, bool alone) const {
+        if (rays.empty()) return;
+        questions_.push_back({rays_.size(), rays.size(), any, alone});
+        rays_.insert(rays_.end(), rays.begin(), rays.end());
+        t_max_.insert(t_max_.end(), t_max.begin(), t_max.end());
+        t_max_.resize(rays_.size(), infinity);
     }
+    void ask_alone(const RayTracer& tracer, std::size_t ray, bool any, TraceCounters& counters) const {
+        if (any)
+            keep(tracer.any_hit(rays_[ray], t_max_[ray], counters));
+        else
+            keep(tracer.closest_hit(rays_[ray], t_max_[ray], counters));
+    }
+
     const RayTracer& tracer_;
     mutable std::vector<Question> questions_;
+    mutable std::vector<Ray> rays_;
+    mutable std::vector<double> t_max_;
 };
 
 }  // namespace deburr::bench

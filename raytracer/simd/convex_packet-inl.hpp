@@ -184,6 +184,36 @@ private:
     V a_[N > 0 ? N : max_packet_factors], b_[N > 0 ? N : max_packet_factors];
 };
 
+// surface_normal() of `asked` at t, against rays that enter.
+HWY_INLINE void normals_of(const ConvexView& density, const Rays& rays, V t, V plane, M entering, M asked,
+                           std::size_t first, double (*normal)[RayPacket::size]) {
+    const V one = number(1), zero = hn::Zero(d);
+    V x[3], sum[3] = {zero, zero, zero}, P = one;
+    for (int k = 0; k < 3; ++k) x[k] = rays.origin[k] + rays.direction[k] * t;
+    for (int i = 0; i < density.soft; ++i) {
+        const AlphaPlane& p = density.planes[i];
+        const V slope[3] = {number(p.slope.x), number(p.slope.y), number(p.slope.z)};
+        const V alpha = slope[0] * x[0] + slope[1] * x[1] + slope[2] * x[2] + number(p.base);
+        const V c = hn::Max(hn::Min(alpha, one), hn::Neg(one)), u = one - c;
+        const V F = u * u * (number(2) + c) * number(0.25), share = P * (u * (one + c));
+        for (int k = 0; k < 3; ++k) sum[k] = sum[k] * F + slope[k] * share;
+        P = P * F;
+    }
+    for (int i = 0; i < density.soft + density.sharp; ++i) {
+        const M alone = plane == number(i);
+        for (int k = 0; k < 3; ++k) sum[k] = select(alone, number(density.planes[i].slope[k]), sum[k]);
+    }
+    const V length = hn::Sqrt(sum[0] * sum[0] + sum[1] * sum[1] + sum[2] * sum[2]);
+    const V scale = select(length > zero, one / length, one);
+    for (int k = 0; k < 3; ++k) sum[k] = sum[k] * scale;
+    const M against = sum[0] * rays.direction[0] + sum[1] * rays.direction[1] + sum[2] * rays.direction[2] < zero;
+    const M turned = hn::Xor(against, entering);
+    for (int k = 0; k < 3; ++k) {
+        double* const to = normal[k] + first;
+        hn::Store(select(asked, select(turned, hn::Neg(sum[k]), sum[k]), hn::Load(d, to)), d, to);
+    }
+}
+
 template <int N, bool Any>
 Lanes crossings_of(const ConvexView& density, const RayPacket& rays, Lanes lanes, const PacketSpans& spans,
                    double scale, PacketCrossings* found, std::uint64_t& evaluations) {

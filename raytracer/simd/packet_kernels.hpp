@@ -28,27 +28,53 @@ struct PacketCrossings {
     Lanes entering = 0;
 };
 
+/// The nearest crossings of a packet's rays with primitives so far; where they are is RayTerms::end.
+struct PacketNearest {
+    alignas(64) double primitive[RayPacket::size];  // its number
+    alignas(64) double plane[RayPacket::size];      // ConvexCrossing::plane
+    Lanes found = 0, entering = 0;                  // those that have one; those of them that enter
+    Lanes elsewhere = 0;                            // those whose nearest is kept elsewhere, with its normal
+};
+
 /// Soft factors beyond these are left to single rays.
 constexpr int max_packet_factors = 8;
 
 /// The kernels, compiled once for each set of instructions.
 struct PacketFunctions {
-    /// Prepares the rays; coordinates of the scene reach `scale`. True if a ray begins beyond `farthest` in a
-    /// coordinate.
-    bool (*prepare)(RayPacket& rays, double scale, double farthest);
+    /// Lays out RayPacket::size rays, which begin at 0.
+    void (*load)(RayPacket& packet, const Ray* rays, const double* t_max);
+
+    /// Computes the rays' terms for a scene whose coordinates reach `scale`. Returns the rays that begin beyond
+    /// `farthest` in a coordinate.
+    Lanes (*prepare)(const RayPacket& rays, double scale, double farthest, RayTerms& terms);
+
+    /// The rays as a map has them, with unit directions; distances become `rate` times as long, and `end` a little
+    /// longer.
+    void (*map)(const Affine& map, bool only_moved, const RayPacket& rays, const double* end, RayPacket& mapped,
+                double* rate);
 
     /// The rays among `lanes` that meet the box before their end.
-    Lanes (*enter)(const Box& box, const RayPacket& rays, Lanes lanes, PacketEntry& entry);
+    Lanes (*enter)(const Box& box, const RayPacket& rays, const RayTerms& terms, Lanes lanes, PacketEntry& entry);
 
     /// How far the farthest of `lanes` goes on in the box, from where it enters.
-    double (*longest_distance)(const RayPacket& rays, Lanes lanes, const PacketEntry& entry);
+    double (*longest_distance)(const RayTerms& terms, Lanes lanes, const PacketEntry& entry);
 
     /// The rays among `lanes` that are in the cell before their end.
-    Lanes (*spans_in_cell)(const Box& cell, const RayPacket& rays, Lanes lanes, PacketSpans& spans);
+    Lanes (*spans_in_cell)(const Box& cell, const RayPacket& rays, const RayTerms& terms, Lanes lanes,
+                           PacketSpans& spans);
 
     /// The rays among `lanes` that cross the plane within their span, and where.
     Lanes (*plane_crossings)(const AlphaPlane& plane, const RayPacket& rays, Lanes lanes, const PacketSpans& spans,
                              PacketCrossings& found);
+
+    /// Takes the crossings of `lanes` with a primitive that are nearer than the nearest so far. Returns those that are
+    /// as near.
+    Lanes (*keep_nearer)(RayTerms& terms, PacketNearest& nearest, const PacketCrossings& crossings, Lanes lanes,
+                         std::uint32_t primitive);
+
+    /// The unit normals of a product of half-spaces where `lanes` cross it, at their ends, against rays that enter it.
+    void (*convex_normals)(const ConvexView& density, const RayPacket& rays, const double* end, Lanes lanes,
+                           const PacketNearest& nearest, double (*normal)[RayPacket::size]);
 
     /// first_crossing() for each of `lanes`, whose spans must be finite, with t_tolerance = 8 ε (scale + |from|); those
     /// that have one.

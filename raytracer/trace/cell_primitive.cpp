@@ -56,7 +56,7 @@ Lanes CellPrimitives::crossings(const CellPrimitive& p, const RayPacket& rays, L
         return packet_functions.convex_crossings(view(p), rays, lanes, spans, tolerances_.scale, found,
                                                  counters.evaluations);
     const Lanes crossed = packet_functions.plane_crossings(planes_[p.index], rays, lanes, spans, found);
-    counters.flat_hits += std::uint64_t(__builtin_popcount(crossed));
+    counters.flat_hits += count(crossed);
     return crossed;
 }
 
@@ -82,13 +82,22 @@ SurfaceCrossing CellPrimitives::general_crossing(const CellPrimitive& p, const V
     return c;
 }
 
-Vec3 CellPrimitives::normal(std::size_t i, const ConvexCrossing& crossing, const Vec3& origin,
+Vec3 CellPrimitives::normal(const CellPrimitive& p, const ConvexCrossing& crossing, const Vec3& origin,
                             const Vec3& direction) const {
-    const CellPrimitive& p = primitives_[i];
     if (p.kind == CellPrimitive::Kind::plane) return planes_[p.index].slope;
     const Vec3 n = surface_normal(view(p), crossing, origin + direction * crossing.t);
     // It leaves the solid, so it is against a ray that enters.
     return (glm::dot(n, direction) < 0) == crossing.entering ? n : -n;
+}
+
+void CellPrimitives::normals(const CellPrimitive& p, const RayPacket& rays, const double* end, Lanes lanes,
+                             const PacketNearest& nearest, double (*normal)[RayPacket::size]) const {
+    if (p.kind == CellPrimitive::Kind::convex)
+        return packet_functions.convex_normals(view(p), rays, end, lanes, nearest, normal);
+    const Vec3& slope = planes_[p.index].slope;
+    for_each_lane(lanes, [&](int k) {
+        for (int axis = 0; axis < 3; ++axis) normal[axis][k] = slope[axis];
+    });
 }
 
 // ---- boxes ---------------------------------------------------------------------------------------

@@ -67,8 +67,12 @@ public:
     /// First crossing of a general one; `any`: that there is one will do, and its t means nothing.
     SurfaceCrossing general_crossing(const CellPrimitive& p, const Vec3& origin, const Vec3& direction, double t0,
                                      double t1, bool any, TraceCounters& counters) const;
-    /// Unit normal, out of the solid, of primitive i: a plane, or convex.
-    Vec3 normal(std::size_t i, const ConvexCrossing& crossing, const Vec3& origin, const Vec3& direction) const;
+    /// Unit normal, out of the solid, of primitive p: a plane, or convex.
+    Vec3 normal(const CellPrimitive& p, const ConvexCrossing& crossing, const Vec3& origin,
+                const Vec3& direction) const;
+    /// The same for `lanes`, which cross p at their ends.
+    void normals(const CellPrimitive& p, const RayPacket& rays, const double* end, Lanes lanes,
+                 const PacketNearest& nearest, double (*normal)[RayPacket::size]) const;
 
     /// A box around what can be crossed of primitive i, in its cell or this much beyond, with as much to spare.
     Box surface_box(std::size_t i, double margin) const;

@@ -16,9 +16,10 @@ public:
     FoundSurface closest_hit(std::uint32_t number, const Ray& ray, double t_max, double end,
                              TraceCounters& counters) const override;
     bool any_hit(std::uint32_t number, const Ray& ray, double t_max, TraceCounters& counters) const override;
-    void closest_hit_packet(std::uint32_t number, const RayBatch& rays, FoundSurface* found,
-                            TraceCounters& counters) const override;
-    Lanes any_hit_packet(std::uint32_t number, const RayBatch& rays, TraceCounters& counters) const override;
+    void closest_hit_packet(std::uint32_t number, const RayPacket& rays, const double* end, Lanes lanes,
+                            PacketSurfaces& found, TraceCounters& counters) const override;
+    Lanes any_hit_packet(std::uint32_t number, const RayPacket& rays, Lanes lanes,
+                         TraceCounters& counters) const override;
 
 private:
     struct Entered;
@@ -61,24 +62,6 @@ struct Inside {
     double rate = 1;
 };
 
-// What several are.
-struct InsideBatch {
-    InsideBatch(const Instance& p, const RayBatch& from) : count(from.size()) {
-        for (std::size_t k = 0; k < count; ++k) {
-            const Inside in(p, from.rays[k]);
-            rays[k] = in.ray;
-            rates[k] = in.rate;
-            t_max[k] = from.t_max[k] * in.rate;
-            ends[k] = in.end(from.end[k]);
-        }
-    }
-    RayBatch batch() const { return {{rays, count}, {t_max, count}, {ends, count}}; }
-
-    std::size_t count;
-    Ray rays[RayPacket::size];
-    double rates[RayPacket::size], t_max[RayPacket::size], ends[RayPacket::size];
-};
-
 // What was found along `ray`, in the space around again.
 FoundSurface outside(FoundSurface found, const Instance& p, const Ray& ray, double rate) {
     if (!(found.crossing.t < infinity)) return {};
@@ -90,6 +73,20 @@ FoundSurface outside(FoundSurface found, const Instance& p, const Ray& ray, doub
     found.solid = p.solid;
     found.error = found.error * p.stretch + 4 * epsilon * (largest(ray.origin) + found.crossing.t);
     return found;
+}
+
+// The same of ray k of several.
+void outside(PacketSurfaces& found, int k, const Instance& p, const RayPacket& rays, double rate) {
+    found.t[k] = (found.start[k] + found.t[k]) / rate;
+    found.start[k] = 0;
+    if (!p.only_moved) {
+        const Vec3 normal =
+            glm::normalize(Vec3(found.normal[0][k], found.normal[1][k], found.normal[2][k]) * p.into.linear);
+        for (int axis = 0; axis < 3; ++axis) found.normal[axis][k] = normal[axis];
+    }
+    if (found.material[k] < 0) found.material[k] = p.material;
+    found.solid[k] = p.solid;
+    found.error[k] = found.error[k] * p.stretch + 4 * epsilon * (largest(rays.ray(k).origin) + found.t[k]);
 }
 
 FoundSurface PrototypeInstances::closest_hit(std::uint32_t number, const Ray& ray, double t_max, double end,
@@ -105,17 +102,23 @@ bool PrototypeInstances::any_hit(std::uint32_t number, const Ray& ray, double t_
     return e.bsp.any_hit(in.ray, t_max * in.rate, counters, &e.instances);
 }
 
-void PrototypeInstances::closest_hit_packet(std::uint32_t number, const RayBatch& rays, FoundSurface* found,
-                                            TraceCounters& counters) const {
-    const Entered e(*this, number, rays.size(), counters);
-    const InsideBatch in(e.p, rays);
-    e.bsp.closest_hit_packet(in.batch(), found, counters, &e.instances);
-    for (std::size_t k = 0; k < rays.size(); ++k) found[k] = outside(found[k], e.p, rays.rays[k], in.rates[k]);
+void PrototypeInstances::closest_hit_packet(std::uint32_t number, const RayPacket& rays, const double* end, Lanes lanes,
+                                            PacketSurfaces& found, TraceCounters& counters) const {
+    const Entered e(*this, number, count(lanes), counters);
+    RayPacket inside;
+    alignas(64) double rate[RayPacket::size];
+    packet_functions.map(e.p.into, e.p.only_moved, rays, end, inside, rate);
+    e.bsp.closest_hit_packet(inside, lanes, found, counters, &e.instances);
+    for_each_lane(found.found, [&](int k) { outside(found, k, e.p, rays, rate[k]); });
 }
 
-Lanes PrototypeInstances::any_hit_packet(std::uint32_t number, const RayBatch& rays, TraceCounters& counters) const {
-    const Entered e(*this, number, rays.size(), counters);
-    return e.bsp.any_hit_packet(InsideBatch(e.p, rays).batch(), counters, &e.instances);
+Lanes PrototypeInstances::any_hit_packet(std::uint32_t number, const RayPacket& rays, Lanes lanes,
+                                         TraceCounters& counters) const {
+    const Entered e(*this, number, count(lanes), counters);
+    RayPacket inside;
+    alignas(64) double rate[RayPacket::size];
+    packet_functions.map(e.p.into, e.p.only_moved, rays, rays.t_max, inside, rate);
+    return e.bsp.any_hit_packet(inside, lanes, counters, &e.instances);
 }
 
 }  // namespace
@@ -127,6 +130,9 @@ ImplicitTracer::ImplicitTracer(const std::vector<Solid>& solids, Criterion crite
 ImplicitTracer::~ImplicitTracer() = default;
 
 namespace {
+
+// Far beyond the error of the position, far below anything to be seen.
+double offset_of(double error) { return 128 * error; }
 
 Hit hit_of(const FoundSurface& found, const Ray& ray) {
     if (!(found.crossing.t < infinity)) return {};
@@ -141,8 +147,7 @@ Hit hit_of(const FoundSurface& found, const Ray& ray) {
     hit.normal = found.crossing.normal;
     hit.solid = found.solid;
     hit.material = std::max(0, found.crossing.material);
-    // Far beyond the error of the position, far below anything to be seen.
-    hit.offset = 128 * found.error;
+    hit.offset = offset_of(found.error);
     return hit;
 }
 
@@ -160,15 +165,56 @@ bool ImplicitTracer::any_hit(const Ray& ray, double t_max, TraceCounters& counte
     return (*prototypes_)[0].bsp.any_hit(ray, t_max, counters, &instances);
 }
 
+namespace {
+
+// At most RayPacket::size rays, in the order in which they come.
+Lanes load(RayPacket& packet, std::span<const Ray> rays, const double* t_max) {
+    if (rays.size() == RayPacket::size) {
+        packet_functions.load(packet, rays.data(), t_max);
+    } else {  // so that there are numbers everywhere
+        Ray padded[RayPacket::size];
+        double padded_t_max[RayPacket::size];
+        for (std::size_t k = 0; k < RayPacket::size; ++k) {
+            padded[k] = rays[k < rays.size() ? k : 0];
+            padded_t_max[k] = t_max[k < rays.size() ? k : 0];
+        }
+        packet_functions.load(packet, padded, padded_t_max);
+    }
+    return (Lanes(1) << rays.size()) - 1;
+}
+
+void set_hit(Hit& hit, const Ray& ray, const PacketSurfaces& found, int k) {
+    if (!(found.found >> k & 1)) {
+        hit = {};
+        return;
+    }
+    // Member by member: what is put together and then copied waits for its parts.
+    const double t = found.t[k], start = found.start[k];
+    for (int axis = 0; axis < 3; ++axis) {
+        const double o = ray.origin[axis], d = ray.direction[axis];
+        hit.position[axis] = (start > 0 ? o + d * start : o) + d * t;
+        hit.normal[axis] = found.normal[axis][k];
+    }
+    hit.t = start > 0 ? t + start : t;
+    hit.solid = found.solid[k];
+    hit.material = std::max(0, found.material[k]);
+    hit.offset = offset_of(found.error[k]);
+}
+
+}  // namespace
+
 void ImplicitTracer::closest_hits(std::span<const Ray> rays, Hit* hits, TraceCounters& counters) const {
-    static const std::vector<double> endless(RayPacket::size, infinity);
     counters.rays += rays.size();
     const PrototypeInstances instances(*prototypes_, (*prototypes_)[0]);
-    FoundSurface found[RayPacket::size];
+    RayPacket packet;
+    PacketSurfaces found;
+    double endless[RayPacket::size];
+    std::fill_n(endless, RayPacket::size, infinity);
     for (std::size_t first = 0; first < rays.size(); first += RayPacket::size) {
-        const auto packet = rays.subspan(first, std::min(rays.size() - first, std::size_t(RayPacket::size)));
-        (*prototypes_)[0].bsp.closest_hit_packet({packet, endless, endless}, found, counters, &instances);
-        for (std::size_t k = 0; k < packet.size(); ++k) hits[first + k] = hit_of(found[k], packet[k]);
+        const auto some = rays.subspan(first, std::min(rays.size() - first, std::size_t(RayPacket::size)));
+        const Lanes lanes = load(packet, some, endless);
+        (*prototypes_)[0].bsp.closest_hit_packet(packet, lanes, found, counters, &instances);
+        for (std::size_t k = 0; k < some.size(); ++k) set_hit(hits[first + k], some[k], found, int(k));
     }
 }
 
@@ -176,11 +222,11 @@ void ImplicitTracer::any_hits(std::span<const Ray> rays, std::span<const double>
                               TraceCounters& counters) const {
     counters.shadow_rays += rays.size();
     const PrototypeInstances instances(*prototypes_, (*prototypes_)[0]);
+    RayPacket packet;
     for (std::size_t first = 0; first < rays.size(); first += RayPacket::size) {
         const std::size_t count = std::min(rays.size() - first, std::size_t(RayPacket::size));
-        const auto ends = t_max.subspan(first, count);
-        const Lanes any =
-            (*prototypes_)[0].bsp.any_hit_packet({rays.subspan(first, count), ends, ends}, counters, &instances);
+        const Lanes lanes = load(packet, rays.subspan(first, count), &t_max[first]);
+        const Lanes any = (*prototypes_)[0].bsp.any_hit_packet(packet, lanes, counters, &instances);
         for (std::size_t k = 0; k < count; ++k) occluded[first + k] = any >> k & 1;
     }
 }

@@ -4,14 +4,9 @@
 #include <cstdint>
 #include <span>
 
-#include "bounds/vec.hpp"
+#include "raytracer/simd/ray_packet.hpp"
 
 namespace deburr {
-
-struct Ray {
-    Vec3 origin;
-    Vec3 direction;  // unit
-};
 
 struct Hit {
     double t = infinity;  // distance along the ray; infinity: nothing was hit

@@ -5,21 +5,11 @@
 // at that the ray does not cross: a ray's crossing of a surface is a function of the two alone, and a fixed rule
 // chooses among several crossings (nearest_crossing.hpp).
 #pragma once
-#include <span>
-
 #include "raytracer/accel/bvh.hpp"
 #include "raytracer/trace/nearest_crossing.hpp"
+#include "raytracer/trace/packet_surfaces.hpp"
 
 namespace deburr {
-
-/// Rays that run close to each other: each in [begin, t_max]; what lies beyond `end` need not be found.
-struct RayBatch {
-    std::span<const Ray> rays;
-    std::span<const double> t_max, end;
-    std::span<const double> begin = {};  // empty: 0
-
-    std::size_t size() const { return rays.size(); }
-};
 
 /// The instances placed in a prototype: found by their boxes, traced by their numbers.
 class InstanceTracer {
@@ -29,16 +19,17 @@ public:
                                      TraceCounters& counters) const = 0;
     /// Whether there is one.
     virtual bool any_hit(std::uint32_t instance, const Ray& ray, double t_max, TraceCounters& counters) const = 0;
-    /// The same for at most RayPacket::size rays, to the bit.
-    virtual void closest_hit_packet(std::uint32_t instance, const RayBatch& rays, FoundSurface* found,
-                                    TraceCounters& counters) const {
-        for (std::size_t k = 0; k < rays.size(); ++k)
-            found[k] = closest_hit(instance, rays.rays[k], rays.t_max[k], rays.end[k], counters);
+    /// The same for `lanes` of the rays, to the bit; none is needed beyond `end`.
+    virtual void closest_hit_packet(std::uint32_t instance, const RayPacket& rays, const double* end, Lanes lanes,
+                                    PacketSurfaces& found, TraceCounters& counters) const {
+        for_each_lane(
+            lanes, [&](int k) { found.set(k, closest_hit(instance, rays.ray(k), rays.t_max[k], end[k], counters)); });
     }
-    virtual Lanes any_hit_packet(std::uint32_t instance, const RayBatch& rays, TraceCounters& counters) const {
+    virtual Lanes any_hit_packet(std::uint32_t instance, const RayPacket& rays, Lanes lanes,
+                                 TraceCounters& counters) const {
         Lanes found = 0;
-        for (std::size_t k = 0; k < rays.size(); ++k)
-            found |= Lanes(any_hit(instance, rays.rays[k], rays.t_max[k], counters)) << k;
+        for_each_lane(lanes,
+                      [&](int k) { found |= Lanes(any_hit(instance, rays.ray(k), rays.t_max[k], counters)) << k; });
         return found;
     }
 

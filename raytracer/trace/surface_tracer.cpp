@@ -137,110 +137,102 @@ constexpr std::size_t min_packet_rays = 4;
 
 }  // namespace
 
-bool SurfaceTracer::use_packet(std::size_t rays) const { return rays >= min_packet_rays && bounded_ && !embree_; }
+bool SurfaceTracer::use_packet(Lanes lanes) const { return count(lanes) >= min_packet_rays && bounded_ && !embree_; }
 
-// Those that begin elsewhere than at 0 are moved already.
-double SurfaceTracer::farthest(const RayBatch& rays) const {
-    return rays.begin.empty() ? vicinity_.farthest() : infinity;
+void SurfaceTracer::closest_hit_packet(const RayPacket& rays, Lanes lanes, PacketSurfaces& found,
+                                       TraceCounters& counters, const InstanceTracer* instances) const {
+    found.found = 0;
+    if (!use_packet(lanes))
+        return for_each_lane(lanes, [&](int k) {
+            found.set(k, closest_hit(rays.ray(k), rays.t_max[k], counters, instances, rays.end[k]));
+        });
+    PacketSearch<false> search(surfaces_, rays, lanes, counters, instances, vicinity_.farthest(), found);
+    if (search.is_far()) return closest_hit_from_afar(rays, lanes, found, counters, instances);
+    search.search(boxes_);
 }
 
-void SurfaceTracer::closest_hit_packet(const RayBatch& rays, FoundSurface* found, TraceCounters& counters,
-                                       const InstanceTracer* instances) const {
-    if (!use_packet(rays.size())) {
-        for (std::size_t k = 0; k < rays.size(); ++k)
-            found[k] = closest_hit(rays.rays[k], rays.t_max[k], counters, instances, rays.end[k]);
-        return;
-    }
-    PacketSearch<false> packet(surfaces_, rays, counters, instances, farthest(rays));
-    if (packet.is_far()) return closest_hit_from_afar(rays, found, counters, instances);
-    packet.search(boxes_);
-    for (int k = 0; k < int(rays.size()); ++k) found[k] = packet.surface(k);
-}
-
-Lanes SurfaceTracer::any_hit_packet(const RayBatch& rays, TraceCounters& counters,
+Lanes SurfaceTracer::any_hit_packet(const RayPacket& rays, Lanes lanes, TraceCounters& counters,
                                     const InstanceTracer* instances) const {
-    Lanes found = 0;
-    if (!use_packet(rays.size())) {
-        for (std::size_t k = 0; k < rays.size(); ++k)
-            found |= Lanes(any_hit(rays.rays[k], rays.t_max[k], counters, instances)) << k;
+    if (!use_packet(lanes)) {
+        Lanes found = 0;
+        for_each_lane(lanes,
+                      [&](int k) { found |= Lanes(any_hit(rays.ray(k), rays.t_max[k], counters, instances)) << k; });
         return found;
     }
-    PacketSearch<true> packet(surfaces_, rays, counters, instances, farthest(rays));
-    if (packet.is_far()) return any_hit_from_afar(rays, counters, instances);
-    packet.search(boxes_);
-    return packet.any_hit();
+    PacketSearch<true> search(surfaces_, rays, lanes, counters, instances, vicinity_.farthest());
+    if (search.is_far()) return any_hit_from_afar(rays, lanes, counters, instances);
+    search.search(boxes_);
+    return search.any_hit();
 }
 
 namespace {
 
 // Rays that go on together beside the space: those from far away are moved.
 struct RaysBeside {
-    std::size_t count = 0;
-    Ray rays[RayPacket::size];
-    double t_max[RayPacket::size], end[RayPacket::size], begin[RayPacket::size], start[RayPacket::size];
-    std::size_t number[RayPacket::size];  // among those that were asked for together
+    RayPacket rays;
+    Lanes lanes = 0;
+    double start[RayPacket::size];
 
-    /// on_the_way(number, until): whether a ray from far away is done with before it comes near.
+    /// on_the_way(ray's number, until): whether a ray from far away is done with before it comes near.
     template <class OnTheWay>
-    RaysBeside(const RayBatch& all, const Vicinity& vicinity, double scale, OnTheWay on_the_way) {
-        for (std::size_t k = 0; k < all.size(); ++k) {
-            FarRay far(all.rays[k], vicinity.start(all.rays[k]), all.t_max[k], scale);
-            if (far.start > 0 && on_the_way(k, far.middle)) continue;
-            rays[count] = far.start > 0 ? far.moved : all.rays[k];
-            t_max[count] = far.start > 0 ? far.t_max : all.t_max[k];
-            end[count] = all.end[k] - far.start;
-            begin[count] = far.start > 0 ? far.begin : 0;
-            start[count] = far.start;
-            number[count++] = k;
-        }
+    RaysBeside(const RayPacket& all, Lanes asked, const Vicinity& vicinity, double scale, OnTheWay on_the_way)
+        : rays(all) {
+        for_each_lane(asked, [&](int k) {
+            const Ray ray = all.ray(k);
+            const FarRay far(ray, vicinity.start(ray), all.t_max[k], scale);
+            if (far.start > 0 && on_the_way(k, far.middle)) return;
+            lanes |= Lanes(1) << k;
+            start[k] = far.start;
+            rays.end[k] = all.end[k] - far.start;
+            if (far.start == 0) return;
+            for (int axis = 0; axis < 3; ++axis) rays.origin[axis][k] = far.moved.origin[axis];
+            rays.begin[k] = far.begin;
+            rays.t_max[k] = far.t_max;
+            rays.end[k] = std::min(far.t_max, rays.end[k]);
+        });
     }
-    RayBatch batch() const { return {{rays, count}, {t_max, count}, {end, count}, {begin, count}}; }
 };
 
 }  // namespace
 
-void SurfaceTracer::closest_hit_from_afar(const RayBatch& rays, FoundSurface* found, TraceCounters& counters,
-                                          const InstanceTracer* instances) const {
-    const RaysBeside beside(rays, vicinity_, surfaces_.scale, [&](std::size_t k, double middle) {
+void SurfaceTracer::closest_hit_from_afar(const RayPacket& rays, Lanes lanes, PacketSurfaces& found,
+                                          TraceCounters& counters, const InstanceTracer* instances) const {
+    const RaysBeside beside(rays, lanes, vicinity_, surfaces_.scale, [&](int k, double middle) {
         if (!has_unbounded()) return false;
-        found[k] =
-            closest_hit_nearby(rays.rays[k], 0, std::min(rays.t_max[k], middle), counters, instances, rays.end[k]);
-        return found[k].crossing.t < infinity;
+        found.set(
+            k, closest_hit_nearby(rays.ray(k), 0, std::min(rays.t_max[k], middle), counters, instances, rays.end[k]));
+        return (found.found >> k & 1) != 0;
     });
-    if (beside.count < min_packet_rays) {
-        for (std::size_t i = 0; i < beside.count; ++i) {
-            const std::size_t k = beside.number[i];
-            found[k] = closest_hit(rays.rays[k], rays.t_max[k], counters, instances, rays.end[k]);
-        }
-        return;
-    }
-    FoundSurface of_moved[RayPacket::size];
-    closest_hit_packet(beside.batch(), of_moved, counters, instances);
-    for (std::size_t i = 0; i < beside.count; ++i) {
-        found[beside.number[i]] = of_moved[i];
-        found[beside.number[i]].start = beside.start[i];
-    }
+    if (count(beside.lanes) < min_packet_rays)
+        return for_each_lane(beside.lanes, [&](int k) {
+            found.set(k, closest_hit(rays.ray(k), rays.t_max[k], counters, instances, rays.end[k]));
+        });
+    PacketSurfaces of_moved;
+    PacketSearch<false> search(surfaces_, beside.rays, beside.lanes, counters, instances, infinity, of_moved);
+    search.search(boxes_);
+    for_each_lane(of_moved.found, [&](int k) {
+        found.set(k, of_moved);
+        found.start[k] = beside.start[k];
+    });
 }
 
-Lanes SurfaceTracer::any_hit_from_afar(const RayBatch& rays, TraceCounters& counters,
+Lanes SurfaceTracer::any_hit_from_afar(const RayPacket& rays, Lanes lanes, TraceCounters& counters,
                                        const InstanceTracer* instances) const {
     Lanes found = 0;
-    const RaysBeside beside(rays, vicinity_, surfaces_.scale, [&](std::size_t k, double middle) {
+    const RaysBeside beside(rays, lanes, vicinity_, surfaces_.scale, [&](int k, double middle) {
         const bool any =
-            has_unbounded() && any_hit_nearby(rays.rays[k], 0, std::min(rays.t_max[k], middle), counters, instances);
+            has_unbounded() && any_hit_nearby(rays.ray(k), 0, std::min(rays.t_max[k], middle), counters, instances);
         found |= Lanes(any) << k;
         return any;
     });
-    if (beside.count < min_packet_rays) {
-        for (std::size_t i = 0; i < beside.count; ++i) {
-            const std::size_t k = beside.number[i];
-            found |= Lanes(any_hit(rays.rays[k], rays.t_max[k], counters, instances)) << k;
-        }
+    if (count(beside.lanes) < min_packet_rays) {
+        for_each_lane(beside.lanes,
+                      [&](int k) { found |= Lanes(any_hit(rays.ray(k), rays.t_max[k], counters, instances)) << k; });
         return found;
     }
-    const Lanes of_moved = any_hit_packet(beside.batch(), counters, instances);
-    for (std::size_t i = 0; i < beside.count; ++i) found |= (of_moved >> i & 1) << beside.number[i];
-    return found;
+    PacketSearch<true> search(surfaces_, beside.rays, beside.lanes, counters, instances, infinity);
+    search.search(boxes_);
+    return found | search.any_hit();
 }
 
 // ---- construction --------------------------------------------------------------------------------

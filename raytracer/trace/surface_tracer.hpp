@@ -45,10 +45,10 @@ public:
             return any_hit_from_afar(ray, t_max, counters, instances);
         return any_hit_nearby(ray, 0, t_max, counters, instances);
     }
-    /// The same for at most RayPacket::size rays, to the bit.
-    void closest_hit_packet(const RayBatch& rays, FoundSurface* found, TraceCounters& counters,
+    /// The same for `lanes` of the rays, which begin at 0, to the bit.
+    void closest_hit_packet(const RayPacket& rays, Lanes lanes, PacketSurfaces& found, TraceCounters& counters,
                             const InstanceTracer* instances = nullptr) const;
-    Lanes any_hit_packet(const RayBatch& rays, TraceCounters& counters,
+    Lanes any_hit_packet(const RayPacket& rays, Lanes lanes, TraceCounters& counters,
                          const InstanceTracer* instances = nullptr) const;
 
     /// Instances lie at `first`, so many bytes apart, as long as rays are traced.
@@ -72,13 +72,13 @@ private:
                                        const InstanceTracer* instances, double end) const;
     bool any_hit_from_afar(const Ray& ray, double t_max, TraceCounters& counters,
                            const InstanceTracer* instances) const;
-    void closest_hit_from_afar(const RayBatch& rays, FoundSurface* found, TraceCounters& counters,
+    void closest_hit_from_afar(const RayPacket& rays, Lanes lanes, PacketSurfaces& found, TraceCounters& counters,
                                const InstanceTracer* instances) const;
-    Lanes any_hit_from_afar(const RayBatch& rays, TraceCounters& counters, const InstanceTracer* instances) const;
+    Lanes any_hit_from_afar(const RayPacket& rays, Lanes lanes, TraceCounters& counters,
+                            const InstanceTracer* instances) const;
     template <bool Any>
     void walk(SurfaceSearch<Any>& search, double t0, double t1) const;
-    bool use_packet(std::size_t rays) const;
-    double farthest(const RayBatch& rays) const;
+    bool use_packet(Lanes lanes) const;
     bool has_unbounded() const { return !bounded_ || surfaces_.infinite_planes.size() > 0; }
 
     std::vector<BspTree> trees_;

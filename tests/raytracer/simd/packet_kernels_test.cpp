@@ -41,21 +41,18 @@ struct Packet {
     explicit Packet(Gen& g) {
         lanes = Lanes(g.below(1 << RayPacket::size));
         for (int k = 0; k < RayPacket::size; ++k) {
-            const Vec3 d = g.normal(), o = g.chance(0.2) ? Vec3(0.0) : g.point(0.5) - d * g.between(0, 2),
-                       inverse = reciprocal(d);
+            const Vec3 d = g.normal(), o = g.chance(0.2) ? Vec3(0.0) : g.point(0.5) - d * g.between(0, 2);
             for (int axis = 0; axis < 3; ++axis) {
                 rays.origin[axis][k] = o[axis];
                 rays.direction[axis][k] = d[axis];
-                rays.inverse[axis][k] = inverse[axis];
             }
-            rays.coordinate_bound[k] = scale + std::max({std::abs(o.x), std::abs(o.y), std::abs(o.z)});
             rays.end[k] = g.chance(0.3) ? infinity : g.between(0, 5);
             spans.from[k] = g.chance(0.5) ? 0 : g.between(0, 1);
             spans.to[k] = spans.from[k] + (g.chance(0.1) ? 0 : g.between(0, 4));
         }
     }
-    Vec3 origin(int k) const { return {rays.origin[0][k], rays.origin[1][k], rays.origin[2][k]}; }
-    Vec3 direction(int k) const { return {rays.direction[0][k], rays.direction[1][k], rays.direction[2][k]}; }
+    Vec3 origin(int k) const { return rays.ray(k).origin; }
+    Vec3 direction(int k) const { return rays.ray(k).direction; }
 };
 
 }  // namespace
@@ -103,5 +100,68 @@ TEST_CASE("rays of a packet cross products of half-spaces where they do alone, t
         CHECK(crossed > 5'000);
         CHECK(missed > 5'000);
         CHECK(occluded > 5'000);
+    }
+}
+
+TEST_CASE("rays of a packet are laid out, mapped and given normals as they are alone, to the bit") {
+    for (const auto& [name, functions] : packet_instructions()) {
+        CAPTURE(name);
+        int alone = 0, entering = 0;
+        for (auto seed : seeds(1'000)) {
+            CAPTURE(seed);
+            Gen g(seed);
+            Ray rays[RayPacket::size];
+            double t_max[RayPacket::size];
+            for (int k = 0; k < RayPacket::size; ++k) {
+                rays[k] = {g.point(3), g.chance(0.1) ? Vec3(0, 1, 0) : g.normal()};
+                t_max[k] = g.chance(0.2) ? infinity : g.between(0, 5);
+            }
+            RayPacket packet, mapped;
+            RayTerms terms;
+            functions->load(packet, rays, t_max);
+            const Lanes far = functions->prepare(packet, scale, 2, terms);
+            Affine map;
+            for (int axis = 0; axis < 3; ++axis) map.linear[axis] = g.point(2);
+            map.shift = g.point(5);
+            const bool only_moved = g.chance(0.3);
+            if (only_moved) map.linear = Mat3(1.0);
+            alignas(64) double rate[RayPacket::size];
+            functions->map(map, only_moved, packet, packet.t_max, mapped, rate);
+            const Factors factors(g);
+            PacketNearest nearest;
+            for (int k = 0; k < RayPacket::size; ++k) {
+                const Vec3 o = rays[k].origin, d = rays[k].direction, inverse = reciprocal(d);
+                REQUIRE((packet.ray(k).origin == o && packet.ray(k).direction == d && packet.begin[k] == 0));
+                REQUIRE((packet.t_max[k] == t_max[k] && packet.end[k] == t_max[k] && terms.end[k] == t_max[k]));
+                for (int axis = 0; axis < 3; ++axis) REQUIRE(same_bits(terms.inverse[axis][k], inverse[axis]));
+                REQUIRE(terms.coordinate_bound[k] == scale + largest(o));
+                REQUIRE(bool(far >> k & 1) == (largest(o) > 2));
+                const Vec3 along = only_moved ? d : map.linear * d;
+                const double length = only_moved ? 1 : glm::length(along);
+                REQUIRE(same_bits(rate[k], length));
+                const Vec3 origin = only_moved ? o + map.shift : map(o);
+                for (int axis = 0; axis < 3; ++axis) {
+                    REQUIRE(same_bits(mapped.origin[axis][k], origin[axis]));
+                    REQUIRE(same_bits(mapped.direction[axis][k], along[axis] / length));
+                }
+                REQUIRE(same_bits(mapped.t_max[k], t_max[k] * length));
+                terms.end[k] = g.between(0, 3);
+                nearest.plane[k] = g.chance(0.5) ? -1 : g.below(factors.view.soft + factors.view.sharp + 1) - 1;
+                nearest.entering |= Lanes(g.chance(0.5)) << k;
+            }
+            alignas(64) double normal[3][RayPacket::size];
+            const Lanes lanes = Lanes(g.below(1 << RayPacket::size));
+            functions->convex_normals(factors.view, packet, terms.end, lanes, nearest, normal);
+            for_each_lane(lanes, [&](int k) {
+                const ConvexCrossing c{terms.end[k], bool(nearest.entering >> k & 1), int(nearest.plane[k])};
+                Vec3 n = surface_normal(factors.view, c, rays[k].origin + rays[k].direction * c.t);
+                if ((glm::dot(n, rays[k].direction) < 0) != c.entering) n = -n;
+                for (int axis = 0; axis < 3; ++axis) REQUIRE(same_bits(normal[axis][k], n[axis]));
+                alone += c.plane >= 0;
+                entering += c.entering;
+            });
+        }
+        CHECK(alone > 1'000);
+        CHECK(entering > 1'000);
     }
 }
