@@ -206,12 +206,7 @@ HWY_INLINE void normals_of(const ConvexView& density, const Rays& rays, V t, V p
     const V length = hn::Sqrt(sum[0] * sum[0] + sum[1] * sum[1] + sum[2] * sum[2]);
     const V scale = select(length > zero, one / length, one);
     for (int k = 0; k < 3; ++k) sum[k] = sum[k] * scale;
-    const M against = sum[0] * rays.direction[0] + sum[1] * rays.direction[1] + sum[2] * rays.direction[2] < zero;
-    const M turned = hn::Xor(against, entering);
-    for (int k = 0; k < 3; ++k) {
-        double* const to = normal[k] + first;
-        hn::Store(select(asked, select(turned, hn::Neg(sum[k]), sum[k]), hn::Load(d, to)), d, to);
-    }
+    store_against(sum, rays, entering, asked, first, normal);
 }
 
 template <int N, bool Any>

@@ -59,6 +59,17 @@ private:
     }
 };
 
+// Stores the normals of `asked`, turned against rays that enter and along those that leave.
+HWY_INLINE void store_against(const V* n, const Rays& rays, M entering, M asked, std::size_t first,
+                              double (*normal)[RayPacket::size]) {
+    const M against = n[0] * rays.direction[0] + n[1] * rays.direction[1] + n[2] * rays.direction[2] < hn::Zero(d);
+    const M turned = hn::Xor(against, entering);
+    for (int k = 0; k < 3; ++k) {
+        double* const to = normal[k] + first;
+        hn::Store(select(asked, select(turned, hn::Neg(n[k]), n[k]), hn::Load(d, to)), d, to);
+    }
+}
+
 }  // namespace HWY_NAMESPACE
 }  // namespace deburr
 HWY_AFTER_NAMESPACE();

@@ -11,6 +11,7 @@
 
 #include "raytracer/simd/convex_packet-inl.hpp"
 #include "raytracer/simd/lanes-inl.hpp"
+#include "raytracer/simd/product_sum_packet-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace deburr {
@@ -241,6 +242,26 @@ Lanes convex_any_crossings(const ConvexView& density, const RayPacket& rays, Lan
     return crossings_of<true>(density, rays, lanes, spans, scale, nullptr, evaluations);
 }
 
+Lanes sum_crossings(const ProductSum& sum, const RayPacket& rays, Lanes lanes, const PacketSpans& spans, double scale,
+                    PacketCrossings& found, RootCounters& counters) {
+    return sum_crossings_of<false>(sum, rays, lanes, spans, scale, &found, counters);
+}
+
+Lanes sum_any_crossings(const ProductSum& sum, const RayPacket& rays, Lanes lanes, const PacketSpans& spans,
+                        double scale, RootCounters& counters) {
+    return sum_crossings_of<true>(sum, rays, lanes, spans, scale, nullptr, counters);
+}
+
+void sum_normals(const ProductSum& sum, const RayPacket& rays, const double* end, Lanes lanes,
+                 const PacketNearest& nearest, double (*normal)[RayPacket::size]) {
+    for (std::size_t first = 0; first < RayPacket::size; first += hn::Lanes(d)) {
+        const Lanes part = part_of(lanes, first);
+        if (part == 0) continue;
+        sum_normals_of(sum, Rays(rays, first), hn::Load(d, end + first), mask_of(part_of(nearest.entering, first)),
+                       mask_of(part), first, normal);
+    }
+}
+
 const PacketFunctions functions{load,
                                 prepare,
                                 map,
@@ -251,7 +272,10 @@ const PacketFunctions functions{load,
                                 keep_nearer,
                                 convex_normals,
                                 convex_crossings,
-                                convex_any_crossings};
+                                convex_any_crossings,
+                                sum_crossings,
+                                sum_any_crossings,
+                                sum_normals};
 
 }  // namespace HWY_NAMESPACE
 }  // namespace deburr

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "bounds/convex_density.hpp"
+#include "bounds/product_sum.hpp"
 #include "raytracer/simd/ray_packet.hpp"
 
 namespace deburr {
@@ -84,6 +85,14 @@ struct PacketFunctions {
     /// any_crossing() likewise.
     Lanes (*convex_any_crossings)(const ConvexView& density, const RayPacket& rays, Lanes lanes,
                                   const PacketSpans& spans, double scale, std::uint64_t& evaluations);
+
+    /// The same three of a sum of products of half-spaces (ProductSumRay).
+    Lanes (*sum_crossings)(const ProductSum& sum, const RayPacket& rays, Lanes lanes, const PacketSpans& spans,
+                           double scale, PacketCrossings& found, RootCounters& counters);
+    Lanes (*sum_any_crossings)(const ProductSum& sum, const RayPacket& rays, Lanes lanes, const PacketSpans& spans,
+                               double scale, RootCounters& counters);
+    void (*sum_normals)(const ProductSum& sum, const RayPacket& rays, const double* end, Lanes lanes,
+                        const PacketNearest& nearest, double (*normal)[RayPacket::size]);
 };
 
 struct PacketInstructions {

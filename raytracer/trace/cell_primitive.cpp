@@ -10,6 +10,12 @@ CrossingScratch& scratch() {
     return memory;
 }
 
+void count_roots(TraceCounters& counters, const RootCounters& roots) {
+    counters.segments += roots.segments;
+    counters.splits += roots.splits;
+    counters.evaluations += roots.evaluations;
+}
+
 }  // namespace
 
 void CellPrimitives::add(LocalSolid&& local, const Box& box, int solid) {
@@ -18,7 +24,9 @@ void CellPrimitives::add(LocalSolid&& local, const Box& box, int solid) {
     p.solid = solid;
     const auto convex = local.convex();
     if (!convex || convex->density.planes.empty()) {
-        p.kind = CellPrimitive::Kind::general;
+        const auto sum = local.sum();
+        p.kind = sum ? CellPrimitive::Kind::sum : CellPrimitive::Kind::general;
+        if (sum) p.material = sum->second;
         p.index = std::uint32_t(locals_.size());
         locals_.push_back(std::move(local));
     } else {
@@ -55,6 +63,13 @@ Lanes CellPrimitives::crossings(const CellPrimitive& p, const RayPacket& rays, L
     if (p.kind == CellPrimitive::Kind::convex)
         return packet_functions.convex_crossings(view(p), rays, lanes, spans, tolerances_.scale, found,
                                                  counters.evaluations);
+    if (p.kind == CellPrimitive::Kind::sum) {
+        RootCounters roots;
+        const Lanes crossed =
+            packet_functions.sum_crossings(sum(p), rays, lanes, spans, tolerances_.scale, found, roots);
+        count_roots(counters, roots);
+        return crossed;
+    }
     const Lanes crossed = packet_functions.plane_crossings(planes_[p.index], rays, lanes, spans, found);
     counters.flat_hits += count(crossed);
     return crossed;
@@ -65,6 +80,12 @@ Lanes CellPrimitives::any_crossings(const CellPrimitive& p, const RayPacket& ray
     if (p.kind == CellPrimitive::Kind::convex)
         return packet_functions.convex_any_crossings(view(p), rays, lanes, spans, tolerances_.scale,
                                                      counters.evaluations);
+    if (p.kind == CellPrimitive::Kind::sum) {
+        RootCounters roots;
+        const Lanes crossed = packet_functions.sum_any_crossings(sum(p), rays, lanes, spans, tolerances_.scale, roots);
+        count_roots(counters, roots);
+        return crossed;
+    }
     PacketCrossings found;
     return crossings(p, rays, lanes, spans, found, counters);
 }
@@ -76,9 +97,7 @@ SurfaceCrossing CellPrimitives::general_crossing(const CellPrimitive& p, const V
     memory.counters = {};
     const SurfaceCrossing c = locals_[p.index].first_crossing(origin, direction, t0, t1, any, memory);
     counters.flat_hits += memory.counters.flat;
-    counters.segments += memory.counters.roots.segments;
-    counters.splits += memory.counters.roots.splits;
-    counters.evaluations += memory.counters.roots.evaluations;
+    count_roots(counters, memory.counters.roots);
     return c;
 }
 
@@ -94,6 +113,8 @@ void CellPrimitives::normals(const CellPrimitive& p, const RayPacket& rays, cons
                              const PacketNearest& nearest, double (*normal)[RayPacket::size]) const {
     if (p.kind == CellPrimitive::Kind::convex)
         return packet_functions.convex_normals(view(p), rays, end, lanes, nearest, normal);
+    if (p.kind == CellPrimitive::Kind::sum)
+        return packet_functions.sum_normals(sum(p), rays, end, lanes, nearest, normal);
     const Vec3& slope = planes_[p.index].slope;
     for_each_lane(lanes, [&](int k) {
         for (int axis = 0; axis < 3; ++axis) normal[axis][k] = slope[axis];

@@ -1,7 +1,8 @@
 // A primitive of one solid's surface: what may be crossed of it in one cell, laid out to be crossed fast.
 //
 // Most primitives are a plane or a product of half-spaces (bounds/convex_density.hpp), whose numbers lie
-// side by side with those of their neighbours. What is neither is a LocalSolid.
+// side by side with those of their neighbours. What is neither is a LocalSolid; if that is a sum of products and
+// nothing else (bounds/product_sum.hpp), packets know it, too.
 #pragma once
 #include <cstdint>
 #include <vector>
@@ -14,10 +15,10 @@
 namespace deburr {
 
 struct CellPrimitive {
-    enum class Kind : std::uint8_t { plane, convex, general };
+    enum class Kind : std::uint8_t { plane, convex, sum, general };
 
     Box box;                  // the cell; beyond it the primitive is not valid
-    std::uint32_t index = 0;  // in CellPrimitives::planes; general: in CellPrimitives::locals
+    std::uint32_t index = 0;  // in CellPrimitives::planes; sum, general: in CellPrimitives::locals
     std::int32_t solid = 0, material = 0;
     std::uint8_t soft = 0, sharp = 0;  // factors
     Kind kind = Kind::plane;
@@ -55,8 +56,12 @@ public:
     /// Whether packets may ask for primitive i.
     bool for_packets(std::size_t i) const {
         const CellPrimitive& p = primitives_[i];
-        return p.kind == CellPrimitive::Kind::plane ||
-               (p.kind == CellPrimitive::Kind::convex && p.soft <= max_packet_factors && p.box.finite());
+        switch (p.kind) {
+            case CellPrimitive::Kind::plane: return true;
+            case CellPrimitive::Kind::convex: return p.soft <= max_packet_factors && p.box.finite();
+            case CellPrimitive::Kind::sum: return p.box.finite();
+            default: return false;
+        }
     }
     /// First crossings of rays of a packet with such a primitive, in their spans; those that have one.
     Lanes crossings(const CellPrimitive& p, const RayPacket& rays, Lanes lanes, const PacketSpans& spans,
@@ -64,7 +69,7 @@ public:
     /// The rays among `lanes` that cross primitive p.
     Lanes any_crossings(const CellPrimitive& p, const RayPacket& rays, Lanes lanes, const PacketSpans& spans,
                         TraceCounters& counters) const;
-    /// First crossing of a general one; `any`: that there is one will do, and its t means nothing.
+    /// First crossing of a sum or a general one; `any`: that there is one will do, and its t means nothing.
     SurfaceCrossing general_crossing(const CellPrimitive& p, const Vec3& origin, const Vec3& direction, double t0,
                                      double t1, bool any, TraceCounters& counters) const;
     /// Unit normal, out of the solid, of primitive p: a plane, or convex.
@@ -78,6 +83,7 @@ public:
     Box surface_box(std::size_t i, double margin) const;
 
 private:
+    const ProductSum& sum(const CellPrimitive& p) const { return *locals_[p.index].sum()->first; }
     ConvexView view(const CellPrimitive& p) const { return {&planes_[p.index], p.soft, p.sharp, p.complement}; }
 
     std::vector<CellPrimitive> primitives_;

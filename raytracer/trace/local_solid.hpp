@@ -88,6 +88,12 @@ public:
     /// it: what they were rounded by no longer matters. Empty after RootMethod::always, but for planes.
     std::optional<Convex> convex() const;
 
+    /// The whole of it as a sum of products, if it is one leaf's, and that leaf's material.
+    std::optional<std::pair<const ProductSum*, int>> sum() const {
+        if (nodes_.size() != 1 || leaves_[0].soft < 0 || !softs_[leaves_[0].soft].sum) return std::nullopt;
+        return std::pair(&*softs_[leaves_[0].soft].sum, leaves_[0].material);
+    }
+
     /// First crossing of the solid's surface in [t0, t1]; `any`: that there is one will do, t and normal
     /// mean nothing.
     SurfaceCrossing first_crossing(const Vec3& origin, const Vec3& direction, double t0, double t1, bool any,

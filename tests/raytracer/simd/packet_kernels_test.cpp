@@ -165,3 +165,74 @@ TEST_CASE("rays of a packet are laid out, mapped and given normals as they are a
         CHECK(entering > 1'000);
     }
 }
+
+TEST_CASE("rays of a packet cross sums of products where they do alone, to the bit") {
+    for (const auto& [name, functions] : packet_instructions()) {
+        CAPTURE(name);
+        int crossed = 0, missed = 0, split = 0;
+        for (auto seed : seeds(8'000)) {
+            CAPTURE(seed);
+            Gen g(seed);
+            const Density d = g.chance(0.4) ? g.boolean(2) : g.chance(0.6) ? g.legal(2) : g.arithmetic(2);
+            const DensityTree whole = flatten(d, g.between(0.05, 0.6));
+            const Vec3 lo = g.near(whole);
+            const DensityTree tree = prune(whole, {lo, lo + Vec3(g.between(0.05, 0.6))}).tree;
+            const LocalDensity density(tree);
+            if (density.half_spaces().size() < 2) continue;
+            const auto sum = ProductSum::of(density, 1e-12);
+            if (!sum) continue;
+            Packet p(g);
+            for (int k = 0; k < RayPacket::size; ++k) {
+                Vec3 direction = glm::normalize(g.near(tree) - p.origin(k));
+                const Vec3 n = tree.half_spaces[std::size_t(g.below(int(tree.half_spaces.size())))].normal;
+                const Vec3 flat = direction - n * glm::dot(direction, n);  // along a plane, or nearly
+                if (g.chance(0.3) && glm::length(flat) > 1e-3)
+                    direction = glm::normalize(flat + n * std::pow(10.0, g.between(-17, -1)));
+                for (int axis = 0; axis < 3; ++axis) p.rays.direction[axis][k] = direction[axis];
+            }
+            PacketCrossings found;
+            PacketNearest nearest;
+            alignas(64) double normal[3][RayPacket::size];
+            RootCounters together, alone;
+            const Lanes lanes = functions->sum_crossings(*sum, p.rays, p.lanes, p.spans, scale, found, together);
+            CHECK((lanes & ~p.lanes) == 0);
+            nearest.entering = found.entering;
+            functions->sum_normals(*sum, p.rays, found.t, lanes, nearest, normal);
+            ProductSumRay ray;
+            const auto first = [&](int k, bool coarse) {
+                std::optional<RootCrossing> c;
+                ray.set(*sum, p.origin(k), p.direction(k));
+                ray.crossings(p.spans.from[k], p.spans.to[k], t_tolerance(p.spans.from[k]), coarse, alone,
+                              [&](RootCrossing at) {
+                                  c = at;
+                                  return false;
+                              });
+                return c;
+            };
+            for_each_lane(p.lanes, [&](int k) {
+                const auto c = first(k, false);
+                REQUIRE(bool(lanes >> k & 1) == c.has_value());
+                ++(c ? crossed : missed);
+                if (!c) return;
+                REQUIRE(same_bits(found.t[k], c->t));
+                REQUIRE(bool(found.entering >> k & 1) == c->entering);
+                Vec3 n = ray.gradient(c->t);
+                const double length = glm::length(n);
+                if (length > 0) n = n / length;
+                if ((glm::dot(n, p.direction(k)) < 0) != c->entering) n = -n;
+                for (int axis = 0; axis < 3; ++axis) REQUIRE(normal[axis][k] == n[axis]);
+            });
+            REQUIRE(together.evaluations == alone.evaluations);
+            REQUIRE(together.segments == alone.segments);
+            REQUIRE(together.splits == alone.splits);
+            split += alone.splits > 0;
+            together = alone = {};
+            const Lanes any = functions->sum_any_crossings(*sum, p.rays, p.lanes, p.spans, scale, together);
+            for_each_lane(p.lanes, [&](int k) { REQUIRE(bool(any >> k & 1) == first(k, true).has_value()); });
+            REQUIRE(together.evaluations == alone.evaluations);
+        }
+        CHECK(crossed > 2'000);
+        CHECK(missed > 2'000);
+        CHECK(split > 300);
+    }
+}
