@@ -1,4 +1,5 @@
-// What rounding costs [Lobb table 1: 1.2 to 5.3 times], and what the exact criterion saves.
+// What rounding costs [Lobb table 1: 1.2 to 5.3 times], what round parts cost in place of prisms, and what the exact
+// criterion saves.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -23,6 +24,23 @@ std::vector<std::string> scenes() {
     return names;
 }
 
+// A bored block with four pins, in pictures of one sample.
+void compare_round_parts(Report& report) {
+    const auto picture = [](const char* sides) {
+        return read_scene(DEBURR_SOURCE_DIR "/bench/scenes/pins.lua", {{"sides", sides}});
+    };
+    const Scene round = picture("0"), square = picture("4"), many = picture("40");
+    const ImplicitTracer of_round(round.solids), of_square(square.solids), of_many(many.solids);
+    TraceCounters counters;
+    const auto draw = [&](const Scene& scene, const ImplicitTracer& tracer) {
+        return [&] { render_picture(scene, tracer, counters); };
+    };
+    report.ratio("a block with round pins / with square ones", ratio_of(draw(round, of_round), draw(square, of_square)),
+                 at_most(1.3));
+    report.ratio("a block with round pins / with pins of 40 sides",
+                 ratio_of(draw(round, of_round), draw(many, of_many), 3), at_most(0.2));
+}
+
 }  // namespace
 
 void rounded_against_sharp(Report& report) {
@@ -37,6 +55,7 @@ void rounded_against_sharp(Report& report) {
                               [&] { render_picture(sharp, of_sharp, counters); }),
                      at_most(1.25));
     }
+    compare_round_parts(report);
     const Scene scene = scene_of("variable_rounding");
     const ImplicitTracer exact(scene.solids, Criterion::exact, RootMethod::always),
         printed(scene.solids, Criterion::lobb, RootMethod::always);

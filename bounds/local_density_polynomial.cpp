@@ -86,6 +86,11 @@ bool LocalDensity::is_affine_in_each(const std::vector<int>& variable_of) const 
 
 namespace {
 
+// Whether their distances are of one coordinate, but for a plane's direction.
+bool same_coordinate(const HalfSpace& a, const HalfSpace& b) {
+    return a.round && b.round ? a.round->is_same(*b.round) : !a.round && !b.round;
+}
+
 // A product's factors as sorted numbers: twice the half-space, and one more if it is flipped.
 struct Monomial {
     double weight = 1;
@@ -103,11 +108,11 @@ public:
         for (std::size_t i = 0; i < n; ++i) {
             const HalfSpace& h = half_spaces[i];
             const auto same = [&](const HalfSpace& g) {
-                return g.normal == h.normal && g.offset == h.offset && g.radius == h.radius;
+                return same_coordinate(g, h) && g.normal == h.normal && g.offset == h.offset && g.radius == h.radius;
             };
             first_[i] = int(std::find_if(half_spaces.begin(), half_spaces.end(), same) - half_spaces.begin());
         }
-        // Where a factor is above 0, and where it is 1, along the plane's normal.
+        // Where a factor is above 0, and where it is 1, along the plane's normal or the round part's coordinate.
         const auto factor = [&](std::size_t f) {
             const HalfSpace& h = half_spaces[f / 2];
             const bool above = f % 2 == 1;
@@ -117,7 +122,8 @@ public:
         relation_.assign(4 * n * n, Relation::none);
         for (std::size_t f = 0; f < 2 * n; ++f)
             for (std::size_t g = 0; g < 2 * n; ++g) {
-                const Extent F = factor(f), G = factor(g).along(F.normal);
+                if (!same_coordinate(half_spaces[f / 2], half_spaces[g / 2])) continue;
+                const Extent F = factor(f), G = half_spaces[f / 2].round ? factor(g) : factor(g).along(F.normal);
                 if (G.normal != F.normal) continue;
                 if (F.some.lo >= G.full.lo && F.some.hi <= G.full.hi)
                     relation_[2 * n * f + g] = Relation::within;

@@ -13,22 +13,53 @@ std::optional<ProductSum> ProductSum::of(const LocalDensity& density, double cle
     ProductSum sum;
     sum.constant_ = expanded->constant;
     std::vector<AlphaPlane> planes;
-    std::vector<int> new_index(2 * density.half_spaces().size(), -1);
+    std::vector<int> plane_of(2 * density.half_spaces().size(), -1), round_of(density.half_spaces().size(), -1);
     double steepest = 0;
+    struct Split {
+        double weight;
+        std::vector<std::uint8_t> planes, rounds;
+    };
+    std::vector<Split> terms;
     for (const auto& [weight, factors] : expanded->terms) {
-        Term term{weight, {}, infinity};
+        std::vector<Split> parts{{weight, {}, {}}};
         for (const auto& [i, flipped] : factors) {
-            int& at = new_index[2 * std::size_t(i) + flipped];
+            const HalfSpace& h = density.half_spaces()[i];
+            if (h.round && !h.round->is_convex()) return std::nullopt;
+            int& at = h.round ? round_of[std::size_t(i)] : plane_of[2 * std::size_t(i) + flipped];
             if (at < 0) {
-                const HalfSpace& h = density.half_spaces()[i];
-                at = int(planes.size());
-                planes.push_back(alpha_plane(h, flipped));
                 steepest = std::max(steepest, 1 / h.radius);
+                at = int(h.round ? sum.rounds_.size() : planes.size());
+                if (h.round)
+                    sum.rounds_.push_back({*h.round, h.offset, 1 / h.radius});
+                else
+                    planes.push_back(alpha_plane(h, flipped));
             }
-            term.factors.push_back(std::uint8_t(at));
+            const std::size_t before = parts.size();
+            for (std::size_t k = 0; k < before; ++k) {
+                if (h.round && flipped) {  // P (1 − F) = P − P F: of the two sides of a round part one is convex
+                    Split other = parts[k];
+                    other.weight = -other.weight;
+                    other.rounds.push_back(std::uint8_t(at));
+                    parts.push_back(std::move(other));
+                } else {
+                    (h.round ? parts[k].rounds : parts[k].planes).push_back(std::uint8_t(at));
+                }
+            }
         }
-        if (planes.size() > std::size_t(max_planes) || term.factors.size() > std::size_t(max_planes))
-            return std::nullopt;
+        for (Split& part : parts) {
+            if (part.planes.empty() && part.rounds.empty())
+                sum.constant_ += part.weight;
+            else
+                terms.push_back(std::move(part));
+        }
+    }
+    if (terms.size() > std::size_t(max_terms) || sum.rounds_.size() > std::size_t(max_rounds) ||
+        planes.size() + sum.rounds_.size() > std::size_t(max_planes))
+        return std::nullopt;
+    for (Split& part : terms) {
+        Term term{part.weight, std::move(part.planes), infinity};
+        for (const std::uint8_t round : part.rounds) term.factors.push_back(std::uint8_t(planes.size() + round));
+        if (term.factors.size() > std::size_t(max_planes)) return std::nullopt;
         sum.terms_.push_back(std::move(term));
     }
     sum.planes_ = int(planes.size());

@@ -1,7 +1,7 @@
-// Densities multiplied out, ρ = c + Σ wₖ Pₖ with few products Pₖ of half-spaces: what edges and corners
-// are that are no product themselves, the rim of a hole (P − Q) before all. Where a ray crosses ρ = ½.
+// Densities multiplied out, ρ = c + Σ wₖ Pₖ with few products Pₖ of half-spaces and convex round parts: what edges and
+// corners are that are no product themselves, the rim of a hole (P − Q) before all. Where a ray crosses ρ = ½.
 //
-// Along a ray log Pₖ is concave (convex_density.hpp), so ℓ = Pₖ′/Pₖ falls: between two points a < b
+// Along a ray log Pₖ is concave (convex_density.hpp, round_product.hpp), so ℓ = Pₖ′/Pₖ falls: between two points a < b
 //
 //     ℓ(b) ≤ Pₖ′/Pₖ ≤ ℓ(a)   and   min(Pₖ(a), Pₖ(b)) ≤ Pₖ ≤ Pₖ(a) exp(ℓ(a)(t − a)), Pₖ(b) exp(ℓ(b)(t − b)),
 //
@@ -16,25 +16,34 @@
 
 #include "bounds/local_density.hpp"
 #include "bounds/root_finder.hpp"
+#include "bounds/round_coordinate.hpp"
 
 namespace deburr {
 
 class ProductSum {
 public:
     static constexpr int max_terms = 6;
-    static constexpr int max_planes = 32;
+    static constexpr int max_planes = 32;  // and round parts among them
+    static constexpr int max_rounds = 4;
 
     struct Term {
         double weight;
-        std::vector<std::uint8_t> factors;  // planes; one may occur twice
+        std::vector<std::uint8_t> factors;  // planes, then round parts from planes() on; one may occur twice
         double reach;                       // the surface is where some term with a finite one has no α beyond it
     };
 
-    /// The density in that form, if it has it: no half-space is sharp, and terms are few. `clearance`: as
-    /// bound planes keep clear (csg_bounds.hpp).
+    /// A round part with a convex coordinate: α = (u − offset)·inverse_radius.
+    struct Round {
+        RoundCoordinate coordinate;
+        double offset, inverse_radius;
+    };
+
+    /// The density in that form, if it has it: nothing is sharp, round parts are convex, and terms are few.
+    /// `clearance`: as bound planes keep clear (csg_bounds.hpp).
     static std::optional<ProductSum> of(const LocalDensity& density, double clearance);
 
     int planes() const { return planes_; }
+    const std::vector<Round>& rounds() const { return rounds_; }
     const std::vector<Term>& terms() const { return terms_; }
     double constant() const { return constant_; }
     bool anywhere() const { return anywhere_; }  // no term's reach says where the surface is
@@ -45,6 +54,7 @@ public:
 private:
     int planes_ = 0;
     std::vector<double> coefficients_;
+    std::vector<Round> rounds_;
     std::vector<Term> terms_;
     double constant_ = 0;
     bool anywhere_ = false;
@@ -74,7 +84,7 @@ public:
     };
 
     // The steps of the search.
-    /// Cuts [t0, t1] down to where the surface can be, and the planes to those whose densities vary there;
+    /// Cuts [t0, t1] down to where the surface can be, and the factors to those whose densities vary there;
     /// false if nothing is left.
     bool narrow(double& t0, double& t1);
     /// evaluate() and slopes() are valid only within the interval that narrow() left.
@@ -82,18 +92,32 @@ public:
     SlopeRange slopes(const Point& a, const Point& b) const;  // f′ between two points, a before b
 
 private:
+    void reach(const ProductSum::Term& term, double& lo, double& hi) const;
+    double last_change(double t0) const;
+    bool choose_varying(double t0, double t1);
+    double round_alpha(int i, double t) const {
+        const ProductSum::Round& r = sum_->rounds()[std::size_t(i)];
+        return (on_ray_[i].at(t) - r.offset) * r.inverse_radius;
+    }
+    double alpha(int factor, double t) const {
+        const int round = factor - sum_->planes();
+        return round < 0 ? a_[factor] + b_[factor] * t : round_alpha(round, t);
+    }
     SlopeRange slopes_near_zero(int term, const Point& a, const Point& b) const;
     double root(Point a, Point b, double t_tolerance, RootCounters& counters) const;
 
     static constexpr int max_planes = ProductSum::max_planes;
+    static constexpr int max_rounds = ProductSum::max_rounds;
     struct Term {
         double weight;
-        int count;
-        std::uint8_t factors[max_planes];
+        int count, rounds;
+        std::uint8_t factors[max_planes];  // as many planes as `count` says, then round parts
     };
 
     const ProductSum* sum_ = nullptr;
     alignas(16) double a_[max_planes], b_[max_planes];  // every α = a + b·t
+    RoundOnRay on_ray_[max_rounds];
+    Vec3 origin_{0.0}, direction_{0.0};
     // Of those that vary.
     alignas(16) double varying_a_[max_planes + 1], varying_b_[max_planes + 1];
     int varying_ = 0, terms_ = 0;

@@ -14,40 +14,94 @@ void ProductSumRay::set(const ProductSum& sum, const Vec3& origin, const Vec3& d
         a_[i] = x[i] * origin.x + y[i] * origin.y + z[i] * origin.z + base[i];
         b_[i] = x[i] * direction.x + y[i] * direction.y + z[i] * direction.z;
     }
+    if (sum.rounds().empty()) return;
+    origin_ = origin;
+    direction_ = direction;
+    for (std::size_t i = 0; i < sum.rounds().size(); ++i) on_ray_[i].set(sum.rounds()[i].coordinate, origin, direction);
 }
 
 bool ProductSumRay::inside(double t) const {
     double rho = sum_->constant();
     for (const ProductSum::Term& term : sum_->terms()) {
         double P = term.weight;
-        for (const int i : term.factors) P *= profile(a_[i] + b_[i] * t);
+        for (const int i : term.factors) P *= profile(alpha(i, t));
         rho += P;
     }
     return rho > 0.5;
 }
 
 Vec3 ProductSumRay::gradient(double t) const {
-    double share[max_planes] = {};  // of every plane's: dρ/dα
+    double share[max_planes] = {};  // of every factor: dρ/dα
     for (const ProductSum::Term& term : sum_->terms()) {
         double before[max_planes];  // the product of the factors before
         double P = term.weight;
         for (std::size_t k = 0; k < term.factors.size(); ++k) {
-            const int i = term.factors[k];
             before[k] = P;
-            P *= profile(a_[i] + b_[i] * t);
+            P *= profile(alpha(term.factors[k], t));
         }
         double after = 1;
         for (std::size_t k = term.factors.size(); k-- > 0;) {
             const int i = term.factors[k];
-            const double alpha = a_[i] + b_[i] * t;
-            share[i] += before[k] * after * profile_slope(alpha);
-            after *= profile(alpha);
+            const double here = alpha(i, t);
+            share[i] += before[k] * after * profile_slope(here);
+            after *= profile(here);
         }
     }
     Vec3 sum(0.0);
     for (int i = 0; i < sum_->planes(); ++i)
         sum += share[i] * Vec3(sum_->coefficients(0)[i], sum_->coefficients(1)[i], sum_->coefficients(2)[i]);
+    for (std::size_t i = 0; i < sum_->rounds().size(); ++i) {
+        const ProductSum::Round& r = sum_->rounds()[i];
+        const double rate = share[std::size_t(sum_->planes()) + i] * r.inverse_radius;
+        sum += r.coordinate.gradient(origin_ + direction_ * t) * rate;
+    }
     return sum;
+}
+
+// Cuts [lo, hi] down to where no factor's α is beyond the term's reach.
+void ProductSumRay::reach(const ProductSum::Term& term, double& lo, double& hi) const {
+    for (const int i : term.factors) {
+        if (i < sum_->planes()) {
+            const double room = term.reach - a_[i];
+            if (b_[i] > 0)
+                hi = std::min(hi, room / b_[i]);
+            else if (b_[i] < 0)
+                lo = std::max(lo, room / b_[i]);
+            else if (room < 0)
+                hi = -infinity;
+            continue;
+        }
+        const RoundOnRay& on_ray = on_ray_[i - sum_->planes()];
+        const ProductSum::Round& r = sum_->rounds()[std::size_t(i - sum_->planes())];
+        const double level = r.offset + term.reach / r.inverse_radius;
+        const RoundOnRay::Crossings c = on_ray.crossings(level);
+        if (c.count == 2) {
+            lo = std::max(lo, c.t[0]);
+            hi = std::min(hi, c.t[1]);
+        } else if (c.count == 1) {
+            if (on_ray.slope(c.t[0]) < 0)
+                lo = std::max(lo, c.t[0]);
+            else
+                hi = std::min(hi, c.t[0]);
+        } else if (!(on_ray.at(lo) <= level)) {
+            hi = -infinity;
+        }
+    }
+}
+
+// From where on no factor varies.
+double ProductSumRay::last_change(double t0) const {
+    double t = t0;
+    for (int i = 0; i < sum_->planes(); ++i)
+        if (b_[i] != 0) t = std::max(t, (std::abs(a_[i]) + 2) / std::abs(b_[i]));
+    for (std::size_t i = 0; i < sum_->rounds().size(); ++i) {
+        const ProductSum::Round& r = sum_->rounds()[i];
+        for (const double side : {-1.0, 1.0}) {
+            const RoundOnRay::Crossings c = on_ray_[i].crossings(r.offset + side / r.inverse_radius);
+            for (int k = 0; k < c.count; ++k) t = std::max(t, c.t[k]);
+        }
+    }
+    return std::min(t, 1e300);
 }
 
 bool ProductSumRay::narrow(double& t0, double& t1) {
@@ -56,15 +110,7 @@ bool ProductSumRay::narrow(double& t0, double& t1) {
     for (const ProductSum::Term& term : sum_->terms()) {
         if (term.reach == infinity) continue;
         double lo = t0, hi = t1;
-        for (const int i : term.factors) {
-            const double room = term.reach - a_[i];
-            if (b_[i] > 0)
-                hi = std::min(hi, room / b_[i]);
-            else if (b_[i] < 0)
-                lo = std::max(lo, room / b_[i]);
-            else if (room < 0)
-                hi = -infinity;
-        }
+        reach(term, lo, hi);
         if (lo > hi) continue;
         begin = std::min(begin, lo);
         end = std::max(end, hi);
@@ -72,17 +118,17 @@ bool ProductSumRay::narrow(double& t0, double& t1) {
     t0 = begin;
     t1 = end;
     if (!(t0 <= t1)) return false;
-    if (t1 == infinity) {  // nothing varies beyond the last plane that saturates
-        t1 = t0;
-        for (int i = 0; i < sum_->planes(); ++i)
-            if (b_[i] != 0) t1 = std::max(t1, (std::abs(a_[i]) + 2) / std::abs(b_[i]));
-        t1 = std::min(t1, 1e300);
-    }
+    if (t1 == infinity) t1 = last_change(t0);
+    return choose_varying(t0, t1);
+}
 
+bool ProductSumRay::choose_varying(double t0, double t1) {
     constexpr int one = -1, zero = -2;
     int new_index[max_planes];
+    double rate[max_planes], bend[max_planes];  // |α′| and |α″| at most
     varying_ = 0;
-    for (int i = 0; i < sum_->planes(); ++i) {
+    const int planes = sum_->planes(), rounds = int(sum_->rounds().size());
+    for (int i = 0; i < planes; ++i) {
         const double from = a_[i] + b_[i] * t0, to = a_[i] + b_[i] * t1;
         if (from <= -1 && to <= -1) {
             new_index[i] = one;
@@ -93,31 +139,43 @@ bool ProductSumRay::narrow(double& t0, double& t1) {
             varying_b_[varying_] = b_[i];
             new_index[i] = varying_++;
         }
+        rate[i] = std::abs(b_[i]);
+        bend[i] = 0;
     }
     varying_a_[varying_] = varying_b_[varying_] = 0;  // evaluated with the last, if their number is odd
+    for (int i = 0; i < rounds; ++i) {
+        const ProductSum::Round& r = sum_->rounds()[std::size_t(i)];
+        const Range u = on_ray_[i].range(t0, t1);
+        const double lo = (u.lo - r.offset) * r.inverse_radius, hi = (u.hi - r.offset) * r.inverse_radius;
+        new_index[planes + i] = hi <= -1 ? one : lo >= 1 ? zero : i;
+        rate[planes + i] = on_ray_[i].max_slope(t0, t1) * r.inverse_radius;
+        bend[planes + i] = on_ray_[i].max_curvature(t0, t1) * r.inverse_radius;
+    }
     terms_ = 0;
     constant_ = sum_->constant() - 0.5;
     curvature_ = 0;
     for (const ProductSum::Term& term : sum_->terms()) {
         Term& to = term_[terms_];
         to.weight = term.weight;
-        to.count = 0;
+        to.count = to.rounds = 0;
         bool vanishes = false;
-        double rates = 0, squares = 0;
+        double rates = 0, squares = 0, bends = 0;
         for (const int i : term.factors) {
             vanishes |= new_index[i] == zero;
             if (new_index[i] < 0) continue;
-            to.factors[to.count++] = std::uint8_t(new_index[i]);
-            rates += std::abs(b_[i]);
-            squares += b_[i] * b_[i];
+            to.factors[to.count + to.rounds] = std::uint8_t(new_index[i]);
+            ++(i < planes ? to.count : to.rounds);
+            rates += rate[i];
+            squares += rate[i] * rate[i];
+            bends += bend[i];
         }
         if (vanishes) continue;
-        if (to.count == 0) {
+        if (to.count + to.rounds == 0) {
             constant_ += term.weight;
             continue;
         }
-        // |F′| ≤ ¾ |b|, |F″| ≤ 3/2 b².
-        curvature_ += std::abs(term.weight) * (1.5 * squares + 0.5625 * (rates * rates - squares));
+        // |F′| ≤ ¾ |α′|, |F″| ≤ 3/2 α′² + ¾ |α″|.
+        curvature_ += std::abs(term.weight) * (1.5 * squares + 0.5625 * (rates * rates - squares) + 0.75 * bends);
         ++terms_;
     }
     return terms_ > 0;
@@ -133,6 +191,13 @@ ProductSumRay::Point ProductSumRay::evaluate(double t, RootCounters& counters) c
         F[i] = u * u * (2 + c) * 0.25;
         slope[i] = -0.75 * u * (1 + c) * varying_b_[i];
     }
+    double round_F[max_rounds], round_slope[max_rounds];
+    for (std::size_t i = 0; i < sum_->rounds().size(); ++i) {
+        const double here = round_alpha(int(i), t), rate = on_ray_[i].slope(t) * sum_->rounds()[i].inverse_radius;
+        const double least = here < 1 ? here : 1, c = least > -1 ? least : -1, u = 1 - c;
+        round_F[i] = u * u * (2 + c) * 0.25;
+        round_slope[i] = -0.75 * u * (1 + c) * rate;
+    }
     Point p;
     p.t = t;
     p.f = constant_;
@@ -144,6 +209,11 @@ ProductSumRay::Point ProductSumRay::evaluate(double t, RootCounters& counters) c
             const int i = term.factors[j];
             rate = rate * F[i] + P * slope[i];
             P *= F[i];
+        }
+        for (int j = term.count; j < term.count + term.rounds; ++j) {
+            const int i = term.factors[j];
+            rate = rate * round_F[i] + P * round_slope[i];
+            P *= round_F[i];
         }
         p.value[k] = P;
         p.rate[k] = rate;
@@ -201,6 +271,14 @@ ProductSumRay::SlopeRange ProductSumRay::slopes_near_zero(int k, const Point& a,
         const double rate = varying_b_[i];
         all = product_bounds(all,
                              half_space_bounds(varying_a_[i] + rate * a.t, varying_a_[i] + rate * b.t, std::abs(rate)));
+    }
+    for (int j = term_[k].count; j < term_[k].count + term_[k].rounds; ++j) {
+        const int i = term_[k].factors[j];
+        const ProductSum::Round& r = sum_->rounds()[std::size_t(i)];
+        const Range u = on_ray_[i].range(a.t, b.t);
+        all = product_bounds(
+            all, half_space_bounds((u.lo - r.offset) * r.inverse_radius, (u.hi - r.offset) * r.inverse_radius,
+                                   on_ray_[i].max_slope(a.t, b.t) * r.inverse_radius));
     }
     // A logarithm that rises still has risen before.
     return {b.rate[k] > 0 ? 0 : -all.L, a.rate[k] < 0 ? 0 : all.L};

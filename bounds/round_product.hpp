@@ -1,6 +1,6 @@
-// What is left of a density with round parts in most cells: one round part, whose surface is intersected at once, or a
-// product of convex parts, planes and round ones mixed, whose logarithm is concave along every ray
-// [docs/design.md, Round primitives].
+// What is left of a density with round parts in a cell: one round part, whose surface is intersected at once, or a
+// product whose logarithm is concave along every ray, of planes, convex round parts and cones with their other sides;
+// without these it is a sum of products as well (product_sum.hpp) [docs/design.md, Round primitives].
 #pragma once
 #include <memory>
 #include <optional>

@@ -27,6 +27,10 @@ HWY_INLINE V select(M m, V a, V b) { return hn::IfThenElse(m, a, b); }
 HWY_INLINE M and_(M a, M b) { return hn::And(a, b); }
 HWY_INLINE M or_(M a, M b) { return hn::Or(a, b); }
 HWY_INLINE M and_not(M a, M b) { return hn::AndNot(b, a); }
+// As std::min, std::max and std::clamp choose between equal ones.
+HWY_INLINE V least(V a, V b) { return select(b < a, b, a); }
+HWY_INLINE V most(V a, V b) { return select(a < b, b, a); }
+HWY_INLINE V clamped(V x, V lo, V hi) { return select(x < lo, lo, select(hi < x, hi, x)); }
 HWY_INLINE bool none(M m) { return hn::AllFalse(d, m); }
 
 HWY_INLINE M mask_of(Lanes bits) {

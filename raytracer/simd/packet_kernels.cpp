@@ -12,6 +12,7 @@
 #include "raytracer/simd/convex_packet-inl.hpp"
 #include "raytracer/simd/lanes-inl.hpp"
 #include "raytracer/simd/product_sum_packet-inl.hpp"
+#include "raytracer/simd/round_packet-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace deburr {
@@ -242,6 +243,21 @@ Lanes convex_any_crossings(const ConvexView& density, const RayPacket& rays, Lan
     return crossings_of<true>(density, rays, lanes, spans, scale, nullptr, evaluations);
 }
 
+Lanes surface_crossings(const RoundSurface& surface, const RayPacket& rays, Lanes lanes, const PacketSpans& spans,
+                        PacketCrossings& found) {
+    return surface_crossings_of(surface, rays, lanes, spans, found);
+}
+
+void surface_normals(const RoundSurface& surface, const RayPacket& rays, const double* end, Lanes lanes,
+                     const PacketNearest& nearest, double (*normal)[RayPacket::size]) {
+    for (std::size_t first = 0; first < RayPacket::size; first += hn::Lanes(d)) {
+        const Lanes part = part_of(lanes, first);
+        if (part == 0) continue;
+        surface_normals_of(surface, Rays(rays, first), hn::Load(d, end + first),
+                           mask_of(part_of(nearest.entering, first)), mask_of(part), first, normal);
+    }
+}
+
 Lanes sum_crossings(const ProductSum& sum, const RayPacket& rays, Lanes lanes, const PacketSpans& spans, double scale,
                     PacketCrossings& found, RootCounters& counters) {
     return sum_crossings_of<false>(sum, rays, lanes, spans, scale, &found, counters);
@@ -273,6 +289,8 @@ const PacketFunctions functions{load,
                                 convex_normals,
                                 convex_crossings,
                                 convex_any_crossings,
+                                surface_crossings,
+                                surface_normals,
                                 sum_crossings,
                                 sum_any_crossings,
                                 sum_normals};

@@ -8,6 +8,7 @@
 
 #include "bounds/convex_density.hpp"
 #include "bounds/product_sum.hpp"
+#include "bounds/round_product.hpp"
 #include "raytracer/simd/ray_packet.hpp"
 
 namespace deburr {
@@ -86,7 +87,13 @@ struct PacketFunctions {
     Lanes (*convex_any_crossings)(const ConvexView& density, const RayPacket& rays, Lanes lanes,
                                   const PacketSpans& spans, double scale, std::uint64_t& evaluations);
 
-    /// The same three of a sum of products of half-spaces (ProductSumRay).
+    /// First crossings of a round part's surface, and normals there.
+    Lanes (*surface_crossings)(const RoundSurface& surface, const RayPacket& rays, Lanes lanes,
+                               const PacketSpans& spans, PacketCrossings& found);
+    void (*surface_normals)(const RoundSurface& surface, const RayPacket& rays, const double* end, Lanes lanes,
+                            const PacketNearest& nearest, double (*normal)[RayPacket::size]);
+
+    /// The same of a sum of products (ProductSumRay).
     Lanes (*sum_crossings)(const ProductSum& sum, const RayPacket& rays, Lanes lanes, const PacketSpans& spans,
                            double scale, PacketCrossings& found, RootCounters& counters);
     Lanes (*sum_any_crossings)(const ProductSum& sum, const RayPacket& rays, Lanes lanes, const PacketSpans& spans,

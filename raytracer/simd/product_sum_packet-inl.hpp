@@ -15,15 +15,12 @@
 #include "bounds/product_sum.hpp"
 #include "raytracer/simd/lanes-inl.hpp"
 #include "raytracer/simd/packet_kernels.hpp"
+#include "raytracer/simd/round_packet-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace deburr {
 namespace HWY_NAMESPACE {
 
-// As std::min and std::max choose between equal ones.
-HWY_INLINE V least(V a, V b) { return select(b < a, b, a); }
-HWY_INLINE V most(V a, V b) { return select(a < b, b, a); }
-HWY_INLINE V clamped(V x, V lo, V hi) { return select(x < lo, lo, select(hi < x, hi, x)); }
 HWY_INLINE V exponential(V x) {
     const V two = number(2);
     return select(x < two, (two + x) / (two - x), number(infinity));
@@ -37,7 +34,7 @@ HWY_INLINE V logarithm(V x) {
 class SumOnRays {
 public:
     HWY_INLINE SumOnRays(const ProductSum& sum, const Rays& rays, RootCounters& counters)
-        : sum_(sum), counters_(counters) {
+        : sum_(sum), rays_(rays), counters_(counters) {
         const double *x = sum.coefficients(0), *y = sum.coefficients(1), *z = sum.coefficients(2),
                      *base = sum.coefficients(3);
         for (int i = 0; i < sum.planes(); ++i) {
@@ -45,6 +42,7 @@ public:
             a_[i] = nx * rays.origin[0] + ny * rays.origin[1] + nz * rays.origin[2] + number(base[i]);
             b_[i] = nx * rays.direction[0] + ny * rays.direction[1] + nz * rays.direction[2];
         }
+        for (int i = 0; i < rounds(); ++i) round_[i].set(sum.rounds()[std::size_t(i)].coordinate, rays);
     }
 
     struct Found {
@@ -100,11 +98,11 @@ public:
         return found;
     }
 
-    // Unit gradients of the density at t, or 0.
+    // Unit gradients of the density at t; where it has none, as at an apex, the ray's direction.
     HWY_INLINE void gradients(V t, V* gradient) const {
         V share[ProductSum::max_planes];
         const V zero = hn::Zero(d);
-        for (int i = 0; i < sum_.planes(); ++i) share[i] = zero;
+        for (int i = 0; i < sum_.planes() + rounds(); ++i) share[i] = zero;
         for (const ProductSum::Term& term : sum_.terms()) {
             V before[ProductSum::max_planes], P = number(term.weight), after = number(1);
             for (std::size_t k = 0; k < term.factors.size(); ++k) {
@@ -123,9 +121,17 @@ public:
             const double* const slope = sum_.coefficients(axis);
             for (int i = 0; i < sum_.planes(); ++i) gradient[axis] = gradient[axis] + share[i] * number(slope[i]);
         }
-        const V length = hn::Sqrt(gradient[0] * gradient[0] + gradient[1] * gradient[1] + gradient[2] * gradient[2]);
+        for (int i = 0; i < rounds(); ++i) {
+            const ProductSum::Round& r = sum_.rounds()[std::size_t(i)];
+            const V rate = share[sum_.planes() + i] * number(r.inverse_radius);
+            V x[3], g[3];
+            for (int k = 0; k < 3; ++k) x[k] = rays_.origin[k] + rays_.direction[k] * t;
+            RoundOnRays::gradient(r.coordinate, x, g);
+            for (int k = 0; k < 3; ++k) gradient[k] = gradient[k] + g[k] * rate;
+        }
+        const V length = hn::Sqrt(dot(gradient, gradient));
         for (int axis = 0; axis < 3; ++axis)
-            gradient[axis] = select(length > zero, gradient[axis] / length, gradient[axis]);
+            gradient[axis] = select(length > zero, gradient[axis] / length, rays_.direction[axis]);
     }
 
 private:
@@ -141,7 +147,15 @@ private:
     };
 
     HWY_INLINE int terms() const { return int(sum_.terms().size()); }
-    HWY_INLINE V alpha(int i, V t) const { return a_[i] + b_[i] * t; }
+    HWY_INLINE int rounds() const { return int(sum_.rounds().size()); }
+    HWY_INLINE V round_alpha(int i, V u) const {
+        const ProductSum::Round& r = sum_.rounds()[std::size_t(i)];
+        return (u - number(r.offset)) * number(r.inverse_radius);
+    }
+    HWY_INLINE V alpha(int i, V t) const {
+        const int round = i - sum_.planes();
+        return round < 0 ? a_[i] + b_[i] * t : round_alpha(round, round_[round].at(t));
+    }
     HWY_INLINE V profile_at(int i, V t) const {
         const V c = clamped(alpha(i, t), number(-1), number(1)), u = number(1) - c;
         return u * u * (number(2) + c) * number(0.25);
@@ -167,6 +181,11 @@ private:
             if (term.reach == infinity) continue;
             V lo = t0, hi = t1;
             for (const int i : term.factors) {
+                if (i >= sum_.planes()) {
+                    const ProductSum::Round& r = sum_.rounds()[std::size_t(i - sum_.planes())];
+                    round_[i - sum_.planes()].clip(number(r.offset + term.reach / r.inverse_radius), lo, hi);
+                    continue;
+                }
                 const V room = number(term.reach) - a_[i], at = room / b_[i];
                 hi = select(b_[i] > zero, least(hi, at), hi);
                 lo = select(b_[i] < zero, most(lo, at), lo);
@@ -180,10 +199,22 @@ private:
         t1 = end;
         const V one = number(1), minus_one = number(-1);
         M is_one[ProductSum::max_planes], is_zero[ProductSum::max_planes];
+        V steepness[ProductSum::max_planes], bend[ProductSum::max_planes];  // |α′| and |α″| at most
         for (int i = 0; i < sum_.planes(); ++i) {
             const V from = alpha(i, t0), to = alpha(i, t1);
             is_one[i] = and_(from <= minus_one, to <= minus_one);
             is_zero[i] = and_(from >= one, to >= one);
+            steepness[i] = hn::Abs(b_[i]);
+            bend[i] = zero;
+        }
+        for (int i = 0; i < rounds(); ++i) {
+            const int factor = sum_.planes() + i;
+            const auto u = round_[i].range(t0, t1);
+            const V inverse_radius = number(sum_.rounds()[std::size_t(i)].inverse_radius);
+            is_one[factor] = round_is_one_[i] = round_alpha(i, u.hi) <= minus_one;
+            is_zero[factor] = and_not(round_alpha(i, u.lo) >= one, is_one[factor]);
+            steepness[factor] = round_[i].max_slope(t0, t1) * inverse_radius;
+            bend[factor] = round_[i].max_curvature(t0, t1) * inverse_radius;
         }
         constant_ = number(sum_.constant() - 0.5);
         curvature_ = zero;
@@ -191,19 +222,20 @@ private:
         for (int k = 0; k < terms(); ++k) {
             const ProductSum::Term& term = sum_.terms()[std::size_t(k)];
             M vanishes = and_not(rays, rays), varies = vanishes;
-            V rates = zero, squares = zero;
+            V rates = zero, squares = zero, bends = zero;
             for (const int i : term.factors) {
                 vanishes = or_(vanishes, is_zero[i]);
                 const M fixed = or_(is_one[i], is_zero[i]);
                 varies = or_(varies, hn::Not(fixed));
-                rates = rates + select(fixed, zero, hn::Abs(b_[i]));
-                squares = squares + select(fixed, zero, b_[i] * b_[i]);
+                rates = rates + select(fixed, zero, steepness[i]);
+                squares = squares + select(fixed, zero, steepness[i] * steepness[i]);
+                bends = bends + select(fixed, zero, bend[i]);
             }
             active_[k] = and_not(varies, vanishes);
             const M is_constant = and_not(hn::Not(varies), vanishes);
             constant_ = select(is_constant, constant_ + number(term.weight), constant_);
-            const V bound =
-                number(std::abs(term.weight)) * (number(1.5) * squares + number(0.5625) * (rates * rates - squares));
+            const V bound = number(std::abs(term.weight)) *
+                            (number(1.5) * squares + number(0.5625) * (rates * rates - squares) + number(0.75) * bends);
             curvature_ = select(active_[k], curvature_ + bound, curvature_);
             any = or_(any, active_[k]);
         }
@@ -221,6 +253,14 @@ private:
             const V c = hn::Max(hn::Min(alpha(i, t), one), hn::Neg(one)), u = one - c;
             F[i] = u * u * (number(2) + c) * number(0.25);
             slope[i] = number(-0.75) * u * (one + c) * b_[i];
+        }
+        for (int i = 0; i < rounds(); ++i) {
+            const int factor = sum_.planes() + i;
+            const V rate = round_[i].slope(t) * number(sum_.rounds()[std::size_t(i)].inverse_radius);
+            const V c = hn::Max(hn::Min(alpha(factor, t), one), hn::Neg(one)), u = one - c;
+            // Rounding might find it less than 1 between ends where it is 1.
+            F[factor] = select(round_is_one_[i], one, u * u * (number(2) + c) * number(0.25));
+            slope[factor] = select(round_is_one_[i], zero, number(-0.75) * u * (one + c) * rate);
         }
         Point p;
         p.t = t;
@@ -282,13 +322,26 @@ private:
         const V one = number(1), zero = hn::Zero(d);
         V M_all = one, L_all = zero;
         for (const int i : sum_.terms()[std::size_t(k)].factors) {
-            const V a0 = alpha(i, a.t), a1 = alpha(i, b.t);
+            const int round = i - sum_.planes();
+            V a0, a1, rate;
+            M is_one = hn::Xor(active_[k], active_[k]);
+            if (round < 0) {
+                a0 = alpha(i, a.t);
+                a1 = alpha(i, b.t);
+                rate = hn::Abs(b_[i]);
+            } else {
+                const auto range = round_[round].range(a.t, b.t);
+                a0 = round_alpha(round, range.lo);
+                a1 = round_alpha(round, range.hi);
+                rate = round_[round].max_slope(a.t, b.t) * number(sum_.rounds()[std::size_t(round)].inverse_radius);
+                is_one = round_is_one_[round];
+            }
             const V lo = select(a0 < a1, a0, a1), hi = select(a0 < a1, a1, a0);
             const V nearest = select(lo > zero, lo, select(hi < zero, hn::Neg(hi), zero));
             const V c = clamped(lo, number(-1), one);
             V M_i = (one - c) * (one - c) * (number(2) + c) * number(0.25);
-            V L_i = number(0.75) * (one - nearest * nearest) * hn::Abs(b_[i]);
-            const M outside = lo >= one, inside = hi <= number(-1);
+            V L_i = number(0.75) * (one - nearest * nearest) * rate;
+            const M inside = or_(is_one, hi <= number(-1)), outside = and_not(lo >= one, is_one);
             M_i = select(outside, zero, select(inside, one, M_i));
             L_i = select(or_(outside, inside), zero, L_i);
             L_all = M_all * L_i + M_i * L_all;
@@ -366,7 +419,10 @@ private:
     }
 
     const ProductSum& sum_;
+    const Rays& rays_;
     RootCounters& counters_;
+    RoundOnRays round_[ProductSum::max_rounds];
+    M round_is_one_[ProductSum::max_rounds];
     V a_[ProductSum::max_planes], b_[ProductSum::max_planes];  // every α = a + b·t
     M active_[max_terms];                                      // where the term varies and does not vanish
     V constant_, curvature_;                                   // the rest of f; |f″| at most
@@ -388,7 +444,8 @@ Lanes sum_crossings_of(const ProductSum& sum, const RayPacket& rays, Lanes lanes
     for (std::size_t first = 0; first < RayPacket::size; first += hn::Lanes(d)) {
         const Lanes part = part_of(lanes, first);
         if (part == 0) continue;
-        SumOnRays on_rays(sum, Rays(rays, first), counters);
+        const Rays some(rays, first);
+        SumOnRays on_rays(sum, some, counters);
         const V lo = hn::Load(d, spans.from + first), hi = hn::Load(d, spans.to + first);
         const V t_tolerance = number(8 * epsilon) * (number(scale) + hn::Abs(lo));
         const auto f = on_rays.first(mask_of(part), lo, hi, t_tolerance, Any);

@@ -24,9 +24,10 @@ void CellPrimitives::add(LocalSolid&& local, const Box& box, int solid) {
     p.solid = solid;
     const auto convex = local.convex();
     if (!convex || convex->density.planes.empty()) {
-        const auto sum = local.sum();
-        p.kind = sum ? CellPrimitive::Kind::sum : CellPrimitive::Kind::general;
-        if (sum) p.material = sum->second;
+        p.kind = local.surface() ? CellPrimitive::Kind::surface
+                 : local.sum()   ? CellPrimitive::Kind::sum
+                                 : CellPrimitive::Kind::general;
+        if (p.kind != CellPrimitive::Kind::general) p.material = local.material();
         p.index = std::uint32_t(locals_.size());
         locals_.push_back(std::move(local));
     } else {
@@ -63,6 +64,8 @@ Lanes CellPrimitives::crossings(const CellPrimitive& p, const RayPacket& rays, L
     if (p.kind == CellPrimitive::Kind::convex)
         return packet_functions.convex_crossings(view(p), rays, lanes, spans, tolerances_.scale, found,
                                                  counters.evaluations);
+    if (p.kind == CellPrimitive::Kind::surface)
+        return packet_functions.surface_crossings(*locals_[p.index].surface(), rays, lanes, spans, found);
     if (p.kind == CellPrimitive::Kind::sum) {
         RootCounters roots;
         const Lanes crossed =
@@ -113,6 +116,8 @@ void CellPrimitives::normals(const CellPrimitive& p, const RayPacket& rays, cons
                              const PacketNearest& nearest, double (*normal)[RayPacket::size]) const {
     if (p.kind == CellPrimitive::Kind::convex)
         return packet_functions.convex_normals(view(p), rays, end, lanes, nearest, normal);
+    if (p.kind == CellPrimitive::Kind::surface)
+        return packet_functions.surface_normals(*locals_[p.index].surface(), rays, end, lanes, nearest, normal);
     if (p.kind == CellPrimitive::Kind::sum)
         return packet_functions.sum_normals(sum(p), rays, end, lanes, nearest, normal);
     const Vec3& slope = planes_[p.index].slope;

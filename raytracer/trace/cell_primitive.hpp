@@ -1,8 +1,8 @@
 // A primitive of one solid's surface: what may be crossed of it in one cell, laid out to be crossed fast.
 //
 // Most primitives are a plane or a product of half-spaces (bounds/convex_density.hpp), whose numbers lie
-// side by side with those of their neighbours. What is neither is a LocalSolid; if that is a sum of products and
-// nothing else (bounds/product_sum.hpp), packets know it, too.
+// side by side with those of their neighbours. What is neither is a LocalSolid; packets know it if it is the
+// surface of a round part or a sum of products (bounds/product_sum.hpp), and nothing else.
 #pragma once
 #include <cstdint>
 #include <vector>
@@ -15,10 +15,10 @@
 namespace deburr {
 
 struct CellPrimitive {
-    enum class Kind : std::uint8_t { plane, convex, sum, general };
+    enum class Kind : std::uint8_t { plane, convex, surface, sum, general };
 
     Box box;                  // the cell; beyond it the primitive is not valid
-    std::uint32_t index = 0;  // in CellPrimitives::planes; sum, general: in CellPrimitives::locals
+    std::uint32_t index = 0;  // in CellPrimitives::planes; others: in CellPrimitives::locals
     std::int32_t solid = 0, material = 0;
     std::uint8_t soft = 0, sharp = 0;  // factors
     Kind kind = Kind::plane;
@@ -59,6 +59,7 @@ public:
         switch (p.kind) {
             case CellPrimitive::Kind::plane: return true;
             case CellPrimitive::Kind::convex: return p.soft <= max_packet_factors && p.box.finite();
+            case CellPrimitive::Kind::surface:
             case CellPrimitive::Kind::sum: return p.box.finite();
             default: return false;
         }
@@ -69,13 +70,20 @@ public:
     /// The rays among `lanes` that cross primitive p.
     Lanes any_crossings(const CellPrimitive& p, const RayPacket& rays, Lanes lanes, const PacketSpans& spans,
                         TraceCounters& counters) const;
-    /// First crossing of a sum or a general one; `any`: that there is one will do, and its t means nothing.
+    /// First crossing of one that is neither plane nor convex; `any`: that there is one will do, and its t means
+    /// nothing.
     SurfaceCrossing general_crossing(const CellPrimitive& p, const Vec3& origin, const Vec3& direction, double t0,
                                      double t1, bool any, TraceCounters& counters) const;
     /// Unit normal, out of the solid, of primitive p: a plane, or convex.
     Vec3 normal(const CellPrimitive& p, const ConvexCrossing& crossing, const Vec3& origin,
                 const Vec3& direction) const;
-    /// The same for `lanes`, which cross p at their ends.
+    /// Error of p's place, besides what coordinates are rounded by.
+    double error(const CellPrimitive& p) const {
+        const bool is_round =
+            p.kind == CellPrimitive::Kind::surface || (p.kind == CellPrimitive::Kind::sum && !sum(p).rounds().empty());
+        return is_round ? tolerances_.of_round() : 0;
+    }
+    /// normal() for `lanes`, which cross p at their ends.
     void normals(const CellPrimitive& p, const RayPacket& rays, const double* end, Lanes lanes,
                  const PacketNearest& nearest, double (*normal)[RayPacket::size]) const;
 
@@ -83,7 +91,7 @@ public:
     Box surface_box(std::size_t i, double margin) const;
 
 private:
-    const ProductSum& sum(const CellPrimitive& p) const { return *locals_[p.index].sum()->first; }
+    const ProductSum& sum(const CellPrimitive& p) const { return *locals_[p.index].sum(); }
     ConvexView view(const CellPrimitive& p) const { return {&planes_[p.index], p.soft, p.sharp, p.complement}; }
 
     std::vector<CellPrimitive> primitives_;

@@ -78,7 +78,9 @@ void LocalSolid::add_leaf(const SolidLeaf& leaf, const Box& box, const Tolerance
         const auto* round = dynamic_cast<const RoundDensity*>(leaf.field.get());
         if (!round || !round->local() || root_method == RootMethod::always) return;
         softs_.back().surface = RoundSurface::of(*round->local());
-        if (!softs_.back().surface) softs_.back().product = RoundProduct::of(*round->local());
+        if (softs_.back().surface) return;
+        softs_.back().sum = ProductSum::of(*round->local(), tolerances.clearance());
+        if (!softs_.back().sum) softs_.back().product = RoundProduct::of(*round->local());
         return;
     }
     const auto prepared = [&] {

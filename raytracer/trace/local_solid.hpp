@@ -31,6 +31,8 @@ struct Tolerances {
     double along(double t) const { return 8 * epsilon * (scale + std::abs(t)); }
     /// Cells know their solids this far beyond their walls.
     double margin() const { return scale * 0x1p-38; }
+    /// The place of a round part's surface is rounded by this much more than a plane's.
+    double of_round() const { return 4 * epsilon * scale; }
     /// A smaller filter lies between neighbouring points: α would jump, and overflow.
     double min_radius() const { return scale * 0x1p-44; }
 };
@@ -88,11 +90,11 @@ public:
     /// it: what they were rounded by no longer matters. Empty after RootMethod::always, but for planes.
     std::optional<Convex> convex() const;
 
-    /// The whole of it as a sum of products, if it is one leaf's, and that leaf's material.
-    std::optional<std::pair<const ProductSum*, int>> sum() const {
-        if (nodes_.size() != 1 || leaves_[0].soft < 0 || !softs_[leaves_[0].soft].sum) return std::nullopt;
-        return std::pair(&*softs_[leaves_[0].soft].sum, leaves_[0].material);
-    }
+    /// The whole of it as a sum of products, or as a round part's surface, if it is one leaf's; else null.
+    const ProductSum* sum() const { return is_one_soft() && softs_[0].sum ? &*softs_[0].sum : nullptr; }
+    const RoundSurface* surface() const { return is_one_soft() && softs_[0].surface ? &*softs_[0].surface : nullptr; }
+    /// Of the first leaf.
+    int material() const { return leaves_[0].material; }
 
     /// First crossing of the solid's surface in [t0, t1]; `any`: that there is one will do, t and normal
     /// mean nothing.
@@ -119,6 +121,7 @@ private:
         std::optional<RoundProduct> product = {};  // likewise
     };
 
+    bool is_one_soft() const { return nodes_.size() == 1 && softs_.size() == 1 && leaves_[0].soft == 0; }
     void add_leaf(const SolidLeaf& leaf, const Box& box, const Tolerances& tolerances, RootMethod root_method,
                   std::optional<bool>& constant);
     /// The intersection of those leaves whose bit is set and of the others' complements.

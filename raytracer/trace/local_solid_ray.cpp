@@ -124,7 +124,7 @@ void LocalSolid::round_crossings(const Soft& soft, const Vec3& origin, const Vec
                                     : soft.product->crossings(origin, direction, t0, t1, Tolerances{scale_}.along(t0),
                                                               scratch.counters.roots.evaluations);
     if (start_inside) *start_inside = all.start_inside;
-    scratch.error = 4 * epsilon * scale_;
+    scratch.error = Tolerances{scale_}.of_round();
     for (int i = 0; i < all.count; ++i) {
         const Vec3 x = origin + direction * all.at[i].t;
         const Vec3 normal = soft.surface ? soft.surface->normal(x) : soft.product->normal(x);
@@ -139,9 +139,13 @@ void LocalSolid::sum_crossings(const ProductSum& sum, const Vec3& origin, const 
                                bool coarse, CrossingScratch& scratch, bool* start_inside, Visit visit) const {
     ProductSumRay& ray = scratch.sum;
     ray.set(sum, origin, direction);
+    scratch.error = sum.rounds().empty() ? 0 : Tolerances{scale_}.of_round();
     if (start_inside) *start_inside = ray.inside(t0);
     ray.crossings(t0, t1, Tolerances{scale_}.along(t0), coarse, scratch.counters.roots, [&](RootCrossing c) {
-        return visit(c.t, c.entering, coarse ? Vec3(0.0) : normalized(ray.gradient(c.t)));
+        if (coarse) return visit(c.t, c.entering, Vec3(0.0));
+        const Vec3 normal = normalized(ray.gradient(c.t));
+        // At an apex there is none: the ray's own will do.
+        return visit(c.t, c.entering, normal == Vec3(0.0) ? direction : normal);
     });
 }
 
@@ -151,6 +155,7 @@ void LocalSolid::soft_crossings(const Soft& soft, const Vec3& origin, const Vec3
                                 CrossingScratch& scratch, bool* start_inside, Visit visit) const {
     if (soft.surface || soft.product)
         return round_crossings(soft, origin, direction, t0, t1, scratch, start_inside, visit);
+    if (soft.sum) return sum_crossings(*soft.sum, origin, direction, t0, t1, false, scratch, start_inside, visit);
     if (soft.field)
         return field_crossings(*soft.field, soft.max_noise_scale, origin, direction, t0, t1, scratch, start_inside,
                                visit);
@@ -165,7 +170,6 @@ void LocalSolid::soft_crossings(const Soft& soft, const Vec3& origin, const Vec3
         }
         return;
     }
-    if (soft.sum) return sum_crossings(*soft.sum, origin, direction, t0, t1, false, scratch, start_inside, visit);
     const Span whole[1] = {{t0, t1}};
     const Span *first = whole, *last = whole + 1;
     if (soft.bounded) {
@@ -257,7 +261,7 @@ SurfaceCrossing LocalSolid::first_crossing(const Vec3& origin, const Vec3& direc
         if (soft.sum) {
             sum_crossings(*soft.sum, origin, direction, t0, t1, any, scratch, nullptr,
                           [&](double t, bool entering, Vec3 normal) {
-                              found(t, entering, normal, leaf.material, 0);
+                              found(t, entering, normal, leaf.material, scratch.error);
                               return false;
                           });
             return result;

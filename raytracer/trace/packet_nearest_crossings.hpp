@@ -50,10 +50,12 @@ public:
         while (left != 0) {  // those of one primitive together
             const double number = nearest_.primitive[__builtin_ctz(left)];
             const CellPrimitive& p = cell_primitive(std::uint32_t(number));
+            const double own_error = list(std::uint32_t(number)).error(p);
             Lanes here = 0;
             for_each_lane(left, [&](int k) {
                 if (nearest_.primitive[k] != number) return;
                 here |= Lanes(1) << k;
+                found_.error[k] += own_error;
                 found_.solid[k] = p.solid;
                 found_.material[k] = p.material;
             });

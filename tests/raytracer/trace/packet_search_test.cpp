@@ -35,8 +35,8 @@ struct Comparison {
 }  // namespace
 
 TEST_CASE("rays that are traced together hit what they hit alone, to the bit: pictures and their shadows") {
-    for (const char* name : {"first", "csg_examples", "variable_rounding", "hole_punch", "staplers", "cone", "figurine",
-                             "melting_robot"}) {
+    for (const char* name : {"first", "csg_examples", "variable_rounding", "hole_punch", "staplers", "bearing", "cone",
+                             "figurine", "melting_robot"}) {
         CAPTURE(name);
         const Scene scene = scene_of(name);
         const ImplicitTracer tracer(scene.solids);
