@@ -16,6 +16,7 @@
 
 #include "raytracer/scene/lua_library.hpp"
 #include "raytracer/scene/lua_replacements.hpp"
+#include "raytracer/scene/scene_text.hpp"
 #include "raytracer/util/printable.hpp"
 
 namespace deburr {
@@ -156,7 +157,11 @@ int Sandbox::State::body(lua_State* lua) {
     open_library(lua);
     if (state.prepare) state.prepare(lua);
     const char name[] = {'=', file_mark, 0};
-    if (luaL_loadbufferx(lua, state.text.data(), state.text.size(), name, "t") != LUA_OK) return lua_error(lua);
+    if (luaL_loadbufferx(lua, state.text.data(), state.text.size(), name, "t") != LUA_OK) {
+        lua_pushstring(lua, other_language(state.text));
+        lua_concat(lua, 2);
+        return lua_error(lua);
+    }
     lua_call(lua, 0, 1);
     return 1;
 }

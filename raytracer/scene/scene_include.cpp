@@ -89,7 +89,11 @@ int include_part(lua_State* lua) {
     lua_rawseti(lua, parts, key);
     PartReader reader{part->text.data(), part->text.size(), part->lines_before};
     const char name[] = {'=', file_mark, 0};
-    if (lua_load(lua, read_piece, &reader, name, "t") != LUA_OK) return lua_error(lua);
+    if (lua_load(lua, read_piece, &reader, name, "t") != LUA_OK) {
+        lua_pushstring(lua, other_language(part->text));
+        lua_concat(lua, 2);
+        return lua_error(lua);
+    }
     lua_call(lua, 0, 1);
     lua_createtable(lua, 1, 0);
     lua_pushvalue(lua, -2);

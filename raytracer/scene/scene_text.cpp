@@ -51,4 +51,23 @@ std::string scene_text(std::string text, const std::string& file) {
     return text;
 }
 
+const char* other_language(std::string_view text) {
+    const auto has = [&](std::string_view word) { return text.find(word) != std::string_view::npos; };
+    const auto starts = [&](std::string_view word) { return text.substr(0, word.size()) == word; };
+    if (starts("solid") && has("facet")) return "; this looks like STL, which is read from a file that ends in .stl";
+    if (starts("ply")) return "; this looks like PLY, which is read from a file that ends in .ply";
+    if (starts("OFF")) return "; this looks like OFF, which is read from a file that ends in .off";
+    if ((starts("v ") || has("\nv ")) && has("\nf "))
+        return "; this looks like OBJ, which is read from a file that ends in .obj";
+    for (const char* word : {"#declare", "#include", "location <", "look_at"})
+        if (has(word)) return "; this looks like a scene for POV-Ray, which is not read";
+    for (const char* word : {"$fn",          "module ",         "use <",           "include <",
+                             "difference()", "union()",         "intersection()",  "hull()",
+                             "minkowski()",  "linear_extrude(", "rotate_extrude(", "translate([",
+                             "rotate([",     "mirror([",        "scale([",         "color([",
+                             "cube([",       "square([",        "polygon([",       "polyhedron("})
+        if (has(word)) return "; this looks like OpenSCAD, which is read from a file that ends in .scad";
+    return "";
+}
+
 }  // namespace deburr

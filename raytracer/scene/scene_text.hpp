@@ -2,6 +2,7 @@
 #pragma once
 #include <cstddef>
 #include <string>
+#include <string_view>
 
 namespace deburr {
 
@@ -14,5 +15,9 @@ std::string text_of_file(const std::string& file);
 /// The text without byte order mark, and with a first line that begins with #! made a comment. `file` is for messages:
 /// throws SceneError where it is no text.
 std::string scene_text(std::string text, const std::string& file);
+
+/// A half-sentence for the message of a syntax error where the text looks like a model, a program for OpenSCAD or a
+/// scene for POV-Ray rather than Lua; else an empty one. It allocates nothing.
+const char* other_language(std::string_view text);
 
 }  // namespace deburr

@@ -360,6 +360,23 @@ TEST_CASE("a file that is no scene says what it is") {
     CHECK(file_error(file) == file + ":1: expected text, got binary data (a byte 27)");
     write("return {\n  solids = { cube( } }\n");
     CHECK(file_error(file) == file + ":2: unexpected symbol near '}'");
+    // What a newcomer has, under the name of a scene.
+    const auto looks_like = [&](const std::string& text, const std::string& end) {
+        write(text);
+        CAPTURE(text);
+        CHECK_THAT(file_error(file),
+                   Catch::Matchers::StartsWith(file + ":") && Catch::Matchers::EndsWith("; this looks like " + end));
+    };
+    const std::string scad = "OpenSCAD, which is read from a file that ends in .scad";
+    looks_like("// A plate.\n$fn = 50;\ndifference() {\n  cube([9, 9, 1]);\n  cylinder(h = 3, r = 2);\n}\n", scad);
+    looks_like("module part(x) { cube([x, 2, 3]); }\npart(4);\n", scad);
+    looks_like("cube([10, 10, 10]);\n", scad);
+    looks_like("/* Both. */ union() { sphere(r = 3); cube(5); }\n", scad);
+    looks_like("use <MCAD/boxes.scad>\nroundedBox(2);\n", scad);
+    looks_like("solid a\nfacet normal 0 0 1\nouter loop\n", "STL, which is read from a file that ends in .stl");
+    looks_like("ply\nformat ascii 1.0\n", "PLY, which is read from a file that ends in .ply");
+    looks_like("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n", "OBJ, which is read from a file that ends in .obj");
+    looks_like("camera { location <0, 0, -5> look_at 0 }\n", "a scene for POV-Ray, which is not read");
     std::filesystem::remove_all(folder);
 }
 
