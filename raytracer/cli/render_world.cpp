@@ -128,8 +128,13 @@ void build_integrator(const RenderOptions& o, Frame& frame, RenderWorld& world) 
     settings.integrator = o.noise || o.seconds ? IntegratorKind::path : o.integrator;
     if (o.seconds)
         settings.spp = samples_in(*o.seconds, world.scene, *world.tracer, frame, settings);
-    else if (frame.spp == 0)
-        settings.spp = sample_count(world.scene, *world.tracer, settings, exposure_of(o, world.scene));
+    else if (frame.spp == 0) {
+        const SampleCount count = sample_count(world.scene, *world.tracer, settings, exposure_of(o, world.scene));
+        settings.spp = count.samples;
+        if (count.samples < count.wanted && !o.quiet)
+            message(fmt::format("{} samples per pixel, not {}, which would take long; --spp {} takes them",
+                                count.samples, count.wanted, count.wanted));
+    }
     frame.spp = settings.spp;
     say(o, fmt::format("{} samples per pixel", frame.spp));
     world.integrator.emplace(world.scene, *world.tracer, settings);

@@ -228,7 +228,7 @@ void LivePicture::show_preview(const std::shared_ptr<const World>& world, int co
 void LivePicture::refine(const std::shared_ptr<const World>& world) {
     const Scene& scene = world->scene;
     RenderSettings settings{scene.width, scene.height, settings_.spp.value_or(scene.spp.value_or(0)), 0, false};
-    if (settings.spp == 0) settings.spp = sample_count(scene, *world->tracer, settings, scene.exposure);
+    if (settings.spp == 0) settings.spp = sample_count(scene, *world->tracer, settings, scene.exposure).samples;
     if (cancel_) return;
     if (settings.spp == 1) return publish(*film_, *world, 1, 1, true);  // the preview is the picture
     const auto traced = std::make_shared<World>(*world);

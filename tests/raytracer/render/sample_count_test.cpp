@@ -1,5 +1,7 @@
 #include "raytracer/render/sample_count.hpp"
 
+#include <fmt/format.h>
+
 #include <cmath>
 
 #include "catch.hpp"
@@ -24,7 +26,7 @@ struct Case {
         return scene;
     }
     int count(int width = 120, int height = 80, double exposure = 0) const {
-        return sample_count(scene, tracer, {.width = width, .height = height}, exposure);
+        return sample_count(scene, tracer, {.width = width, .height = height}, exposure).samples;
     }
 };
 
@@ -46,8 +48,33 @@ TEST_CASE("a picture gets as many samples as its noise asks for") {
     // A picture that is all black or all white shows no noise.
     CHECK(noisy.count(120, 80, -20) == min_sample_count);
     // Of many pixels fewer.
-    CHECK(noisy.count(20'000, 10'000) == min_sample_count);
+    CHECK(noisy.count(20'000, 10'000) < min_sample_count);
     CHECK(noisy.count(1, 1) >= min_sample_count);
+}
+
+TEST_CASE("a picture whose samples would take long gets fewer, whatever its noise") {
+    // Many tori that interlock, under lamps that are near and bright.
+    std::string rings, lamps;
+    for (int i = 0; i < 12; ++i)
+        rings += (i ? " | " : "") + fmt::format("torus{{ radius = 1, tube = 0.2 }}:rotate({}, {{1, 0, 1}})", 15 * i);
+    for (int i = 0; i < 3; ++i)
+        lamps += fmt::format("area_light{{ position = {{{}, 3, 1}}, u = {{6, 0, 0}}, v = {{0, 0, 6}}, power = 300 }}, ",
+                             3 * i - 3);
+    const Case slow("return { lights = { " + lamps + " }, solids = { rounded(0.05, " + rings + ") } }");
+    const auto count = [&](int width, int height) {
+        return sample_count(slow.scene, slow.tracer, {.width = width, .height = height}, -3);
+    };
+    const SampleCount small = count(120, 80), large = count(7200, 6400), huge = count(24'000, 16'000);
+    CAPTURE(small.samples, small.wanted, large.samples, large.wanted, huge.samples);
+    CHECK(small.samples == small.wanted);
+    CHECK(large.samples < large.wanted);
+    CHECK(large.samples >= min_costly_sample_count);
+    CHECK(huge.samples == min_costly_sample_count);
+    CHECK(huge.wanted == min_sample_count);
+    // Twice the pixels take twice as long, and so may have half of the samples.
+    const int larger = count(10'182, 9051).samples;
+    CAPTURE(larger);
+    CHECK(std::abs(2 * larger - large.samples) <= 2);
 }
 
 TEST_CASE("render without --spp is render with the number that it finds, and a crop has the same") {
