@@ -1,6 +1,7 @@
 #include "figures/figure_context.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <stdexcept>
 
@@ -53,6 +54,8 @@ Film FigureContext::render(const Scene& scene, const RayTracer& tracer, const Fi
                                                                        PixelLayers* layers, TraceCounters& counters) {
             integrator.block(block, pixels, layers, counters);
         }).film;
+    // A figure shows the scene as its picture for the screen does.
+    for (Pixel& pixel : film.pixels) pixel.color *= std::exp2(scene.exposure);
     return film;
 }
 

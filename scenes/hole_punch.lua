@@ -85,7 +85,7 @@ local views = {
 }
 
 return {
-  image = { width = 600, height = 380, spp = 1 },
+  image = { width = 600, height = 380, spp = 1, exposure = -0.4 },
   camera = views[closeup] or error("closeup: expected none, punch, hinge or pins, got " .. tostring(closeup)),
   lights = { area_light{ position = {-12, 24, 14}, u = {5.2, 0, 4.5}, v = {-3.4, -4.6, 4.0},
                          color = {1, 0.96, 0.9}, power = 17000 } },

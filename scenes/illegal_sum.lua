@@ -20,7 +20,7 @@ end
 local paint = plastic{ color = {0.62, 0.15, 0.03}, roughness = 0.3 }
 
 return {
-  image = { width = 600, height = 380, spp = 1 },
+  image = { width = 600, height = 380, spp = 1, exposure = -0.8 },
   camera = { eye = {3.4, 5.2, 7.4}, target = {0, 0.36, 0}, up = {0, 1, 0}, fov = 27 },
   lights = { area_light{ position = {-5, 8, 3}, u = {1.2, 0, 2}, v = {-1.6, -1.6, 1},
                          color = {1, 0.96, 0.9}, power = 1900 } },

@@ -24,7 +24,7 @@ local robot = pair(0.2, 0, -0.3, 0.8, 0.3, 0.6)          -- feet
             + head
 
 return {
-  image = { width = 400, height = 500, spp = 1 },
+  image = { width = 400, height = 500, spp = 1, exposure = -1 },
   camera = { eye = {4.4, 4.2, 9.0}, target = {0.05, 2.02, 0.1}, up = {0, 1, 0}, fov = 30 },
   lights = { area_light{ position = {-5, 10, 8}, u = {2, 0, 1.2}, v = {-0.9, -1.6, 1.5},
                          color = {1, 0.96, 0.9}, power = 3600 } },

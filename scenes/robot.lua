@@ -30,7 +30,7 @@ local robot = pair(foot | shin | knee | thigh | shoulder | upper_arm | fore_arm 
             | hips | belly | chest | panel | neck | antenna | head & ~(pair(eye) | mouth)
 
 return {
-  image = { width = 400, height = 500, spp = 1 },
+  image = { width = 400, height = 500, spp = 1, exposure = -1 },
   camera = { eye = {4.6, 4.6, 9.6}, target = {0.05, 2.62, 0.1}, up = {0, 1, 0}, fov = 33 },
   lights = { area_light{ position = {-5, 10, 8}, u = {2, 0, 1.2}, v = {-0.9, -1.6, 1.5},
                          color = {1, 0.96, 0.9}, power = 3600 } },

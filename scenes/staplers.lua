@@ -125,7 +125,7 @@ for i = -16, 4 do
 end
 
 return {
-  image = { width = 600, height = 380, spp = 1 },
+  image = { width = 600, height = 380, spp = 1, exposure = -0.4 },
   camera = { eye = {16, 15, 22}, target = {0.1, 1.2, -0.9}, up = {0, 1, 0}, fov = 25 },
   lights = {
     area_light{ position = {-14, 26, 12}, u = {5.2, 0, 6.1}, v = {-4.9, -4.6, 4.2},

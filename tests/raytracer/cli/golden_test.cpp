@@ -25,7 +25,7 @@ TEST_CASE("every scene in scenes/ renders like its golden picture", "[slow]") {
         if (image["spp"].is_null()) words.insert(words.end(), {"--spp", "1"});
         const Outcome outcome = run(words);
         const bool illegal = name == "illegal_sum";  // on purpose
-        // Some of them are clipped where lamps are bright, which is told of the picture.
+        CHECK(outcome.err.find("brighter than white") == std::string::npos);
         CHECK((outcome.err.find("warning: " + entry.path().string()) != std::string::npos) == illegal);
         REQUIRE(outcome.code == 0);
 
