@@ -46,6 +46,18 @@ SolidTree cut_off(SolidTree solid, const Box& box) {
     return solid;
 }
 
+// What is polygonized: without leaves if there is nothing.
+SolidTree part_within(const SolidTree& mixed, const Box& box) {
+    if (box.empty()) return {};
+    SolidTree solid = separate_sharp(mixed);
+    if (!solid.leaves.empty() && !is_within(bounding_box(solid), box)) return cut_off(std::move(solid), box);
+    return solid;
+}
+
+double edge_of(const OctreeOptions& options, const SolidTree& solid, const Box& box) {
+    return options.edge > 0 ? options.edge : octree_edge(solid, box);
+}
+
 // A triangle as it stands to the surface at its middle.
 struct Standing {
     double cosine = 1, distance = 0;
@@ -56,7 +68,7 @@ public:
     Polygonization(const SolidTree& solid, const Box& box, const OctreeOptions& options, double edge)
         : options_(options),
           hard_cosine_(std::cos(options.hard_angle * radians)),
-          tree_(solid, box, edge, spare_levels, options.cancel),
+          tree_(solid, box, edge, spare_levels, options.cancel, options.max_open_cells),
           has_forms_(solid.has_free_form()),
           looks_for_thin_(has_forms_) {}
 
@@ -355,12 +367,16 @@ double octree_edge(const SolidTree& solid, const Box& box) {
     return radius > 0 ? std::clamp(0.5 * radius, longest / 512, longest / 64) : longest / 64;
 }
 
+void check_octree_cells(const SolidTree& mixed, const Box& box, const OctreeOptions& options) {
+    const SolidTree solid = part_within(mixed, box);
+    if (!solid.leaves.empty())
+        CellTree(solid, box, edge_of(options, solid, box), spare_levels, options.cancel, options.max_open_cells);
+}
+
 Mesh octree(const SolidTree& mixed, const Box& box, const OctreeOptions& options, OctreeStatistics* statistics) {
-    if (box.empty()) return {};
-    SolidTree solid = separate_sharp(mixed);
+    const SolidTree solid = part_within(mixed, box);
     if (solid.leaves.empty()) return {};
-    if (!is_within(bounding_box(solid), box)) solid = cut_off(std::move(solid), box);
-    const double edge = options.edge > 0 ? options.edge : octree_edge(solid, box);
+    const double edge = edge_of(options, solid, box);
     SolidTree numbered = solid;
     for (std::size_t k = 0; k < numbered.leaves.size(); ++k) numbered.leaves[k].line = int(k);
     OctreeStatistics own;

@@ -26,7 +26,8 @@ struct OctreeOptions {
     /// Degrees between faces from which on their edge is kept. Printed differently: 45, at which the
     /// edges of an octagon are lost; it costs nothing to keep them.
     double hard_angle = 15;
-    double tolerance = infinity;  // largest distance of a triangle's middle from the surface
+    double tolerance = infinity;               // largest distance of a triangle's middle from the surface
+    std::size_t max_open_cells = 100'000'000;  // that the surface may pass
     CancelFlag cancel = nullptr;
 };
 
@@ -46,8 +47,11 @@ struct OpenMeshError : std::runtime_error {
 /// Side of a cell by default: half the least radius, within 1/64 and 1/512 of the box.
 double octree_edge(const SolidTree& solid, const Box& box);
 
+/// Throws what octree() would throw of the cells that it begins with, at a part of the cost.
+void check_octree_cells(const SolidTree& solid, const Box& box, const OctreeOptions& options);
+
 /// The mesh of the solid's part within `box`. Throws OpenMeshError; std::length_error if `edge`
-/// makes too many cells; and Cancelled.
+/// and `tolerance` make too many cells; and Cancelled.
 Mesh octree(const SolidTree& solid, const Box& box, const OctreeOptions& options = {},
             OctreeStatistics* statistics = nullptr);
 

@@ -30,8 +30,9 @@ std::uint64_t key_of(const GridPoint& c) {
 
 }  // namespace
 
-CellTree::CellTree(const SolidTree& solid, const Box& box, double edge, int spare, CancelFlag cancel)
-    : cancel_(cancel), edge_(edge) {
+CellTree::CellTree(const SolidTree& solid, const Box& box, double edge, int spare, CancelFlag cancel,
+                   std::size_t max_open)
+    : cancel_(cancel), max_open_(max_open), edge_(edge) {
     // One cell more on either side, so that the surface is nowhere near the root's walls.
     const double cells = std::ceil(largest(box.hi - box.lo) / edge) + 3;
     level_ = int(std::min(std::ceil(std::log2(cells)), 1024.0));
@@ -48,16 +49,18 @@ CellTree::CellTree(const SolidTree& solid, const Box& box, double edge, int spar
 
 void CellTree::add_children(int parent) {
     throw_if_cancelled(cancel_);
-    if (cells_.size() + 8 > max_cells) throw std::length_error("too many cells");
+    if (cells_.size() + 8 > max_cells || open_ > max_open_) throw std::length_error("too many cells");
     const OctreeCell p = cell(parent);
     cells_[parent].children = int(cells_.size());
     const int half = p.size / 2;
+    open_ -= p.open;
     for (int k = 0; k < 8; ++k) {
         OctreeCell c{{p.at[0] + half * (k & 1), p.at[1] + half * (k >> 1 & 1), p.at[2] + half * (k >> 2)}, half};
         c.solid = p.solid;
         const Box wide = inflated(box(c), margin * unit_ * half);
         ++range_tests;
         c.open = solid(p).constant_side(wide) == 0;
+        open_ += c.open;
         if (c.open && solid(p).half_spaces() > few) {
             auto local = std::make_shared<SignedDistance>(solid(p).within(inflated(wide, sight * edge_)));
             if (local->half_spaces() < solid(p).half_spaces()) {

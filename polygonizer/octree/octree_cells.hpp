@@ -32,8 +32,10 @@ struct OctreeCell {
 class CellTree {
 public:
     /// Cells of side `edge`, where the surface is; they may be split `spare` times more.
-    /// Throws std::length_error past max_cells, and Cancelled; so does split().
-    CellTree(const SolidTree& solid, const Box& box, double edge, int spare, CancelFlag cancel = nullptr);
+    /// Throws std::length_error past max_cells, or past `max_open` leaves that the surface may pass, and Cancelled; so
+    /// does split().
+    CellTree(const SolidTree& solid, const Box& box, double edge, int spare, CancelFlag cancel = nullptr,
+             std::size_t max_open = max_cells);
 
     static constexpr std::size_t max_cells = 100'000'000;
 
@@ -67,6 +69,7 @@ private:
     void add_children(int parent);
 
     CancelFlag cancel_;
+    std::size_t max_open_, open_ = 1;
     Vec3 origin_;
     double edge_, unit_;
     int level_;

@@ -20,6 +20,10 @@ namespace {
 // A grid of more cubes than this is refused: it would take tens of gigabytes.
 constexpr double max_cubes = 2e9;
 
+// Of cells that nobody has chosen, the surface may pass this many: two million triangles, ten times as many as any of
+// the scenes in scenes/ asks for, and with a free form of twenty perturbations some seconds.
+constexpr std::size_t max_own_open_cells = 1'000'000;
+
 // A mesh's own tolerance is measured at middles and to first order; beyond this many of it is wrong.
 constexpr double check_slack = 2;
 
@@ -58,26 +62,59 @@ double octree_tolerance(const SolidTree& tree, const Box& box, const MeshSetting
     return std::min(settings.tolerance, tree.has_free_form() || radius > 0 ? relative : infinity);
 }
 
-Mesh by_octree(const SolidTree& tree, const Box& box, bool cut_off, const MeshSettings& settings, std::size_t id,
-               CancelFlag cancel, OctreeStatistics& statistics) {
-    const Vec3 size = box.hi - box.lo;
-    const double longest = largest(size), own = octree_edge(tree, box);
+bool has_chosen_cells(const MeshSettings& settings) {
+    return settings.level > 0 || settings.edge > 0 || std::isfinite(settings.tolerance);
+}
+
+OctreeOptions octree_options(const SolidTree& tree, const Box& box, bool cut_off, const MeshSettings& settings,
+                             CancelFlag cancel) {
+    const double longest = largest(box.hi - box.lo), own = octree_edge(tree, box);
     OctreeOptions options;
     options.edge = settings.level > 0 ? std::ldexp(longest, -settings.level) : settings.edge > 0 ? settings.edge : own;
     // What has been cut off is many times as large as it looks.
     if (cut_off && settings.level == 0) options.edge = std::max(options.edge, own);
     options.edge *= settings.coarseness;
     options.hard_angle = settings.hard_angle;
+    options.max_open_cells = has_chosen_cells(settings) ? CellTree::max_cells : max_own_open_cells;
     options.cancel = cancel;
     options.tolerance = octree_tolerance(tree, box, settings);
+    return options;
+}
+
+// Calls `work`, and says in words which cells would be too many.
+template <class Work>
+auto with_octree_errors(const Box& box, const MeshSettings& settings, double edge, std::size_t id, const Work& work) {
     try {
-        return octree(tree, box, options, &statistics);
+        return work();
     } catch (const OpenMeshError& error) {
         throw WorkError(fmt::format("solid {}: {}", id, error.what()));
     } catch (const std::length_error&) {
-        throw UnsupportedError(fmt::format("--edge: cells of {:g} would be more than {} for solid {}", options.edge,
-                                           CellTree::max_cells, id));
+        if (has_chosen_cells(settings))
+            throw UnsupportedError(
+                fmt::format("--edge: cells of {:g} would be more than {} for solid {}", edge, CellTree::max_cells, id));
+        throw UnsupportedError(fmt::format(
+            "octree: the surface of solid {}, {:.3g} across, passes more than {} cells of {:.3g}: cut the solid off "
+            "with & box(…), or choose its mesh by --via or --method, --tolerance or --edge",
+            id, largest(box.hi - box.lo), max_own_open_cells, edge));
     }
+}
+
+Mesh by_octree(const SolidTree& tree, const Box& box, bool cut_off, const MeshSettings& settings, std::size_t id,
+               CancelFlag cancel, OctreeStatistics& statistics) {
+    const OctreeOptions options = octree_options(tree, box, cut_off, settings, cancel);
+    return with_octree_errors(box, settings, options.edge, id, [&] { return octree(tree, box, options, &statistics); });
+}
+
+MeshMethod method_of(const SolidTree& tree, const MeshSettings& settings) {
+    return settings.method.value_or(tree.has_free_form() ? MeshMethod::octree : MeshMethod::triage);
+}
+
+// Refuses a solid whose octree would be too large before any other is begun, which may take long.
+void check_cells(const SolidTree& tree, bool cut_off, const MeshSettings& settings, std::size_t id, CancelFlag cancel) {
+    const Box box = polygonization_box(tree);
+    if (box.empty() || closed_mesh_of(tree) || method_of(tree, settings) != MeshMethod::octree) return;
+    const OctreeOptions options = octree_options(tree, box, cut_off, settings, cancel);
+    with_octree_errors(box, settings, options.edge, id, [&] { check_octree_cells(tree, box, options); });
 }
 
 // Of polygonizing the solid, relative to others.
@@ -111,7 +148,7 @@ SolidMesh polygonize(const SolidTree& tree, bool cut_off, const MeshSettings& se
         result.check_options.cancel = cancel;
         return result;
     }
-    result.method = settings.method.value_or(tree.has_free_form() ? MeshMethod::octree : MeshMethod::triage);
+    result.method = method_of(tree, settings);
     result.check_options.cancel = cancel;
     if (result.method == MeshMethod::octree) {
         result.mesh = by_octree(tree, box, cut_off, settings, id, cancel, result.octree);
@@ -262,6 +299,10 @@ SceneMesh mesh_parts(const Scene& scene, const MeshSettings& settings, const Mes
     double work = 0;
     for (std::size_t i = 0; i < count; ++i)
         if (wanted[i]) work += work_of(result.trees[i]);
+    if (count > 1)
+        in_parallel(count, [&](std::size_t i) {
+            if (wanted[i]) check_cells(result.trees[i], !finite(boxes[i]), settings, i + 1, watch.cancel);
+        });
     std::vector<SolidMesh> parts(count);
     in_parallel(count, [&](std::size_t i) {
         throw_if_cancelled(watch.cancel);

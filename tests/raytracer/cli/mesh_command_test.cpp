@@ -354,3 +354,21 @@ TEST_CASE("A small radius far away is more than an STL can hold: this is said, a
     CHECK(bounding_box(mesh).lo == deburr::Vec3(-0.5));
     CHECK(bounding_box(mesh).hi == deburr::Vec3(0.5));
 }
+
+TEST_CASE("a surface that passes too many cells of an octree is refused within seconds, whatever stands beside it") {
+    const Folder folder;
+    const std::string scene = folder / "s.lua";
+    // Eight slabs without an end, which compare cuts off at ten thousand sizes, and a radius far below its cells.
+    write_file(scene, R"(
+        local slabs
+        for i = -4, 3 do
+            local slab = halfspace({0, 1, 0}, 1000 * i + 500) * halfspace({0, -1, 0}, -1000 * i)
+            slabs = slabs and slabs | slab or slab
+        end
+        return { solids = { rounded(0.1, cube()), rounded(0.5, slabs) - ellipsoid{ radius = 2 } } })");
+    const Outcome outcome = run({"compare", scene, "--size", "4x3", "-q"});
+    CHECK(outcome.code == 3);
+    CHECK_THAT(outcome.err, Catch::Matchers::StartsWith("deburr: octree: the surface of solid 2, ") &&
+                                Catch::Matchers::Contains(" passes more than 1000000 cells of "));
+    CHECK(std::count(outcome.err.begin(), outcome.err.end(), '\n') == 1);
+}
