@@ -43,12 +43,6 @@ PinholeCamera::PinholeCamera(const Camera& camera, int width, int height)
     if (camera.shift != Vec3(0.0)) corner_ += camera.shift.x * width * dx_ - camera.shift.y * height * dy_;
 }
 
-Ray PinholeCamera::ray(double x, double y) const {
-    const Vec3 on_picture = corner_ + x * dx_ + y * dy_;
-    if (orthographic_) return {eye_ + (on_picture - forward_), forward_};
-    return {eye_, glm::normalize(on_picture)};
-}
-
 // A disc from a square, without folding it [Shirley & Chiu 1997].
 static Vec2 disc(Vec2 u) {
     const Vec2 s = 2.0 * u - 1.0;

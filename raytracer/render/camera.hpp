@@ -10,7 +10,11 @@ class PinholeCamera {
 public:
     PinholeCamera(const Camera& camera, int width, int height);
     /// Ray through a point of the picture, in pixels: (x + ½, y + ½) is the centre of pixel (x, y).
-    Ray ray(double x, double y) const;
+    Ray ray(double x, double y) const {
+        const Vec3 on_picture = corner_ + x * dx_ + y * dy_;
+        if (orthographic_) return {eye_ + (on_picture - forward_), forward_};
+        return {eye_, glm::normalize(on_picture)};
+    }
     /// The same from a point of the lens, `u` in the unit square, through what is in focus there.
     Ray ray(double x, double y, Vec2 u) const;
     bool has_lens() const { return lens_radius_ > 0; }

@@ -28,8 +28,9 @@ public:
     };
     // Lists that a thread uses again for every block.
     struct Memory {
-        std::vector<Ray> rays;
-        std::vector<Use> uses;
+        std::size_t count = 0;  // of rays and their uses
+        std::vector<Ray> rays = std::vector<Ray>(max_rays);
+        std::vector<Use> uses = std::vector<Use>(max_rays, Use{Sampler(0, 0, 0, 0), 0, false, false});
         std::vector<Hit> hits = std::vector<Hit>(max_rays);
         std::vector<Vec3> colors = std::vector<Vec3>(max_rays);
         // Of those that hit something opaque; they keep references to the hits.
@@ -37,9 +38,10 @@ public:
         std::vector<std::uint32_t> seen_by;
         std::vector<Vec3> lit = std::vector<Vec3>(max_rays), here = lit;
         // To one light.
-        std::vector<Ray> shadows;
-        std::vector<double> t_max;
-        std::vector<Unhidden> unhidden;
+        std::size_t asked = 0;  // shadow rays
+        std::vector<Ray> shadows = std::vector<Ray>(max_rays);
+        std::vector<double> t_max = std::vector<double>(max_rays);
+        std::vector<Unhidden> unhidden = std::vector<Unhidden>(max_rays);
         std::unique_ptr<bool[]> hidden{new bool[max_rays]};
     };
 
@@ -49,29 +51,29 @@ public:
         clear();
     }
 
-    void add(const Ray& ray, const Use& use) {
-        m_.rays.push_back(ray);
-        m_.uses.push_back(use);
-        if (m_.rays.size() == max_rays) finish();
+    // Into its place at once: what is put together elsewhere and then copied waits for its parts.
+    void add(Ray ray, const Use& use) {
+        m_.rays[m_.count] = ray;
+        m_.uses[m_.count++] = use;
+        if (m_.count == max_rays) finish();
     }
 
     /// Of all rays so far.
     void finish() {
-        in_.tracer_.closest_hits(m_.rays, m_.hits.data(), counters_);
-        for (std::uint32_t i = 0; i < m_.rays.size(); ++i) take(i);
+        in_.tracer_.closest_hits({m_.rays.data(), m_.count}, m_.hits.data(), counters_);
+        for (std::uint32_t i = 0; i < m_.count; ++i) take(i);
         std::fill_n(m_.lit.begin(), m_.surfaces.size(), Vec3(0.0));
         light();
         for (std::size_t j = 0; j < m_.surfaces.size(); ++j)
             m_.colors[m_.seen_by[j]] = in_.color_of(m_.surfaces[j], m_.lit[j], path(m_.seen_by[j]));
-        for (std::size_t i = 0; i < m_.rays.size(); ++i)
+        for (std::size_t i = 0; i < m_.count; ++i)
             if (m_.uses[i].sample) sums_[m_.uses[i].pixel].color += finite_or_zero(m_.colors[i]);
         clear();
     }
 
 private:
     void clear() {
-        m_.rays.clear();
-        m_.uses.clear();
+        m_.count = 0;
         m_.surfaces.clear();
         m_.seen_by.clear();
     }
@@ -122,21 +124,19 @@ private:
     }
 
     void light(const LightSource& source, std::uint32_t number, int k) {
-        m_.shadows.clear();
-        m_.t_max.clear();
-        m_.unhidden.clear();
+        m_.asked = 0;
         for (std::uint32_t j = 0; j < m_.surfaces.size(); ++j) {
             const Surface& surface = m_.surfaces[j];
             const Incident light =
                 incident(source, surface.hit, m_.uses[m_.seen_by[j]].sampler, number, k, source.samples());
             const Vec3 scattered = in_.scattered(surface, light);
             if (!(brightest(scattered) > 0)) continue;
-            m_.shadows.push_back(leave(surface.hit, light.direction));
-            m_.t_max.push_back(light.distance);
-            m_.unhidden.push_back({scattered, j});
+            m_.shadows[m_.asked] = leave(surface.hit, light.direction);
+            m_.t_max[m_.asked] = light.distance;
+            m_.unhidden[m_.asked++] = {scattered, j};
         }
-        in_.tracer_.any_hits(m_.shadows, m_.t_max, m_.hidden.get(), counters_);
-        for (std::size_t s = 0; s < m_.unhidden.size(); ++s)
+        in_.tracer_.any_hits({m_.shadows.data(), m_.asked}, {m_.t_max.data(), m_.asked}, m_.hidden.get(), counters_);
+        for (std::size_t s = 0; s < m_.asked; ++s)
             if (!m_.hidden[s]) m_.here[m_.unhidden[s].surface] += m_.unhidden[s].light;
     }
 

@@ -42,11 +42,6 @@ void LayerSums::set_center(const Hit& hit, Vec3 direction, Vec3 forward) {
     rest.id = std::uint32_t(hit.solid + 1);
 }
 
-Pixel mean(const PixelSums& sums) {
-    if (sums.samples == 0) return {};
-    return {sums.color.value() / double(sums.samples), double(sums.hits) / sums.samples};
-}
-
 PixelLayers mean(const LayerSums& sums, std::uint32_t samples) {
     PixelLayers layers = sums.rest;
     if (samples == 0) return layers;

@@ -46,7 +46,10 @@ public:
         return *this;
     }
     ExactSum operator-(ExactSum other) const { return ExactSum(value_ - other.value_); }
-    double value() const { return double(value_) / unit; }
+    double value() const {
+        const auto low = std::int64_t(value_);  // the same, where it is enough
+        return (Whole(low) == value_ ? double(low) : double(value_)) / unit;
+    }
     bool operator==(const ExactSum&) const = default;
 
 private:
@@ -99,7 +102,10 @@ struct SampleArrays {
 };
 
 /// Averages of what there is; without samples the empty pixel.
-Pixel mean(const PixelSums& sums);
+inline Pixel mean(const PixelSums& sums) {
+    if (sums.samples == 0) return {};
+    return {sums.color.value() / double(sums.samples), double(sums.hits) / sums.samples};
+}
 PixelLayers mean(const LayerSums& sums, std::uint32_t samples);
 
 }  // namespace deburr
