@@ -47,6 +47,7 @@ public:
 
     // What is found in [lo, hi]: rays' t and plane where it is, and whether they go into C.
     struct Found {
+        HWY_INLINE Found() {}  // one that the compiler makes is not for these instructions
         M any, into;
         V t, plane;
     };

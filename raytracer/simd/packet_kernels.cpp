@@ -300,6 +300,11 @@ const PacketFunctions functions{load,
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
+#if HWY_ARCH_ARM_A64
+#include <asm/hwcap.h>
+#include <sys/auxv.h>
+#endif
+
 namespace deburr {
 
 // Highway's own choice would need its library, which measures the processor's clock before main(): 3 ms.
@@ -317,6 +322,9 @@ std::vector<PacketInstructions> packet_instructions() {
 #if HWY_TARGETS & HWY_SSE4
     if (__builtin_cpu_supports("sse4.2") && __builtin_cpu_supports("pclmul"))
         there.push_back({"SSE4", &N_SSE4::functions});
+#endif
+#if HWY_ARCH_ARM_A64 && (HWY_TARGETS & HWY_NEON) && HWY_STATIC_TARGET != HWY_NEON
+    if (getauxval(AT_HWCAP) & HWCAP_AES) there.push_back({"NEON", &N_NEON::functions});  // AES is part of that set
 #endif
     there.push_back({"baseline", &HWY_STATIC_DISPATCH(functions)});
     return there;

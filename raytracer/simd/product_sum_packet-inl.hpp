@@ -142,6 +142,7 @@ private:
 
     // f and its slope at a point of each ray.
     struct Point {
+        HWY_INLINE Point() {}  // one that the compiler makes is not for these instructions
         V t, f, slope;
         V value[max_terms], rate[max_terms];  // of every term
     };

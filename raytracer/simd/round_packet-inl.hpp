@@ -23,6 +23,7 @@ HWY_INLINE V dot(const Vec3& a, const V* b) { return number(a.x) * b[0] + number
 // Not of circles.
 class RoundOnRays {
 public:
+    HWY_INLINE RoundOnRays() {}  // one that the compiler makes is not for these instructions
     HWY_INLINE void set(const RoundCoordinate& coordinate, const Rays& rays) {
         coordinate_ = &coordinate;
         V away[3], across[3];
