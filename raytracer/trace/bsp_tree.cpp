@@ -10,6 +10,7 @@
 #include <span>
 
 #include "bounds/bounding_box.hpp"
+#include "raytracer/simd/packet_kernels.hpp"
 
 namespace deburr {
 namespace {
@@ -87,7 +88,8 @@ std::shared_ptr<const SolidTree> without_tiny_radii(std::shared_ptr<const SolidT
 
 class Builder {
 public:
-    Builder(RootMethod root_method, double min_scale) : root_method_(root_method), min_scale_(min_scale) {}
+    Builder(RootMethod root_method, double min_scale, ExpectedRays rays)
+        : root_method_(root_method), min_scale_(min_scale), rays_(rays) {}
 
     BspTree run(const std::vector<Solid>& solids) {
         std::vector<Item> items;
@@ -131,6 +133,7 @@ public:
             if (plane.has_surface()) bsp_.planes.push_back(std::move(plane));
             return true;
         });
+        if (rays_ == ExpectedRays::few && is_one_product(items)) max_depth_ = 0;
         Branch root;
         split(root, Box::everything(), std::move(items), 0, {});
         bsp_.nodes.emplace_back();
@@ -139,6 +142,13 @@ public:
     }
 
 private:
+    bool is_one_product(const std::vector<Item>& items) const {
+        if (items.size() != 1 || items[0].size.half_spaces > max_packet_factors || items[0].tree->leaves.size() != 1)
+            return false;
+        const LocalSolid whole(0, *items[0].tree, Box::everything(), bsp_.tolerances, root_method_);
+        return whole.convex().has_value();
+    }
+
     // Area of the part of a cell that the scene can be seen through.
     double area(const Box& cell) const { return half_area(intersection(cell, world_)); }
 
@@ -377,6 +387,7 @@ private:
 
     RootMethod root_method_;
     double min_scale_;
+    ExpectedRays rays_;
     BspTree bsp_;
     Box world_;
     double margin_ = 0, smallest_ = 0;
@@ -385,8 +396,8 @@ private:
 
 }  // namespace
 
-BspTree build_bsp(const std::vector<Solid>& solids, RootMethod root_method, double min_scale) {
-    return Builder(root_method, min_scale).run(solids);
+BspTree build_bsp(const std::vector<Solid>& solids, RootMethod root_method, double min_scale, ExpectedRays rays) {
+    return Builder(root_method, min_scale, rays).run(solids);
 }
 
 }  // namespace deburr

@@ -33,8 +33,12 @@ struct BspTree {
     int depth = 0;
 };
 
+/// How many rays a BSP is built for. For few, a solid that packets cross as one product of half-spaces stays one cell:
+/// to divide it takes as long as a thousand of its rays.
+enum class ExpectedRays { few, many };
+
 /// `min_scale`: of its tolerances, where rays come with larger coordinates than the solids have.
 BspTree build_bsp(const std::vector<Solid>& solids, RootMethod root_method = RootMethod::where_needed,
-                  double min_scale = 0);
+                  double min_scale = 0, ExpectedRays rays = ExpectedRays::many);
 
 }  // namespace deburr

@@ -364,7 +364,7 @@ Prototypes::~Prototypes() {
 const Prototype& Prototypes::build(std::size_t i) const {
     const std::size_t beforehand = prototypes_.size() - later_.size();
     std::vector<NamedBsp> alone(1);
-    alone[0] = {build_bsp({later_[i - beforehand]}, root_method_), {0}};
+    alone[0] = {build_bsp({later_[i - beforehand]}, root_method_, 0, ExpectedRays::few), {0}};
     auto prototype =
         std::make_unique<const Prototype>(Prototype{SurfaceTracer(std::move(alone), {}, criterion_, accel_), {}});
     const Prototype* there = nullptr;
