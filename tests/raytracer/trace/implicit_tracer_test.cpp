@@ -2,6 +2,7 @@
 #include "raytracer/trace/implicit_tracer.hpp"
 
 #include <cstdio>
+#include <numbers>
 
 #include "catch.hpp"
 #include "plain_definition.hpp"
@@ -366,6 +367,29 @@ TEST_CASE("cost per ray grows like the logarithm of the number of solids") {
         }
         const double cells = double(counters.cells) / 2'000;
         if (before > 0) CHECK(cells < 3 * before);
+        before = cells;
+    }
+}
+
+TEST_CASE("cells become no smaller than rays repay: the more holes a plate has, the fewer for each") {
+    double before = 0;  // cells for a hole
+    for (const int side : {4, 12}) {
+        Density plate = Density::box({0, 0, 0}, {double(side), 0.3, double(side)});
+        for (int i = 0; i < side; ++i)
+            for (int k = 0; k < side; ++k) {
+                Density hole = Density::half_space({0, 1, 0}, 2) & Density::half_space({0, -1, 0}, 1);
+                for (int j = 0; j < 12; ++j) {
+                    const double a = 2 * std::numbers::pi * j / 12;
+                    const Vec3 n(std::cos(a), 0, std::sin(a));
+                    hole = hole & Density::half_space(n, glm::dot(n, Vec3(i + 0.5, 0, k + 0.5)) + 0.29);
+                }
+                plate = plate & ~hole;
+            }
+        const ImplicitTracer tracer({Solid::rounded(0.03, plate)});
+        const double cells = double(tracer.statistics().cells) / (side * side);
+        CAPTURE(side, cells);
+        CHECK(cells < (side == 4 ? 180 : 90));
+        if (before > 0) CHECK(cells < 0.7 * before);
         before = cells;
     }
 }
