@@ -18,11 +18,11 @@ DensityTree planes_of(const Field& field) {
     return tree;
 }
 
-std::shared_ptr<const LocalDensity> density_of(const OpenLeaf& leaf) {
+}  // namespace
+
+std::shared_ptr<const LocalDensity> Subdivision::density_of(const OpenLeaf& leaf) {
     return leaf.field ? std::make_shared<LocalDensity>(leaf.field) : std::make_shared<LocalDensity>(*leaf.tree);
 }
-
-}  // namespace
 
 Subdivision::Subdivision(const SolidTree& solid, const Box& box) : complex(box, 1e-9 * glm::length(box.hi - box.lo)) {
     PartitionNode whole;

@@ -92,7 +92,9 @@ private:
     int add_node(int parent, int cell);
     OpenLeaf localize(const OpenLeaf& leaf, Side& side);
     OpenLeaf localize_field(const OpenLeaf& leaf, Side& side);
-    bool choose(const PartitionNode& node, Plane& plane);
+    static std::shared_ptr<const LocalDensity> density_of(const OpenLeaf& leaf);
+    static bool make_densities(PartitionNode& node);
+    bool choose(PartitionNode& node, Plane& plane);
     bool choose_own(const PartitionNode& node, Plane& plane);
     bool choose_neutral(const PartitionNode& node, const Extents& cell, Plane& plane) const;
     bool is_simple_cell(const PartitionNode& node) const;

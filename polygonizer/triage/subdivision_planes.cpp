@@ -1,6 +1,7 @@
 // By which plane a cell is cut next: the one that leaves the fewest half-spaces to deal with.
 #include <algorithm>
 
+#include "bounds/decision_diagram.hpp"
 #include "polygonizer/triage/density_side.hpp"
 #include "polygonizer/triage/parallel_family.hpp"
 #include "polygonizer/triage/simple_cell.hpp"
@@ -122,17 +123,30 @@ bool Subdivision::shows_surface(const PartitionNode& node) const {
     });
 }
 
-bool Subdivision::choose(const PartitionNode& node, Plane& plane) {
-    const Extents cell = extents(node);
+// Makes densities that were put off ready to be evaluated; false if one is too entangled, and smaller cells are needed.
+bool Subdivision::make_densities(PartitionNode& node) {
+    for (OpenLeaf& leaf : node.open) try {
+            if (!leaf.density) leaf.density = density_of(leaf);
+        } catch (const TooEntangled&) {
+            return false;
+        }
+    return true;
+}
+
+bool Subdivision::choose(PartitionNode& node, Plane& plane) {
+    Extents cell = extents(node);
     // Where many half-spaces vary together in a cell that is not much larger than their filters, few of their planes
     // would part flat faces from the rest, and all of them together cut it into many.
     constexpr double small = 4;  // in radii, across any of the planes: two filters
     // A model's round parts have a plane for each of their facets, which part nothing.
     constexpr std::size_t many_of_mesh = 2;
+    const bool is_small = cell.width <= small * cell.radius;
     const bool of_mesh =
         std::any_of(node.open.begin(), node.open.end(), [](const OpenLeaf& l) { return l.field != nullptr; });
+    // Where very many half-spaces reach everywhere, no cell of such a size has few of them.
+    if (!cell.all_small && !of_mesh && is_small && cell.radius < infinity) cell.all_small = make_densities(node);
     const bool crowded = cell.half_spaces > (of_mesh ? many_of_mesh : many);
-    if (cell.all_small && crowded && cell.width <= small * cell.radius && is_simple_cell(node)) return false;
+    if (cell.all_small && crowded && is_small && is_simple_cell(node)) return false;
     if ((crowded || !cell.all_small) && choose_neutral(node, cell, plane)) return true;
     if (!cell.all_small) return false;
     if (choose_own(node, plane)) return true;

@@ -147,6 +147,21 @@ TEST_CASE("A filter that reaches all over an object of many half-spaces melts it
     CHECK(gone < 5);
 }
 
+TEST_CASE("Cells follow the surface where very many half-spaces reach every place on it") {
+    // A ball of facets about as wide as the filter. Cells were halved until few half-spaces varied in them: 38,000.
+    constexpr int count = 1000;
+    std::vector<Density> faces;
+    for (int i = 0; i < count; ++i) {
+        const double y = 1 - (2 * i + 1.0) / count, angle = 2.399963229728653 * i, q = std::sqrt(1 - y * y);
+        faces.push_back(Density::half_space({q * std::cos(angle), y, q * std::sin(angle)}, 1));
+    }
+    const SolidTree tree = flatten(Solid::rounded(0.05, Density::product(faces)));
+    TriageStatistics statistics;
+    const Mesh mesh = triage(tree, polygonization_box(tree), {0.0025}, &statistics);
+    CHECK(topology(mesh).manifold());
+    CHECK(statistics.cells < 4000);
+}
+
 TEST_CASE("A tolerance is met all over the mesh, still closed") {
     for (const double tolerance : {0.005, 0.001}) {
         CAPTURE(tolerance);
