@@ -27,4 +27,10 @@ std::vector<std::pair<int, int>> crossing_triangles(const Mesh& mesh, const Tria
     return pairs;
 }
 
+std::size_t add_crossing(const Mesh& mesh, std::vector<int>& triangles, CancelFlag cancel) {
+    const auto pairs = crossing_triangles(mesh, TriangleTree(mesh), cancel);
+    for (const auto& [s, t] : pairs) triangles.insert(triangles.end(), {s, t});
+    return pairs.size();
+}
+
 }  // namespace deburr

@@ -13,4 +13,7 @@ namespace deburr {
 std::vector<std::pair<int, int>> crossing_triangles(const Mesh& mesh, const TriangleTree& tree,
                                                     CancelFlag cancel = nullptr, std::size_t* looked_at = nullptr);
 
+/// Appends both triangles of every pair that crosses to `triangles`; returns the number of pairs. Throws Cancelled.
+std::size_t add_crossing(const Mesh& mesh, std::vector<int>& triangles, CancelFlag cancel = nullptr);
+
 }  // namespace deburr

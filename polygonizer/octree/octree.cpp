@@ -8,6 +8,7 @@
 #include <set>
 
 #include "bounds/bounding_box.hpp"
+#include "polygonizer/mesh/crossing_triangles.hpp"
 #include "polygonizer/mesh/repair.hpp"
 #include "polygonizer/mesh/sharp_parts.hpp"
 #include "polygonizer/octree/octree_hard_edges.hpp"
@@ -18,9 +19,8 @@ namespace deburr {
 namespace {
 
 constexpr double radians = 0.017453292519943295;
-// How often a cell may be cut further than its level.
-constexpr int spare_levels = 4;
-constexpr int max_rounds = spare_levels;
+// How often a cell may be cut further than its level: for triangles that lean, and where they cross.
+constexpr int max_rounds = 4, spare_levels = 6;
 // Where a sheet is thinner than cells, smaller ones spread from where it is seen.
 constexpr int max_thin_rounds = 8;
 // Cosine between a triangle and the surface below which the cells around it are cut further: 75°.
@@ -384,19 +384,23 @@ Mesh octree(const SolidTree& mixed, const Box& box, const OctreeOptions& options
     *statistics = {};
     Polygonization polygonization(numbered, box, options, edge);
     Mesh best;
-    std::size_t min_left = std::numeric_limits<std::size_t>::max();
+    constexpr std::size_t most = std::numeric_limits<std::size_t>::max();
+    std::pair<std::size_t, std::size_t> min_wrong{most, most};  // facets that lean, pairs that cross
     // What repair cannot help needs smaller cells around it.
     constexpr int max_mending_rounds = 4;
     constexpr double worth_another = 0.8;
     for (int round = 0; round < max_mending_rounds; ++round) {
         std::vector<Origin> origins;
         Mesh mesh = polygonization.run(*statistics, origins);
-        const RepairStatistics repaired = repair(mesh, origins, FacetJudge(solid, mesh));
+        RepairStatistics repaired = repair(mesh, origins, FacetJudge(solid, mesh));
+        std::pair<std::size_t, std::size_t> wrong{repaired.left.size(), 0};
+        // Where a wall is thinner than the cells, facets on its two sides face as they should and cross.
+        wrong.second = add_crossing(mesh, repaired.left, options.cancel);
         // Where surfaces touch, smaller cells leave as many.
-        const bool helped = double(repaired.left.size()) < worth_another * double(min_left);
+        const bool helped = wrong.second > 0 || double(wrong.first) < worth_another * double(min_wrong.first);
         const bool more = helped && !repaired.left.empty() && polygonization.cut_around(mesh, repaired.left);
-        if (repaired.left.size() < min_left) {
-            min_left = repaired.left.size();
+        if (wrong < min_wrong) {
+            min_wrong = wrong;
             best = std::move(mesh);
         }
         if (!more) break;

@@ -80,13 +80,6 @@ bool cut_cells(Subdivision& subdivision, const Mesh& mesh, const std::vector<Ori
     return changed;
 }
 
-// Adds triangles that cross others; returns how many pairs there are.
-std::size_t add_crossing(const Mesh& mesh, std::vector<int>& triangles, CancelFlag cancel) {
-    const auto pairs = crossing_triangles(mesh, TriangleTree(mesh), cancel);
-    for (const auto& [s, t] : pairs) triangles.insert(triangles.end(), {s, t});
-    return pairs.size();
-}
-
 // Adds triangles that are farther from the surface than the tolerance; returns how many.
 std::size_t add_far(const Mesh& mesh, const FacetJudge& judge, double tolerance, std::vector<int>& triangles) {
     const std::size_t before = triangles.size();

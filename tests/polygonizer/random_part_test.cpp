@@ -13,6 +13,17 @@ using namespace deburr;
 
 namespace {
 
+// What the check says of a part.
+template <class Polygonize>
+MeshCheck check_part(int seed, Polygonize polygonize) {
+    RandomPart part(seed);
+    const SolidTree solid = flatten(part.solid());
+    const Box box = polygonization_box(solid);
+    MeshCheckOptions options;
+    const Mesh mesh = polygonize(solid, box, options);
+    return check_mesh(mesh, solid, box, options);
+}
+
 // DEBURR_STRESS=10000: so many parts; DEBURR_STRESS_FROM=10000: others.
 // `facets_lean`: where a wall is thinner than a cell, some facets face inward.
 template <class Polygonize>
@@ -23,12 +34,7 @@ std::size_t check_parts(int usual, bool facets_lean, Polygonize polygonize) {
     std::size_t facets = 0, inward = 0;
     for (int seed = first; seed < first + cases; ++seed) {
         CAPTURE(seed);
-        RandomPart part(seed);
-        const SolidTree solid = flatten(part.solid());
-        const Box box = polygonization_box(solid);
-        MeshCheckOptions options;
-        const Mesh mesh = polygonize(solid, box, options);
-        const MeshCheck check = check_mesh(mesh, solid, box, options);
+        const MeshCheck check = check_part(seed, polygonize);
         CHECK(check.open.count == 0);
         inward += check.inward.count;
         if (!facets_lean) CHECK(check.inward.count == 0);
@@ -65,10 +71,24 @@ TEST_CASE("Random parts by marching cubes pass the check of what was made") {
           }) > 10'000);
 }
 
+namespace {
+
+Mesh octree_of_40(const SolidTree& solid, const Box& box, MeshCheckOptions& options) {
+    OctreeOptions of_octree;
+    of_octree.edge = options.min_tolerance = largest(box.hi - box.lo) / 40;
+    return octree(solid, box, of_octree);
+}
+
+}  // namespace
+
 TEST_CASE("Random parts by the octree pass the check of what was made") {
-    CHECK(check_parts(10, true, [](const SolidTree& solid, const Box& box, MeshCheckOptions& options) {
-              OctreeOptions of_octree;
-              of_octree.edge = options.min_tolerance = largest(box.hi - box.lo) / 40;
-              return octree(solid, box, of_octree);
-          }) > 10'000);
+    CHECK(check_parts(10, true, octree_of_40) > 10'000);
+}
+
+TEST_CASE("The octree cuts cells further where the sides of a thin wall cross each other") {
+    // Facets faced as they should, so that nothing else asked for smaller cells.
+    for (const int seed : {1015, 1027, 1041, 1058, 127}) {
+        CAPTURE(seed);
+        CHECK(check_part(seed, octree_of_40).crossing.count == 0);
+    }
 }
