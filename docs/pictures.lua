@@ -76,6 +76,12 @@ local pictures = {
                 ball:material(metal{ roughness = 1 }) },
   textures = { die:material(matte{ color = checker{ a = {0.7, 0.2, 0.1}, b = 0.75, scale = 0.25 } }),
                die:material(plastic{ color = wood{ scale = 0.09, origin = {0, -0.3, 0.4} } }) },
+  patterns = { die:material(plastic{ color = marble{ scale = 0.45, axis = {1, 0.4, 0.6} }, roughness = 0.08 }),
+               die:material(plastic{ color = {0.32, 0.05, 0.03}, roughness = 0.25, bump = noise{ scale = 0.07 }, bump_height = 0.012 }),
+               die:material(metal{ color = {0.72, 0.73, 0.75}, roughness = brushed{ a = 0.15, b = 0.35, scale = 0.02 }, bump = brushed{ scale = 0.02 }, bump_height = 0.0025 }),
+               ball:material(metal{ color = {0.85, 0.6, 0.25}, roughness = 0.15,
+                                    bump = brushed{ scale = 0.02, axis = {0, 1, 0}, around = true, origin = {1.6, 0, 0} }, bump_height = 0.003 }),
+               die:material(plastic{ color = image_map{ file = "tile.png", scale = 0.5, origin = {2.7, 0, 0.5} }, roughness = 0.1 }) },
   point_light = { die }, directional_light = { die }, area_light = { die },
 }
 
@@ -83,7 +89,7 @@ local list = pictures[show]
 if not list then error("show: expected one of the pictures of docs/scenes.md, got '" .. tostring(show) .. "'") end
 
 -- Without bounces a picture has no noise, and its file is small; only what reflects needs them.
-local reflects = show == "materials" or show == "roughness"
+local reflects = show == "materials" or show == "roughness" or show == "patterns"
 local ground = show == "materials" and checker{ a = 0.6, b = 0.3, scale = 0.8, origin = {0, 0.2, 0} } or grey
 
 local step = 1.6

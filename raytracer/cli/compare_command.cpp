@@ -10,7 +10,7 @@
 #include "raytracer/cli/options.hpp"
 #include "raytracer/image/image_difference.hpp"
 #include "raytracer/image/image_file.hpp"
-#include "raytracer/image/surroundings_file.hpp"
+#include "raytracer/image/scene_pictures.hpp"
 #include "raytracer/mesh/mesh_tracer.hpp"
 #include "raytracer/mesh/scene_mesh.hpp"
 #include "raytracer/render/integrator.hpp"
@@ -90,7 +90,7 @@ int run_compare(const CompareOptions& o) {
     } else {
         const MeshSettings settings = picture_mesh_settings(o.via, o.tolerance);
         Scene scene = load_scene(o);
-        load_surroundings(scene);
+        load_pictures(scene);
         const Size size = picture_size(o, scene);
         const Window window = picture_window(o, scene, 2 * Film::bytes_per_pixel(compared_layers()));
         const int spp = o.spp.value_or(1);

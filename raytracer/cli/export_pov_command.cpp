@@ -6,7 +6,7 @@
 #include "raytracer/cli/commands.hpp"
 #include "raytracer/cli/option_values.hpp"
 #include "raytracer/cli/options.hpp"
-#include "raytracer/image/surroundings_file.hpp"
+#include "raytracer/image/scene_pictures.hpp"
 #include "raytracer/pov/pov_scene.hpp"
 #include "raytracer/scene/illegal_densities.hpp"
 #include "raytracer/util/errors.hpp"
@@ -32,7 +32,7 @@ int run_export_pov(const ExportPovOptions& o) {
             "--sharp: expected neither --max-gradient, --accuracy nor --min-max, which are for isosurfaces");
 
     Scene scene = load_scene(o);
-    load_surroundings(scene);
+    load_pictures(scene);
     for (const std::string& path : o.outputs) check_writable(path);
     const PovScene pov = pov_scene(scene, picture_size(o, scene), o.surface);
     if (!o.quiet) {

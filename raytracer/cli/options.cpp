@@ -87,7 +87,7 @@ void add_picture_options(CLI::App& command, Options& o, const std::string& defau
     add(command, "--seed", "N", "seed of all random numbers; default: 0",
         [&o](const std::string& text) { o.seed = parse_seed("--seed", text); });
     add(command, "--aov", "LIST",
-        "further layers of an EXR: some of P,N,Z,albedo,id,cost,crypto (Cryptomatte, by solid)",
+        "further layers of an EXR: some of P,N,Z,albedo,normal,id,cost,crypto (Cryptomatte, by solid)",
         [&o](const std::string& text) { o.layers = parse_layers("--aov", text); });
     command.add_flag("--float", o.float_color, "32 bits for the colour of an EXR, not 16");
     add(command, "--criterion", "exact|lobb",

@@ -15,7 +15,7 @@
 #include "raytracer/cli/sums_file.hpp"
 #include "raytracer/image/denoise.hpp"
 #include "raytracer/image/exposure.hpp"
-#include "raytracer/image/surroundings_file.hpp"
+#include "raytracer/image/scene_pictures.hpp"
 #include "raytracer/render/passes.hpp"
 #include "raytracer/scene/vanished_parts.hpp"
 #include "raytracer/util/errors.hpp"
@@ -166,7 +166,7 @@ private:
         clock_.begin("read");
         Scene& scene = world_->scene = load_scene(o_);
         check_outputs(o_.outputs, {o_.stats_json, o_.checkpoint}, scene.model_files);
-        load_surroundings(scene);
+        load_pictures(scene);
         frame_ = frame_of(o_, scene);
         for (const std::string& path : o_.outputs) check_writable(path);
         for (const std::string& path : {o_.stats_json, o_.checkpoint})
@@ -339,7 +339,7 @@ int run_render(const RenderOptions& given) {
     check_render_options(o);
     if (o.denoise) {
         if (!o.wire.empty()) throw UsageError("--denoise: expected a picture with surfaces, got --wire");
-        for (const ImageLayer layer : {ImageLayer::normal, ImageLayer::albedo})
+        for (const ImageLayer layer : {ImageLayer::guide_normal, ImageLayer::albedo})
             if (std::count(o.layers.begin(), o.layers.end(), layer) == 0) o.layers.push_back(layer);
     }
     check_source_date_epoch();  // or what is wrong with it is said when the work is done

@@ -12,7 +12,7 @@
 #include "raytracer/cli/commands.hpp"
 #include "raytracer/cli/farm_options.hpp"
 #include "raytracer/cli/render_pictures.hpp"
-#include "raytracer/image/surroundings_file.hpp"
+#include "raytracer/image/scene_pictures.hpp"
 #include "raytracer/mesh/scene_mesh.hpp"
 #include "raytracer/scene/vanished_parts.hpp"
 #include "raytracer/util/errors.hpp"
@@ -61,7 +61,7 @@ int run_view(const ViewOptions& o) {
         options.quiet = true;
         for (const auto& [name, value] : parameters) options.defines[name] = value;
         Scene scene = load_scene(options);
-        load_surroundings(scene);
+        load_pictures(scene);
         const Size size = picture_size(options, scene);
         scene.width = size.width;
         scene.height = size.height;

@@ -25,7 +25,7 @@ struct Guide {
 }  // namespace
 
 void denoise(Film& film) {
-    const LayerPlane &normals = film.layer(ImageLayer::normal), &albedos = film.layer(ImageLayer::albedo);
+    const LayerPlane &normals = film.layer(ImageLayer::guide_normal), &albedos = film.layer(ImageLayer::albedo);
     const int width = film.window.width, height = film.window.height;
     std::vector<Guide> guides(film.pixels.size());
     std::vector<Vec3> light(film.pixels.size()), smoothed(film.pixels.size());

@@ -8,7 +8,7 @@
 
 namespace deburr {
 
-/// Of a film that keeps normals and albedo.
+/// Of a film that keeps guide_normal and albedo.
 void denoise(Film& film);
 
 }  // namespace deburr

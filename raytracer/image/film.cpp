@@ -16,6 +16,7 @@ void put(ImageLayer layer, const PixelLayers& from, double* to) {
         case ImageLayer::position: return put_vector(from.position);
         case ImageLayer::normal: return put_vector(from.normal);
         case ImageLayer::albedo: return put_vector(from.albedo);
+        case ImageLayer::guide_normal: return put_vector(from.guide_normal);
         case ImageLayer::z: *to = from.z; return;
         case ImageLayer::id: *to = double(from.id); return;
         case ImageLayer::cost: *to = from.cost; return;

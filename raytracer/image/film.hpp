@@ -35,12 +35,14 @@ struct Pixel {
 };
 
 /// Layers of a pixel: of the ray through its centre, so that two renderers can be compared ray by ray;
-/// but albedo and cost are of all samples.
+/// but albedo, guide_normal and cost are of all samples.
 struct PixelLayers {
-    Vec3 position{0.0};    // world, of the first hit
-    Vec3 normal{0.0};      // unit, out of the solid
-    double z = infinity;   // distance along the camera's axis
-    Vec3 albedo{0.0};      // averaged
+    Vec3 position{0.0};   // world, of the first hit
+    Vec3 normal{0.0};     // unit, out of the solid
+    double z = infinity;  // distance along the camera's axis
+    // Averaged, for denoisers: of the first surface that is neither a mirror nor polished glass, as bright as those
+    // show it; the normal is the one that it is shaded with, on the eye's side.
+    Vec3 albedo{0.0}, guide_normal{0.0};
     std::uint32_t id = 0;  // 1 + index of the solid; 0: nothing was hit
     double cost = 0.0;     // density evaluations
     SolidShares solids;    // of all samples

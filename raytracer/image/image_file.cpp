@@ -61,6 +61,7 @@ const LayerChannels layer_channels[] = {
     {ImageLayer::normal, {"N.X", "N.Y", "N.Z"}},
     {ImageLayer::z, {"Z"}},
     {ImageLayer::albedo, {"Albedo.R", "Albedo.G", "Albedo.B"}},
+    {ImageLayer::guide_normal, {"Normal.X", "Normal.Y", "Normal.Z"}},
     {ImageLayer::id, {"id"}, ChannelType::whole},
     {ImageLayer::cost, {"cost"}},
 };

@@ -11,10 +11,11 @@ struct Known {
     int components;
 };
 
-constexpr std::array<Known, 7> known = {{{ImageLayer::position, "P", 3},
+constexpr std::array<Known, 8> known = {{{ImageLayer::position, "P", 3},
                                          {ImageLayer::normal, "N", 3},
                                          {ImageLayer::z, "Z", 1},
                                          {ImageLayer::albedo, "albedo", 3},
+                                         {ImageLayer::guide_normal, "normal", 3},
                                          {ImageLayer::id, "id", 1},
                                          {ImageLayer::cost, "cost", 1},
                                          {ImageLayer::cryptomatte, "crypto", 2 * SolidShares::ranks}}};

@@ -9,9 +9,9 @@
 namespace deburr {
 
 /// Layers of a picture beside colour and alpha, in the order in which they are written.
-enum class ImageLayer { position, normal, z, albedo, id, cost, cryptomatte };
+enum class ImageLayer { position, normal, z, albedo, guide_normal, id, cost, cryptomatte };
 
-/// Names as --aov takes them: P, N, Z, albedo, id, cost, crypto.
+/// Names as --aov takes them: P, N, Z, albedo, normal, id, cost, crypto.
 std::string_view layer_name(ImageLayer layer);
 std::optional<ImageLayer> find_layer(std::string_view name);
 const std::vector<ImageLayer>& all_layers();

@@ -1,6 +1,7 @@
 #include "raytracer/pov/pov_materials.hpp"
 
 #include <algorithm>
+#include <array>
 #include <numbers>
 
 #include "raytracer/pov/pov_text.hpp"
@@ -19,23 +20,39 @@ constexpr double fade_part = 1e-3;
 // Its highlights may not be sharper; a highlight of a point light is a pixel then.
 constexpr double min_alpha = 0.02;
 
+// To where the first axis of a pattern of POV-Ray lies, or its third, and to the texture's place and scale.
+std::string placement(const Texture& t, char from) {
+    const Vec3 axis = glm::normalize(t.axis);
+    const Vec3 side = std::abs(axis.y) < 0.9 ? Vec3(0, 1, 0) : Vec3(0, 0, 1);
+    const Vec3 across = glm::normalize(glm::cross(axis, side));
+    const Vec3 away = glm::cross(axis, across);
+    const auto [x, y, z] = from == 'z' ? std::array{across, away, axis} : std::array{axis, across, away};
+    return fmt::format("scale {} matrix <{}, {}, {}, {}, {}, {}, {}, {}, {}, 0, 0, 0> translate {}", t.scale, x.x, x.y,
+                       x.z, y.x, y.y, y.z, z.x, z.y, z.z, pov_vector(t.origin));
+}
+
+// A streak's length in widths.
+constexpr double streak_length = 100;
+
 std::string pigment(const Texture& t) {
     switch (t.kind) {
         case Texture::Kind::checker:
             return fmt::format("pigment {{ checker {}, {} scale {} translate {} }}", pov_color(t.a), pov_color(t.b),
                                t.scale, pov_vector(t.origin));
-        case Texture::Kind::wood: {
-            // Rings around z, turned to the trunk's axis.
-            const Vec3 axis = glm::normalize(t.axis);
-            const Vec3 side = std::abs(axis.y) < 0.9 ? Vec3(0, 1, 0) : Vec3(0, 0, 1);
-            const Vec3 across = glm::normalize(glm::cross(axis, side));
-            const Vec3 away = glm::cross(axis, across);
-            return fmt::format(
-                "pigment {{ wood turbulence 0.1 color_map {{ [0 {}] [0.9 {}] [1 {}] }} scale {} "
-                "matrix <{}, {}, {}, {}, {}, {}, {}, {}, {}, 0, 0, 0> translate {} }}",
-                pov_color(t.a), pov_color(t.b), pov_color(t.a), t.scale, across.x, across.y, across.z, away.x, away.y,
-                away.z, axis.x, axis.y, axis.z, pov_vector(t.origin));
-        }
+        case Texture::Kind::wood:
+            return fmt::format("pigment {{ wood turbulence 0.1 color_map {{ [0 {}] [0.9 {}] [1 {}] }} {} }}",
+                               pov_color(t.a), pov_color(t.b), pov_color(t.a), placement(t, 'z'));
+        case Texture::Kind::marble:
+            return fmt::format("pigment {{ marble turbulence {} color_map {{ [0 {}] [0.7 {}] [1 {}] }} {} }}",
+                               t.turbulence, pov_color(t.b), pov_color(t.a), pov_color(t.a), placement(t, 'x'));
+        case Texture::Kind::noise:
+            return fmt::format("pigment {{ {} color_map {{ [0 {}] [1 {}] }} scale {} translate {} }}",
+                               t.octaves > 1 ? "granite" : "bumps", pov_color(t.a), pov_color(t.b), t.scale,
+                               pov_vector(t.origin));
+        case Texture::Kind::brushed:
+            return fmt::format("pigment {{ bumps color_map {{ [0 {}] [1 {}] }} scale <1, 1, {}> {} }}", pov_color(t.a),
+                               pov_color(t.b), t.around ? 1 : streak_length, placement(t, 'z'));
+        case Texture::Kind::image: break;  // POV-Ray lays none on from three sides: its mean
         case Texture::Kind::constant: break;
     }
     return fmt::format("pigment {{ {} }}", pov_color(t.a));

@@ -68,7 +68,7 @@ Vec3 raised(Vec3 sun) {
 
 }  // namespace
 
-std::shared_ptr<const Surroundings> daylight(const Background& background) {
+std::shared_ptr<const PictureData> daylight(const Background& background) {
     const double T = background.turbidity;
     const Vec3 sun = raised(background.sun);
     const double angle = std::acos(sun.y);
@@ -76,7 +76,7 @@ std::shared_ptr<const Surroundings> daylight(const Background& background) {
     const double scale_Y = zenith_luminance(T, angle) / Y(1, sun.y) / kilocandelas_of_one;
     const double scale_x = zenith_chroma(zenith_x, T, angle) / x(1, sun.y);
     const double scale_y = zenith_chroma(zenith_y, T, angle) / y(1, sun.y);
-    auto sky = std::make_shared<Surroundings>();
+    auto sky = std::make_shared<PictureData>();
     sky->width = sky_width;
     sky->height = sky_height;
     sky->rgb.resize(3 * std::size_t(sky_width) * sky_height);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "raytracer/render/bump.hpp"
 #include "raytracer/render/integrator_path.hpp"
 #include "raytracer/render/path_integrator.hpp"
 #include "raytracer/render/textures.hpp"
@@ -118,7 +119,8 @@ Vec3 Integrator::transmittance(const Hit& hit, const Incident& light, const Path
 
 Integrator::Surface::Surface(const Integrator& in, const Hit& of_hit, Vec3 color_here, Vec3 direction)
     : hit(of_hit),
-      bsdf(in.layers_[hit.material], color_here, towards_ray(hit.normal, direction), -direction),
+      bsdf(in.layers_[hit.material], color_here,
+           towards_ray(shading_normal(in.material(hit), hit.position, hit.normal, -direction), direction), -direction),
       emission(glm::dot(hit.normal, direction) < 0 ? in.material(hit).emission : Vec3(0.0)) {}
 
 Vec3 Integrator::color_from(const Hit& hit, Vec3 color_here, Vec3 direction, const Path& path) const {
@@ -156,7 +158,8 @@ Vec3 Integrator::color_of_glass(const Hit& hit, Vec3 tint, Vec3 direction, const
     const SurfaceLayer& layer = layers_[hit.material];
     const Vec3 to_eye = -direction;
     const bool inside = glm::dot(hit.normal, direction) > 0;
-    const Vec3 normal = inside ? -hit.normal : hit.normal;
+    const Vec3 outward = shading_normal(material(hit), hit.position, hit.normal, to_eye);
+    const Vec3 normal = inside ? -outward : outward;
     const double ior = inside ? 1 / layer.ior() : layer.ior();
 
     const Vec3 back = reflected(to_eye, normal);

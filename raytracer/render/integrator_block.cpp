@@ -1,6 +1,7 @@
 // The camera's rays and the shadow rays of what they hit, traced together.
 #include <memory>
 
+#include "raytracer/render/bump.hpp"
 #include "raytracer/render/integrator_path.hpp"
 #include "raytracer/render/noise_bound.hpp"
 #include "raytracer/render/path_integrator.hpp"
@@ -95,6 +96,8 @@ private:
         ++sums_[use.pixel].hits;
         if (layers) {
             layers->albedo += finite_or_zero(albedo);
+            const Vec3 normal = shading_normal(in_.material(hit), hit.position, hit.normal, -direction);
+            layers->guide_normal += finite_or_zero(glm::dot(normal, direction) > 0 ? -normal : normal);
             layers->rest.solids.add(std::uint32_t(hit.solid + 1));
         }
         if (in_.layers_[hit.material].kind() == Material::Kind::glass) {

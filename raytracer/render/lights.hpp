@@ -107,7 +107,7 @@ private:
     static constexpr int steps = 64;
     Background background_;
     std::array<double, steps + 1> zenith_share_{};  // by normal.y, from -1 to 1
-    std::shared_ptr<const Surroundings> picture_;
+    std::shared_ptr<const PictureData> picture_;
     double cos_rotate_ = 1, sin_rotate_ = 0;
     std::vector<double> rows_, columns_;  // shares of all rows above; in each row, of all columns before
     double total_ = 0;

@@ -2,18 +2,27 @@
 
 #include <algorithm>
 
+#include "raytracer/render/bump.hpp"
 #include "raytracer/render/textures.hpp"
 
 namespace deburr {
 namespace {
 
 // What a path draws random numbers for, at each depth; and once, for its way through the filter.
-enum PathDraw : std::uint32_t { lobe, lobe_direction, roulette, chosen_light, light_places, draws_a_depth = 64 };
+enum PathDraw : std::uint32_t {
+    lobe,
+    lobe_direction,
+    roulette,
+    chosen_light,
+    light_places,
+    roughness_level = 63,
+    draws_a_depth = 64
+};
 constexpr std::uint32_t filter_draw = 0xffffffffu, lens_draw = 0xfffffffeu;
 
 // So many lights are all sampled where the camera looks: each has its own dimension.
 constexpr std::size_t max_all_lights = 16;
-static_assert(light_places + max_all_lights <= draws_a_depth);
+static_assert(light_places + max_all_lights <= roughness_level);
 
 // What is added to the dimensions of a path that was split from another.
 constexpr std::uint32_t split_draws = 1u << 30;
@@ -43,6 +52,10 @@ int blur_after(double alpha) {
     return blur;
 }
 
+// Roughness from a texture is one of so many steps above 0 or the next, as often as it is near it: the mean of the two
+// lobes has the width between.
+constexpr int roughness_steps = 16;
+
 // Surfaces of glass that light passes straight on; beyond more of them it is dark.
 constexpr int max_glass_passed = 16;
 
@@ -60,10 +73,33 @@ PathIntegrator::PathIntegrator(const Scene& scene, const RayTracer& tracer, cons
       seen_(scene.background),
       sky_(scene.lighting()),
       emitters_(scene, sky_) {
+    std::size_t levels = 0;
+    for (const Material& m : scene.materials) {
+        first_levels_.push_back(levels);
+        levels += m.roughness_texture ? roughness_steps + 1 : 1;
+        glass_ = glass_ || lets_light_pass(m);
+    }
     materials_.resize(scene.caustics ? 1 : blurs);
     for (std::size_t blur = 0; blur < materials_.size(); ++blur)
-        for (const Material& m : scene.materials) materials_[blur].emplace_back(m, tables_, blur_alphas[blur]);
-    for (const Material& m : scene.materials) glass_ = glass_ || lets_light_pass(m);
+        for (Material m : scene.materials) {
+            if (!m.roughness_texture) {
+                materials_[blur].emplace_back(m, tables_, blur_alphas[blur]);
+                continue;
+            }
+            for (int i = 0; i <= roughness_steps; ++i) {
+                m.roughness = double(i) / roughness_steps;
+                materials_[blur].emplace_back(m, tables_, blur_alphas[blur]);
+            }
+        }
+}
+
+const ScatteringMaterial& PathIntegrator::material_at(const Hit& hit, int blur, double choice) const {
+    std::size_t level = first_levels_[hit.material];
+    if (const Texture* roughness = scene_.materials[hit.material].roughness_texture.get()) {
+        const double at = value_at(*roughness, hit.position, hit.normal) * roughness_steps;
+        if (at >= 0) level += std::size_t(std::min(at + choice, double(roughness_steps)));
+    }
+    return materials_[blur][level];
 }
 
 // Paths that are traced together, a bounce at a time.
@@ -85,6 +121,7 @@ public:
         int blur = 0;
         bool over_glass = false;  // was met since the last rough surface
         bool diffused = false;    // by a rough surface
+        bool guides = true;       // has met mirrors and polished glass alone
     };
     struct Shadow {
         Vec3 color;
@@ -221,6 +258,27 @@ private:
         });
     }
 
+    // Layers for denoisers, once for a path.
+    void add_guides(Path& path, const Use& use, Vec3 color, Vec3 normal) {
+        if (layers_ && path.guides) {
+            const Vec3 share = glm::min(path.throughput, Vec3(1.0));
+            layers_[use.pixel].albedo += zero_unless_finite(share * color);
+            layers_[use.pixel].guide_normal += zero_unless_finite(brightest_of(share) * normal);
+        }
+        path.guides = false;
+    }
+
+    // Where metal is a texture, it is put together in `mixed`.
+    const ScatteringMaterial& material_at(const Path& path, const Use& use, const Hit& hit, const Material& material,
+                                          ScatteringMaterial& mixed) const {
+        const ScatteringMaterial& level = in_.material_at(
+            hit, path.blur, material.roughness_texture ? use.sampler.line(dimension(path, roughness_level)) : 0.0);
+        if (!material.metallic_texture) return level;
+        mixed = level;
+        mixed.set_metallic(glm::clamp(value_at(*material.metallic_texture, hit.position, hit.normal), 0.0, 1.0));
+        return mixed;
+    }
+
     // Light that arrives at a path's end, and the way on; false if there is none.
     bool shade(std::uint32_t i, const Hit& hit) {
         Path& path = m_.paths[i];
@@ -229,25 +287,27 @@ private:
         take_lights(path, std::min(hit.t, met.t));
         if (met.t < hit.t) {
             if (depth_ == 0) ++sums_[use.pixel].hits;
+            add_guides(path, use, Vec3(1.0), -path.ray.direction);
             if (!is_counted_already(path))
                 path.color += path.throughput * met.radiance * reflection_weight(path, met.emitter, met.density);
             return false;
         }
         if (!hit) {
             take_background(path);
+            if (depth_ > 0) add_guides(path, use, Vec3(1.0), Vec3(0.0));  // light alone, as a white surface
             return false;
         }
         const Material& material = in_.scene_.materials[hit.material];
-        const Vec3 color = color_at(material.color, hit.position, hit.normal);
+        const Vec3 color = color_at(material.color, hit.position, hit.normal), to_eye = -path.ray.direction;
         if (depth_ == 0) {
             ++sums_[use.pixel].hits;
-            if (layers_) {
-                layers_[use.pixel].albedo += zero_unless_finite(color);
-                layers_[use.pixel].rest.solids.add(std::uint32_t(hit.solid + 1));
-            }
+            if (layers_) layers_[use.pixel].rest.solids.add(std::uint32_t(hit.solid + 1));
         }
         take_emission(path, hit, material);
-        Scattering surface(in_.materials_[path.blur][hit.material], color, hit.normal, -path.ray.direction);
+        ScatteringMaterial mixed;
+        Scattering surface(material_at(path, use, hit, material, mixed), color,
+                           shading_normal(material, hit.position, hit.normal, to_eye), hit.normal, to_eye);
+        if (surface.diffuses()) add_guides(path, use, color, surface.normal());
         path.color += path.throughput * surface.base_albedo() * in_.scene_.ambient;
         // Where the camera looks, a choice between a base and a layer of another colour would be noise.
         const bool both = depth_ == 0 && surface.split();
@@ -339,7 +399,8 @@ private:
     Vec3 passed_by(const Hit& hit, Vec3 direction) const {
         const Material& m = in_.scene_.materials[hit.material];
         if (!in_.lets_light_pass(m)) return Vec3(0.0);
-        const double passed = in_.materials_[0][hit.material].glass;
+        const double metal = m.metallic_texture ? value_at(*m.metallic_texture, hit.position, hit.normal) : m.metallic;
+        const double passed = m.kind == Material::Kind::glass ? 1.0 : (1 - metal) * m.transmission;
         return color_at(m.color, hit.position, hit.normal) *
                (passed * (1 - fresnel_dielectric(glm::dot(hit.normal, direction), m.ior)));
     }

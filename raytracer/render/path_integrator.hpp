@@ -34,14 +34,18 @@ private:
     void samples(Batch& batch, int x, int y, std::uint32_t pixel, SampleRange range) const;
 
     bool lets_light_pass(const Material& m) const { return m.kind == Material::Kind::glass || m.transmission > 0; }
+    // Where the material's roughness is a texture, `choice` from 0 to 1 takes one of the two levels around its value.
+    const ScatteringMaterial& material_at(const Hit& hit, int blur, double choice) const;
 
     const Scene& scene_;
     const RayTracer& tracer_;
     RenderSettings settings_;
     PinholeCamera camera_;
     AlbedoTables tables_;
-    std::vector<std::vector<ScatteringMaterial>> materials_;  // by blur (path_integrator.cpp), then by material
-    SkyLight seen_, sky_;                                     // by the camera; by all else
+    // By blur (path_integrator.cpp), then by material, which begins at its first level.
+    std::vector<std::vector<ScatteringMaterial>> materials_;
+    std::vector<std::size_t> first_levels_;
+    SkyLight seen_, sky_;  // by the camera; by all else
     Emitters emitters_;
     bool glass_ = false;  // there is some
 };

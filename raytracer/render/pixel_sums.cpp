@@ -29,6 +29,7 @@ PixelSums& PixelSums::operator+=(const PixelSums& other) {
 
 LayerSums& LayerSums::operator+=(const LayerSums& other) {
     albedo += other.albedo;
+    guide_normal += other.guide_normal;
     rest.cost += other.rest.cost;
     for (int k = 0; k < SolidShares::ranks; ++k)
         if (other.rest.solids.id[k] != 0) rest.solids.add(other.rest.solids.id[k], other.rest.solids.share[k]);
@@ -46,6 +47,7 @@ PixelLayers mean(const LayerSums& sums, std::uint32_t samples) {
     PixelLayers layers = sums.rest;
     if (samples == 0) return layers;
     layers.albedo = sums.albedo.value() / double(samples);
+    layers.guide_normal = sums.guide_normal.value() / double(samples);
     layers.solids.divide(samples);
     return layers;
 }

@@ -84,10 +84,10 @@ struct PixelSums {
 };
 static_assert(sizeof(PixelSums) == 64);  // without gaps: it is written as it is
 
-/// Layers of a pixel, of which albedo is kept apart.
+/// Layers of a pixel, of which those for denoisers are kept apart.
 struct LayerSums {
     PixelLayers rest;  // of the centre's ray; but cost and shares of solids are sums
-    ColorSum albedo;
+    ColorSum albedo, guide_normal;
 
     /// Adds later samples, without the centre's ray.
     LayerSums& operator+=(const LayerSums& other);

@@ -33,9 +33,9 @@ ScatteringMaterial::ScatteringMaterial(const Material& material, AlbedoTables& t
         case Kind::mirror: metal = 1; break;
         case Kind::glass: glass = 1; break;
         case Kind::pbr:
-            metal = material.metallic;
-            glass = (1 - metal) * material.transmission;
-            dielectric = (1 - metal) * (1 - material.transmission);
+            transmission = material.transmission;
+            // Of a texture all shares are there, so that all tables are.
+            set_metallic(material.metallic_texture ? 0.5 : material.metallic);
             coat = material.clearcoat;
             break;
     }
@@ -56,6 +56,18 @@ ScatteringMaterial::ScatteringMaterial(const Material& material, AlbedoTables& t
         coat_smooth = !(coat_ggx.alpha >= smooth_alpha);
         coating = tables.get(AlbedoTable::Kind::boundary, coat_smooth ? 0 : coat_ggx.alpha, 1.5);
     }
+}
+
+void ScatteringMaterial::set_metallic(double metallic) {
+    metal = metallic;
+    glass = (1 - metal) * transmission;
+    dielectric = (1 - metal) * (1 - transmission);
+}
+
+Scattering::Scattering(const ScatteringMaterial& material, Vec3 color, Vec3 shading, Vec3 outward, Vec3 to_eye)
+    : Scattering(material, color, shading, to_eye) {
+    bumped_ = shading != outward;
+    surface_normal_ = glm::dot(outward, to_eye) < 0 ? -outward : outward;
 }
 
 Scattering::Scattering(const ScatteringMaterial& material, Vec3 color, Vec3 outward, Vec3 to_eye)
@@ -146,6 +158,7 @@ Scattering::GlassChoice Scattering::glass_choice(double fresnel) const {
 Scattering::Value Scattering::value(Vec3 l) const {
     Value v;
     const double cosine = glm::dot(normal_, l);
+    if (shines_through(l, cosine)) return v;
     const bool rough_layer = p_layer_ > 0 && !m_.smooth, rough_glass = p_glass_ > 0 && !m_.smooth;
     const bool rough_coat = p_coat_ > 0 && !m_.coat_smooth;
     if (cosine > 0) {
@@ -248,6 +261,7 @@ bool Scattering::sample(double choice, Vec2 u, Sample& s) const {
     if (!sample_lobe(choice, u, s)) return false;
     const double cosine = glm::dot(s.direction, normal_);
     if (s.passes ? !(cosine < 0) : !(cosine > 0)) return false;
+    if (shines_through(s.direction, cosine)) return false;
     if (s.density == infinity) return true;
     const Value v = value(s.direction);
     if (!(v.density > 0)) return false;

@@ -34,12 +34,16 @@ private:
 
 /// What all points of a material have in common. Keeps pointers into the tables.
 struct ScatteringMaterial {
+    ScatteringMaterial() = default;
     /// Layers are no sharper than `min_alpha`, unless there is glass: as a diffuse surface may see them, which finds
     /// their highlights too seldom.
     ScatteringMaterial(const Material& material, AlbedoTables& tables, double min_alpha = 0);
 
-    Material::Kind kind;
-    double ior = 1.5;
+    /// The same material with another share of metal, where it was made with one between 0 and 1.
+    void set_metallic(double metallic);
+
+    Material::Kind kind = Material::Kind::matte;
+    double ior = 1.5, transmission = 0.0;
     double metal = 0.0, dielectric = 0.0, glass = 0.0;  // shares, of sum 1
     double coat = 0.0;
     Ggx ggx, coat_ggx;
@@ -55,6 +59,9 @@ public:
     /// `outward` is the unit normal out of the solid; `color` the material's at the point. Keeps a reference to
     /// `material`.
     Scattering(const ScatteringMaterial& material, Vec3 color, Vec3 outward, Vec3 to_eye);
+    /// Shaded with a normal that is not the surface's, but on the eye's side, too (bump.hpp). No light goes to the
+    /// other side of the surface on the same side of the normal, nor the other way round: some is lost there.
+    Scattering(const ScatteringMaterial& material, Vec3 color, Vec3 shading, Vec3 outward, Vec3 to_eye);
 
     struct Value {
         Vec3 value{0.0};       // times the cosine of the direction
@@ -88,6 +95,10 @@ public:
 
 private:
     Vec3 base(double cosine) const;
+    // Whether the surface is between the eye and a direction where the normal says that it is not, or the reverse.
+    bool shines_through(Vec3 direction, double cosine) const {
+        return bumped_ && (glm::dot(surface_normal_, direction) > 0) != (cosine > 0);
+    }
     Vec3 layer_fresnel(double cosine) const;
     double coat_fresnel(double cosine) const { return fresnel_dielectric(cosine, coat_ior); }
     struct GlassChoice {
@@ -100,7 +111,9 @@ private:
 
     const ScatteringMaterial& m_;
     Vec3 color_, normal_, to_eye_;
+    Vec3 surface_normal_{0.0};  // on the eye's side, where bumped
     bool inside_;
+    bool bumped_ = false;
     double ior_;  // of the far side over that of the near one
     double cos_eye_;
     double below_coat_ = 1.0, coat_ = 0.0;

@@ -11,6 +11,12 @@ inline Vec3 color_at(const Texture& texture, Vec3 position, Vec3 normal) {
     return texture.kind == Texture::Kind::constant ? texture.a : pattern_color(texture, position, normal);
 }
 
+/// The mean of the colour's components: for what is no colour.
+inline double value_at(const Texture& texture, Vec3 position, Vec3 normal) {
+    const Vec3 c = color_at(texture, position, normal);
+    return (c.x + c.y + c.z) / 3;
+}
+
 /// Gradient noise [after Perlin, Improving Noise, 2002] with a lattice of hashed gradients: smooth,
 /// 0 at integer points, within [-1, 1], the same on every machine.
 double noise(Vec3 x);

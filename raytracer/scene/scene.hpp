@@ -22,14 +22,29 @@ constexpr int max_samples = 1 << 20;
 /// Stops of exposure, either way.
 constexpr double max_exposure = 30;
 
+/// A picture in memory.
+struct PictureData {
+    int width = 0, height = 0;
+    std::vector<float> rgb;  // row by row from the top
+};
+
 /// A colour that may vary through space.
 struct Texture {
-    enum class Kind { constant, checker, wood };
+    enum class Kind { constant, checker, wood, marble, noise, brushed, image };
     Kind kind = Kind::constant;
-    Vec3 a{0.8}, b{0.2};  // constant: a; checker: both; wood: early wood and late wood
-    double scale = 1.0;   // checker: side of a cube; wood: width of a year's ring
-    Vec3 axis{1, 0, 0};   // wood: direction of the trunk
+    Vec3 a{0.8}, b{0.2};  // constant: a; wood: early wood and late wood; marble: ground and veins; image: its mean
+    // checker: side of a cube; wood: width of a year's ring; marble: distance of veins; noise: of a light place from a
+    // dark one; brushed: width of a streak; image: width of the picture
+    double scale = 1.0;
+    Vec3 axis{1, 0, 0};  // wood: direction of the trunk; marble: across the veins; brushed: along the streaks
     Vec3 origin{0, 0, 0};
+    double turbulence = 1.0;                    // marble
+    int octaves = 1;                            // noise: each of half the size and depth of the one before
+    bool around = false;                        // brushed: around the axis, in place of along it
+    double rotate = 0.0, blend = 0.25;          // image: degrees, counter-clockwise; width of the blends between sides
+    bool z_up = false;                          // image: is up z, or y
+    std::string file{};                         // image: the picture's
+    std::shared_ptr<const PictureData> data{};  // image: what is in it, once it was read
 };
 
 struct Material {
@@ -41,6 +56,11 @@ struct Material {
     Vec3 emission{0.0};      // radiance that the outside of the surface sends out
     // pbr: shares from 0 to 1, by glTF's names
     double metallic = 0.0, transmission = 0.0, clearcoat = 0.0, clearcoat_roughness = 0.0;
+    // In place of the number, which is then the mean; null: none.
+    std::shared_ptr<const Texture> roughness_texture{}, metallic_texture{};
+    // Where it is 1, the surface seems to be higher by bump_height than where it is 0; null: it is as it is.
+    std::shared_ptr<const Texture> bump{};
+    double bump_height = 0.05;
 };
 
 struct Light {
@@ -65,13 +85,6 @@ struct Camera {
     Vec3 shift{0.0};            // of the picture in its plane, in widths and heights, to the right and up; z unused
 };
 
-/// A picture of all that surrounds a scene, linear, by longitude and latitude: its middle lies towards -z, its top at
-/// y.
-struct Surroundings {
-    int width = 0, height = 0;
-    std::vector<float> rgb;  // row by row from the top
-};
-
 /// How a camera looks at the solids that is placed by their bounds (frame_camera.hpp).
 struct Framing {
     Vec3 from{3, 2, 4};  // the direction from the solids to the eye, of any length
@@ -86,10 +99,12 @@ struct Background {
     bool z_up = false;  // is up z, or y
     // A clear sky by day, in place of the gradient, with a sun in this direction; {0, 0, 0}: none
     Vec3 sun{0.0};
-    double turbidity = 3.0, sun_size = 0.533;     // haze; degrees across
-    std::string file;                             // of a picture, in place of the others; "": none
-    std::shared_ptr<const Surroundings> picture;  // what is in it, once it was read
-    double scale = 1.0, rotate = 0.0;             // of picture and day; degrees about y
+    double turbidity = 3.0, sun_size = 0.533;  // haze; degrees across
+    // Of a picture by longitude and latitude, in place of the others, whose middle lies towards -z and whose top at y;
+    // "": none
+    std::string file;
+    std::shared_ptr<const PictureData> picture;  // what is in it, linear, once it was read
+    double scale = 1.0, rotate = 0.0;            // of picture and day; degrees about y
 
     bool by_day() const { return sun != Vec3(0.0); }
     /// Of a unit direction: 1 towards the zenith, 0 towards the horizon.

@@ -50,20 +50,37 @@ std::string describe(const Texture& t) {
         case Texture::Kind::wood:
             return fmt::format("wood{{ a = {}, b = {}, scale = {}, axis = {} }}", color_of(t.a), color_of(t.b),
                                text_of(t.scale), text_of(t.axis));
+        case Texture::Kind::marble:
+            return fmt::format("marble{{ a = {}, b = {}, scale = {}, axis = {}, turbulence = {} }}", color_of(t.a),
+                               color_of(t.b), text_of(t.scale), text_of(t.axis), text_of(t.turbulence));
+        case Texture::Kind::noise:
+            return fmt::format("noise{{ a = {}, b = {}, scale = {}, octaves = {} }}", color_of(t.a), color_of(t.b),
+                               text_of(t.scale), t.octaves);
+        case Texture::Kind::brushed:
+            return fmt::format("brushed{{ a = {}, b = {}, scale = {}, axis = {}, around = {} }}", color_of(t.a),
+                               color_of(t.b), text_of(t.scale), text_of(t.axis), t.around);
+        case Texture::Kind::image:
+            return fmt::format("image_map{{ file = '{}', scale = {} }}", printable(t.file), text_of(t.scale));
     }
     return "texture";
+}
+
+std::string share_or_texture(double share, const Texture* texture) {
+    return texture ? describe(*texture) : text_of(share);
 }
 
 std::string describe(const Material& m) {
     std::string text = fmt::format("{}{{ color = {}", name_of(m.kind), describe(m.color));
     if (m.kind != Material::Kind::matte && m.kind != Material::Kind::mirror)
-        text += fmt::format(", roughness = {}", text_of(m.roughness));
+        text += fmt::format(", roughness = {}", share_or_texture(m.roughness, m.roughness_texture.get()));
     if (m.kind == Material::Kind::pbr)
-        text += fmt::format(", metallic = {}, transmission = {}, clearcoat = {}", text_of(m.metallic),
-                            text_of(m.transmission), text_of(m.clearcoat));
+        text += fmt::format(", metallic = {}, transmission = {}, clearcoat = {}",
+                            share_or_texture(m.metallic, m.metallic_texture.get()), text_of(m.transmission),
+                            text_of(m.clearcoat));
     if (m.emission != Vec3(0.0)) text += fmt::format(", emission = {}", color_of(m.emission));
     if (m.kind == Material::Kind::plastic || m.kind == Material::Kind::glass || m.kind == Material::Kind::pbr)
         text += fmt::format(", ior = {}", text_of(m.ior));
+    if (m.bump) text += fmt::format(", bump = {}, bump_height = {}", describe(*m.bump), text_of(m.bump_height));
     return text + " }";
 }
 

@@ -6,6 +6,7 @@ namespace deburr {
 namespace {
 
 constexpr int max_shadow_rays = 4096;
+constexpr int max_octaves = 10;
 constexpr double largest_ior = 10;  // diamond has 2.4
 
 // The only argument; missing, it is an empty table.
@@ -35,8 +36,37 @@ void read_texture(const Fields& fields, Texture& texture) {
     }
 }
 
+// A number from 0 to 1, or a texture, whose mean the number is then: of an image when it is read.
+void read_share(const Fields& fields, const char* name, double& share, std::shared_ptr<const Texture>& texture) {
+    const LuaValue* given = fields.find(name);
+    if (!given) return;
+    const SceneObject* object = as_object(*given);
+    const auto* pattern = as<Texture>(object);
+    if (pattern) {
+        texture = std::make_shared<const Texture>(*pattern);
+        const Vec3 sum = pattern->a + pattern->b;
+        share = (sum.x + sum.y + sum.z) / 6;
+        return;
+    }
+    if (object) expected(fields.location(name), "a number from 0 to 1 or a texture", *given);
+    share = number_between(*given, fields.location(name), 0, 1);
+}
+
+void read_bump(const Fields& fields, Material& m) {
+    const LuaValue* given = fields.find("bump");
+    const LuaValue* height = fields.find("bump_height");
+    if (given) {
+        const auto* pattern = as<Texture>(as_object(*given));
+        if (!pattern) expected(fields.location("bump"), "a texture", *given);
+        m.bump = std::make_shared<const Texture>(*pattern);
+    }
+    if (!height) return;
+    m.bump_height = number(*height, fields.location("bump_height"));
+    if (!given) throw BadValue(fields.location("bump_height"), "expected a bump beside it, got none");
+}
+
 // What reflects or refracts light shows the colour of its surface only by tinting it.
-const Texture untinted{Texture::Kind::constant, Vec3(1), Vec3(1), 1, {1, 0, 0}, {0, 0, 0}};
+const Texture untinted{.a = Vec3(1), .b = Vec3(1)};
 
 void read_share(const Fields& fields, const char* name, double& share) {
     if (const auto* given = fields.find(name)) share = number_between(*given, fields.location(name), 0, 1);
@@ -45,56 +75,63 @@ void read_share(const Fields& fields, const char* name, double& share) {
 void read_emission(const Fields& fields, Material& m) { read_color(fields, "emission", m.emission, infinity); }
 
 SceneResult matte(SceneCall& call) {
-    const Fields fields(fields_argument(call), call.name, {"color", "emission"});
+    const Fields fields(fields_argument(call), call.name, {"color", "emission", "bump", "bump_height"});
     Material m;
     read_texture(fields, m.color);
+    read_bump(fields, m);
     read_emission(fields, m);
     return call.make(m);
 }
 
 SceneResult plastic(SceneCall& call) {
-    const Fields fields(fields_argument(call), call.name, {"color", "roughness", "ior", "emission"});
+    const Fields fields(fields_argument(call), call.name,
+                        {"color", "roughness", "ior", "emission", "bump", "bump_height"});
     Material m{Material::Kind::plastic, {}, 0.2, 1.5};
     read_texture(fields, m.color);
-    read_share(fields, "roughness", m.roughness);
+    read_bump(fields, m);
+    read_share(fields, "roughness", m.roughness, m.roughness_texture);
     read_emission(fields, m);
     if (const auto* given = fields.find("ior")) m.ior = number_between(*given, fields.location("ior"), 1, largest_ior);
     return call.make(m);
 }
 
 SceneResult metal(SceneCall& call) {
-    const Fields fields(fields_argument(call), call.name, {"color", "roughness", "emission"});
+    const Fields fields(fields_argument(call), call.name, {"color", "roughness", "emission", "bump", "bump_height"});
     Material m{Material::Kind::metal, {}, 0.2, 1.5};
     read_texture(fields, m.color);
-    read_share(fields, "roughness", m.roughness);
+    read_bump(fields, m);
+    read_share(fields, "roughness", m.roughness, m.roughness_texture);
     read_emission(fields, m);
     return call.make(m);
 }
 
 SceneResult mirror(SceneCall& call) {
-    const Fields fields(fields_argument(call), call.name, {"color"});
+    const Fields fields(fields_argument(call), call.name, {"color", "bump", "bump_height"});
     Material m{Material::Kind::mirror, untinted, 0, 1.5};
     read_texture(fields, m.color);
+    read_bump(fields, m);
     return call.make(m);
 }
 
 SceneResult glass(SceneCall& call) {
-    const Fields fields(fields_argument(call), call.name, {"color", "roughness", "ior"});
+    const Fields fields(fields_argument(call), call.name, {"color", "roughness", "ior", "bump", "bump_height"});
     Material m{Material::Kind::glass, untinted, 0, 1.5};
     read_texture(fields, m.color);
-    read_share(fields, "roughness", m.roughness);
+    read_bump(fields, m);
+    read_share(fields, "roughness", m.roughness, m.roughness_texture);
     if (const auto* given = fields.find("ior")) m.ior = number_between(*given, fields.location("ior"), 1, largest_ior);
     return call.make(m);
 }
 
 SceneResult pbr(SceneCall& call) {
-    const Fields fields(
-        fields_argument(call), call.name,
-        {"color", "metallic", "roughness", "ior", "transmission", "clearcoat", "clearcoat_roughness", "emission"});
+    const Fields fields(fields_argument(call), call.name,
+                        {"color", "metallic", "roughness", "ior", "transmission", "clearcoat", "clearcoat_roughness",
+                         "emission", "bump", "bump_height"});
     Material m{Material::Kind::pbr, {}, 0.5, 1.5};
     read_texture(fields, m.color);
-    read_share(fields, "metallic", m.metallic);
-    read_share(fields, "roughness", m.roughness);
+    read_bump(fields, m);
+    read_share(fields, "metallic", m.metallic, m.metallic_texture);
+    read_share(fields, "roughness", m.roughness, m.roughness_texture);
     if (const auto* given = fields.find("ior")) m.ior = number_between(*given, fields.location("ior"), 1, largest_ior);
     read_share(fields, "transmission", m.transmission);
     read_share(fields, "clearcoat", m.clearcoat);
@@ -108,6 +145,10 @@ void read_pattern(const Fields& fields, Texture& texture) {
     read_color(fields, "b", texture.b, 1);
     if (const auto* given = fields.find("scale")) texture.scale = number_above(*given, fields.location("scale"), 0);
     read_vector(fields, "origin", texture.origin);
+}
+
+void read_axis(const Fields& fields, Texture& texture) {
+    if (const auto* given = fields.find("axis")) texture.axis = direction(*given, fields.location("axis"));
 }
 
 SceneResult checker(SceneCall& call) {
@@ -125,7 +166,64 @@ SceneResult wood(SceneCall& call) {
     texture.a = {0.72, 0.48, 0.27};
     texture.b = {0.45, 0.25, 0.12};
     read_pattern(fields, texture);
-    if (const auto* given = fields.find("axis")) texture.axis = direction(*given, fields.location("axis"));
+    read_axis(fields, texture);
+    return call.make(texture);
+}
+
+SceneResult marble(SceneCall& call) {
+    const Fields fields(fields_argument(call), call.name, {"a", "b", "scale", "axis", "origin", "turbulence"});
+    Texture texture;
+    texture.kind = Texture::Kind::marble;
+    texture.a = {0.86, 0.84, 0.8};
+    texture.b = {0.3, 0.29, 0.31};
+    read_pattern(fields, texture);
+    read_axis(fields, texture);
+    if (const auto* given = fields.find("turbulence"))
+        texture.turbulence = number_at_least(*given, fields.location("turbulence"), 0);
+    return call.make(texture);
+}
+
+// Patterns that are shares or heights rather than colours.
+Texture black_to_white(Texture::Kind kind) { return {.kind = kind, .a = Vec3(0), .b = Vec3(1)}; }
+
+SceneResult noise_texture(SceneCall& call) {
+    const Fields fields(fields_argument(call), call.name, {"a", "b", "scale", "origin", "octaves"});
+    Texture texture = black_to_white(Texture::Kind::noise);
+    read_pattern(fields, texture);
+    if (const auto* given = fields.find("octaves"))
+        texture.octaves = integer(*given, fields.location("octaves"), 1, max_octaves);
+    return call.make(texture);
+}
+
+SceneResult brushed(SceneCall& call) {
+    const Fields fields(fields_argument(call), call.name, {"a", "b", "scale", "axis", "origin", "around"});
+    Texture texture = black_to_white(Texture::Kind::brushed);
+    read_pattern(fields, texture);
+    read_axis(fields, texture);
+    if (const auto* given = fields.find("around")) texture.around = boolean(*given, fields.location("around"));
+    return call.make(texture);
+}
+
+// The path of a picture in the scene's folder.
+std::string picture_file(const SceneCall& call, const Fields& fields) {
+    const std::string& name = text(fields.get("file"), fields.location("file"));
+    try {
+        return call.builder.path_of(name);
+    } catch (const std::runtime_error& error) {
+        throw BadValue(fields.location("file"), error.what());
+    }
+}
+
+SceneResult image_map(SceneCall& call) {
+    const Fields fields(fields_argument(call), call.name, {"file", "scale", "rotate", "origin", "blend"});
+    Texture texture;
+    texture.kind = Texture::Kind::image;
+    texture.b = texture.a;
+    read_pattern(fields, texture);
+    if (const auto* given = fields.find("rotate")) texture.rotate = number(*given, fields.location("rotate"));
+    if (const auto* given = fields.find("blend"))
+        texture.blend = number_between(*given, fields.location("blend"), 0, 1);
+    texture.file = picture_file(call, fields);
     return call.make(texture);
 }
 
@@ -214,12 +312,7 @@ SceneResult environment(SceneCall& call) {
     Background background;
     read_scale(fields, background);
     if (const auto* given = fields.find("rotate")) background.rotate = number(*given, fields.location("rotate"));
-    const std::string& name = text(fields.get("file"), fields.location("file"));
-    try {
-        background.file = call.builder.path_of(name);
-    } catch (const std::runtime_error& error) {
-        throw BadValue(fields.location("file"), error.what());
-    }
+    background.file = picture_file(call, fields);
     return call.make(background);
 }
 
@@ -247,6 +340,10 @@ const std::vector<SceneFunction>& material_functions() {
         {Kind::global, "pbr", "", pbr},
         {Kind::global, "checker", "", checker},
         {Kind::global, "wood", "", wood},
+        {Kind::global, "marble", "", marble},
+        {Kind::global, "noise", "", noise_texture},
+        {Kind::global, "brushed", "", brushed},
+        {Kind::global, "image_map", "", image_map},
         {Kind::global, "point_light", "", point_light},
         {Kind::global, "directional_light", "", directional_light},
         {Kind::global, "area_light", "", area_light},

@@ -178,6 +178,17 @@ void check_defines(const std::map<std::string, std::string>& defines,
     }
 }
 
+// Pictures on surfaces are upright where z is up.
+void turn_up(Material& m) {
+    const auto turned = [](Texture texture) {
+        texture.z_up = true;
+        return texture;
+    };
+    m.color = turned(m.color);
+    for (auto* texture : {&m.roughness_texture, &m.metallic_texture, &m.bump})
+        if (*texture) *texture = std::make_shared<const Texture>(turned(**texture));
+}
+
 struct SceneSource {
     const std::string& text;
     const std::string& file;
@@ -237,6 +248,8 @@ Scene run_scene(const SceneSource& source, const SandboxLimits& limits, bool z_u
     }
     scene.parameters = builder.parameters();
     scene.materials = builder.materials();
+    if (scene.z_up)
+        for (Material& m : scene.materials) turn_up(m);
     scene.sources = sandbox.sources();
     scene.notes = builder.notes();
     scene.model_files = builder.files();

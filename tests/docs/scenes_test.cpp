@@ -23,6 +23,7 @@ namespace {
 std::string error_of(const std::string& scene) {
     static const Folder models;  // where the page's files would be
     write_file(models / "bracket.stl", Shape::l_prism().stl());
+    write_file(models / "planks.png", "a picture");  // read by who renders
     try {
         read_scene_text(scene, "s.lua", {}, {}, {models / ""});
     } catch (const SceneError& error) {
@@ -125,7 +126,9 @@ std::string summary(const Scene& s) {
         all += fmt::format("{} {} {} ", int(m.kind), m.roughness, m.ior) +
                fmt::format("{} {} ", int(m.color.kind), m.color.scale) + text(m.color.a) + text(m.color.b) +
                text(m.color.axis) + text(m.color.origin) + text(m.emission) +
-               fmt::format("{} {} {} {} ", m.metallic, m.transmission, m.clearcoat, m.clearcoat_roughness);
+               fmt::format("{} {} {} {} ", m.metallic, m.transmission, m.clearcoat, m.clearcoat_roughness) +
+               fmt::format("{} {} {} ", m.color.turbulence, m.color.octaves, m.color.around) +
+               fmt::format("{} {} {} ", m.color.rotate, m.color.blend, m.bump_height);
     for (const Solid& solid : s.solids)
         if (const auto* form = dynamic_cast<const FreeForm*>(solid.node().field().get())) {
             for (int k = 0; k < 3; ++k) all += text(form->base().A[k]);
@@ -225,7 +228,7 @@ TEST_CASE("docs/scenes.md has the fields that the program knows, and no others")
         CHECK(split(on_page) == split(error.substr(from, error.find(end) - from)));
     }
     CHECK(tables.size() ==
-          4 + 2 + 6 + 6 + 2 + 6);  // scene, round parts, quadrics, materials, textures, lights with the sky
+          4 + 2 + 6 + 6 + 6 + 6);  // scene, round parts, quadrics, materials, textures, lights with the sky
 }
 
 TEST_CASE("docs/scenes.md says of every field what the program says that it takes") {

@@ -51,7 +51,7 @@ TEST_CASE("a wrong call is one line and exit code 2, and nothing is written") {
          "--threads: expected a whole number from 1 to 1024, got '0'"},
         {{"render", scene, "-o", output, "--seed", "-1"}, "--seed: expected a whole number from 0 to 2^64-1, got '-1'"},
         {{"render", scene, "-o", output, "--aov", "P,Q"},
-         "--aov: expected some of P, N, Z, albedo, id, cost, crypto, got 'Q'"},
+         "--aov: expected some of P, N, Z, albedo, normal, id, cost, crypto, got 'Q'"},
         {{"render", scene, "-o", place / "a.png", "--aov", "P"},
          "--aov: expected an output that ends in .exr, got none"},
         {{"render", scene, "-o", place / "a.png", "--float"},

@@ -38,7 +38,7 @@ struct Place : Folder {
     std::string bytes(const std::string& name) const { return read_file(*this / name); }
 };
 
-const Words layers = {"--aov", "P,N,Z,albedo,id,crypto"};
+const Words layers = {"--aov", "P,N,Z,albedo,normal,id,crypto"};
 
 Words with(Words words, const Words& more) {
     words.insert(words.end(), more.begin(), more.end());

@@ -50,7 +50,7 @@ TEST_CASE("help tells what a field is of everything that has it") {
     for (const char* owner : {"plastic{…}\n", "metal{…}\n", "glass{…}\n"}) CHECK(contains(roughness, owner));
     CHECK_FALSE(contains(roughness, "matte"));
     CHECK_FALSE(contains(roughness, "ior"));
-    CHECK(contains(roughness, "  roughness     a number from 0 to 1; default: 0.2. Of the layer.\n"));
+    CHECK(contains(roughness, "  roughness     a number from 0 to 1, or a texture; default: 0.2. Of the layer.\n"));
 }
 
 TEST_CASE("help has no marks of Markdown left, and lines of 80 columns outside of code") {

@@ -66,9 +66,9 @@ TEST_CASE("crops are X11 geometry strings within the picture") {
 }
 
 TEST_CASE("layers by name") {
-    CHECK(parse_layers("--aov", "P,N,Z,albedo,id,cost,crypto") == all_layers());
+    CHECK(parse_layers("--aov", "P,N,Z,albedo,normal,id,cost,crypto") == all_layers());
     CHECK(error_of([] { parse_layers("--aov", "P,Q"); }) ==
-          "--aov: expected some of P, N, Z, albedo, id, cost, crypto, got 'Q'");
+          "--aov: expected some of P, N, Z, albedo, normal, id, cost, crypto, got 'Q'");
     for (const char* text : {"", ",", "P,", ",P", "p", "P N", "P, N"}) {
         CAPTURE(text);
         CHECK(error_of([&] { parse_layers("--aov", text); }) != "none");

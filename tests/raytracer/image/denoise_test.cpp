@@ -11,7 +11,7 @@ namespace {
 // Left a dark surface, right a bright one, lower half turned away; with noise.
 Film noisy(double noise) {
     const int side = 48;
-    Film film(side, side, {0, 0, side, side}, {ImageLayer::normal, ImageLayer::albedo});
+    Film film(side, side, {0, 0, side, side}, {ImageLayer::guide_normal, ImageLayer::albedo});
     std::mt19937 random(7);
     std::uniform_real_distribution<double> uniform(-1, 1);
     std::vector<PixelLayers> layers(side * side);
@@ -19,7 +19,7 @@ Film noisy(double noise) {
         for (int x = 0; x < side; ++x) {
             PixelLayers& l = layers[y * side + x];
             l.albedo = Vec3(x < side / 2 ? 0.2 : 0.8);
-            l.normal = y < side / 2 ? Vec3(0, 1, 0) : Vec3(0, 0, 1);
+            l.guide_normal = y < side / 2 ? Vec3(0, 1, 0) : Vec3(0, 0, 1);
             const double light = (y < side / 2 ? 1.0 : 0.5) * (1 + noise * uniform(random));
             film.at(x, y) = {light * l.albedo, 1};
         }

@@ -27,6 +27,7 @@ Film film(Window window = {0, 0, 20, 70}, const std::vector<ImageLayer>& layers 
             p.normal = {0.6, 0.0, -0.8};
             p.z = 3 + k;
             p.albedo = {0.1, 0.2, 0.3};
+            p.guide_normal = {0.5, -0.25, 0.125};
             p.id = std::uint32_t(4'000'000'000 + k);  // no float holds it
             p.cost = k + 0.5;
             film.set_layers({x, y, 1, 1}, &p);
@@ -90,7 +91,7 @@ TEST_CASE("an EXR gives back every layer") {
     const Film original = film();
     write_image(folder / "a.exr", original, {}, notes());
     const Read r = read(folder / "a.exr");
-    CHECK(r.spec.nchannels == 16 + 2 * SolidShares::ranks);  // with those of Cryptomatte
+    CHECK(r.spec.nchannels == 19 + 2 * SolidShares::ranks);  // with those of Cryptomatte
     CHECK(r.spec.channelformat(r.spec.channelindex("R")) == OIIO::TypeDesc::HALF);
     CHECK(r.spec.channelformat(r.spec.channelindex("A")) == OIIO::TypeDesc::HALF);
     CHECK(r.spec.channelformat(r.spec.channelindex("id")) == OIIO::TypeDesc::UINT32);
@@ -110,6 +111,7 @@ TEST_CASE("an EXR gives back every layer") {
                 REQUIRE(r.at(x, y, std::string("P.") + "XYZ"[k]) == kept(ImageLayer::position, k));
                 REQUIRE(r.at(x, y, std::string("N.") + "XYZ"[k]) == kept(ImageLayer::normal, k));
                 REQUIRE(r.at(x, y, std::string("Albedo.") + "RGB"[k]) == kept(ImageLayer::albedo, k));
+                REQUIRE(r.at(x, y, std::string("Normal.") + "XYZ"[k]) == kept(ImageLayer::guide_normal, k));
             }
             REQUIRE(r.at(x, y, "Z") == kept(ImageLayer::z));
             REQUIRE(r.at(x, y, "cost") == kept(ImageLayer::cost));

@@ -198,7 +198,7 @@ namespace {
 
 // 1 + x/2 + y² of the direction, which has harmonics of three orders and no more.
 Background pictured(double rotate = 0) {
-    Surroundings s{256, 128, {}};
+    PictureData s{256, 128, {}};
     for (int j = 0; j < s.height; ++j)
         for (int i = 0; i < s.width; ++i) {
             const double phi = 2 * pi * ((i + 0.5) / s.width - 0.5), theta = pi * (j + 0.5) / s.height;
@@ -207,7 +207,7 @@ Background pictured(double rotate = 0) {
         }
     Background background;
     background.file = "made here";
-    background.picture = std::make_shared<const Surroundings>(std::move(s));
+    background.picture = std::make_shared<const PictureData>(std::move(s));
     background.rotate = rotate;
     return background;
 }

@@ -339,3 +339,36 @@ TEST_CASE("A Cornell box has the light of plain paths", "[slow]") {
     }
     for (int k = 0; k < 3; ++k) CHECK(found[k] == Approx(plain[k]).epsilon(0.002));
 }
+
+TEST_CASE("Colour and normal for denoisers are those of what mirrors and polished glass show") {
+    // The camera looks down on a plate over which a red ceiling hangs, and below which there is a blue floor.
+    const Vec3 red(0.8, 0.1, 0.1), blue(0.1, 0.2, 0.7);
+    Scene scene = probe(material_of(Material::Kind::mirror, Vec3(0.5)));
+    scene.materials.push_back(material_of(Material::Kind::matte, red));
+    scene.materials.push_back(material_of(Material::Kind::matte, blue));
+    const AnalyticTracer tracer({{Shape::Kind::slab, {0, 0, 0}, {0, 1, 0}, 0.5, 0},
+                                 {Shape::Kind::plane, {0, 9, 0}, {0, -1, 0}, 0, 1},
+                                 {Shape::Kind::plane, {0, -3, 0}, {0, 1, 0}, 0, 2}});
+    const auto layers_of = [&](Material::Kind kind, double roughness, double ior) {
+        scene.materials[0] = material_of(kind, Vec3(0.5), roughness, ior);
+        TraceCounters counters;
+        RenderSettings settings{1, 1, 64, 0};
+        settings.integrator = IntegratorKind::path;
+        PixelLayers layers;
+        Integrator(scene, tracer, settings).pixel(0, 0, &layers, counters);
+        CHECK(close(layers.normal, {0, 1, 0}, 1e-9));  // of the plate itself, as ever
+        return layers;
+    };
+    const PixelLayers mirrored = layers_of(Material::Kind::mirror, 0, 1.5);
+    CHECK(close(mirrored.albedo, 0.5 * red, 1e-6));
+    CHECK(close(mirrored.guide_normal, {0, -0.5, 0}, 1e-6));
+    const PixelLayers passed = layers_of(Material::Kind::glass, 0, 1.0);
+    CHECK(close(passed.albedo, 0.25 * blue, 1e-6));
+    CHECK(close(passed.guide_normal, {0, 0.25, 0}, 1e-6));
+    // 0.04 of the light is mirrored at once, and 0.96² of it goes on, twice tinted; what is mirrored within is little.
+    const PixelLayers both = layers_of(Material::Kind::glass, 0, 1.5);
+    CHECK(close(both.albedo, 0.04 * red + 0.96 * 0.96 * 0.25 * blue, 0.01));
+    const PixelLayers rough = layers_of(Material::Kind::metal, 0.5, 1.5);
+    CHECK(close(rough.albedo, Vec3(0.5), 1e-6));
+    CHECK(close(rough.guide_normal, {0, 1, 0}, 1e-6));
+}

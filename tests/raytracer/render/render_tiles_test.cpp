@@ -65,7 +65,7 @@ TEST_CASE("a film keeps the layers that were asked for, and no others") {
     }
     CHECK(Film::bytes_per_pixel({}) == 32);
     CHECK(Film::bytes_per_pixel({ImageLayer::id, ImageLayer::position, ImageLayer::id}) == 64);
-    CHECK(Film::bytes_per_pixel(all_layers()) == 224);
+    CHECK(Film::bytes_per_pixel(all_layers()) == 248);
 }
 
 TEST_CASE("sums of counters do not depend on the number of threads") {

@@ -57,15 +57,16 @@ Seen seen(const Integrator& integrator, int x, int y, TraceCounters& counters) {
 bool same(const Pixel& a, const Pixel& b) { return a.color == b.color && a.alpha == b.alpha; }
 
 bool same(const PixelLayers& a, const PixelLayers& b) {
-    return a.position == b.position && a.normal == b.normal && a.z == b.z && a.albedo == b.albedo && a.id == b.id &&
-           a.cost == b.cost;
+    return a.position == b.position && a.normal == b.normal && a.z == b.z && a.albedo == b.albedo &&
+           a.guide_normal == b.guide_normal && a.id == b.id && a.cost == b.cost;
 }
 
 bool same(const Seen& a, const Seen& b) { return same(a.pixel, b.pixel) && same(a.layers, b.layers); }
 
 bool finite(const Seen& s) {
     double sum = s.pixel.alpha + s.layers.cost;
-    for (Vec3 v : {s.pixel.color, s.layers.position, s.layers.normal, s.layers.albedo}) sum += v.x + v.y + v.z;
+    for (Vec3 v : {s.pixel.color, s.layers.position, s.layers.normal, s.layers.albedo, s.layers.guide_normal})
+        sum += v.x + v.y + v.z;
     return std::isfinite(sum) && !std::isnan(s.layers.z);
 }
 

@@ -228,7 +228,8 @@ TEST_CASE("materials, textures and lights say what they expect") {
     check(GENERATE(values<Case>({
         {"plastik{ color = 1 }", "s.lua:1: expected a known name, got 'plastik', did you mean plastic?"},
         {"plastic{ colour = 1 }",
-         "s.lua:1: plastic.colour: expected one of the fields color, roughness, ior, emission, got 'colour'"},
+         "s.lua:1: plastic.colour: expected one of the fields color, roughness, ior, emission, bump, bump_height, "
+         "got 'colour'"},
         {"matte{ {1, 0, 0} }", "s.lua:1: matte: expected a table of named fields, got a list of 1"},
         {"matte(0.5)", "s.lua:1: matte: expected a table of named fields, got 0.5"},
         {"matte{ color = 2 }", "s.lua:1: matte.color: expected a colour, {r, g, b} or a number, from 0 to 1, got 2"},

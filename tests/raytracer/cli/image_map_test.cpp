@@ -1,0 +1,74 @@
+// image_map{}, from file to picture.
+#include <cstring>
+
+#include "catch.hpp"
+#include "raytracer/cli/scene_folder.hpp"
+
+using namespace deburr::test;
+
+namespace {
+
+// A wall of this material right in front of the camera, lit from all around with 1.
+std::string wall(const std::string& material) {
+    return "return { image = { width = 4, height = 4, spp = 4 }, lights = {}, ambient = 1, background = 0,"
+           " camera = { eye = {0.5, 0.5, 5}, target = {0.5, 0.5, 0}, fov = 2 },"
+           " solids = { sharp(halfspace({0, 0, 1}, 0)):material(" +
+           material + ") } }";
+}
+
+float value_of(const Picture& picture, int x, int y) {
+    float value;
+    std::memcpy(&value, picture.at(x, y), sizeof value);
+    return value;
+}
+
+}  // namespace
+
+TEST_CASE("an image map shows the file's colours, and shares are the numbers in it") {
+    SceneFolder folder;
+    write_file(folder.scene, wall("matte{ color = 0.2158605 }"));
+    REQUIRE(run(folder.render({}, "grey.png")).code == 0);  // sRGB 128 of 255
+    write_file(folder.scene, wall("matte{ color = image_map{ file = 'grey.png' } }"));
+    const Outcome shown = run(folder.render({"--float"}));
+    CAPTURE(shown.err);
+    REQUIRE(shown.code == 0);
+    CHECK(value_of(Picture(folder / "a.exr"), 2, 2) == Approx(0.2158605).epsilon(1e-4));
+
+    // A metal returns no ambient light, and all else of this material does.
+    write_file(folder.scene, wall("pbr{ color = 1, metallic = image_map{ file = 'grey.png' }, roughness = 1 }"));
+    REQUIRE(run(folder.render({"--float"})).code == 0);
+    const float half = value_of(Picture(folder / "a.exr"), 2, 2);
+    write_file(folder.scene, wall("pbr{ color = 1, metallic = 128 / 255, roughness = 1 }"));
+    REQUIRE(run(folder.render({"--float"})).code == 0);
+    CHECK(half == Approx(value_of(Picture(folder / "a.exr"), 2, 2)).epsilon(1e-4));
+}
+
+TEST_CASE("an image map that cannot be read, or holds what its field does not take, is one line") {
+    SceneFolder folder;
+    write_file(folder / "words.png", "not a picture");
+    write_file(folder.scene, wall("matte{}"));
+    write_file(folder / "bright.lua",
+               "return { lights = {}, background = 3, image = { width = 4, height = 4 },"
+               " camera = { eye = {0, 0, 9} }, solids = { cube():translate(0, 0, 20) } }");
+    REQUIRE(run({"render", folder / "bright.lua", "-q", "--spp", "1", "-o", folder / "bright.exr"}).code == 0);
+    const auto said = [&](const std::string& material, const std::string& what, int code = 2) {
+        write_file(folder.scene, wall(material));
+        const Outcome outcome = run(folder.render({}));
+        CAPTURE(outcome.err);
+        CHECK(outcome.code == code);
+        CHECK(one_line(outcome.err));
+        CHECK(outcome.err.find(what) != std::string::npos);
+    };
+    said("matte{ color = image_map{ file = 'none.png' } }", "cube.lua:1: image_map.file: expected a file");
+    said("matte{ color = image_map{ file = '../x.png' } }", "cube.lua:1: image_map.file: expected a file");
+    said("matte{ color = image_map{} }", "cube.lua:1: image_map.file: expected a text, got nothing");
+    said("matte{ color = image_map{ file = 'words.png' } }", "words.png': ");
+    said("matte{ color = image_map{ file = 'bright.exr' } }", "bright.exr': expected numbers from 0 to 1, got 3");
+    said("metal{ roughness = image_map{ file = 'bright.exr' } }", "bright.exr': expected numbers from 0 to 1, got 3");
+    said("matte{ bump_height = 1 }", "cube.lua:1: matte.bump_height: expected a bump beside it, got none");
+    said("matte{ bump = 1 }", "cube.lua:1: matte.bump: expected a texture, got 1");
+    said("metal{ roughness = cube() }",
+         "cube.lua:1: metal.roughness: expected a number from 0 to 1 or a texture, got a density");
+    write_file(folder.scene, wall("matte{ bump = image_map{ file = 'bright.exr' } }"));
+    CHECK(run(folder.render({})).code == 0);
+}
