@@ -3,6 +3,8 @@
 // A solid of any shape is sampled by the cone around the ball that holds it: a direction that misses the solid brings
 // nothing, so no mesh of it is needed and the estimate is unbiased. Solids that are unbounded, or too large to be
 // bounded in time, are found by reflections alone.
+//
+// Many of them are kept in a tree (light_tree.hpp), in which one is found by its importance without asking all.
 #pragma once
 #include <optional>
 #include <vector>
@@ -22,6 +24,9 @@ public:
     /// About as much light as it gives at a point; 0 only where it gives none that at() finds.
     double importance(std::size_t i, Vec3 point) const;
     double importance(Vec3 point) const;
+    /// One of them for an even u from 0 to 1, as often as its part of all importance is; none where those left give
+    /// nothing. `importance` is that of all at the point, and more than 0.
+    std::optional<std::size_t> choose(Vec3 point, double importance, double u) const;
 
     struct Sample : Incident {
         int solid = -1;  // ≥ 0: the ray has to find what this solid emits; irradiance is then 1/density
@@ -42,10 +47,10 @@ public:
     /// Calls each(met) for the invisible ones.
     template <class Each>
     void for_each_invisible(const Ray& ray, double t_max, Each each) const {
-        for (const std::size_t i : invisible_) {
+        for_each_met(invisible_, ray, t_max, [&](std::size_t i) {
             const LightSource::Emission e = lights_[i].seen(ray, t_max);
             if (e.density > 0) each(Met{e.radiance, e.density, e.t, i});
-        }
+        });
     }
     /// The emitter that samples a solid, and the density with which it finds a direction to it from `point`.
     struct OfSolid {
@@ -66,9 +71,32 @@ private:
         Vec3 center;
         double radius, emitted;
     };
+    double importance_by_itself(std::size_t i, Vec3 point) const;
+    // Extended lights, visible or not, by their places in lights_; and whether there are so many that they are in a
+    // tree.
+    struct Extended {
+        std::vector<std::size_t> lights;
+        LightTree tree;
+    };
+    void plant_tree(const Scene& scene);
+    static void plant(Extended& extended, const std::vector<LightSource>& lights);
+    // Calls each(i) for those that a ray may meet.
+    template <class Each>
+    static void for_each_met(const Extended& extended, const Ray& ray, const double& t_max, Each each) {
+        if (extended.tree.empty())
+            for (const std::size_t i : extended.lights) each(i);
+        else
+            extended.tree.for_each_near(ray, t_max, [&](std::size_t k) { each(extended.lights[k]); });
+    }
+
     std::vector<LightSource> lights_;
     std::vector<Ball> balls_;
-    std::vector<std::size_t> visible_, invisible_;  // extended lights
+    std::vector<int> ball_of_;  // by solid; -1: none
+    Extended visible_, invisible_;
+    // Where there are many: of those before first_sky_ that are somewhere. The others are asked one by one.
+    LightTree tree_;
+    std::vector<std::size_t> in_tree_, others_;
+    std::vector<std::int64_t> place_in_tree_;  // by emitter; -1: one of the others
     const SkyLight& sky_;
     std::size_t first_sky_ = 0, sun_ = 0;  // emitters: the sky, if it is sampled, and the sun after it
 };

@@ -88,6 +88,16 @@ LightSource::Emission LightSource::seen(const Ray& ray, double t_max) const {
     return {emitted_, t * t / (cosine * area_), t};
 }
 
+LightBounds LightSource::bounds() const {
+    const double emitted = (emitted_.x + emitted_.y + emitted_.z) / 3;
+    if (kind_ == Light::Kind::area) {
+        const Vec3 half = 0.5 * (glm::abs(u_) + glm::abs(v_));
+        return {{position_ - half, position_ + half}, emitted * area_, direction_, 0};
+    }
+    const double shine = kind_ == Light::Kind::sphere ? pi * radius_ * radius_ : 1.0;
+    return {{position_ - Vec3(radius_), position_ + Vec3(radius_)}, emitted * shine};
+}
+
 // 1 − cosine of the half angle of the cone around a sphere of radius `r` at a distance `d` > r: without cancellation
 // for a far one.
 double cone_depth(double r, double d) {

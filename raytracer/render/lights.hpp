@@ -5,6 +5,7 @@
 #include <array>
 #include <numbers>
 
+#include "raytracer/render/light_tree.hpp"
 #include "raytracer/render/sampler.hpp"
 #include "raytracer/scene/scene.hpp"
 #include "raytracer/trace/ray_tracer.hpp"
@@ -49,6 +50,8 @@ public:
     /// Irradiance that the light gives at most at a point with nothing in between, by a rough estimate; 0 only where
     /// at() finds nothing. For choosing among lights.
     double importance(Vec3 point) const;
+    /// Of what is not directional.
+    LightBounds bounds() const;
 
 private:
     Light::Kind kind_;

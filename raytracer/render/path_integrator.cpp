@@ -341,13 +341,11 @@ private:
         }
         const double importance = in_.emitters_.importance(hit.position);
         if (!(importance > 0) || !std::isfinite(importance)) return infinity;
-        double at = sampler.line(dimension(m_.paths[i], chosen_light)) * importance;
-        for (std::size_t e = 0; e < count; ++e) {
-            const double part = in_.emitters_.importance(e, hit.position);
-            at -= part;
-            if (at >= 0 || !(part > 0)) continue;
-            take_sample(i, hit, surface, e, part / importance, sampler.square(dimension(m_.paths[i], light_places)));
-            break;
+        const double at = sampler.line(dimension(m_.paths[i], chosen_light));
+        if (const auto chosen = in_.emitters_.choose(hit.position, importance, at)) {
+            const double part = in_.emitters_.importance(*chosen, hit.position);
+            take_sample(i, hit, surface, *chosen, part / importance,
+                        sampler.square(dimension(m_.paths[i], light_places)));
         }
         return importance;
     }
