@@ -61,7 +61,8 @@ void deburr_against_povray(Report& report) {
             return *cpu_seconds_of_program({deburr_program(), "render", scene_path(name), "-q", "--threads", "1",
                                             "--spp", "1", "--size", "600x380", "-o", folder / "ours.png"});
         };
-        const auto against = [&](const std::string& what, const std::vector<std::string>& options, Bar bar) {
+        const auto against = [&](const std::string& what, const std::vector<std::string>& options,
+                                 std::optional<Bar> bar) {
             std::vector<std::string> words{deburr_program(), "export-pov", scene_path(name), "-q", "--size",
                                            "600x380",        "-o",         folder / "s.pov"};
             words.insert(words.end(), options.begin(), options.end());
@@ -72,10 +73,10 @@ void deburr_against_povray(Report& report) {
             };
             report.ratio(fmt::format("{}: {}", name, what), ratio_of_times(theirs, ours, rounds), bar);
         };
-        against("isosurface, right picture", {"--min-max"}, at_least(50));
-        against("isosurface, right picture, by cases", {}, at_least(50));
-        against("isosurface, default accuracy", {"--min-max", "--accuracy", "0.001"}, at_least(15));
-        against("isosurface, default accuracy, by cases", {"--accuracy", "0.001"}, at_least(15));
+        // The form that POV-Ray is faster with is the one that counts.
+        against("isosurface, right picture", {}, at_least(50));
+        against("isosurface, right picture, by min and max", {"--min-max"}, std::nullopt);
+        against("isosurface, default accuracy", {"--accuracy", "0.001"}, at_least(15));
         against("sharp CSG / our rounded", {"--sharp"}, at_least(2));
     }
 }
