@@ -1,6 +1,8 @@
 // How the cost of a ray grows with the number of objects, and with the half-spaces of one.
 #include <fmt/format.h>
 
+#include <numbers>
+
 #include "bench/blocks.hpp"
 #include "bench/picture.hpp"
 #include "bench/sections.hpp"
@@ -68,6 +70,22 @@ struct Growth {
     }
 };
 
+// A plate with k x k holes of 12 sides, in one Boolean density.
+Solid holed_plate(int k) {
+    Density plate = Density::box({0, 0, 0}, {double(k), 0.3, double(k)});
+    for (int i = 0; i < k * k; ++i) {
+        const Vec3 middle(i % k + 0.5, 0, i / k + 0.5);
+        Density hole = Density::half_space({0, 1, 0}, 2) & Density::half_space({0, -1, 0}, 1);
+        for (int j = 0; j < 12; ++j) {
+            const double a = 2 * std::numbers::pi * (j + 0.5) / 12;
+            const Vec3 n(std::cos(a), 0, std::sin(a));
+            hole = hole & Density::half_space(n, glm::dot(n, middle) + 0.29);
+        }
+        plate = plate & ~hole;
+    }
+    return Solid::rounded(0.03, plate);
+}
+
 }  // namespace
 
 void growth_of_tracing(Report& report) {
@@ -100,6 +118,9 @@ void growth_of_tracing(Report& report) {
     }
     report.ratio(fmt::format("to build one of {:.0f} different blocks / of 10,000", forms.last_x),
                  {forms.last, forms.reference}, at_most(3));
+
+    report.figure("a plate of 1,024 holes of 12 sides: build",
+                  seconds_of([solid = holed_plate(32)] { ImplicitTracer tracer({solid}); }, 3), "s", at_most(0.4));
 
     Growth half_spaces{12};
     for (const int k : {1, 4, 11, 35}) {
