@@ -14,6 +14,7 @@
 #include "raytracer/cli/statistics.hpp"
 #include "raytracer/cli/sums_file.hpp"
 #include "raytracer/image/denoise.hpp"
+#include "raytracer/image/display_server.hpp"
 #include "raytracer/image/exposure.hpp"
 #include "raytracer/image/scene_pictures.hpp"
 #include "raytracer/render/passes.hpp"
@@ -32,6 +33,8 @@ using Clock = std::chrono::steady_clock;
 constexpr double line_width = 1;
 // What tiles in hand are given once a stop is asked for.
 constexpr std::chrono::milliseconds grace(300);
+// From one picture in a viewer to the next: it costs the tiles in hand some rest.
+constexpr double seconds_of_display = 0.5;
 // EX_TEMPFAIL of sysexits.h: schedulers run the job again, and it goes on from its checkpoint.
 constexpr int to_be_resumed_exit_code = 75;
 
@@ -175,6 +178,7 @@ private:
                             scene.lights.size(), frame_.size.width, frame_.size.height, threads_));
         if (!o_.quiet) warn_of_scene(scene, double(frame_.size.width) / frame_.size.height);
         if (nothing_is_left(scene)) throw WorkError(scene.file + ": no solid is left, and there is nothing to show");
+        if (!o_.display_server.empty()) viewer_ = std::make_unique<DisplayServer>(o_.display_server);
     }
 
     void begin_progress(double work, double done) {
@@ -219,11 +223,12 @@ private:
         const std::atomic<bool>& stop = catch_interrupts(!o_.quiet);
         begin_progress(passes_->work(), passes_->work_done());
         Timer write_timer(o_.write_every),
-            keep_timer(o_.checkpoint.empty() ? std::nullopt : std::optional(o_.checkpoint_every));
+            keep_timer(o_.checkpoint.empty() ? std::nullopt : std::optional(o_.checkpoint_every)),
+            show_timer(viewer_ ? std::optional(seconds_of_display) : std::nullopt);
         bool asked = false;
         const auto is_due = [&] {
             asked = asked || take_save_request();
-            return asked || write_timer.is_due() || keep_timer.is_due();
+            return asked || write_timer.is_due() || keep_timer.is_due() || (viewer_ && show_timer.is_due());
         };
         bool changed = false;
         while (!stop && !passes_->finished()) {
@@ -239,6 +244,10 @@ private:
             if (write_timer.is_due() && passes_->samples_of_all() > 0 && !o_.outputs.empty()) {
                 write(finished(passes_->film()), passes_->samples_of_all(), [](double) {});
                 write_timer.restart();
+            }
+            if (show_timer.is_due()) {
+                show(finished(passes_->film()));
+                show_timer.restart();
             }
         }
         if (changed) keep();
@@ -257,6 +266,18 @@ private:
         return film;
     }
 
+    // A viewer that is closed is not the picture's end.
+    void show(const Film& film) {
+        if (!viewer_) return;
+        try {
+            viewer_->show(o_.outputs.empty() ? world_->scene.file : o_.outputs.front(), film);
+        } catch (const WorkError& error) {
+            viewer_.reset();
+            progress_->stop();
+            message(std::string("warning: ") + error.what() + "; going on without");
+        }
+    }
+
     void write(const Film& film, int samples, const std::function<void(double)>& work) {
         write_pictures(o_.outputs, film, format_of(o_, exposure_, threads_),
                        notes_of(o_, *world_, samples, clock_.wall("trace")), work);
@@ -266,6 +287,7 @@ private:
         // Of a first pass that was not finished, pixels have one sample or none.
         const int taken = complete_ ? samples().end - samples().first : std::max(samples_, 1);
         clock_.begin("write");
+        show(film);
         try {
             write(film, taken, [&](double work) { progress_->advance(work); });
         } catch (...) {
@@ -303,6 +325,7 @@ private:
     Frame frame_;
     double exposure_ = 0;
     std::optional<Passes> passes_;
+    std::unique_ptr<DisplayServer> viewer_;  // or null
     std::optional<Progress> progress_;
     std::optional<Film> film_;
     bool complete_ = false;

@@ -71,7 +71,8 @@ void check_checkpoint_options(const RenderOptions& o) {
 void check_render_options(const RenderOptions& o) {
     check_mesh_options(o);
     if (o.scene.empty()) throw UsageError("render: expected a scene file");
-    if (o.outputs.empty() && o.checkpoint.empty()) throw UsageError("render: expected an output file, -o FILE");
+    if (o.outputs.empty() && o.checkpoint.empty() && o.display_server.empty())
+        throw UsageError("render: expected an output file, -o FILE");
     check_image_names("-o", o.outputs);
     check_sample_options(o);
     check_checkpoint_options(o);
@@ -189,6 +190,10 @@ CLI::App* add_render_options(CLI::App& program, const std::shared_ptr<RenderOpti
             "how stderr tells how far the work is: lines of 'Progress: 42%' and json, an object a line, are for other "
             "programs; default: a bar on a terminal, else a line now and then")
         ->type_name("bar|lines|json|none");
+    command
+        ->add_option("--display-server", options->display_server,
+                     "show the picture, as its samples come, in a viewer that listens there and speaks tev's protocol")
+        ->type_name("HOST:PORT");
     command
         ->add_option("--checkpoint", options->checkpoint,
                      "keep the sums of all samples in this file, every minute and at the end; after SIGTERM the exit "

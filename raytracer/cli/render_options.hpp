@@ -25,6 +25,7 @@ struct RenderOptions : Options {
     ViewTransform view = ViewTransform::standard;
     bool denoise = false;
     std::optional<double> write_every;  // seconds
+    std::string display_server;         // "": none
     std::string checkpoint;             // "": none
     bool resume = false;
     double checkpoint_every = 60;  // seconds
