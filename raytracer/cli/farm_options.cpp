@@ -49,14 +49,15 @@ std::optional<double> quota_in(const std::string& folder) {
     return std::atof(quota.c_str()) / period;
 }
 
-std::optional<double> control_group_quota() {
+}  // namespace
+
+std::optional<double> control_group_quota(const std::string& root, const std::string& groups_file) {
     std::optional<double> least;
     const auto take = [&](std::optional<double> quota) {
         if (quota && *quota > 0) least = std::min(least.value_or(*quota), *quota);
     };
-    const std::string root = "/sys/fs/cgroup";
     take(quota_in(root));
-    std::ifstream groups("/proc/self/cgroup");
+    std::ifstream groups(groups_file);
     for (std::string line; std::getline(groups, line);) {
         if (line.rfind("0::/", 0) != 0) continue;
         for (std::string path = line.substr(3); path.size() > 1; path = path.substr(0, path.rfind('/')))
@@ -68,8 +69,6 @@ std::optional<double> control_group_quota() {
     if (quota >> q && period >> p && q > 0 && p > 0) take(q / p);
     return least;
 }
-
-}  // namespace
 
 TileShare parse_tile(std::string_view option, std::string_view text) {
     const std::size_t slash = text.find('/');
@@ -141,7 +140,8 @@ int default_threads() {
     int threads = tbb::info::default_concurrency();
     if (const char* text = std::getenv("SLURM_CPUS_PER_TASK"))
         if (const int given = std::atoi(text); given > 0) threads = std::min(threads, given);
-    if (const auto quota = control_group_quota()) threads = std::min(threads, std::max(1, int(std::ceil(*quota))));
+    if (const auto quota = control_group_quota("/sys/fs/cgroup", "/proc/self/cgroup"))
+        threads = std::min(threads, std::max(1, int(std::ceil(*quota))));
     return threads;
 }
 

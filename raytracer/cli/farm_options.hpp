@@ -38,6 +38,10 @@ std::string numbered(std::string_view option, const std::string& path, int frame
 /// Those rows of a window; throws UsageError if it has fewer rows than there are shares.
 Window share_of(std::string_view option, const TileShare& share, const Window& window);
 
+/// Processors that the control group of a process may use, and every group around it: none if there is no quota.
+/// `root`: where groups are mounted; `groups_file`: what says which group it is, as /proc/self/cgroup.
+std::optional<double> control_group_quota(const std::string& root, const std::string& groups_file);
+
 /// Threads by default: SLURM_CPUS_PER_TASK, or the quota of the process's control group, or as many as there are
 /// processors that it may use, whichever is least.
 int default_threads();

@@ -7,6 +7,7 @@
 #include <thread>
 
 #include "catch.hpp"
+#include "raytracer/cli/farm_options.hpp"
 #include "raytracer/program.hpp"
 
 using namespace deburr::test;
@@ -39,6 +40,19 @@ struct Place : Folder {
 };
 
 const Words layers = {"--aov", "P,N,Z,albedo,normal,id,crypto"};
+
+// As gzip has it, little-endian.
+std::string crc32_bytes(const std::string& text) {
+    std::uint32_t crc = ~0u;
+    for (const char c : text) {
+        crc ^= static_cast<unsigned char>(c);
+        for (int k = 0; k < 8; ++k) crc = crc >> 1 ^ (crc & 1 ? 0xedb88320u : 0);
+    }
+    crc = ~crc;
+    std::string bytes;
+    for (int k = 0; k < 4; ++k) bytes.push_back(char(crc >> (8 * k) & 0xff));
+    return bytes;
+}
 
 Words with(Words words, const Words& more) {
     words.insert(words.end(), more.begin(), more.end());
@@ -150,6 +164,14 @@ TEST_CASE("a checkpoint of something else is refused with one line") {
     refused(call, 1, "a.sums: expected the sums that were written, got a damaged file");
     write_file(place / "a.sums", "");
     refused(call, 1, "a.sums: expected a file of sums by --checkpoint, got another one");
+    // Sound, but of another version.
+    std::string older = sums;
+    const std::size_t version = older.find("\"version\":\"") + 11;
+    REQUIRE(older.compare(version, 6, "0.1.0\"") == 0);
+    older.replace(version, 5, "0.0.9");
+    older.replace(older.size() - 4, 4, crc32_bytes(older.substr(0, older.size() - 4)));
+    write_file(place / "a.sums", older);
+    refused(call, 1, "a.sums: expected sums of deburr 0.1.0, got those of 0.0.9");
     write_file(place / "a.sums", sums);
     CHECK(place.render(call).code == 0);
     refused({"--spp", "4", "-o", place / "a.png", "--resume"}, 2, "--resume: expected --checkpoint FILE");
@@ -277,4 +299,39 @@ TEST_CASE("--frames renders an animation, in one run or as an array, with t from
     write_file(place.scene, cube_scene());
     refused({"--frames", "1-4", "-o", place / "a.#.png"},
             "cube.lua: expected a scene with param(\"frame\", 1) or param(\"t\", 0)");
+}
+
+TEST_CASE("threads follow the scheduler's and the control group's limits") {
+    const Place place;
+    const auto threads = [&](const Words& environment, const Words& more = {}) {
+        const Outcome o =
+            run(with({"render", place.scene, "-v", "--spp", "1", "-o", place / "a.png"}, more), environment);
+        const std::size_t end = o.err.find(" threads\n"), begin = o.err.rfind(' ', end - 1);
+        REQUIRE(end != std::string::npos);
+        return std::stoi(o.err.substr(begin + 1, end - begin - 1));
+    };
+    const int all = threads({});
+    CHECK(threads({"SLURM_CPUS_PER_TASK=1"}) == 1);
+    CHECK(threads({"SLURM_CPUS_PER_TASK=100000"}) == all);
+    CHECK(threads({"SLURM_CPUS_PER_TASK="}) == all);
+    CHECK(threads({"SLURM_CPUS_PER_TASK=1"}, {"--threads", "3"}) == 3);
+
+    const auto quota = [&] { return deburr::control_group_quota(place / "groups", place / "cgroup"); };
+    std::filesystem::create_directories(place / "groups/a/b");
+    std::filesystem::create_directories(place / "groups/cpu");
+    write_file(place / "cgroup", "0::/a/b\n");
+    CHECK(!quota());
+    write_file(place / "groups/a/b/cpu.max", "max 100000\n");
+    CHECK(!quota());
+    write_file(place / "groups/a/cpu.max", "350000 100000\n");
+    CHECK(quota() == 3.5);
+    write_file(place / "groups/cpu.max", "120000 100000\n");
+    CHECK(quota() == 1.2);
+    std::filesystem::remove_all(place / "groups/a");
+    std::filesystem::remove(place / "groups/cpu.max");
+    write_file(place / "groups/cpu/cpu.cfs_quota_us", "-1\n");
+    write_file(place / "groups/cpu/cpu.cfs_period_us", "100000\n");
+    CHECK(!quota());
+    write_file(place / "groups/cpu/cpu.cfs_quota_us", "200000\n");
+    CHECK(quota() == 2.0);
 }

@@ -28,9 +28,24 @@ struct Page : Folder {
 
     explicit Page(const std::vector<std::string>& more = {}) {
         write_file(scene, cube_scene());
+        begin(more);
+    }
+    // Of another file, which the program openscad in its folder reads.
+    Page(const std::string& name, const std::string& text, const std::string& openscad) {
+        scene = *this / name;
+        write_file(scene, text);
+        const std::string program = *this / "openscad";
+        write_file(program, openscad);
+        std::filesystem::permissions(program, std::filesystem::perms::owner_all);
+        begin({}, {"PATH=" + std::filesystem::path(program).parent_path().string() + ":/usr/bin:/bin"});
+    }
+
+    void begin(const std::vector<std::string>& more, const std::vector<std::string>& environment = {}) {
         std::vector<std::string> words = {"view", scene};
         words.insert(words.end(), more.begin(), more.end());
-        call = std::make_unique<Call>(words, std::vector<std::string>{"SOURCE_DATE_EPOCH=0"});
+        std::vector<std::string> all = {"SOURCE_DATE_EPOCH=0"};
+        all.insert(all.end(), environment.begin(), environment.end());
+        call = std::make_unique<Call>(words, all);
         const std::string address = call->first_line();
         const std::string start = "http://127.0.0.1:";
         REQUIRE(address.substr(0, start.size()) == start);
@@ -185,4 +200,33 @@ TEST_CASE("two pages see the same, and closing them ends nothing") {
     const Outcome taken = run({"view", page.scene, "--port", page.host.substr(page.host.find(':') + 1)});
     CHECK(taken.code == 1);
     CHECK(taken.err.find("the port is taken") != std::string::npos);
+}
+
+// Stands for OpenSCAD: of cube(N); it makes a tetrahedron of that size, of all else an error.
+constexpr const char* openscad_for_tests = R"(#!/bin/sh
+s=$(sed -n 's/^cube(\([0-9]*\));$/\1/p' "$3")
+if [ -z "$s" ]; then echo "ERROR: Parser error: syntax error in file $3, line 1" >&2; exit 1; fi
+{
+    echo solid s
+    for f in "0 0 0 0 $s 0 $s 0 0" "0 0 0 $s 0 0 0 0 $s" "0 0 0 0 0 $s 0 $s 0" "$s 0 0 0 $s 0 0 0 $s"; do
+        set -- "$1" "$2" "$3" $f
+        echo "facet normal 0 0 0 outer loop vertex $4 $5 $6 vertex $7 $8 $9 vertex ${10} ${11} ${12} endloop endfacet"
+    done
+    echo endsolid s
+} >"$2"
+)";
+
+TEST_CASE("a program for OpenSCAD is shown, and followed while it is edited") {
+    Page page("part.scad", "cube(2);\n", openscad_for_tests);
+    const Frame first = page.finished();
+    write_file(page.scene, "cube(2;\n");
+    const Frame broken = page.frame([](const Frame& f) { return f.head["error"] != ""; });
+    CHECK(broken.head["error"].get<std::string>().find("Parser error") != std::string::npos);
+    CHECK(broken.rgba == first.rgba);
+    write_file(page.scene, "cube(3);\n");
+    const Frame mended = page.finished();
+    CHECK(mended.head["scene"] > first.head["scene"]);
+    const auto stl = page.get("picture.stl");
+    REQUIRE(stl);
+    CHECK(stl->body.size() == 84 + 50 * 4);
 }
