@@ -3,7 +3,8 @@
 #
 #   farm/slurm.sh scene.lua 64 picture.exr --spp 1024
 #
-# A task that is preempted, or that runs out of time, ends with a checkpoint and is run again from there.
+# A task that is preempted, or that runs out of time, ends with a checkpoint and is run again from there; so is one that
+# was killed, three times.
 set -eu
 scene=$1 shares=$2 picture=$3
 shift 3
@@ -18,7 +19,9 @@ trap 'kill -TERM \$!' TERM
 code=0
 wait \$! || code=\$?
 if kill -0 \$! 2>/dev/null; then code=0; wait \$! || code=\$?; fi
-if [ "\$code" = 75 ]; then scontrol requeue "\${SLURM_ARRAY_JOB_ID}_\$SLURM_ARRAY_TASK_ID"; fi
+if [ "\$code" = 75 ] || { [ "\$code" -gt 128 ] && [ "\${SLURM_RESTART_COUNT:-0}" -lt 3 ]; }; then
+    scontrol requeue "\${SLURM_ARRAY_JOB_ID}_\$SLURM_ARRAY_TASK_ID"
+fi
 exit "\$code"
 END
 )
