@@ -163,16 +163,29 @@ Range RoundCoordinate::range(const Box& box) const {
     const Range a = product(across, s), b = product(along, t);
     Range u{a.lo + b.lo, a.hi + b.hi};
     if (coordinate_axis(axis) >= 0 || !box.finite()) return u;
-    // It is convex, or its negative is: on one side its corners bound it, on the other the plane that touches it.
-    const Vec3 middle = 0.5 * (box.lo + box.hi);
-    const double reach = glm::dot(glm::abs(gradient(middle)), 0.5 * (box.hi - box.lo)), here = at(middle);
-    Range corners{infinity, -infinity};
-    for (int i = 0; i < 8; ++i) {
-        const double value = at(corner(box, i));
-        corners = {std::min(corners.lo, value), std::max(corners.hi, value)};
+    // Its gradient is a unit vector, so within a side of the box it is stationary only along lines on the cone that run
+    // on to the side's edges, and within the box only on the axis: edges and axis hold the least and the greatest.
+    u = {infinity, -infinity};
+    const auto add = [&](Range r) { u = {std::min(u.lo, r.lo), std::max(u.hi, r.hi)}; };
+    RoundOnRay on_edge;
+    for (int from = 0; from < 8; ++from)
+        for (const int bit : {1, 2, 4}) {
+            if ((from & bit) != 0) continue;
+            on_edge.set(*this, corner(box, from), corner(box, from | bit) - corner(box, from));
+            add(on_edge.range(0, 1));
+        }
+    double enters = -infinity, leaves = infinity;
+    for (int k = 0; k < 3; ++k) {
+        const double a = (box.lo[k] - center[k]) / axis[k], b = (box.hi[k] - center[k]) / axis[k];
+        if (axis[k] == 0 && !(box.lo[k] <= center[k] && center[k] <= box.hi[k])) return u;
+        if (axis[k] == 0) continue;
+        enters = std::max(enters, std::min(a, b));
+        leaves = std::min(leaves, std::max(a, b));
     }
-    if (across > 0) return {std::max(u.lo, here - reach), corners.hi};
-    return {corners.lo, std::min(u.hi, here + reach)};
+    if (enters <= leaves)
+        add({std::min(this->along * enters, this->along * leaves),
+             std::max(this->along * enters, this->along * leaves)});
+    return u;
 }
 
 RoundCoordinate RoundCoordinate::mirrored() const {

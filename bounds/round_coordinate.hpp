@@ -30,8 +30,8 @@ struct RoundCoordinate {
     double at(Vec3 x) const;
     /// A unit vector; 0 where there is none.
     Vec3 gradient(Vec3 x) const;
-    /// Holds the values over the box, whose sides may be infinite. The least and the greatest where the axis is along a
-    /// coordinate axis, and of spheres and cylinders in any case.
+    /// Holds the values over the box, whose sides may be infinite. The least and the greatest, but for circles about an
+    /// axis that is not a coordinate axis.
     Range range(const Box& box) const;
     /// Whether it is convex; its negative is if `across` < 0, and neither is for a circle.
     bool is_convex() const { return kind != Kind::circle && across >= 0; }
