@@ -120,8 +120,8 @@ Mesh triage(const SolidTree& mixed, const Box& box, const TriageOptions& options
     std::optional<FacetJudge> judge;
     // Each round halves the cells that need it.
     const std::size_t max_rounds = std::isfinite(options.tolerance) ? 6 : 5;
-    constexpr std::size_t max_mending_rounds = 8;
-    std::size_t mending = 0;
+    constexpr std::size_t max_mending_rounds = 8, max_fine_rounds = 6;
+    std::size_t mending = 0, last_left = most;
     std::vector<int> best_left;  // triangles of it that are wrong
     std::vector<Box> dense;      // where a mesh that was thinned out was wrong
     // Where surfaces nearly touch, halves of what is too far may be too far for ever.
@@ -143,13 +143,21 @@ Mesh triage(const SolidTree& mixed, const Box& box, const TriageOptions& options
         if (std::isfinite(options.tolerance)) {
             const double tolerance = (options.decimate ? at_points : at_points_of_picture) * options.tolerance;
             const std::vector<int> left = refine(mesh, origins, *judge, tolerance, options.cancel);
-            if (may_cut && !left.empty() &&
+            // What hardly becomes less is looked at again when all is done, by the tolerance itself.
+            const bool helped = 2 * left.size() < std::exchange(last_left, left.size());
+            if (may_cut && helped && !left.empty() &&
                 cut_cells(subdivision, mesh, origins, left, tolerance, max_cells, options.cancel))
                 continue;
         }
         if (thin_out) {
-            // Facets that lean are mended first: what mends them later knows of no tolerance.
-            repair(mesh, origins, *judge);
+            // Facets that lean are mended first: what mends them later knows of no tolerance. Smaller cells for those
+            // that cannot be mended cost less before the rest is thinned out.
+            const RepairStatistics repaired = repair(mesh, origins, *judge);
+            if (!repaired.left.empty() && mending < max_fine_rounds && may_halve() &&
+                !halve(subdivision, cells_around(mesh, origins, repaired.left, subdivision)).empty()) {
+                ++mending;
+                continue;
+            }
             decimate(mesh, origins, *judge, at_points * options.tolerance, dense, options.cancel);
         }
         // What repair cannot help needs smaller cells around it.
