@@ -10,6 +10,8 @@ namespace {
 struct Shell {
     double area = 0, volume = 0;
     std::size_t triangles = 0, wrong = 0;
+    Vec3 normals{0.0};      // the sum of its corners'
+    bool one_sheet = true;  // its corners' normals all face the same way, as around no part of a solid
     bool goes = false;
 
     // Volume over area to the power of 1.5 is less than a plate's of 50 by 50 by 1.
@@ -27,7 +29,12 @@ public:
             Shell& s = shells_[of];
             s.area += 0.5 * glm::length(area);
             s.volume += glm::dot(mesh.positions[t.vertex[0]] - from, area) / 6;
+            for (const int n : t.normal) s.normals += mesh.normals[n];
             ++s.triangles;
+        }
+        for (const Triangle& t : mesh.triangles) {
+            Shell& s = of(t);
+            for (const int n : t.normal) s.one_sheet &= glm::dot(mesh.normals[n], s.normals) > 0;
         }
     }
 
@@ -99,7 +106,7 @@ std::size_t drop_wrong_shells(Mesh& mesh, std::vector<Origin>& origins, std::vec
     if (wrong.empty()) return 0;
     Shells shells(mesh);
     for (const int t : wrong) ++shells.of(mesh.triangles[t]).wrong;
-    for (Shell& s : shells.all()) s.goes = s.thin() && 2 * s.wrong >= s.triangles;
+    for (Shell& s : shells.all()) s.goes = s.thin() && s.wrong > 0 && (s.one_sheet || 2 * s.wrong >= s.triangles);
     const std::size_t gone = drop(shells, mesh, origins, wrong);
     if (gone > 0) Facets(mesh, origins).finish();
     return gone;

@@ -10,8 +10,9 @@ namespace deburr {
 /// solid within. `origins`, one for each triangle, goes along. Returns how many triangles went.
 std::size_t drop_flat_shells(Mesh& mesh, std::vector<Origin>& origins, double thickness, const DistanceField& solid);
 
-/// Drops thin shells that consist by half or more of triangles that are `wrong`, which are numbered anew: no
-/// part of the solid's surface is like that, but chords of surfaces that coincide are, each time they cross.
+/// Drops thin shells that consist by half or more of triangles that are `wrong`, which are numbered anew, or have one
+/// and normals that all face the same way: no part of the solid's surface is like that, but chords of surfaces that
+/// coincide are, each time they cross, and four chords of one sheet.
 std::size_t drop_wrong_shells(Mesh& mesh, std::vector<Origin>& origins, std::vector<int>& wrong);
 
 }  // namespace deburr

@@ -7,6 +7,7 @@
 #include "polygonizer/mesh/mesh_check.hpp"
 #include "polygonizer/octree/octree.hpp"
 #include "polygonizer/random_part.hpp"
+#include "polygonizer/random_round_part.hpp"
 #include "polygonizer/triage/triage.hpp"
 
 using namespace deburr;
@@ -14,9 +15,9 @@ using namespace deburr;
 namespace {
 
 // What the check says of a part.
-template <class Polygonize>
+template <class Part = RandomPart, class Polygonize>
 MeshCheck check_part(int seed, Polygonize polygonize) {
-    RandomPart part(seed);
+    Part part(seed);
     const SolidTree solid = flatten(part.solid());
     const Box box = polygonization_box(solid);
     MeshCheckOptions options;
@@ -26,7 +27,7 @@ MeshCheck check_part(int seed, Polygonize polygonize) {
 
 // DEBURR_STRESS=10000: so many parts; DEBURR_STRESS_FROM=10000: others.
 // `facets_lean`: where a wall is thinner than a cell, some facets face inward.
-template <class Polygonize>
+template <class Part = RandomPart, class Polygonize>
 std::size_t check_parts(int usual, bool facets_lean, Polygonize polygonize) {
     const char* wanted = std::getenv("DEBURR_STRESS");
     const char* from = std::getenv("DEBURR_STRESS_FROM");
@@ -34,7 +35,7 @@ std::size_t check_parts(int usual, bool facets_lean, Polygonize polygonize) {
     std::size_t facets = 0, inward = 0;
     for (int seed = first; seed < first + cases; ++seed) {
         CAPTURE(seed);
-        const MeshCheck check = check_part(seed, polygonize);
+        const MeshCheck check = check_part<Part>(seed, polygonize);
         CHECK(check.open.count == 0);
         inward += check.inward.count;
         if (!facets_lean) CHECK(check.inward.count == 0);
@@ -55,12 +56,29 @@ TEST_CASE("Random parts by triage pass the check of what was made") {
           }) > 10'000);
 }
 
+namespace {
+
+Mesh triage_of_tolerance(const SolidTree& solid, const Box& box, MeshCheckOptions& options) {
+    const double radius = solid.min_radius(), tolerance = radius > 0 ? 0.05 * radius : infinity;
+    options.tolerance = 2 * tolerance;
+    return triage(solid, box, {tolerance});
+}
+
+}  // namespace
+
 TEST_CASE("Random parts by triage within a tolerance pass the check of what was made") {
-    CHECK(check_parts(100, false, [](const SolidTree& solid, const Box& box, MeshCheckOptions& options) {
-              const double radius = solid.min_radius(), tolerance = radius > 0 ? 0.05 * radius : infinity;
-              options.tolerance = 2 * tolerance;
-              return triage(solid, box, {tolerance});
-          }) > 10'000);
+    CHECK(check_parts(100, false, triage_of_tolerance) > 10'000);
+}
+
+TEST_CASE("Random round parts by triage pass the check of what was made") {
+    CHECK(check_parts<RandomRoundPart>(12, false, triage_of_tolerance) > 10'000);
+}
+
+TEST_CASE("Four chords of one sheet of a round part are no part of the mesh") {
+    for (const int seed : {60, 174}) {
+        CAPTURE(seed);
+        CHECK(check_part<RandomRoundPart>(seed, triage_of_tolerance).inward.count == 0);
+    }
 }
 
 TEST_CASE("Random parts by marching cubes pass the check of what was made") {
