@@ -60,6 +60,11 @@ Sampler::Sampler(std::uint64_t seed, int x, int y, int sample)
     : pixel_(mixed(mixed(seed + golden) ^ (std::uint64_t(std::uint32_t(x)) << 32 | std::uint32_t(y)))),
       sample_(std::uint32_t(sample)) {}
 
+double Sampler::line(std::uint32_t dimension) const {
+    const std::uint64_t key = mixed(pixel_ + golden * (std::uint64_t(dimension) + 1));
+    return unit(reversed(nested(reversed(nested(reversed(sample_), key)), mixed(key + golden))));
+}
+
 Vec2 Sampler::square(std::uint32_t dimension, int part, int parts) const {
     const std::uint64_t key = mixed(pixel_ + golden * (std::uint64_t(dimension) + 1));
     // Shuffled in the order of Owen's scramble, the first 2ᵐ samples remain one block of 2ᵐ.

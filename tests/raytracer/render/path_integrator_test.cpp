@@ -158,7 +158,7 @@ TEST_CASE("The mean does not depend on the number of samples") {
     scene.camera.eye = {3, 3, 2};
     const AnalyticTracer tracer(
         {floor_at_0, {Shape::Kind::sphere, {-1.5, 1, 0}, {}, 1, 1}, {Shape::Kind::sphere, {0.5, 1, -1.6}, {}, 1, 2}});
-    const int total = 1 << 15;
+    const int total = 1 << 17;
     const Vec3 all = path_pixel(scene, tracer, total).color;
     int cases = 0;
     for (int spp = 1; spp <= 256; spp *= 4) {
@@ -171,7 +171,7 @@ TEST_CASE("The mean does not depend on the number of samples") {
         Vec3 sum(0.0);
         for (int x = 0; x < pixels; ++x) sum += integrator.pixel(x, 0, nullptr, counters).color / double(pixels);
         CAPTURE(spp);
-        for (int k = 0; k < 3; ++k) CHECK(sum[k] == Approx(all[k]).epsilon(0.006));
+        for (int k = 0; k < 3; ++k) CHECK(sum[k] == Approx(all[k]).epsilon(0.003));
         ++cases;
     }
     CHECK(cases == 5);

@@ -38,6 +38,7 @@ TEST_CASE("Parts of samples are stratified together") {
 TEST_CASE("Seed, pixel, sample and dimension each change a sample, in every bit evenly") {
     const Vec2 u = Sampler(1, 2, 3, 4).square(5);
     CHECK(u == Sampler(1, 2, 3, 4).square(5));
+    for (std::uint32_t d = 0; d < 100; ++d) CHECK(Sampler(1, 2, 3, 7).line(d) == Sampler(1, 2, 3, 7).square(d).x);
     for (const Vec2& other :
          {Sampler(2, 2, 3, 4).square(5), Sampler(1, 3, 3, 4).square(5), Sampler(1, 2, 4, 4).square(5),
           Sampler(1, 3, 2, 4).square(5), Sampler(1, 2, 3, 5).square(5), Sampler(1, 2, 3, 4).square(6)})
