@@ -15,6 +15,7 @@
 #include "raytracer/cli/options.hpp"
 #include "raytracer/cli/solid_choice.hpp"
 #include "raytracer/cli/statistics.hpp"
+#include "raytracer/image/scene_pictures.hpp"
 #include "raytracer/mesh/face_count.hpp"
 #include "raytracer/model/model_format.hpp"
 #include "raytracer/scene/vanished_parts.hpp"
@@ -274,6 +275,9 @@ int run_mesh(const MeshCommandOptions& o) {
     std::vector<std::string> inputs = scene.model_files;
     inputs.push_back(o.scene);
     check_outputs(files, {o.stats_json}, inputs);
+    // All but STL keep colours.
+    if (std::any_of(files.begin(), files.end(), [](const std::string& path) { return !path.ends_with(".stl"); }))
+        load_textures(scene);
     if (!o.stats_json.empty()) files.push_back(o.stats_json);
     for (const std::string& path : files) check_writable(path);
     if (o.recenter)

@@ -84,6 +84,11 @@ void load_pictures(Scene& scene) {
     Pictures pictures;
     pictures.load(scene.background);
     if (scene.environment) pictures.load(*scene.environment);
+    load_textures(scene);
+}
+
+void load_textures(Scene& scene) {
+    Pictures pictures;
     for (Material& m : scene.materials) {
         pictures.load(m.color, Use::color);
         pictures.load(m.roughness_texture, Use::share, &m.roughness);

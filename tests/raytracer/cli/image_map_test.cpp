@@ -43,6 +43,25 @@ TEST_CASE("an image map shows the file's colours, and shares are the numbers in 
     CHECK(half == Approx(value_of(Picture(folder / "a.exr"), 2, 2)).epsilon(1e-4));
 }
 
+TEST_CASE("a mesh has the mean of an image map's colours, and an STL does not ask for it") {
+    SceneFolder folder;
+    const std::string picture =
+        "return { image = { width = 8, height = 8, spp = 1 }, lights = {}, ambient = 1,"
+        " camera = { eye = {0, 0, 9}, fov = 5, projection = 'orthographic' }, background = 0,"
+        " solids = { sharp(box({0, -9, -1}, {9, 9, 0})):material(matte{ color = 1 }) } }";
+    write_file(folder.scene, picture);  // half black, half white
+    REQUIRE(run(folder.render({}, "half.png")).code == 0);
+    write_file(folder.scene,
+               "return { solids = { cube():material(matte{ color = image_map{ file = 'half.png' } }) } }");
+    REQUIRE(run({"mesh", folder.scene, "-q", "-o", folder / "a.glb"}).code == 0);
+    CHECK(read_file(folder / "a.glb").find("\"baseColorFactor\":[0.5,0.5,0.5,1") != std::string::npos);
+    write_file(folder / "half.png", "no picture");
+    CHECK(run({"mesh", folder.scene, "-q", "-o", folder / "a.stl"}).code == 0);
+    const Outcome outcome = run({"mesh", folder.scene, "-q", "-o", folder / "a.glb"});
+    CHECK(outcome.code == 2);
+    CHECK(one_line(outcome.err));
+}
+
 TEST_CASE("an image map that cannot be read, or holds what its field does not take, is one line") {
     SceneFolder folder;
     write_file(folder / "words.png", "not a picture");
