@@ -42,7 +42,7 @@ private:
     RenderSettings settings_;
     PinholeCamera camera_;
     AlbedoTables tables_;
-    // By blur (path_integrator.cpp), then by material, which begins at its first level.
+    // By blur (path_blur.hpp), then by material, which begins at its first level.
     std::vector<std::vector<ScatteringMaterial>> materials_;
     std::vector<std::size_t> first_levels_;
     SkyLight seen_, sky_;  // by the camera; by all else
