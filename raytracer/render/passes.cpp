@@ -150,6 +150,7 @@ TilesEnd Passes::go_on(const std::atomic<bool>& stop, const Pause& pause, const 
                        std::chrono::milliseconds grace) {
     Store& s = *store_;
     s.pass = next_pass(s.state.samples, *std::min_element(s.state.taken.begin(), s.state.taken.end()));
+    s.pass.end = std::min(s.pass.end, s.pass.first + s.settings.max_pass);
     s.done = done;
     const TilesEnd end = for_each_tile(
         s.state.window, [store = store_](const Window& part) { store->take(part); }, stop, pause, grace);

@@ -31,7 +31,8 @@ public:
         Window window;              // that the film holds
         std::vector<ImageLayer> layers;
         SampleRange samples;
-        double noise = 0;  // > 0: as RenderSettings has it
+        double noise = 0;   // > 0: as RenderSettings has it
+        int max_pass = 32;  // samples of a pass at most: with fewer, tiles in hand are sooner done
     };
 
     /// `integrator` shares in the ownership of all that it uses: abandoned tiles go on with it.

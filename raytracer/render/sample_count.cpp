@@ -41,7 +41,8 @@ double shown(double linear, double scale) {
 
 }  // namespace
 
-SampleCount sample_count(const Scene& scene, const RayTracer& tracer, const RenderSettings& settings, double exposure) {
+SampleCount sample_count(const Scene& scene, const RayTracer& tracer, const RenderSettings& settings, double exposure,
+                         const std::atomic<bool>* stop) {
     RenderSettings first = settings;
     first.spp = trial_samples;
     first.seed = settings.seed + trial_seed;
@@ -53,6 +54,7 @@ SampleCount sample_count(const Scene& scene, const RayTracer& tracer, const Rend
 
     std::vector<double> squares(columns * rows), seconds(columns * rows);
     tbb::parallel_for(0, columns * rows, [&](int i) {
+        if (stop && *stop) return;
         const int row = i / columns, column = i % columns;
         const int y = int((row + 0.5) / rows * settings.height);
         // Every other row is shifted, so that no column of a regular model is missed.
@@ -67,6 +69,7 @@ SampleCount sample_count(const Scene& scene, const RayTracer& tracer, const Rend
         squares[i] = sum / 3;
         seconds[i] = estimated_seconds(counters);
     });
+    if (stop && *stop) return {min_sample_count, min_sample_count};
     double mean = 0, trial_seconds = 0;
     for (const double square : squares) mean += square / double(squares.size());
     for (const double s : seconds) trial_seconds += s;

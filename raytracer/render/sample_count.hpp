@@ -1,5 +1,7 @@
 // How many samples a picture needs that nobody has given a number.
 #pragma once
+#include <atomic>
+
 #include "raytracer/render/integrator.hpp"
 
 namespace deburr {
@@ -21,6 +23,8 @@ struct SampleCount {
 /// had within max_picture_seconds. Both are estimated from pixels spread over the whole picture, the time by a count
 /// of the work and not by a clock, so that the number is the same on every machine and for every crop. Fewer for
 /// pictures of many pixels. settings.spp does not matter. `exposure`: in stops, of the picture that is looked at.
-SampleCount sample_count(const Scene& scene, const RayTracer& tracer, const RenderSettings& settings, double exposure);
+/// Once `stop` is set, unless it is null, any number comes soon.
+SampleCount sample_count(const Scene& scene, const RayTracer& tracer, const RenderSettings& settings, double exposure,
+                         const std::atomic<bool>* stop = nullptr);
 
 }  // namespace deburr

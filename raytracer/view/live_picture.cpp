@@ -22,6 +22,10 @@ constexpr double preview_seconds = 0.04;
 constexpr std::chrono::milliseconds calm(120);
 constexpr double wire_width = 1;
 constexpr int least_shown = 8;  // samples
+// Of a pass: a tile of them is done within some milliseconds, for which a camera that moves has to wait.
+constexpr int max_pass = 2;
+// From one refined picture to the next: a large one takes some time to be sent and painted.
+constexpr double seconds_of_show = 0.15;
 
 double seconds_since(Clock::time_point begin) { return std::chrono::duration<double>(Clock::now() - begin).count(); }
 
@@ -210,17 +214,21 @@ bool LivePicture::read_scene() {
     return true;
 }
 
-void LivePicture::show_preview(const std::shared_ptr<const World>& world, int coarseness) {
+void LivePicture::show_preview(const std::shared_ptr<const World>& world, int coarseness, bool may_be_cut) {
     const Clock::time_point begin = Clock::now();
     const int width = std::max(1, world->scene.width / coarseness);
     const int height = std::max(1, world->scene.height / coarseness);
     RenderSettings settings{width, height, 1, 0, false};
     const Integrator integrator(world->scene, *world->tracer, settings);
-    const Rendering rendering =
-        render(Film(width, height, {0, 0, width, height}),
-               [&](const Window& block, Pixel* pixels, PixelLayers* layers, TraceCounters& counters) {
-                   integrator.block(block, pixels, layers, counters);
-               });
+    // What answers a drag's step is never cut short, or nothing would be seen of a quick one.
+    const std::atomic<bool> never{false};
+    const Rendering rendering = render(
+        Film(width, height, {0, 0, width, height}),
+        [&](const Window& block, Pixel* pixels, PixelLayers* layers, TraceCounters& counters) {
+            integrator.block(block, pixels, layers, counters);
+        },
+        may_be_cut ? cancel_ : never);
+    if (!rendering.film.complete) return;
     publish(rendering.film, *world, 0, 0, false);
     seconds_per_pixel_ = seconds_since(begin) / (double(width) * height);
 }
@@ -228,19 +236,23 @@ void LivePicture::show_preview(const std::shared_ptr<const World>& world, int co
 void LivePicture::refine(const std::shared_ptr<const World>& world) {
     const Scene& scene = world->scene;
     RenderSettings settings{scene.width, scene.height, settings_.spp.value_or(scene.spp.value_or(0)), 0, false};
-    if (settings.spp == 0) settings.spp = sample_count(scene, *world->tracer, settings, scene.exposure).samples;
+    if (settings.spp == 0)
+        settings.spp = sample_count(scene, *world->tracer, settings, scene.exposure, &cancel_).samples;
     if (cancel_) return;
     if (settings.spp == 1) return publish(*film_, *world, 1, 1, true);  // the preview is the picture
     const auto traced = std::make_shared<World>(*world);
     traced->integrator.emplace(traced->scene, *traced->tracer, settings);
-    Passes passes({scene.width, scene.height, {0, 0, scene.width, scene.height}, {}, {0, settings.spp}, 0},
+    Passes passes({scene.width, scene.height, {0, 0, scene.width, scene.height}, {}, {0, settings.spp}, 0, max_pass},
                   std::shared_ptr<const Integrator>(traced, &*traced->integrator));
+    Clock::time_point shown = Clock::now();
     while (!passes.finished()) {
         // Tiles in hand are waited for: they take some milliseconds, and nothing is lost by them.
         passes.go_on(cancel_, {}, {}, std::chrono::hours(1));
         if (cancel_) return;
         // Fewer samples look worse than the preview, which is free of noise.
         if (passes.samples_of_all() < least_shown && !passes.finished()) continue;
+        if (seconds_since(shown) < seconds_of_show && !passes.finished()) continue;
+        shown = Clock::now();
         publish(passes.film(), *world, passes.samples_of_all(), settings.spp, passes.finished());
     }
 }
@@ -279,12 +291,12 @@ void LivePicture::run() {
         if (is_read || is_moved) {
             const double whole = seconds_per_pixel_ * world->scene.width * world->scene.height;
             const int coarseness = whole > 0 ? std::clamp(int(std::ceil(std::sqrt(whole / preview_seconds))), 1, 8) : 4;
-            show_preview(world, coarseness);
+            show_preview(world, coarseness, false);
             is_refined = false;
             if (coarseness == 1 || is_moved) continue;
         }
         if (is_read || !is_refined) {
-            if (!cancel_) show_preview(world, 1);
+            if (!cancel_) show_preview(world, 1, true);
             if (!cancel_) refine(world);
             is_refined = !cancel_;
         }

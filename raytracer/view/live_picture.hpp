@@ -77,7 +77,7 @@ private:
     struct World;
     void run();
     bool read_scene();
-    void show_preview(const std::shared_ptr<const World>& world, int coarseness);
+    void show_preview(const std::shared_ptr<const World>& world, int coarseness, bool may_be_cut);
     void refine(const std::shared_ptr<const World>& world);
     void publish(const Film& film, const World& world, int samples, int all, bool is_finished);
     void publish_error(const std::string& error);
