@@ -179,11 +179,11 @@ Range RoundCoordinate::range(const Box& box) const {
         }
     double enters = -infinity, leaves = infinity;
     for (int k = 0; k < 3; ++k) {
-        const double a = (box.lo[k] - center[k]) / axis[k], b = (box.hi[k] - center[k]) / axis[k];
+        const double from = (box.lo[k] - center[k]) / axis[k], to = (box.hi[k] - center[k]) / axis[k];
         if (axis[k] == 0 && !(box.lo[k] <= center[k] && center[k] <= box.hi[k])) return u;
         if (axis[k] == 0) continue;
-        enters = std::max(enters, std::min(a, b));
-        leaves = std::min(leaves, std::max(a, b));
+        enters = std::max(enters, std::min(from, to));
+        leaves = std::min(leaves, std::max(from, to));
     }
     if (enters <= leaves)
         add({std::min(this->along * enters, this->along * leaves),

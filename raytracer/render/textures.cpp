@@ -63,12 +63,12 @@ AxisPlace axis_place(const Texture& t, Vec3 p) {
 }
 
 Vec3 wood(const Texture& t, Vec3 p) {
-    const auto [section, along] = axis_place(t, p);
+    const AxisPlace at = axis_place(t, p);
     auto grain = [&](double width, double length) {
-        return noise({section.x / width, section.y / width, along / length});
+        return noise({at.section.x / width, at.section.y / width, at.along / length});
     };
 
-    const double radius = glm::length(section) + waviness * grain(wave_length, wave_length * wave_stretch) +
+    const double radius = glm::length(at.section) + waviness * grain(wave_length, wave_length * wave_stretch) +
                           ripple * grain(ripple_length, ripple_length * ripple_stretch);
     const double ring = std::floor(radius), part = radius - ring;
     const double strength = 0.7 + 0.3 * (hashed(lattice(ring), 7, 11) & 0xffff) / 65535.0;
