@@ -37,7 +37,8 @@ struct Page : Folder {
         const std::string program = *this / "openscad";
         write_file(program, openscad);
         std::filesystem::permissions(program, std::filesystem::perms::owner_all);
-        begin({}, {"PATH=" + std::filesystem::path(program).parent_path().string() + ":/usr/bin:/bin"});
+        begin({"--size", "60x40", "--spp", "1"},
+              {"PATH=" + std::filesystem::path(program).parent_path().string() + ":/usr/bin:/bin"});
     }
 
     void begin(const std::vector<std::string>& more, const std::vector<std::string>& environment = {}) {
