@@ -35,10 +35,15 @@ TEST_CASE("a camera that moves cuts the sharp preview and the samples of the las
     while (next()->width < 1200) {
     }
     const auto sharp = Clock::now() - coarse;  // with the wait for calm before it
-    move();
-    while (next()->width == 1200) {
+    // Where the machine was quicker this time, the sharp one is done before the camera moves: then once more.
+    bool is_cut = false;
+    for (int i = 0; i < 30 && !is_cut; ++i) {
+        move();
+        while (next()->width == 1200) {
+        }
+        std::this_thread::sleep_for(sharp / 2);  // the sharp one is under way
+        move();
+        is_cut = next()->width < 1200;
     }
-    std::this_thread::sleep_for(sharp / 2);  // the sharp one is under way
-    move();
-    CHECK(next()->width < 1200);
+    CHECK(is_cut);
 }
