@@ -58,7 +58,7 @@ void implicit_against_embree(Report& report) {
         }
         const MeshTracer tracer(std::move(mesh.mesh), mesh.near);
         TraceCounters counters;
-        report.ratio(fmt::format("{}, spp 1: picture with shading, the mesh by single rays", name),
+        report.ratio(fmt::format("{}: a picture, the mesh by single rays", name),
                      ratio_of([&] { render_picture(scene, implicit, counters); },
                               [&] { render_picture(scene, tracer, counters); }),
                      at_most(1.0));
