@@ -222,15 +222,24 @@ Lanes keep_nearer(RayTerms& terms, PacketNearest& nearest, const PacketCrossings
     return as_near;
 }
 
-void convex_normals(const ConvexView& density, const RayPacket& rays, const double* end, Lanes lanes,
-                    const PacketNearest& nearest, double (*normal)[RayPacket::size]) {
+// Calls at(rays, t, plane, entering, asked, first) for as many of `lanes`' nearest crossings as a vector holds.
+template <class At>
+HWY_INLINE void at_crossings(const RayPacket& packet, const double* end, Lanes lanes, const PacketNearest& nearest,
+                             At at) {
     for (std::size_t first = 0; first < RayPacket::size; first += hn::Lanes(d)) {
         const Lanes part = part_of(lanes, first);
         if (part == 0) continue;
-        const M entering = mask_of(part_of(nearest.entering, first));
-        normals_of(density, Rays(rays, first), hn::Load(d, end + first), hn::Load(d, nearest.plane + first), entering,
-                   mask_of(part), first, normal);
+        at(Rays(packet, first), hn::Load(d, end + first), hn::Load(d, nearest.plane + first),
+           mask_of(part_of(nearest.entering, first)), mask_of(part), first);
     }
+}
+
+void convex_normals(const ConvexView& density, const RayPacket& packet, const double* end, Lanes lanes,
+                    const PacketNearest& nearest, double (*normal)[RayPacket::size]) {
+    at_crossings(packet, end, lanes, nearest,
+                 [&](const Rays& rays, V t, V plane, M entering, M asked, std::size_t first) {
+                     normals_of(density, rays, t, plane, entering, asked, first, normal);
+                 });
 }
 
 Lanes convex_crossings(const ConvexView& density, const RayPacket& rays, Lanes lanes, const PacketSpans& spans,
@@ -248,14 +257,11 @@ Lanes surface_crossings(const RoundSurface& surface, const RayPacket& rays, Lane
     return surface_crossings_of(surface, rays, lanes, spans, found);
 }
 
-void surface_normals(const RoundSurface& surface, const RayPacket& rays, const double* end, Lanes lanes,
+void surface_normals(const RoundSurface& surface, const RayPacket& packet, const double* end, Lanes lanes,
                      const PacketNearest& nearest, double (*normal)[RayPacket::size]) {
-    for (std::size_t first = 0; first < RayPacket::size; first += hn::Lanes(d)) {
-        const Lanes part = part_of(lanes, first);
-        if (part == 0) continue;
-        surface_normals_of(surface, Rays(rays, first), hn::Load(d, end + first),
-                           mask_of(part_of(nearest.entering, first)), mask_of(part), first, normal);
-    }
+    at_crossings(packet, end, lanes, nearest, [&](const Rays& rays, V t, V, M entering, M asked, std::size_t first) {
+        surface_normals_of(surface, rays, t, entering, asked, first, normal);
+    });
 }
 
 Lanes sum_crossings(const ProductSum& sum, const RayPacket& rays, Lanes lanes, const PacketSpans& spans, double scale,
@@ -268,14 +274,11 @@ Lanes sum_any_crossings(const ProductSum& sum, const RayPacket& rays, Lanes lane
     return sum_crossings_of<true>(sum, rays, lanes, spans, scale, nullptr, counters);
 }
 
-void sum_normals(const ProductSum& sum, const RayPacket& rays, const double* end, Lanes lanes,
+void sum_normals(const ProductSum& sum, const RayPacket& packet, const double* end, Lanes lanes,
                  const PacketNearest& nearest, double (*normal)[RayPacket::size]) {
-    for (std::size_t first = 0; first < RayPacket::size; first += hn::Lanes(d)) {
-        const Lanes part = part_of(lanes, first);
-        if (part == 0) continue;
-        sum_normals_of(sum, Rays(rays, first), hn::Load(d, end + first), mask_of(part_of(nearest.entering, first)),
-                       mask_of(part), first, normal);
-    }
+    at_crossings(packet, end, lanes, nearest, [&](const Rays& rays, V t, V, M entering, M asked, std::size_t first) {
+        sum_normals_of(sum, rays, t, entering, asked, first, normal);
+    });
 }
 
 const PacketFunctions functions{load,

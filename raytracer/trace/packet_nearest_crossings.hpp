@@ -39,6 +39,26 @@ public:
         });
     }
 
+    /// Takes the offers that a NearestCrossing takes, for ray k alone.
+    struct OfRay {
+        void offer(const CellPrimitives& primitives, std::uint32_t i, const ConvexCrossing& c) {
+            const CellPrimitive& p = primitives[i];
+            const Vec3 normal = primitives.normal(p, c, ray.origin, ray.direction);
+            offer({c.t, normal, p.material}, rounding_of(terms.coordinate_bound[k], c.t), p.solid, i);
+        }
+        void offer(const SurfaceCrossing& c, double error, int solid, std::uint32_t i) {
+            all.offer(k, {c, solid, error}, first + i, terms);
+        }
+
+        PacketNearestCrossings& all;
+        int k;
+        const Ray& ray;
+        std::uint32_t first;
+        RayTerms& terms;
+    };
+    /// Primitives are numbered from `first` on.
+    OfRay of_ray(int k, const Ray& ray, std::uint32_t first, RayTerms& terms) { return {*this, k, ray, first, terms}; }
+
     void finish(const RayPacket& rays, const RayTerms& terms) {
         found_.found = nearest_.found;
         Lanes left = nearest_.found & ~nearest_.elsewhere;

@@ -50,6 +50,7 @@ private:
 
     struct Nothing {
         explicit Nothing(const Surfaces&) {}
+        Nothing of_ray(int, const Ray&, std::uint32_t, const RayTerms&) const { return *this; }
     };
     using Nearest = std::conditional_t<Any, Nothing, PacketNearestCrossings>;
 
@@ -90,33 +91,14 @@ private:
 
     bool intersect_one_by_one(const CellPrimitives& primitives, std::uint32_t i, std::uint32_t first, Lanes lanes,
                               const PacketSpans& spans) {
-        const CellPrimitive& p = primitives[i];
         Lanes crossed = 0;
         for_each_lane(lanes, [&](int k) {
-            const Ray r = rays_.ray(k);
-            if constexpr (Any) {
-                NearestCrossing none;
-                const bool crosses = intersect_primitive<true>(primitives, i, r, spans.from[k], spans.to[k],
-                                                               terms_.coordinate_bound[k], none, counters_);
-                crossed |= Lanes(crosses) << k;
-            } else {
-                const auto offer = [&](const SurfaceCrossing& c, double error) {
-                    if (!(c.t < infinity)) return;
-                    crossed |= Lanes(1) << k;
-                    nearest_.offer(k, {c, p.solid, error}, first + i, terms_);
-                };
-                if (p.kind == CellPrimitive::Kind::convex) {
-                    const ConvexCrossing c =
-                        primitives.convex_crossing(p, r.origin, r.direction, spans.from[k], spans.to[k], counters_);
-                    if (c.t < infinity)
-                        offer({c.t, primitives.normal(p, c, r.origin, r.direction), p.material},
-                              rounding_of(terms_.coordinate_bound[k], c.t));
-                } else {
-                    const SurfaceCrossing c = primitives.general_crossing(p, r.origin, r.direction, spans.from[k],
-                                                                          spans.to[k], false, counters_);
-                    offer(c, rounding_of(terms_.coordinate_bound[k], c.t) + c.error);
-                }
-            }
+            const Ray ray = rays_.ray(k);
+            const double bound = terms_.coordinate_bound[k];
+            auto nearest = nearest_.of_ray(k, ray, first, terms_);
+            const bool crosses =
+                intersect_primitive<Any>(primitives, i, ray, spans.from[k], spans.to[k], bound, nearest, counters_);
+            crossed |= Lanes(crosses) << k;
         });
         return found(crossed);
     }

@@ -49,11 +49,11 @@ struct Surfaces {
 inline double rounding_of(double coordinate_bound, double t) { return 4 * epsilon * (coordinate_bound + std::abs(t)); }
 
 /// Whether the ray crosses primitive i in [from, to]. Unless that is all that is asked (`Any`), the first crossing is
-/// offered to `nearest`.
-template <bool Any>
+/// offered to `nearest`, a NearestCrossing or what takes its offers.
+template <bool Any, class Nearest>
 [[gnu::always_inline]] inline bool intersect_primitive(const CellPrimitives& primitives, std::uint32_t i,
                                                        const Ray& ray, double from, double to, double coordinate_bound,
-                                                       NearestCrossing& nearest, TraceCounters& counters) {
+                                                       Nearest& nearest, TraceCounters& counters) {
     const CellPrimitive& p = primitives[i];
     if (p.kind == CellPrimitive::Kind::plane) {
         const double t = primitives.plane_crossing(p, ray.origin, ray.direction);
@@ -63,11 +63,14 @@ template <bool Any>
         return true;
     }
     if (p.kind == CellPrimitive::Kind::convex) {
-        if constexpr (Any) return primitives.crosses_convex(p, ray.origin, ray.direction, from, to, counters);
-        const ConvexCrossing c = primitives.convex_crossing(p, ray.origin, ray.direction, from, to, counters);
-        if (!(c.t < infinity)) return false;
-        nearest.offer(primitives, i, c);
-        return true;
+        if constexpr (Any) {
+            return primitives.crosses_convex(p, ray.origin, ray.direction, from, to, counters);
+        } else {
+            const ConvexCrossing c = primitives.convex_crossing(p, ray.origin, ray.direction, from, to, counters);
+            if (!(c.t < infinity)) return false;
+            nearest.offer(primitives, i, c);
+            return true;
+        }
     }
     const SurfaceCrossing c = primitives.general_crossing(p, ray.origin, ray.direction, from, to, Any, counters);
     if (!(c.t < infinity)) return false;

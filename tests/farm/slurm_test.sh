@@ -15,7 +15,7 @@ for daemon in munged slurmctld slurmd; do
 done
 fail() { echo "slurm_test: $*" >&2; for log in "$place"/*.log; do echo "== $log" >&2; tail -n 20 "$log" >&2; done; exit 1; }
 
-place=$(mktemp -d /tmp/deburr-slurm.XXXXXX)
+place=$(mktemp -d)
 daemons=()
 end() {
     scancel --user=root --quiet 2>/dev/null || true
