@@ -1,25 +1,10 @@
 #include "bench/embree_rays.hpp"
 
-#include <limits>
+#include <algorithm>
 #include <stdexcept>
 
 namespace deburr::bench {
 namespace {
-
-float farthest(double t_max) { return float(std::min(t_max, double(std::numeric_limits<float>::max()))); }
-
-RTCRay ray_of(const Ray& ray, double t_max) {
-    RTCRay r{};
-    r.org_x = float(ray.origin.x);
-    r.org_y = float(ray.origin.y);
-    r.org_z = float(ray.origin.z);
-    r.dir_x = float(ray.direction.x);
-    r.dir_y = float(ray.direction.y);
-    r.dir_z = float(ray.direction.z);
-    r.tfar = farthest(t_max);
-    r.mask = ~0u;
-    return r;
-}
 
 void set(RTCRay16& rays, int k, const RTCRay& r) {
     rays.org_x[k] = r.org_x;
@@ -57,7 +42,7 @@ EmbreeMesh::EmbreeMesh(const Mesh& mesh)
 }
 
 EmbreeRays::EmbreeRays(const Recording& recording, bool alone) {
-    const auto ray = [&](std::size_t i) { return ray_of(recording.rays()[i], recording.t_max()[i]); };
+    const auto ray = [&](std::size_t i) { return embree_ray(recording.rays()[i], recording.t_max()[i]); };
     for (const Recording::Question& q : recording.questions()) {
         const std::size_t end = q.first + q.count;
         if (alone || q.alone) {
@@ -88,26 +73,48 @@ EmbreeRays::EmbreeRays(const Recording& recording, bool alone) {
 
 // A query writes into its rays: each works on a copy.
 void EmbreeRays::ask(const EmbreeMesh& mesh) const {
+    const RTCScene scene = mesh.scene();
+#if RTC_VERSION_MAJOR >= 4
+    RTCIntersectArguments closest_together, closest_apart;
+    rtcInitIntersectArguments(&closest_together);
+    rtcInitIntersectArguments(&closest_apart);
+    closest_together.flags = RTC_RAY_QUERY_FLAG_COHERENT;
+    RTCOccludedArguments any_together, any_apart;
+    rtcInitOccludedArguments(&any_together);
+    rtcInitOccludedArguments(&any_apart);
+    any_together.flags = RTC_RAY_QUERY_FLAG_COHERENT;
+    const auto closest16 = [&](const int* valid, RTCRayHit16& r) {
+        rtcIntersect16(valid, scene, &r, &closest_together);
+    };
+    const auto any16 = [&](const int* valid, RTCRay16& r) { rtcOccluded16(valid, scene, &r, &any_together); };
+    const auto closest1 = [&](RTCRayHit& r) { rtcIntersect1(scene, &r, &closest_apart); };
+    const auto any1 = [&](RTCRay& r) { rtcOccluded1(scene, &r, &any_apart); };
+#else
     RTCIntersectContext together, apart;
     rtcInitIntersectContext(&together);
     together.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
     rtcInitIntersectContext(&apart);
+    const auto closest16 = [&](const int* valid, RTCRayHit16& r) { rtcIntersect16(valid, scene, &together, &r); };
+    const auto any16 = [&](const int* valid, RTCRay16& r) { rtcOccluded16(valid, scene, &together, &r); };
+    const auto closest1 = [&](RTCRayHit& r) { rtcIntersect1(scene, &apart, &r); };
+    const auto any1 = [&](RTCRay& r) { rtcOccluded1(scene, &apart, &r); };
+#endif
     for (const auto& packet : closest_packets_) {
         RTCRayHit16 rays = packet.rays;
-        rtcIntersect16(packet.valid, mesh.scene(), &together, &rays);
+        closest16(packet.valid, rays);
         keep(rays);
     }
     for (const auto& packet : any_packets_) {
         RTCRay16 rays = packet.rays;
-        rtcOccluded16(packet.valid, mesh.scene(), &together, &rays);
+        any16(packet.valid, rays);
         keep(rays);
     }
     for (RTCRayHit ray : closest_) {
-        rtcIntersect1(mesh.scene(), &apart, &ray);
+        closest1(ray);
         keep(ray);
     }
     for (RTCRay ray : any_) {
-        rtcOccluded1(mesh.scene(), &apart, &ray);
+        any1(ray);
         keep(ray);
     }
 }

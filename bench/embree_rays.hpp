@@ -1,13 +1,12 @@
 // Embree itself as the peer: its own entry points for packets of 16 and for single rays, in single precision, with
 // nothing of ours around them.
 #pragma once
-#include <embree3/rtcore.h>
-
 #include <memory>
 #include <vector>
 
 #include "bench/picture.hpp"
 #include "polygonizer/mesh/mesh.hpp"
+#include "raytracer/accel/embree.hpp"
 
 namespace deburr::bench {
 

@@ -8,10 +8,13 @@
 #include <embree3/rtcore.h>
 #endif
 
+#include <algorithm>
 #include <atomic>
+#include <limits>
 #include <mutex>
 #include <string>
 
+#include "raytracer/simd/ray_packet.hpp"
 #include "raytracer/util/errors.hpp"
 
 namespace deburr {
@@ -42,6 +45,21 @@ struct EmbreeLibrary {
 
 /// Throws UnsupportedError if it cannot be loaded.
 const EmbreeLibrary& embree();
+
+/// A ray as Embree takes it, from its origin to t_max.
+inline RTCRay embree_ray(const Ray& ray, double t_max) {
+    RTCRay r{};
+    r.org_x = float(ray.origin.x);
+    r.org_y = float(ray.origin.y);
+    r.org_z = float(ray.origin.z);
+    r.dir_x = float(ray.direction.x);
+    r.dir_y = float(ray.direction.y);
+    r.dir_z = float(ray.direction.z);
+    r.tnear = 0;
+    r.tfar = float(std::min(t_max, double(std::numeric_limits<float>::max())));
+    r.mask = ~0u;
+    return r;
+}
 
 /// A query's own; further members may be added by derivation.
 #if RTC_VERSION_MAJOR >= 4

@@ -16,20 +16,6 @@ constexpr double lift = 64 * double(std::numeric_limits<float>::epsilon());
 // what is seen.
 constexpr double min_tilt = 1e-6;
 
-RTCRay ray_of(const Ray& ray, double t_max) {
-    RTCRay r{};
-    r.org_x = float(ray.origin.x);
-    r.org_y = float(ray.origin.y);
-    r.org_z = float(ray.origin.z);
-    r.dir_x = float(ray.direction.x);
-    r.dir_y = float(ray.direction.y);
-    r.dir_z = float(ray.direction.z);
-    r.tnear = 0;
-    r.tfar = float(std::min(t_max, double(std::numeric_limits<float>::max())));
-    r.mask = ~0u;
-    return r;
-}
-
 // Where the ray meets the plane of the triangle x + u·e1 + v·e2, in double precision: single leaves
 // 10⁻⁷ of the triangle's size, and floors reach far. Nearly along the plane, u and v stay.
 void meet(const Ray& ray, Vec3 x, Vec3 e1, Vec3 e2, double& u, double& v) {
@@ -91,7 +77,7 @@ Hit MeshTracer::closest_hit(const Ray& ray, double t_max, TraceCounters& counter
     const Ray near{ray.origin + begin * ray.direction, ray.direction};
     if (begin > 0 && begin >= t_max) return {};
     RTCRayHit query{};
-    query.ray = ray_of(near, t_max - begin);
+    query.ray = embree_ray(near, t_max - begin);
     query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
     EmbreeContext context;
     embree_->scene.intersect(query, context);
@@ -124,7 +110,7 @@ bool MeshTracer::any_hit(const Ray& ray, double t_max, TraceCounters& counters) 
     ++counters.shadow_rays;
     const double begin = start(ray);
     if (begin > 0 && begin >= t_max) return false;
-    RTCRay query = ray_of({ray.origin + begin * ray.direction, ray.direction}, t_max - begin);
+    RTCRay query = embree_ray({ray.origin + begin * ray.direction, ray.direction}, t_max - begin);
     EmbreeContext context;
     embree_->scene.occluded(query, context);
     return query.tfar < 0;

@@ -1,10 +1,9 @@
 #include "bounds/product_sum.hpp"
 
-#include "bounds/round_density.hpp"
 #include "catch.hpp"
 #include "plain_definition.hpp"
-#include "plain_round.hpp"
 #include "random_case.hpp"
+#include "round_cell.hpp"
 
 using namespace deburr;
 
@@ -67,24 +66,20 @@ TEST_CASE("a density with round parts multiplied out has the density's sides and
     for (auto seed : seeds(6'000)) {
         CAPTURE(seed);
         Gen g(seed);
-        const test::RoundCase c = test::round_case(g, 1 + g.below(4));
-        const Vec3 lo = g.point(0.7);
-        const Box box{lo, lo + Vec3(g.between(0.05, 0.6))};
-        const FieldPtr pruned = RoundDensity(flatten(c.density, c.radius)).prune(box);
-        const auto* density = dynamic_cast<const RoundDensity*>(pruned.get());
-        if (!density || !density->local()) continue;
-        const auto sum = ProductSum::of(*density->local(), 1e-12);
+        const test::RoundCell c(g, 1 + g.below(4));
+        if (!c.local) continue;
+        const auto sum = ProductSum::of(*c.local, 1e-12);
         if (!sum) continue;
         ++recognized;
         several += sum->terms().size() > 1;
         round += !sum->rounds().empty();
         for (int k = 0; k < 5; ++k) {
-            const Vec3 x = 0.5 * (box.lo + box.hi) + g.point(0.5) * (box.hi - box.lo);
+            const Vec3 x = c.point(g);
             ProductSumRay ray;
             ray.set(*sum, x, g.direction());
-            const double want = c.plain.density(x, c.radius);
+            const double want = c.whole.plain.density(x, c.whole.radius);
             if (std::abs(want - 0.5) > 1e-11) REQUIRE(ray.inside(0) == (want > 0.5));
-            const ValueGradient at = pruned->at(x);
+            const ValueGradient at = c.pruned->at(x);
             REQUIRE(glm::length(ray.gradient(0) - at.gradient) < 1e-10 * (1 + glm::length(at.gradient)));
         }
     }

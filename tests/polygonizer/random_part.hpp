@@ -1,16 +1,16 @@
 // Random parts as people build them: plates, boxes, posts and brackets with holes, slots, pockets, ribs, bosses and
 // chamfers, in round numbers of millimetres.
 #pragma once
-#include <random>
 #include <vector>
 
 #include "bounds/solid_tree.hpp"
+#include "polygonizer/random_draws.hpp"
 
 namespace deburr {
 
-class RandomPart {
+class RandomPart : RandomDraws {
 public:
-    explicit RandomPart(int seed) : random_(std::uint64_t(seed) * 6364136223846793005u + 1442695040888963407u) {}
+    explicit RandomPart(int seed) : RandomDraws(spread(seed)) {}
 
     /// One Boolean density that is rounded as a whole, or rounded solids that the primary CSG puts together; turned
     /// as often as not.
@@ -37,9 +37,6 @@ public:
     double radius() const { return radius_; }
 
 private:
-    int below(int n) { return int(random_() % std::uint64_t(n)); }
-    double unit() { return double(random_() >> 11) * 0x1p-53; }
-
     void begin(const Density& d) {
         density_ = {d};
         solid_ = {Solid::rounded(radius_, d)};
@@ -126,21 +123,6 @@ private:
         cut(Density::box({x, y, thick_ - 1}, {x + 4, y + 4, thick_ + 20}));
     }
 
-    Affine turn() {
-        const Vec3 axis = glm::normalize(Vec3(unit() - 0.5, unit() - 0.5, unit() - 0.5) + Vec3(1e-3));
-        const double angle = 6.283185307179586 * unit();
-        Affine map;
-        for (int k = 0; k < 3; ++k) {
-            Vec3 e(0.0);
-            e[k] = 1;
-            map.linear[k] = e * std::cos(angle) + glm::cross(axis, e) * std::sin(angle) +
-                            axis * (glm::dot(axis, e) * (1 - std::cos(angle)));
-        }
-        map.shift = Vec3(100 * unit(), 0, 0);
-        return map;
-    }
-
-    std::mt19937_64 random_;
     double radius_ = 0, wide_ = 0, deep_ = 0, thick_ = 0;
     bool whole_ = true;
     std::vector<Density> density_;  // one, of the whole part

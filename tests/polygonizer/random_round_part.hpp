@@ -2,15 +2,15 @@
 // pins, spheres let in or put on, chamfer cones and grooves, in round numbers of millimetres.
 #pragma once
 #include <cmath>
-#include <random>
 
 #include "bounds/solid_tree.hpp"
+#include "polygonizer/random_draws.hpp"
 
 namespace deburr {
 
-class RandomRoundPart {
+class RandomRoundPart : RandomDraws {
 public:
-    explicit RandomRoundPart(int seed) : random_(std::uint64_t(seed) * 6364136223846793005u + 1442695040888963407u) {}
+    explicit RandomRoundPart(int seed) : RandomDraws(spread(seed)) {}
 
     /// One Boolean density that is rounded as a whole; turned as often as not.
     Solid solid() {
@@ -39,9 +39,6 @@ public:
     double radius() const { return radius_; }
 
 private:
-    int below(int n) { return int(random_() % std::uint64_t(n)); }
-    double unit() { return double(random_() >> 11) * 0x1p-53; }
-
     static Density upright(double x, double y, double radius, double from, double to) {
         return Density::cylinder({x, y, from}, {x, y, to}, radius);
     }
@@ -85,21 +82,6 @@ private:
         cut(Density::torus({wide_ / 2, deep_ / 2, thick_}, {0, 0, 1}, 3 + 0.5 * below(4), 0.75 + 0.25 * below(2)));
     }
 
-    Affine turn() {
-        const Vec3 axis = glm::normalize(Vec3(unit() - 0.5, unit() - 0.5, unit() - 0.5) + Vec3(1e-3));
-        const double angle = 6.283185307179586 * unit();
-        Affine map;
-        for (int k = 0; k < 3; ++k) {
-            Vec3 e(0.0);
-            e[k] = 1;
-            map.linear[k] = e * std::cos(angle) + glm::cross(axis, e) * std::sin(angle) +
-                            axis * (glm::dot(axis, e) * (1 - std::cos(angle)));
-        }
-        map.shift = Vec3(100 * unit(), 0, 0);
-        return map;
-    }
-
-    std::mt19937_64 random_;
     double radius_ = 0, wide_ = 0, deep_ = 0, thick_ = 0;
     Density part_ = Density::box(Vec3(0.0), Vec3(1.0));
 };

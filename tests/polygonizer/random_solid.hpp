@@ -1,14 +1,13 @@
 // Random CSG objects as modellers write them: flush faces, touching and nested parts, mixed radii.
 #pragma once
-#include <random>
-
 #include "bounds/solid_tree.hpp"
+#include "polygonizer/random_draws.hpp"
 
 namespace deburr {
 
-class RandomSolid {
+class RandomSolid : RandomDraws {
 public:
-    explicit RandomSolid(int seed) : random_(std::uint64_t(seed) * 7919 + 13) {}
+    explicit RandomSolid(int seed) : RandomDraws(std::uint64_t(seed) * 7919 + 13) {}
 
     /// One rounded density, or a primary CSG tree of up to three.
     Solid solid() {
@@ -23,8 +22,6 @@ public:
     }
 
 private:
-    int below(int n) { return int(random_() % std::uint64_t(n)); }
-    double unit() { return double(random_() >> 11) * 0x1p-53; }
     double grid() { return 0.25 * below(5); }
 
     Affine rotation() {
@@ -36,14 +33,7 @@ private:
             axis[below(3)] = 1;
             angle = 0.25 * pi * below(8);
         }
-        Affine map;
-        for (int k = 0; k < 3; ++k) {
-            Vec3 e(0.0);
-            e[k] = 1;
-            map.linear[k] = e * std::cos(angle) + glm::cross(axis, e) * std::sin(angle) +
-                            axis * (glm::dot(axis, e) * (1 - std::cos(angle)));
-        }
-        return map;
+        return turn_about(axis, angle);
     }
 
     Density primitive() {
@@ -92,8 +82,6 @@ private:
         const Solid s = Solid::rounded(radii[below(7)], density());
         return below(4) == 0 ? s.transformed(rotation()) : s;
     }
-
-    std::mt19937_64 random_;
 };
 
 }  // namespace deburr

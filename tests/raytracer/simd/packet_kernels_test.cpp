@@ -3,11 +3,10 @@
 #include <bit>
 #include <functional>
 
-#include "bounds/round_density.hpp"
 #include "catch.hpp"
-#include "plain_round.hpp"
 #include "random_case.hpp"
 #include "raytracer/accel/bvh.hpp"
+#include "round_cell.hpp"
 
 using namespace deburr;
 
@@ -286,19 +285,13 @@ TEST_CASE("rays of a packet cross round parts, and sums with these, where they d
         for (auto seed : seeds(4'000)) {
             CAPTURE(seed);
             Gen g(seed);
-            const test::RoundCase c = test::round_case(g, 1 + g.below(3));
-            const Vec3 at = g.point(0.7);
-            const Box box{at, at + Vec3(g.between(0.05, 0.6))};
-            const FieldPtr pruned = RoundDensity(flatten(c.density, c.radius)).prune(box);
-            const auto* round = dynamic_cast<const RoundDensity*>(pruned.get());
-            if (!round || !round->local()) continue;
+            const test::RoundCell c(g, 1 + g.below(3));
+            if (!c.local) continue;
             Packet p(g);
             aim(
-                g, p, [&] { return 0.5 * (box.lo + box.hi) + g.point(0.5) * (box.hi - box.lo); },
-                [&] { return g.chance(0.5) ? Vec3(0, 0, 1) : g.normal(); });
-            if (const auto surface = RoundSurface::of(*round->local()))
-                check_surface(*functions, *surface, p, surfaces);
-            const auto sum = ProductSum::of(*round->local(), 1e-12);
+                g, p, [&] { return c.point(g); }, [&] { return g.chance(0.5) ? Vec3(0, 0, 1) : g.normal(); });
+            if (const auto surface = RoundSurface::of(*c.local)) check_surface(*functions, *surface, p, surfaces);
+            const auto sum = ProductSum::of(*c.local, 1e-12);
             if (!sum || sum->rounds().empty()) continue;
             ++sums;
             check_sum(*functions, *sum, p, tally);

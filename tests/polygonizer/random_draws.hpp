@@ -1,0 +1,46 @@
+// What random solids are drawn with: numbers that are the same with every compiler, and turns.
+#pragma once
+#include <cmath>
+#include <cstdint>
+#include <random>
+
+#include "bounds/vec.hpp"
+
+namespace deburr {
+
+/// The map that turns about the unit axis through the origin.
+inline Affine turn_about(Vec3 axis, double angle) {
+    Affine map;
+    for (int k = 0; k < 3; ++k) {
+        Vec3 e(0.0);
+        e[k] = 1;
+        map.linear[k] = e * std::cos(angle) + glm::cross(axis, e) * std::sin(angle) +
+                        axis * (glm::dot(axis, e) * (1 - std::cos(angle)));
+    }
+    return map;
+}
+
+class RandomDraws {
+protected:
+    explicit RandomDraws(std::uint64_t seed) : random_(seed) {}
+    /// Seeds far apart of numbers that are neighbours.
+    static std::uint64_t spread(int number) {
+        return std::uint64_t(number) * 6364136223846793005u + 1442695040888963407u;
+    }
+
+    int below(int n) { return int(random_() % std::uint64_t(n)); }
+    double unit() { return double(random_() >> 11) * 0x1p-53; }
+    /// A turn about any axis, and a move of up to 100 along x.
+    Affine turn() {
+        const Vec3 axis = glm::normalize(Vec3(unit() - 0.5, unit() - 0.5, unit() - 0.5) + Vec3(1e-3));
+        const double angle = 6.283185307179586 * unit();
+        Affine map = turn_about(axis, angle);
+        map.shift = Vec3(100 * unit(), 0, 0);
+        return map;
+    }
+
+private:
+    std::mt19937_64 random_;
+};
+
+}  // namespace deburr
