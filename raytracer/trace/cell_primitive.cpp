@@ -68,8 +68,8 @@ Lanes CellPrimitives::crossings(const CellPrimitive& p, const RayPacket& rays, L
         return packet_functions.surface_crossings(*locals_[p.index].surface(), rays, lanes, spans, found);
     if (p.kind == CellPrimitive::Kind::sum) {
         RootCounters roots;
-        const Lanes crossed =
-            packet_functions.sum_crossings(sum(p), rays, lanes, spans, tolerances_.scale, found, roots);
+        const Lanes crossed = packet_functions.sum_crossings(sum(p), rays, lanes, spans,
+                                                             locals_[p.index].tolerances().scale, found, roots);
         count_roots(counters, roots);
         return crossed;
     }
@@ -85,7 +85,8 @@ Lanes CellPrimitives::any_crossings(const CellPrimitive& p, const RayPacket& ray
                                                      counters.evaluations);
     if (p.kind == CellPrimitive::Kind::sum) {
         RootCounters roots;
-        const Lanes crossed = packet_functions.sum_any_crossings(sum(p), rays, lanes, spans, tolerances_.scale, roots);
+        const Lanes crossed =
+            packet_functions.sum_any_crossings(sum(p), rays, lanes, spans, locals_[p.index].tolerances().scale, roots);
         count_roots(counters, roots);
         return crossed;
     }

@@ -81,7 +81,7 @@ public:
     double error(const CellPrimitive& p) const {
         const bool is_round =
             p.kind == CellPrimitive::Kind::surface || (p.kind == CellPrimitive::Kind::sum && !sum(p).rounds().empty());
-        return is_round ? tolerances_.of_round() : 0;
+        return is_round ? locals_[p.index].tolerances().of_round() : 0;
     }
     /// normal() for `lanes`, which cross p at their ends.
     void normals(const CellPrimitive& p, const RayPacket& rays, const double* end, Lanes lanes,

@@ -93,6 +93,8 @@ public:
     /// The whole of it as a sum of products, or as a round part's surface, if it is one leaf's; else null.
     const ProductSum* sum() const { return is_one_soft() && softs_[0].sum ? &*softs_[0].sum : nullptr; }
     const RoundSurface* surface() const { return is_one_soft() && softs_[0].surface ? &*softs_[0].surface : nullptr; }
+    /// Those of the BSP that it was made for.
+    Tolerances tolerances() const { return {scale_}; }
     /// Of the first leaf.
     int material() const { return leaves_[0].material; }
 

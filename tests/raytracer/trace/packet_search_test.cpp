@@ -1,6 +1,7 @@
 #include "raytracer/trace/implicit_tracer.hpp"
 
 #include "catch.hpp"
+#include "plain_round.hpp"
 #include "raytracer/render/integrator.hpp"
 #include "raytracer/scene/scene_reader.hpp"
 #include "raytracer/trace/hits.hpp"
@@ -31,6 +32,23 @@ struct Comparison {
         }
     }
 };
+
+// Rays that run together, more or less, from anywhere.
+void compare_packets(Gen& g, const ImplicitTracer& tracer, Comparison& c) {
+    for (int packet = 0; packet < 8; ++packet) {
+        std::vector<Ray> rays;
+        std::vector<double> t_max;
+        const Vec3 eye = g.point(4), aim = g.point(1);
+        const double apart = g.chance(0.3) ? 2 : std::pow(10.0, g.between(-6, 0));
+        for (int k = 2 + g.below(30); k > 0; --k) {
+            Vec3 d = g.chance(0.1) ? g.normal() : aim - eye + g.point(apart);
+            if (g.chance(0.02)) d[g.below(3)] = std::nan("");  // which finds nothing, and hides nothing from others
+            rays.push_back({g.chance(0.5) ? eye : eye + g.point(apart), glm::normalize(d)});
+            t_max.push_back(g.chance(0.3) ? infinity : g.between(0, 6));
+        }
+        c.compare(tracer, rays, t_max);
+    }
+}
 
 }  // namespace
 
@@ -76,21 +94,28 @@ TEST_CASE("rays that are traced together hit what they hit alone, to the bit: wh
             for (int i = 1 + g.below(8); i > 0; --i) solids.push_back(solids[0].transformed(g.map()));
         const ImplicitTracer tracer(solids);
         instances += tracer.statistics().instances;
-        for (int packet = 0; packet < 8; ++packet) {
-            std::vector<Ray> rays;
-            std::vector<double> t_max;
-            const Vec3 eye = g.point(4), aim = g.point(1);
-            const double apart = g.chance(0.3) ? 2 : std::pow(10.0, g.between(-6, 0));
-            for (int k = 2 + g.below(30); k > 0; --k) {
-                Vec3 d = g.chance(0.1) ? g.normal() : aim - eye + g.point(apart);
-                if (g.chance(0.02)) d[g.below(3)] = std::nan("");  // which finds nothing, and hides nothing from others
-                rays.push_back({g.chance(0.5) ? eye : eye + g.point(apart), glm::normalize(d)});
-                t_max.push_back(g.chance(0.3) ? infinity : g.between(0, 6));
-            }
-            c.compare(tracer, rays, t_max);
-        }
+        compare_packets(g, tracer, c);
     }
     CHECK(instances > 300);
+    CHECK(c.different == 0);
+    CHECK(c.hits > c.rays / 10);
+    CHECK(c.occluded > c.rays / 10);
+}
+
+TEST_CASE("rays that are traced together hit what they hit alone, to the bit: round parts of many sizes in one space") {
+    Comparison c;
+    for (auto seed : seeds(300)) {
+        CAPTURE(seed);
+        Gen g(seed);
+        std::vector<Solid> solids;  // each with tolerances of its own
+        double size = 1;
+        for (int i = 0; i < 3; ++i, size *= 4) {
+            const test::RoundCase round = test::round_case(g, 1 + g.below(3));
+            const Affine map{Mat3(size), Vec3(0, 0, -size)};
+            solids.push_back(Solid::rounded(round.radius, round.density).transformed(map));
+        }
+        compare_packets(g, ImplicitTracer(solids), c);
+    }
     CHECK(c.different == 0);
     CHECK(c.hits > c.rays / 10);
     CHECK(c.occluded > c.rays / 10);
