@@ -101,7 +101,11 @@ Subdivision::Extents Subdivision::extents(const PartitionNode& node) const {
     } else {
         e.width = std::max({size.x, size.y, size.z});
     }
-    e.axis = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
+    // Where many meet, a cut along an axis that few of their normals have leaves most of them to both sides.
+    constexpr double least_weight = 0.25;
+    Vec3 weighed = size;
+    if (e.half_spaces > many) weighed *= glm::max(across / largest(across), Vec3(least_weight));
+    e.axis = weighed.x >= weighed.y && weighed.x >= weighed.z ? 0 : weighed.y >= weighed.z ? 1 : 2;
     e.size = size[e.axis];
     return e;
 }
