@@ -17,15 +17,23 @@ constexpr double slender = 0.02;
 // Facets around one vertex, beyond which a collapse makes it no better to work with.
 constexpr std::size_t max_fan = 20;
 
-double distance_to_triangle(Vec3 x, const Vec3 (&corner)[3]) {
-    const Vec3 normal = glm::cross(corner[1] - corner[0], corner[2] - corner[0]);
-    const double size = glm::length(normal);
-    bool within = size > 0;
-    for (int k = 0; k < 3 && within; ++k)
-        within = glm::dot(glm::cross(corner[(k + 1) % 3] - corner[k], x - corner[k]), normal) >= 0;
-    if (within) return std::abs(glm::dot(normal, x - corner[0])) / size;
-    return std::min({distance_to_segment(x, corner[0], corner[1]), distance_to_segment(x, corner[1], corner[2]),
-                     distance_to_segment(x, corner[2], corner[0])});
+// A facet around a vertex, by the edge opposite.
+struct Opposite {
+    int va, vb;       // its ends
+    Vec3 a, b, area;  // their positions, and the facet's area vector
+};
+
+// The distance from x to the triangle, whose area vector is given, or `enough` if it is no less.
+double distance_to_triangle(Vec3 x, Vec3 a, Vec3 b, Vec3 c, Vec3 area, double enough) {
+    const double size = glm::length(area);
+    if (size > 0) {
+        const double from_plane = std::abs(glm::dot(area, x - a)) / size;
+        if (from_plane >= enough) return enough;
+        if (glm::dot(glm::cross(b - a, x - a), area) >= 0 && glm::dot(glm::cross(c - b, x - b), area) >= 0 &&
+            glm::dot(glm::cross(a - c, x - c), area) >= 0)
+            return from_plane;
+    }
+    return std::min({enough, distance_to_segment(x, a, b), distance_to_segment(x, b, c), distance_to_segment(x, c, a)});
 }
 
 class Decimation {
@@ -45,7 +53,7 @@ public:
     std::size_t run() {
         // What costs little goes first, so that what is left can bear more.
         std::size_t gone = 0;
-        for (const double share : {0.05, 0.3, 1.0}) {
+        for (const double share : {0.1, 1.0}) {
             changed_.assign(std::size_t(facets_.vertices()), true);
             constexpr int max_rounds = 6;
             for (int round = 0; round < max_rounds; ++round) {
@@ -135,6 +143,7 @@ private:
         const Kind kind = kind_of(v);
         if (kind.fixed) return false;
         planes_ = kind.planes.size();
+        find_opposite(v, opposite_);
         const Vec3 x = facets_.position(v);
         for (const int f : facets_.around(v)) {
             const int to = facets_.at(f).triangle.vertex[(facets_.corner_index(f, v) + 1) % 3];
@@ -142,9 +151,9 @@ private:
             const Vec3 d = facets_.position(to) - x;
             const auto leaves = [&](Vec3 plane) { return std::abs(glm::dot(plane, d)) > 1e-9 * judge_.size(); };
             if (std::any_of(kind.planes.begin(), kind.planes.end(), leaves)) continue;
-            const double error = this->error(v, to, x);
+            const double error = this->error(opposite_, to, x, facets_.position(to));
             if (error <= tolerance) candidates_.push_back({error, to});
-            offer_half_way(v, f, to, kind, tolerance);
+            offer_half_way(v, to, kind, tolerance);
         }
         std::sort(candidates_.begin(), candidates_.end(), [](const Candidate& a, const Candidate& b) {
             return a.error != b.error ? a.error < b.error : a.to != b.to ? a.to < b.to : a.half_way < b.half_way;
@@ -152,41 +161,58 @@ private:
         return !candidates_.empty();
     }
 
-    // The middle of the edge from v to `to`, a facet's f, if both vertices are equally free.
-    void offer_half_way(int v, int f, int to, const Kind& kind, double tolerance) {
+    // The middle of the edge from v to `to`, if both vertices are equally free.
+    void offer_half_way(int v, int to, const Kind& kind, double tolerance) {
         if (to < v) return;  // it is the same from there
         const Vec3 a = facets_.position(v), b = facets_.position(to);
         Candidate c{0, to, true, 0.5 * (a + b)};
-        // What is far off needs no point on the surface to say so.
-        if (error(v, to, a, &c.x) > 2 * tolerance) return;
+        // Beside the surface as it still is, the error is not much more than that on it.
+        c.error = error(opposite_, to, a, c.x);
+        if (c.error > 2 * tolerance) return;
         const Kind other = kind_of(to);
         if (other.fixed || other.planes.size() != kind.planes.size() || other.line_ends.size() != kind.line_ends.size())
             return;
         if (!other.line_ends.empty() && other.line_ends[0] != v && other.line_ends[1] != v) return;
-        std::vector<LeafSurface> pieces;
-        add_surface(pieces, surface_of(facets_, facets_.at(f)));
-        const int g = facets_.across(v, to) == f ? facets_.across(to, v) : facets_.across(v, to);
-        add_surface(pieces, surface_of(facets_, facets_.at(g)));
-        if (!judge_.surfaces().project(c.x, pieces, glm::length(b - a)) || !judge_.on_surface(c.x)) return;
-        const double there = error(v, to, a, &c.x);
-        if (there > tolerance) return;
-        c.error = std::max(there, error(to, v, b, &c.x));
-        if (c.error <= tolerance) candidates_.push_back(c);
+        find_opposite(to, opposite_of_other_);
+        c.error = std::max(c.error, error(opposite_of_other_, v, b, c.x));
+        if (c.error <= 2 * tolerance) candidates_.push_back(c);
     }
 
-    // How far x, where v is, is from what v's facets would be with v at another vertex, or at y; large, too, where
-    // these turn over.
-    double error(int v, int to, Vec3 x, const Vec3* y = nullptr) const {
-        double least = infinity;
+    // Moves c.x, the middle of the edge from v to c.to, to the surface; false if the edge's ends would be too far from
+    // what is there then.
+    bool put_on_surface(int v, Candidate& c, double tolerance) {
+        const Vec3 a = facets_.position(v), b = facets_.position(c.to);
+        find_opposite(c.to, opposite_of_other_);
+        pieces_.clear();
+        const int f = facets_.across(v, c.to), g = facets_.across(c.to, v);
+        add_surface(pieces_, surface_of(facets_, facets_.at(f)));
+        add_surface(pieces_, surface_of(facets_, facets_.at(g)));
+        return judge_.surfaces().project(c.x, pieces_, glm::length(b - a)) && judge_.on_surface(c.x) &&
+               error(opposite_, c.to, a, c.x) <= tolerance && error(opposite_of_other_, v, b, c.x) <= tolerance;
+    }
+
+    void find_opposite(int v, std::vector<Opposite>& edges) const {
+        edges.clear();
         for (const int f : facets_.around(v)) {
             const auto& vertex = facets_.at(f).triangle.vertex;
-            if (std::find(vertex.begin(), vertex.end(), to) != vertex.end()) continue;
-            Vec3 corner[3] = {facets_.position(vertex[0]), facets_.position(vertex[1]), facets_.position(vertex[2])};
-            const Vec3 before = glm::cross(corner[1] - corner[0], corner[2] - corner[0]);
-            corner[facets_.corner_index(f, v)] = y ? *y : facets_.position(to);
-            const Vec3 after = glm::cross(corner[1] - corner[0], corner[2] - corner[0]);
-            if (glm::dot(before, after) <= 0.2 * glm::length(before) * glm::length(after)) return infinity;
-            least = std::min(least, distance_to_triangle(x, corner));
+            const std::size_t k = std::size_t(facets_.corner_index(f, v));
+            const int va = vertex[(k + 1) % 3], vb = vertex[(k + 2) % 3];
+            const Vec3 x = facets_.position(v), a = facets_.position(va), b = facets_.position(vb);
+            edges.push_back({va, vb, a, b, glm::cross(a - x, b - x)});
+        }
+    }
+
+    // How far x, where a vertex is, is from what its facets, by the edges opposite, would be with it at y, but for
+    // those at the vertex `to`; infinity where they turn over.
+    static double error(const std::vector<Opposite>& edges, int to, Vec3 x, Vec3 y) {
+        double least = infinity;
+        for (const Opposite& e : edges) {
+            if (e.va == to || e.vb == to) continue;
+            const Vec3 area = glm::cross(e.a - y, e.b - y);
+            const double cosine = glm::dot(e.area, area);  // times the lengths of both
+            if (cosine <= 0 || cosine * cosine <= 0.04 * glm::dot(e.area, e.area) * glm::dot(area, area))
+                return infinity;
+            least = distance_to_triangle(x, y, e.a, e.b, area, least);
         }
         return least;
     }
@@ -229,10 +255,11 @@ private:
     bool collapse(int v, double tolerance) {
         constexpr std::size_t max_tries = 30;
         for (std::size_t k = 0; k < std::min(max_tries, candidates_.size()); ++k) {
-            const Candidate& c = candidates_[k];
+            Candidate& c = candidates_[k];
             int to = c.to;
             std::optional<Change> change;
             if (c.half_way) {
+                if (!put_on_surface(v, c, tolerance)) continue;
                 if (spare_ < 0) {
                     spare_ = facets_.add_vertex(c.x);
                     changed_.resize(std::size_t(facets_.vertices()), true);
@@ -268,21 +295,28 @@ private:
         return longest2 > 0 ? glm::length(facets_.area_vector(t)) / longest2 : 0;
     }
 
+    // Whether the facets that come, around `to`, are shaped and near enough. What costs least is asked of all first.
     bool accept(const Change& change, int v, int to, double tolerance) const {
+        if (v == to) return false;
         double thinnest = slender;
         for (const int f : change.out)
             if (flat_normals_[f] == Vec3(0.0)) thinnest = std::min(thinnest, slenderness(facets_.at(f).triangle));
-        for (const Facet& f : change.in) {
+        for (const Facet& f : change.in)
             if (flat_normal(f) == Vec3(0.0) && slenderness(f.triangle) < thinnest) return false;
+        for (const Facet& f : change.in) {
             const FacetShape s = judge_.shape(facets_, f, upright);
-            if (s.cosine < upright || s.distance > tolerance) return false;
-            // The edge opposite did not change.
-            const auto& vertex = f.triangle.vertex;
-            const int corner = int(std::find(vertex.begin(), vertex.end(), to) - vertex.begin());
-            const Vec3 x[3] = {facets_.position(vertex[0]), facets_.position(vertex[1]), facets_.position(vertex[2])};
-            if (!judge_.is_near(x, tolerance, corner)) return false;
+            if (s.cosine < upright || s.saturated || s.distance > tolerance) return false;
         }
-        return v != to;
+        for (const Facet& f : change.in) {
+            const auto& t = f.triangle.vertex;
+            // The edge opposite did not change, and the one before is the next of another facet that comes, or old.
+            const std::size_t k = std::size_t(std::find(t.begin(), t.end(), to) - t.begin());
+            const Vec3 x = facets_.position(to), a = facets_.position(t[(k + 1) % 3]),
+                       b = facets_.position(t[(k + 2) % 3]);
+            if (!judge_.is_near_within({x, a, b}, tolerance)) return false;
+            if (!facets_.joined(to, t[(k + 1) % 3]) && !judge_.is_near_between(x, a, tolerance)) return false;
+        }
+        return true;
     }
 
     Facets facets_;
@@ -294,6 +328,8 @@ private:
     std::vector<Vec3> flat_normals_;  // of facets; 0: curved
     // Of the vertex that is looked at.
     std::vector<Candidate> candidates_;
+    std::vector<Opposite> opposite_, opposite_of_other_;
+    std::vector<LeafSurface> pieces_;
     std::size_t planes_ = 0;
     std::vector<char> changed_;  // vertices whose facets have changed since they were looked at
     int spare_ = -1;             // a vertex of no facet

@@ -54,7 +54,8 @@ FacetShape FacetJudge::shape(const Facets& facets, const Facet& f, double least)
     const auto cosine = [&](Vec3 n) { return std::min(glm::dot(area, n) / twice, glm::dot(single, n) / single_twice); };
     const SurfaceSample o = solid_.at(middle);
     FacetShape s;
-    s.distance = std::isfinite(o.distance) ? std::abs(o.distance) : 0;
+    s.saturated = !std::isfinite(o.distance);
+    s.distance = s.saturated ? 0 : std::abs(o.distance);
     if (f.origin.leaf < 0) {
         s.own = cosine(facets.normal(t.normal[0]));
     } else {
@@ -75,23 +76,24 @@ FacetShape FacetJudge::shape(const Facets& facets, const Facet& f, double least)
     return s;
 }
 
-bool FacetJudge::is_near(const Vec3 (&corners)[3], double tolerance, int only) const {
-    const auto near = [&](double a, double b, double c) {
-        return std::abs(solid_.at(a * corners[0] + b * corners[1] + c * corners[2]).distance) <= tolerance;
-    };
-    constexpr double third = 1.0 / 3, most = 2.0 / 3, rest = 1.0 / 6;
-    if (!near(third, third, third)) return false;
-    if (!near(most, rest, rest) || !near(rest, most, rest) || !near(rest, rest, most)) return false;
-    for (int k = 0; k < 3; ++k) {
-        const int l = (k + 1) % 3;
-        if (only >= 0 && k != only && l != only) continue;
-        for (const double share : {0.25, 0.5, 0.75}) {
-            double weight[3] = {0, 0, 0};
-            weight[k] = 1 - share;
-            weight[l] = share;
-            if (!near(weight[0], weight[1], weight[2])) return false;
-        }
-    }
+bool FacetJudge::is_point_near(Vec3 x, double tolerance) const { return std::abs(solid_.at(x).distance) <= tolerance; }
+
+bool FacetJudge::is_near_between(Vec3 a, Vec3 b, double tolerance) const {
+    return is_point_near(0.5 * (a + b), tolerance) && is_point_near(0.75 * a + 0.25 * b, tolerance) &&
+           is_point_near(0.25 * a + 0.75 * b, tolerance);
+}
+
+bool FacetJudge::is_near_within(const std::array<Vec3, 3>& corners, double tolerance) const {
+    const Vec3 middle = (corners[0] + corners[1] + corners[2]) / 3.0;
+    return std::all_of(corners.begin(), corners.end(),
+                       [&](Vec3 x) { return is_point_near(0.5 * (x + middle), tolerance); });
+}
+
+bool FacetJudge::is_near(const std::array<Vec3, 3>& corners, double tolerance) const {
+    if (!is_point_near((corners[0] + corners[1] + corners[2]) / 3.0, tolerance)) return false;
+    if (!is_near_within(corners, tolerance)) return false;
+    for (std::size_t k = 0; k < 3; ++k)
+        if (!is_near_between(corners[k], corners[(k + 1) % 3], tolerance)) return false;
     return true;
 }
 

@@ -34,9 +34,10 @@ struct Verdict {
 
 class Repair {
 public:
-    Repair(Mesh& mesh, std::vector<Origin>& origins, const FacetJudge& judge)
+    Repair(Mesh& mesh, std::vector<Origin>& origins, const FacetJudge& judge, double tolerance)
         : facets_(mesh, origins),
           judge_(judge),
+          tolerance_(tolerance),
           solid_(judge.solid()),
           surfaces_(judge.surfaces()),
           shapes_(facets_.size()),
@@ -128,6 +129,7 @@ public:
             if (is.distance > std::max(limits_.farther * was.distance, limits_.of_longest * longest)) return;
             const int gain = was.wrong - is.wrong;
             if (best && (gain < best_gain || (gain == best_gain && is.worst <= best_worst))) return;
+            if (!limits_.unfold && is_farther(*change)) return;
             best = std::move(change);
             best_gain = gain;
             best_worst = is.worst;
@@ -172,6 +174,18 @@ public:
         if (facets_.at(f).origin.leaf >= 0) offer(star(f, middle), middle);
         statistics.splits += best.has_value();
         return best;
+    }
+
+    bool is_near(const Facet& f) const {
+        const auto& v = f.triangle.vertex;
+        return judge_.is_near({facets_.position(v[0]), facets_.position(v[1]), facets_.position(v[2])}, tolerance_);
+    }
+
+    // Whether facets would be beyond the tolerance where none was.
+    bool is_farther(const Change& change) const {
+        return std::isfinite(tolerance_) &&
+               !std::all_of(change.in.begin(), change.in.end(), [&](const Facet& f) { return is_near(f); }) &&
+               std::all_of(change.out.begin(), change.out.end(), [&](int f) { return is_near(facets_.at(f)); });
     }
 
     void limit(const Limits& limits) { limits_ = limits; }
@@ -309,6 +323,7 @@ private:
 
     Facets facets_;
     const FacetJudge& judge_;
+    double tolerance_;
     const DistanceField& solid_;
     const LeafSurfaces& surfaces_;
     std::vector<std::optional<FacetShape>> shapes_;  // of the facets, where known
@@ -320,10 +335,11 @@ private:
 
 }  // namespace
 
-RepairStatistics repair(Mesh& mesh, std::vector<Origin>& origins, const FacetJudge& judge, bool may_split) {
+RepairStatistics repair(Mesh& mesh, std::vector<Origin>& origins, const FacetJudge& judge, double tolerance,
+                        bool may_split) {
     RepairStatistics statistics;
     if (mesh.triangles.empty()) return statistics;
-    Repair work(mesh, origins, judge);
+    Repair work(mesh, origins, judge, tolerance);
     if (!may_split) work.forbid_splits();
     work.mend_vertices(statistics);
     for (const Limits& limits : {gentle, last_resort}) {

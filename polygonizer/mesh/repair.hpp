@@ -16,8 +16,10 @@ struct RepairStatistics {
     double farthest = 0;    // distance of a triangle's middle from the surface, in the end
 };
 
+/// Only the last resort makes facets that are farther from the surface than the tolerance, where none was.
 /// Without splits the mesh stays as fine as it is: where surfaces cross at almost no angle, halves of what is
 /// wrong are wrong again.
-RepairStatistics repair(Mesh& mesh, std::vector<Origin>& origins, const FacetJudge& judge, bool may_split = true);
+RepairStatistics repair(Mesh& mesh, std::vector<Origin>& origins, const FacetJudge& judge, double tolerance = infinity,
+                        bool may_split = true);
 
 }  // namespace deburr

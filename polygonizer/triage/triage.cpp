@@ -84,7 +84,7 @@ bool cut_cells(Subdivision& subdivision, const Mesh& mesh, const std::vector<Ori
 std::size_t add_far(const Mesh& mesh, const FacetJudge& judge, double tolerance, std::vector<int>& triangles) {
     const std::size_t before = triangles.size();
     for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
-        Vec3 x[3];
+        std::array<Vec3, 3> x;
         for (std::size_t k = 0; k < 3; ++k) x[k] = mesh.positions[mesh.triangles[t].vertex[k]];
         if (!judge.is_near(x, tolerance)) triangles.push_back(int(t));
     }
@@ -152,7 +152,7 @@ Mesh triage(const SolidTree& mixed, const Box& box, const TriageOptions& options
         if (thin_out) {
             // Facets that lean are mended first: what mends them later knows of no tolerance. Smaller cells for those
             // that cannot be mended cost less before the rest is thinned out.
-            const RepairStatistics repaired = repair(mesh, origins, *judge);
+            const RepairStatistics repaired = repair(mesh, origins, *judge, at_points * options.tolerance);
             if (!repaired.left.empty() && mending < max_fine_rounds && may_halve() &&
                 !halve(subdivision, cells_around(mesh, origins, repaired.left, subdivision)).empty()) {
                 ++mending;
@@ -166,7 +166,7 @@ Mesh triage(const SolidTree& mixed, const Box& box, const TriageOptions& options
         for (const bool may_split : {true, false}) {
             Mesh mended = mesh;
             std::vector<Origin> mended_origins = origins;
-            RepairStatistics repaired = repair(mended, mended_origins, *judge, may_split);
+            RepairStatistics repaired = repair(mended, mended_origins, *judge, options.tolerance, may_split);
             drop_wrong_shells(mended, mended_origins, repaired.left);
             // Facets that lean or face inward are the graver fault.
             std::pair<std::size_t, std::size_t> wrong{repaired.left.size(), 0};
