@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "bounds/in_parallel.hpp"
+
 namespace deburr {
 
 std::vector<std::pair<int, int>> crossing_triangles(const Mesh& mesh, const TriangleTree& tree, CancelFlag cancel,
@@ -10,18 +12,32 @@ std::vector<std::pair<int, int>> crossing_triangles(const Mesh& mesh, const Tria
     // Where parts touch, vertices lie in facets up to the rounding of what computed them.
     const Box all = tree.box();
     const double rounding = all.empty() ? 0 : 1e-11 * std::max(largest(all.lo), largest(all.hi));
+    struct Found {
+        std::vector<std::pair<int, int>> pairs;
+        std::size_t looked = 0;
+    };
+    constexpr std::size_t most = 8192;  // triangles that are looked at by one thread
+    std::vector<Found> found((mesh.triangles.size() + most - 1) / most);
+    in_parallel(found.size(), [&](std::size_t k) {
+        Found& own = found[k];
+        for (std::size_t s = k * most; s < std::min(mesh.triangles.size(), (k + 1) * most); ++s) {
+            if (s % check_interval == 0) throw_if_cancelled(cancel);
+            const std::size_t first = own.pairs.size();
+            tree.visit(tree.box(int(s)), [&](int t) {
+                if (t <= int(s)) return true;
+                ++own.looked;
+                if (triangles_cross(mesh, mesh.triangles[s], mesh.triangles[t], rounding))
+                    own.pairs.push_back({int(s), t});
+                return true;
+            });
+            std::sort(own.pairs.begin() + std::ptrdiff_t(first), own.pairs.end());
+        }
+    });
     std::vector<std::pair<int, int>> pairs;
     std::size_t looked = 0;
-    for (std::size_t s = 0; s < mesh.triangles.size(); ++s) {
-        if (s % check_interval == 0) throw_if_cancelled(cancel);
-        const std::size_t first = pairs.size();
-        tree.visit(tree.box(int(s)), [&](int t) {
-            if (t <= int(s)) return true;
-            ++looked;
-            if (triangles_cross(mesh, mesh.triangles[s], mesh.triangles[t], rounding)) pairs.push_back({int(s), t});
-            return true;
-        });
-        std::sort(pairs.begin() + std::ptrdiff_t(first), pairs.end());
+    for (const Found& f : found) {
+        pairs.insert(pairs.end(), f.pairs.begin(), f.pairs.end());
+        looked += f.looked;
     }
     if (looked_at) *looked_at = looked;
     return pairs;

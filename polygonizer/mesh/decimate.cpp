@@ -1,7 +1,10 @@
 #include "polygonizer/mesh/decimate.hpp"
 
 #include <algorithm>
+#include <numeric>
 
+#include "bounds/in_parallel.hpp"
+#include "polygonizer/mesh/mesh_blocks.hpp"
 #include "polygonizer/mesh/split_on_surface.hpp"
 
 namespace deburr {
@@ -39,22 +42,37 @@ double distance_to_triangle(Vec3 x, Vec3 a, Vec3 b, Vec3 c, Vec3 area, double en
 class Decimation {
 public:
     Decimation(Mesh& mesh, std::vector<Origin>& origins, const FacetJudge& judge, double tolerance,
-               const std::vector<Box>& dense, CancelFlag cancel, std::size_t enough)
+               const std::vector<Box>& dense, CancelFlag cancel, std::size_t enough = 0)
         : facets_(mesh, origins),
           judge_(judge),
           tolerance_(tolerance),
           dense_(dense),
           cancel_(cancel),
           enough_(enough),
-          left_(mesh.triangles.size()) {
+          left_(mesh.triangles.size()),
+          border_(mesh.positions.size(), false),
+          first_(mesh.positions.size(), true) {
         for (std::size_t f = 0; f < facets_.size(); ++f) flat_normals_.push_back(flat_normal(facets_.at(int(f))));
+    }
+
+    /// These vertices, which have facets that are not in the mesh, stay, and nothing moves onto them.
+    void keep_border(std::vector<char> vertices) { border_ = std::move(vertices); }
+    /// Only vertices around these are looked at, until something has changed.
+    void look_around(const std::vector<char>& vertices) {
+        first_.assign(first_.size(), false);
+        for (std::size_t f = 0; f < facets_.size(); ++f) {
+            const auto& t = facets_.at(int(f)).triangle.vertex;
+            if (vertices[t[0]] || vertices[t[1]] || vertices[t[2]])
+                for (const int v : t) first_[v] = true;
+        }
     }
 
     std::size_t run() {
         // What costs little goes first, so that what is left can bear more.
         std::size_t gone = 0;
         for (const double share : {0.1, 1.0}) {
-            changed_.assign(std::size_t(facets_.vertices()), true);
+            changed_ = first_;
+            changed_.resize(std::size_t(facets_.vertices()), true);
             constexpr int max_rounds = 6;
             for (int round = 0; round < max_rounds; ++round) {
                 const std::size_t now = pass(share * tolerance_);
@@ -62,8 +80,10 @@ public:
                 if (100 * now < std::size_t(facets_.vertices())) break;
             }
         }
-        if (gone > 0) facets_.finish();
         return gone;
+    }
+    void finish(std::vector<int>* vertices = nullptr, std::vector<int>* normals = nullptr) {
+        facets_.finish(vertices, normals);
     }
 
 private:
@@ -92,6 +112,9 @@ private:
         return gone;
     }
 
+    // What was put in since is not.
+    bool is_on_border(int v) const { return std::size_t(v) < border_.size() && border_[v]; }
+
     // The normal of a facet that is part of a plane, or 0.
     Vec3 flat_normal(const Facet& f) const {
         const auto& n = f.triangle.normal;
@@ -116,7 +139,8 @@ private:
     Kind kind_of(int v) const {
         Kind kind;
         const Vec3 x = facets_.position(v);
-        kind.fixed = std::any_of(dense_.begin(), dense_.end(), [&](const Box& box) { return box.contains(x); });
+        kind.fixed = is_on_border(v) ||
+                     std::any_of(dense_.begin(), dense_.end(), [&](const Box& box) { return box.contains(x); });
         if (kind.fixed) return kind;
         const auto& fan = facets_.around(v);
         for (const int f : fan) {
@@ -147,6 +171,7 @@ private:
         const Vec3 x = facets_.position(v);
         for (const int f : facets_.around(v)) {
             const int to = facets_.at(f).triangle.vertex[(facets_.corner_index(f, v) + 1) % 3];
+            if (is_on_border(to)) continue;
             if (!kind.line_ends.empty() && to != kind.line_ends[0] && to != kind.line_ends[1]) continue;
             const Vec3 d = facets_.position(to) - x;
             const auto leaves = [&](Vec3 plane) { return std::abs(glm::dot(plane, d)) > 1e-9 * judge_.size(); };
@@ -324,7 +349,8 @@ private:
     double tolerance_;
     const std::vector<Box>& dense_;
     CancelFlag cancel_;
-    std::size_t enough_, left_;       // triangles
+    std::size_t enough_, left_;  // triangles
+    std::vector<char> border_, first_;
     std::vector<Vec3> flat_normals_;  // of facets; 0: curved
     // Of the vertex that is looked at.
     std::vector<Candidate> candidates_;
@@ -335,12 +361,59 @@ private:
     int spare_ = -1;             // a vertex of no facet
 };
 
+// What is known of those that were kept, by their numbers before; `since` for what was put in since.
+template <class T>
+std::vector<T> kept(const std::vector<int>& numbers, const std::vector<T>& known, T since) {
+    std::vector<T> of;
+    of.reserve(numbers.size());
+    for (const int n : numbers) of.push_back(std::size_t(n) < known.size() ? known[n] : since);
+    return of;
+}
+
+// Returns how many vertices went.
+std::size_t decimate_block(MeshBlock& block, const FacetJudge& judge, double tolerance, const std::vector<Box>& dense,
+                           CancelFlag cancel) {
+    Decimation decimation(block.mesh, block.origins, judge, tolerance, dense, cancel);
+    decimation.keep_border(block.on_border);
+    const std::size_t gone = decimation.run();
+    std::vector<int> vertices, normals;
+    decimation.finish(&vertices, &normals);
+    block.vertices = kept(vertices, block.vertices, -1);
+    block.normals = kept(normals, block.normals, -1);
+    block.on_border = kept(vertices, block.on_border, char(false));
+    return gone;
+}
+
+// Blocks of a large mesh by themselves, side by side; returns how many vertices went. `border` gets the vertices where
+// blocks meet.
+std::size_t decimate_blocks(Mesh& mesh, std::vector<Origin>& origins, const FacetJudge& judge, double tolerance,
+                            const std::vector<Box>& dense, CancelFlag cancel, std::size_t most,
+                            std::vector<char>& border) {
+    std::vector<MeshBlock> blocks = cut_into_blocks(mesh, origins, most);
+    std::vector<std::size_t> gone(blocks.size(), 0);
+    in_parallel(blocks.size(), [&](std::size_t k) {
+        judge.lend([&](const FacetJudge& own) { gone[k] = decimate_block(blocks[k], own, tolerance, dense, cancel); });
+    });
+    border = join_blocks(blocks, mesh, origins);
+    return std::accumulate(gone.begin(), gone.end(), std::size_t(0));
+}
+
 }  // namespace
 
 std::size_t decimate(Mesh& mesh, std::vector<Origin>& origins, const FacetJudge& judge, double tolerance,
                      const std::vector<Box>& dense, CancelFlag cancel, std::size_t enough) {
     if (mesh.triangles.empty()) return 0;
-    return Decimation(mesh, origins, judge, tolerance, dense, cancel, enough).run();
+    // Triangles of a block: of one that is smaller too much is border.
+    constexpr std::size_t most = 10'000;
+    std::size_t gone = 0;
+    std::vector<char> border;
+    const bool in_blocks = enough == 0 && mesh.triangles.size() > 2 * most;
+    if (in_blocks) gone = decimate_blocks(mesh, origins, judge, tolerance, dense, cancel, most, border);
+    Decimation decimation(mesh, origins, judge, tolerance, dense, cancel, enough);
+    if (in_blocks) decimation.look_around(border);
+    gone += decimation.run();
+    if (gone > 0) decimation.finish();
+    return gone;
 }
 
 }  // namespace deburr

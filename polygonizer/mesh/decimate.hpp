@@ -4,6 +4,9 @@
 // Flat faces stay exactly flat, creases and borders of materials stay lines of edges, and the mesh stays closed and
 // outward. What is held against the tolerance: thirteen points of every triangle that a collapse changes, spread over
 // its inside and its edges, and the vertices that go.
+//
+// A large mesh is thinned out in blocks, side by side, and then where they meet. The blocks depend on the mesh alone,
+// so that the result does not depend on the number of threads.
 #pragma once
 #include "polygonizer/mesh/cancel.hpp"
 #include "polygonizer/mesh/facet_judge.hpp"

@@ -7,22 +7,46 @@
 
 namespace deburr {
 
-DistanceField field_around(const Mesh& mesh, const SolidTree& solid) {
-    // A facet is nearer to its surface than this: rounding moves a surface by less than the radius, and
-    // facets of free forms are small against their distance.
+double facet_margin(const Mesh& mesh, const SolidTree& solid) {
+    // Rounding moves a surface by less than the radius, and facets of free forms are small against their distance.
     double margin = 0;
     for (const SolidLeaf& leaf : solid.leaves) {
         for (const HalfSpace& h : leaf.density.half_spaces) margin = std::max(margin, h.radius);
         if (leaf.field) margin = std::max(margin, mean_edge(mesh));
     }
-    return DistanceField(solid, field_box(mesh), margin);
+    return margin;
+}
+
+DistanceField field_around(const Mesh& mesh, const SolidTree& solid) {
+    return DistanceField(solid, field_box(mesh), facet_margin(mesh, solid));
 }
 
 FacetJudge::FacetJudge(const SolidTree& solid, const Mesh& mesh)
-    : solid_(field_around(mesh, solid)),
+    : FacetJudge(solid, field_box(mesh), facet_margin(mesh, solid)) {}
+
+const FacetJudge* FacetJudge::take() const {
+    const std::lock_guard lock(mutex_);
+    if (free_.empty()) {
+        copies_.push_back(std::unique_ptr<FacetJudge>(new FacetJudge(tree_, box_, margin_)));
+        return copies_.back().get();
+    }
+    const FacetJudge* judge = free_.back();
+    free_.pop_back();
+    return judge;
+}
+
+void FacetJudge::give_back(const FacetJudge* judge) const {
+    const std::lock_guard lock(mutex_);
+    free_.push_back(judge);
+}
+
+FacetJudge::FacetJudge(const SolidTree& solid, const Box& box, double margin)
+    : tree_(solid),
+      box_(box),
+      margin_(margin),
+      solid_(solid, box, margin),
       one_leaf_(solid.leaves.size() == 1 && solid.nodes.size() == 1),
-      surfaces_(solid, field_box(mesh), one_leaf_ ? &solid_ : nullptr) {
-    const Box box = field_box(mesh);
+      surfaces_(solid, box, one_leaf_ ? &solid_ : nullptr) {
     size_ = glm::length(box.hi - box.lo);
     // Where single precision cannot tell a rounded edge from a sharp one, no file of it can be right.
     constexpr double of_radius = 0.01, of_size = 1e-4;

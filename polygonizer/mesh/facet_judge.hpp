@@ -2,6 +2,10 @@
 #pragma once
 #include <array>
 
+#include <memory>
+#include <mutex>
+
+#include "bounds/in_parallel.hpp"
 #include "polygonizer/mesh/facets.hpp"
 #include "polygonizer/mesh/leaf_surfaces.hpp"
 
@@ -14,6 +18,9 @@ struct FacetShape {
     bool saturated = false;
 };
 
+/// How far around a facet surfaces matter: from its middle the one that it stands for is nearer.
+double facet_margin(const Mesh& mesh, const SolidTree& solid);
+
 /// The solid as it is seen from the facets of a mesh: from the middle of each the surface that it stands
 /// for, and all that are nearer.
 DistanceField field_around(const Mesh& mesh, const SolidTree& solid);
@@ -23,6 +30,19 @@ class FacetJudge {
 public:
     /// `mesh` tells where the surfaces are.
     FacetJudge(const SolidTree& solid, const Mesh& mesh);
+    /// Calls work(judge) with a judge of the same that no other thread has: this one or a copy of it, which is kept.
+    /// What it says does not depend on which of them it is.
+    template <class Work>
+    void lend(Work work) const {
+        const FacetJudge* judge = take();
+        try {
+            work(*judge);
+        } catch (...) {
+            give_back(judge);
+            throw;
+        }
+        give_back(judge);
+    }
     FacetJudge(const FacetJudge&) = delete;
     FacetJudge& operator=(const FacetJudge&) = delete;
 
@@ -42,13 +62,35 @@ public:
     double size() const { return size_; }
 
 private:
+    // Surfaces farther than `margin` from a facet are none of its business.
+    FacetJudge(const SolidTree& solid, const Box& box, double margin);
+
+    const FacetJudge* take() const;
+    void give_back(const FacetJudge* judge) const;
+
     bool is_point_near(Vec3 x, double tolerance) const;
 
+    const SolidTree& tree_;
+    Box box_;  // around the mesh
+    double margin_;
     DistanceField solid_;
     bool one_leaf_;
     LeafSurfaces surfaces_;
     double size_;
-    bool in_single_;  // facets are judged as single precision rounds them, too
+    mutable std::mutex mutex_;
+    mutable std::vector<std::unique_ptr<FacetJudge>> copies_;
+    mutable std::vector<const FacetJudge*> free_{this};  // that no thread has
+    bool in_single_;                                     // facets are judged as single precision rounds them, too
 };
+
+/// Calls work(judge, first, last) for ranges of `count` facets that make up all of them, side by side. A judge is a
+/// thread's own for as long as its range takes.
+template <class Work>
+void judge_in_parallel(const FacetJudge& judge, std::size_t count, Work work) {
+    constexpr std::size_t most = 4096;  // of a range
+    in_parallel((count + most - 1) / most, [&](std::size_t k) {
+        judge.lend([&](const FacetJudge& own) { work(own, k * most, std::min(count, (k + 1) * most)); });
+    });
+}
 
 }  // namespace deburr

@@ -167,7 +167,7 @@ std::vector<int> Facets::apply(const Change& change) {
     return fresh;
 }
 
-void Facets::finish() {
+void Facets::finish(std::vector<int>* old_vertices, std::vector<int>* old_normals) {
     std::vector<int> position(mesh_.positions.size(), -1), normal(mesh_.normals.size(), -1);
     std::vector<Vec3> positions, normals;
     mesh_.triangles.clear();
@@ -191,6 +191,14 @@ void Facets::finish() {
         mesh_.triangles.push_back(t);
         origins_.push_back(facets_[f].origin);
     }
+    const auto say = [](std::vector<int>* old, const std::vector<int>& new_index, std::size_t count) {
+        if (!old) return;
+        old->resize(count);
+        for (std::size_t k = 0; k < new_index.size(); ++k)
+            if (new_index[k] >= 0) (*old)[new_index[k]] = int(k);
+    };
+    say(old_vertices, position, positions.size());
+    say(old_normals, normal, normals.size());
     mesh_.positions = std::move(positions);
     mesh_.normals = std::move(normals);
 }

@@ -68,8 +68,8 @@ public:
     void set_normal(int n, Vec3 x) { mesh_.normals[n] = x; }
     /// Returns the numbers of the facets that came.
     std::vector<int> apply(const Change& change);
-    /// Drops what is no longer used.
-    void finish();
+    /// Drops what is no longer used. Of what is left, `vertices` and `normals` get the numbers that it had.
+    void finish(std::vector<int>* vertices = nullptr, std::vector<int>* normals = nullptr);
 
 private:
     Fan neighbours(int v) const;

@@ -39,12 +39,8 @@ public:
 
 private:
     static DistanceField around(const Mesh& mesh, const SolidTree& solid, const Box& box) {
-        double margin = 0;
-        for (const SolidLeaf& leaf : solid.leaves) {
-            for (const HalfSpace& h : leaf.density.half_spaces) margin = std::max(margin, h.radius);
-            if (leaf.field) margin = std::max(margin, mean_edge(mesh));
-        }
-        return DistanceField(solid, mesh.positions.empty() ? box : hull(box, field_box(mesh)), margin);
+        return DistanceField(solid, mesh.positions.empty() ? box : hull(box, field_box(mesh)),
+                             facet_margin(mesh, solid));
     }
 
     Vec3 at(int v) const { return mesh_.positions[v]; }

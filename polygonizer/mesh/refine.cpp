@@ -20,13 +20,13 @@ public:
     }
 
     std::vector<int> run() {
-        for (std::size_t f = 0; f < facets_.size(); ++f) open_.push_back(int(f));
+        find_far();
         std::size_t looks = 0;
         while (!open_.empty()) {
             if (++looks % 1024 == 0) throw_if_cancelled(cancel_);
             const int f = open_.front();
             open_.pop_front();
-            if (!facets_.alive(f) || facets_.at(f).origin.leaf < 0 || !is_far(f)) continue;
+            if (!facets_.alive(f) || facets_.at(f).origin.leaf < 0 || !is_far(judge_, f, edges_)) continue;
             if (generation_[f] >= max_generation || !improve(f)) stuck_.push_back(f);
         }
         std::vector<int> order(facets_.size(), -1), left;
@@ -45,18 +45,33 @@ private:
         std::size_t k;
     };
 
-    double distance(Vec3 x) const { return std::abs(judge_.solid().at(x).distance); }
+    // What is to be done, as far as the mesh that was given tells.
+    void find_far() {
+        std::vector<char> far(facets_.size(), false);
+        judge_in_parallel(judge_, facets_.size(), [&](const FacetJudge& judge, std::size_t first, std::size_t last) {
+            Edge edges[3];
+            for (std::size_t f = first; f < last; ++f) {
+                if (f % 1024 == 0) throw_if_cancelled(cancel_);
+                far[f] = facets_.at(int(f)).origin.leaf >= 0 && is_far(judge, int(f), edges);
+            }
+        });
+        for (std::size_t f = 0; f < facets_.size(); ++f)
+            if (far[f]) open_.push_back(int(f));
+    }
+
+    static double distance(const FacetJudge& judge, Vec3 x) { return std::abs(judge.solid().at(x).distance); }
 
     // Of points along the edge from the surface: an edge along an S has its middle on it.
-    double distance(Vec3 a, Vec3 b) const {
+    static double distance(const FacetJudge& judge, Vec3 a, Vec3 b) {
         double farthest = 0;
-        for (const double share : {0.25, 0.5, 0.75}) farthest = std::max(farthest, distance(a + share * (b - a)));
+        for (const double share : {0.25, 0.5, 0.75})
+            farthest = std::max(farthest, distance(judge, a + share * (b - a)));
         return farthest;
     }
 
-    // Whether points of the facet are too far from the surface; then edges_ are the edges, the one that needs a vertex
+    // Whether points of the facet are too far from the surface; then `edges` are its edges, the one that needs a vertex
     // most first.
-    bool is_far(int f) {
+    bool is_far(const FacetJudge& judge, int f, Edge (&edges)[3]) const {
         const Triangle& t = facets_.at(f).triangle;
         Vec3 x[3], n[3];
         for (std::size_t k = 0; k < 3; ++k) {
@@ -70,25 +85,25 @@ private:
         std::size_t turns_most = 0;
         for (std::size_t k = 0; k < 3; ++k) {
             const std::size_t l = (k + 1) % 3;
-            const double d = distance(x[k], x[l]), length = glm::length(x[k] - x[l]);
+            const double d = distance(judge, x[k], x[l]), length = glm::length(x[k] - x[l]);
             const double turn = glm::length(n[k] - n[l]) * length;
             farthest = std::max(farthest, d);
-            edges_[k] = {d, d / (length * length), k};
+            edges[k] = {d, d / (length * length), k};
             if (turn <= max_turn) continue;
             max_turn = turn;
             turns_most = k;
         }
         if (farthest <= tolerance_) {
             const Vec3 middle = (x[0] + x[1] + x[2]) / 3.0;
-            farthest = std::max(farthest, distance(middle));
+            farthest = std::max(farthest, distance(judge, middle));
             for (std::size_t k = 0; k < 3 && farthest <= tolerance_; ++k)
-                farthest = std::max(farthest, distance(0.5 * (x[k] + middle)));
+                farthest = std::max(farthest, distance(judge, 0.5 * (x[k] + middle)));
         }
         if (farthest <= tolerance_) return false;
         // Where the middle is far from the surface and no edge is, the normals tell along which edge it turns.
-        if (std::max({edges_[0].distance, edges_[1].distance, edges_[2].distance}) < 0.5 * tolerance_)
-            edges_[turns_most].distance = farthest;
-        std::sort(std::begin(edges_), std::end(edges_), [](const Edge& a, const Edge& b) {
+        if (std::max({edges[0].distance, edges[1].distance, edges[2].distance}) < 0.5 * tolerance_)
+            edges[turns_most].distance = farthest;
+        std::sort(std::begin(edges), std::end(edges), [](const Edge& a, const Edge& b) {
             return a.curvature != b.curvature ? a.curvature > b.curvature : a.k < b.k;
         });
         return true;
@@ -103,7 +118,7 @@ private:
         for (const int v : facets_.at(other).triangle.vertex)
             if (v != a && v != b) d = v;
         constexpr double much = 0.5;
-        if (distance(facets_.position(c), facets_.position(d)) >= much * edge.distance) return false;
+        if (distance(judge_, facets_.position(c), facets_.position(d)) >= much * edge.distance) return false;
         const auto change = facets_.flip(f, edge.k);
         return change && is_better(*change) && apply(*change);
     }

@@ -259,10 +259,15 @@ public:
 
     // Vertices beside the surface go to where the surfaces around them meet. Before any facet is judged.
     void mend_vertices(RepairStatistics& statistics) {
-        beside_.assign(std::size_t(facets_.vertices()), false);
+        const auto vertices = std::size_t(facets_.vertices());
+        beside_.assign(vertices, false);
+        std::vector<char> is_on(vertices);
+        judge_in_parallel(judge_, vertices, [&](const FacetJudge& judge, std::size_t first, std::size_t last) {
+            for (std::size_t v = first; v < last; ++v)
+                is_on[v] = facets_.around(int(v)).empty() || judge.on_surface(facets_.position(int(v)));
+        });
         for (int v = 0; v < facets_.vertices(); ++v) {
-            if (facets_.around(v).empty()) continue;
-            if (on_surface(facets_.position(v))) continue;
+            if (is_on[v]) continue;
             std::vector<LeafSurface> pieces;
             double shortest = infinity;
             for (const int f : facets_.around(v)) {
@@ -285,6 +290,13 @@ public:
             turn_normals(v);
             ++statistics.moves;
         }
+    }
+
+    // Learns the shapes of all facets; none may have changed yet.
+    void judge_all() {
+        judge_in_parallel(judge_, facets_.size(), [&](const FacetJudge& judge, std::size_t first, std::size_t last) {
+            for (std::size_t f = first; f < last; ++f) shapes_[f] = judge.shape(facets_, facets_.at(int(f)));
+        });
     }
 
     // Drops what is no longer used, and says what is still wrong or has a vertex beside the surface.
@@ -342,6 +354,7 @@ RepairStatistics repair(Mesh& mesh, std::vector<Origin>& origins, const FacetJud
     Repair work(mesh, origins, judge, tolerance);
     if (!may_split) work.forbid_splits();
     work.mend_vertices(statistics);
+    work.judge_all();
     for (const Limits& limits : {gentle, last_resort}) {
         work.limit(limits);
         work.mend_facets(statistics);

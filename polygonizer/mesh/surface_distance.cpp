@@ -221,8 +221,15 @@ const SignedDistance& DistanceField::near(Vec3 x) const {
     constexpr std::size_t large = 512;  // of more, copies of nearly all of them would take too much memory
     constexpr int max_depth = 40;
     constexpr double min_margin = 0.05;  // of the margin
-    if (last_ && last_->box.contains(x)) return *last_->solid;
     Node* node = root_.get();
+    // What is in the wall between two boxes belongs to the lower one, whichever was asked for last.
+    const auto belongs_to = [&](const Box& box) {
+        for (int k = 0; k < 3; ++k)
+            if (x[k] > box.hi[k] || x[k] < box.lo[k] || (x[k] == box.lo[k] && box.lo[k] > node->box.lo[k]))
+                return false;
+        return true;
+    };
+    if (last_ && belongs_to(last_->box)) return *last_->solid;
     // What is beyond the box sees what is nearest in it: the whole solid at once may be too much to evaluate.
     const Vec3 y = glm::clamp(x, node->box.lo, node->box.hi);
     while (node->depth < max_depth && node->half_spaces > few) {

@@ -82,12 +82,16 @@ bool cut_cells(Subdivision& subdivision, const Mesh& mesh, const std::vector<Ori
 
 // Adds triangles that are farther from the surface than the tolerance; returns how many.
 std::size_t add_far(const Mesh& mesh, const FacetJudge& judge, double tolerance, std::vector<int>& triangles) {
+    std::vector<char> far(mesh.triangles.size());
+    judge_in_parallel(judge, far.size(), [&](const FacetJudge& own, std::size_t first, std::size_t last) {
+        for (std::size_t t = first; t < last; ++t) {
+            const auto& v = mesh.triangles[t].vertex;
+            far[t] = !own.is_near({mesh.positions[v[0]], mesh.positions[v[1]], mesh.positions[v[2]]}, tolerance);
+        }
+    });
     const std::size_t before = triangles.size();
-    for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
-        std::array<Vec3, 3> x;
-        for (std::size_t k = 0; k < 3; ++k) x[k] = mesh.positions[mesh.triangles[t].vertex[k]];
-        if (!judge.is_near(x, tolerance)) triangles.push_back(int(t));
-    }
+    for (std::size_t t = 0; t < far.size(); ++t)
+        if (far[t]) triangles.push_back(int(t));
     return triangles.size() - before;
 }
 

@@ -13,7 +13,7 @@
 #include "polygonizer/mesh/sharp_parts.hpp"
 #include "polygonizer/triage/triage.hpp"
 #include "raytracer/util/errors.hpp"
-#include "raytracer/util/in_parallel.hpp"
+#include "bounds/in_parallel.hpp"
 
 namespace deburr {
 namespace {

@@ -12,7 +12,7 @@
 #include "polygonizer/mesh/separate_touching.hpp"
 #include "polygonizer/octree/octree_cells.hpp"
 #include "raytracer/util/errors.hpp"
-#include "raytracer/util/in_parallel.hpp"
+#include "bounds/in_parallel.hpp"
 
 namespace deburr {
 namespace {

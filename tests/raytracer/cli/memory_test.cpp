@@ -4,7 +4,7 @@
 
 #include "catch.hpp"
 #include "raytracer/program.hpp"
-#include "raytracer/util/in_parallel.hpp"
+#include "bounds/in_parallel.hpp"
 
 using namespace deburr::test;
 

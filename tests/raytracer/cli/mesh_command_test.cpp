@@ -271,6 +271,26 @@ TEST_CASE("a mesh does not depend on the number of threads", "[threads]") {
     CHECK(read_file(folder / "1.ply") == read_file(folder / "4.ply"));
 }
 
+TEST_CASE("one large solid has the same mesh by any number of threads", "[threads]") {
+    const Folder folder;
+    // More than one block of triangles before they are thinned out.
+    write_file(
+        folder / "s.lua",
+        "local plate = box({0,0,0}, {5,0.3,4})\n"
+        "for i = 0, 4 do for k = 0, 3 do\n"
+        "  local hole = {}\n"
+        "  for j = 1, 12 do local a = j*math.pi/6; hole[j] = {i+0.5+0.3*math.cos(a), k+0.5+0.3*math.sin(a)} end\n"
+        "  plate = plate & ~prism(hole, -1, 2)\nend end\n"
+        "return { solids = { rounded(0.04, plate) } }");
+    std::string first;
+    for (const char* threads : {"1", "2", "3"}) {
+        const std::string out = folder / (std::string(threads) + ".ply");
+        REQUIRE(run({"mesh", folder / "s.lua", "-o", out, "--threads", threads, "-q"}).code == 0);
+        if (first.empty()) first = read_file(out);
+        CHECK(read_file(out) == first);
+    }
+}
+
 TEST_CASE("the first interrupt of a mesh ends it and writes nothing", "[slow]") {
     const Folder folder;
     // One solid is done soon, all of them are not.
