@@ -41,6 +41,7 @@ public:
           solid_(judge.solid()),
           surfaces_(judge.surfaces()),
           shapes_(facets_.size()),
+          changed_(facets_.size(), false),
           first_made_(facets_.vertices()) {}
 
     FacetShape shape(const Facet& f) const { return judge_.shape(facets_, f); }
@@ -287,6 +288,7 @@ public:
                 }
             }
             facets_.move(v, x);
+            for (const int f : facets_.around(v)) changed_[f] = true;
             turn_normals(v);
             ++statistics.moves;
         }
@@ -306,6 +308,7 @@ public:
             if (!facets_.alive(int(f))) continue;
             const auto& v = facets_.at(int(f)).triangle.vertex;
             if (is_beside(v[0]) || is_beside(v[1]) || is_beside(v[2]) || wrong(int(f))) statistics.left.push_back(t);
+            if (changed_[f]) statistics.changed.push_back(t);
             statistics.farthest = std::max(statistics.farthest, shape(int(f)).distance);
             ++t;
         }
@@ -316,7 +319,11 @@ private:
     std::vector<int> apply(const Change& change) {
         std::vector<int> fresh = facets_.apply(change);
         shapes_.resize(facets_.size());
-        for (const int f : fresh) shapes_[f].reset();
+        changed_.resize(facets_.size());
+        for (const int f : fresh) {
+            shapes_[f].reset();
+            changed_[f] = true;
+        }
         return fresh;
     }
     // Vertices that were put in to mend are on the surface.
@@ -339,6 +346,7 @@ private:
     const DistanceField& solid_;
     const LeafSurfaces& surfaces_;
     std::vector<std::optional<FacetShape>> shapes_;  // of the facets, where known
+    std::vector<char> changed_;                      // facets that came, or have a vertex that was moved
     std::vector<char> beside_;                       // vertices that nothing brought onto the surface
     int first_made_;
     Limits limits_ = gentle;

@@ -12,8 +12,9 @@ namespace deburr {
 
 struct RepairStatistics {
     std::size_t flips = 0, collapses = 0, splits = 0, moves = 0;
-    std::vector<int> left;  // triangles for which nothing helped
-    double farthest = 0;    // distance of a triangle's middle from the surface, in the end
+    std::vector<int> left;     // triangles for which nothing helped
+    std::vector<int> changed;  // triangles that came, or have a vertex that was moved
+    double farthest = 0;       // distance of a triangle's middle from the surface, in the end
 };
 
 /// Only the last resort makes facets that are farther from the surface than the tolerance, where none was.

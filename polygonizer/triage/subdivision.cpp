@@ -172,6 +172,7 @@ const OpenLeaf* Subdivision::open(int cell, int leaf) const {
 }
 
 bool Subdivision::halve(int cell, const Plane& plane) {
+    if (nodes[node_of[cell]].side != Side::straddling) return false;
     const int upper = complex.cut(cell, plane);
     if (upper < 0) return false;
     const int parent = node_of[cell];

@@ -48,7 +48,7 @@ public:
     /// Side of the leaf throughout the cell; straddling also where nobody asked.
     Side side(int cell, int leaf) const;
     const OpenLeaf* open(int cell, int leaf) const;
-    /// Cuts the cell further, whatever it is; children are made into places of their own.
+    /// Cuts a cell that is not decided; its halves become cells of their own. False if the plane does not cut it.
     bool halve(int cell, const Plane& plane);
     /// Cuts the cell and what comes of it as far as planes go.
     void subdivide(int cell);

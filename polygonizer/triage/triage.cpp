@@ -62,6 +62,27 @@ std::vector<int> halve(Subdivision& subdivision, const std::vector<Cut>& cuts) {
     return halves;
 }
 
+// Across the longest side of the cell's box.
+Plane middle_plane(const CellComplex& complex, int cell) {
+    Box box;
+    for (const int v : complex.vertices_of(cell)) box = hull(box, Box{complex.vertices[v], complex.vertices[v]});
+    const Vec3 size = box.hi - box.lo;
+    const int axis = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
+    Plane plane{Vec3(0.0), 0.5 * (box.lo[axis] + box.hi[axis])};
+    plane.normal[axis] = 1;
+    return plane;
+}
+
+// Halves every cell, through its middle where the cut passes it by: triangles that were split or flipped reach beyond
+// the cell that they came from. Whether any cell was halved.
+bool halve_all(Subdivision& subdivision, const std::vector<Cut>& cuts) {
+    const std::size_t before = subdivision.complex.cells.size();
+    for (const Cut& cut : cuts)
+        if (!subdivision.halve(cut.cell, cut.plane))
+            subdivision.halve(cut.cell, middle_plane(subdivision.complex, cut.cell));
+    return subdivision.complex.cells.size() > before;
+}
+
 // Halves the cells of these triangles, and what is farther from the surface than splits of edges could mend: there
 // sheets lie close together. What has been halved is looked at again without the rest. False if nothing could be cut.
 bool cut_cells(Subdivision& subdivision, const Mesh& mesh, const std::vector<Origin>& origins,
@@ -80,6 +101,17 @@ bool cut_cells(Subdivision& subdivision, const Mesh& mesh, const std::vector<Ori
     return changed;
 }
 
+void sort_once(std::vector<int>& numbers) {
+    std::sort(numbers.begin(), numbers.end());
+    numbers.erase(std::unique(numbers.begin(), numbers.end()), numbers.end());
+}
+
+bool is_near(const Mesh& mesh, int t, const FacetJudge& judge, double tolerance) {
+    std::array<Vec3, 3> x;
+    for (std::size_t k = 0; k < 3; ++k) x[k] = mesh.positions[mesh.triangles[t].vertex[k]];
+    return judge.is_near(x, tolerance);
+}
+
 // Adds triangles that are farther from the surface than the tolerance; returns how many.
 std::size_t add_far(const Mesh& mesh, const FacetJudge& judge, double tolerance, std::vector<int>& triangles) {
     std::vector<char> far(mesh.triangles.size());
@@ -95,17 +127,27 @@ std::size_t add_far(const Mesh& mesh, const FacetJudge& judge, double tolerance,
     return triangles.size() - before;
 }
 
+// Repairs a mesh that `refine` left with these triangles too far from the surface. What is wrong with it then,
+// sorted: what is too far now is too far in a mesh that is thinned out, too.
+std::vector<int> wrong_before_decimation(Mesh& mesh, std::vector<Origin>& origins, const FacetJudge& judge,
+                                         double tolerance, const std::vector<int>& left) {
+    RepairStatistics repaired = repair(mesh, origins, judge, at_points * tolerance);
+    std::vector<int> wrong = std::move(repaired.left);
+    if (left.empty())
+        std::ranges::copy_if(repaired.changed, std::back_inserter(wrong),
+                             [&](int t) { return !is_near(mesh, t, judge, tolerance); });
+    else
+        add_far(mesh, judge, tolerance, wrong);
+    sort_once(wrong);
+    return wrong;
+}
+
 // Adds boxes around the triangle's corners, as large as its shortest edge.
 void add_corners(const Mesh& mesh, const Triangle& triangle, std::vector<Box>& boxes) {
     Vec3 x[3];
     for (std::size_t k = 0; k < 3; ++k) x[k] = mesh.positions[triangle.vertex[k]];
     const double shortest = std::min({glm::length(x[0] - x[1]), glm::length(x[1] - x[2]), glm::length(x[2] - x[0])});
     for (const Vec3& corner : x) boxes.push_back(inflated(Box{corner, corner}, 0.5 * shortest));
-}
-
-void sort_once(std::vector<int>& numbers) {
-    std::sort(numbers.begin(), numbers.end());
-    numbers.erase(std::unique(numbers.begin(), numbers.end()), numbers.end());
 }
 
 }  // namespace
@@ -125,7 +167,7 @@ Mesh triage(const SolidTree& mixed, const Box& box, const TriageOptions& options
     // Each round halves the cells that need it.
     const std::size_t max_rounds = std::isfinite(options.tolerance) ? 6 : 5;
     constexpr std::size_t max_mending_rounds = 8, max_fine_rounds = 6;
-    std::size_t mending = 0, last_left = most;
+    std::size_t mending = 0, last_left = most, last_wrong = most;
     std::vector<int> best_left;  // triangles of it that are wrong
     std::vector<Box> dense;      // where a mesh that was thinned out was wrong
     // Where surfaces nearly touch, halves of what is too far may be too far for ever.
@@ -144,9 +186,10 @@ Mesh triage(const SolidTree& mixed, const Box& box, const TriageOptions& options
             continue;
         if (!judge) judge.emplace(solid, mesh);
         drop_flat_shells(mesh, origins, 10 * subdivision.complex.tolerance, judge->solid());
+        std::vector<int> left;
         if (std::isfinite(options.tolerance)) {
             const double tolerance = (options.decimate ? at_points : at_points_of_picture) * options.tolerance;
-            const std::vector<int> left = refine(mesh, origins, *judge, tolerance, options.cancel);
+            left = refine(mesh, origins, *judge, tolerance, options.cancel);
             // What hardly becomes less is looked at again when all is done, by the tolerance itself.
             const bool helped = 2 * left.size() < std::exchange(last_left, left.size());
             if (may_cut && helped && !left.empty() &&
@@ -155,10 +198,11 @@ Mesh triage(const SolidTree& mixed, const Box& box, const TriageOptions& options
         }
         if (thin_out) {
             // Facets that lean are mended first: what mends them later knows of no tolerance. Smaller cells for those
-            // that cannot be mended cost less before the rest is thinned out.
-            const RepairStatistics repaired = repair(mesh, origins, *judge, at_points * options.tolerance);
-            if (!repaired.left.empty() && mending < max_fine_rounds && may_halve() &&
-                !halve(subdivision, cells_around(mesh, origins, repaired.left, subdivision)).empty()) {
+            // that cannot be mended cost less before the rest is thinned out, as long as they help.
+            const std::vector<int> wrong = wrong_before_decimation(mesh, origins, *judge, options.tolerance, left);
+            const bool helped = 4 * wrong.size() < 3 * std::exchange(last_wrong, wrong.size());
+            if (!wrong.empty() && helped && mending < max_fine_rounds && may_halve() &&
+                halve_all(subdivision, cells_around(mesh, origins, wrong, subdivision))) {
                 ++mending;
                 continue;
             }
@@ -189,7 +233,7 @@ Mesh triage(const SolidTree& mixed, const Box& box, const TriageOptions& options
             if (min_wrong == none) break;
         }
         if (min_wrong == none || !may_halve()) break;
-        if (halve(subdivision, cuts[0]).empty() && halve(subdivision, cuts[1]).empty() && !thin_out) break;
+        if (!halve_all(subdivision, cuts[0]) && !halve_all(subdivision, cuts[1]) && !thin_out) break;
         for (const int t : best_left) add_corners(best, best.triangles[t], dense);
     }
     mesh = std::move(best);
