@@ -19,8 +19,23 @@ public:
         generation_.resize(facets_.size(), 0);
     }
 
+    // What is to be done, as far as the mesh that was given tells.
+    void open_far() {
+        std::vector<char> far(facets_.size(), false);
+        judge_in_parallel(judge_, facets_.size(), [&](const FacetJudge& judge, std::size_t first, std::size_t last) {
+            Edge edges[3];
+            for (std::size_t f = first; f < last; ++f) {
+                if (f % 1024 == 0) throw_if_cancelled(cancel_);
+                far[f] = facets_.at(int(f)).origin.leaf >= 0 && is_far(judge, int(f), edges);
+            }
+        });
+        for (std::size_t f = 0; f < facets_.size(); ++f)
+            if (far[f]) open_.push_back(int(f));
+    }
+
+    void open(std::span<const int> facets) { open_.assign(facets.begin(), facets.end()); }
+
     std::vector<int> run() {
-        find_far();
         std::size_t looks = 0;
         while (!open_.empty()) {
             if (++looks % 1024 == 0) throw_if_cancelled(cancel_);
@@ -44,20 +59,6 @@ private:
         double distance, curvature;
         std::size_t k;
     };
-
-    // What is to be done, as far as the mesh that was given tells.
-    void find_far() {
-        std::vector<char> far(facets_.size(), false);
-        judge_in_parallel(judge_, facets_.size(), [&](const FacetJudge& judge, std::size_t first, std::size_t last) {
-            Edge edges[3];
-            for (std::size_t f = first; f < last; ++f) {
-                if (f % 1024 == 0) throw_if_cancelled(cancel_);
-                far[f] = facets_.at(int(f)).origin.leaf >= 0 && is_far(judge, int(f), edges);
-            }
-        });
-        for (std::size_t f = 0; f < facets_.size(); ++f)
-            if (far[f]) open_.push_back(int(f));
-    }
 
     static double distance(const FacetJudge& judge, Vec3 x) { return std::abs(judge.solid().at(x).distance); }
 
@@ -184,7 +185,17 @@ private:
 std::vector<int> refine(Mesh& mesh, std::vector<Origin>& origins, const FacetJudge& judge, double tolerance,
                         CancelFlag cancel) {
     if (mesh.triangles.empty()) return {};
-    return Refinement(mesh, origins, judge, tolerance, cancel).run();
+    Refinement refinement(mesh, origins, judge, tolerance, cancel);
+    refinement.open_far();
+    return refinement.run();
+}
+
+std::vector<int> refine(Mesh& mesh, std::vector<Origin>& origins, std::span<const int> triangles,
+                        const FacetJudge& judge, double tolerance, CancelFlag cancel) {
+    if (triangles.empty()) return {};
+    Refinement refinement(mesh, origins, judge, tolerance, cancel);
+    refinement.open(triangles);
+    return refinement.run();
 }
 
 }  // namespace deburr

@@ -7,6 +7,8 @@
 // Not promised: that splits lead there. Where two sheets are nearer to each other than a triangle is to either, they
 // may not; the triangles concerned are told.
 #pragma once
+#include <span>
+
 #include "polygonizer/mesh/cancel.hpp"
 #include "polygonizer/mesh/facet_judge.hpp"
 
@@ -16,5 +18,9 @@ namespace deburr {
 /// Returns the triangles, in the order of the refined mesh, for which no split or flip led there. Throws Cancelled.
 std::vector<int> refine(Mesh& mesh, std::vector<Origin>& origins, const FacetJudge& judge, double tolerance,
                         CancelFlag cancel = nullptr);
+
+/// The same for some of the triangles, and for what their splits touch; the others stay as they are.
+std::vector<int> refine(Mesh& mesh, std::vector<Origin>& origins, std::span<const int> triangles,
+                        const FacetJudge& judge, double tolerance, CancelFlag cancel = nullptr);
 
 }  // namespace deburr

@@ -127,19 +127,23 @@ std::size_t add_far(const Mesh& mesh, const FacetJudge& judge, double tolerance,
     return triangles.size() - before;
 }
 
-// Repairs a mesh that `refine` left with these triangles too far from the surface. What is wrong with it then,
-// sorted: what is too far now is too far in a mesh that is thinned out, too.
+// Repairs a mesh that `refine` left with these triangles too far from the surface, and refines what its last
+// resort made too coarse. What is wrong with it then, sorted: what is too far now is too far in a mesh that
+// is thinned out, too.
 std::vector<int> wrong_before_decimation(Mesh& mesh, std::vector<Origin>& origins, const FacetJudge& judge,
-                                         double tolerance, const std::vector<int>& left) {
+                                         double tolerance, const std::vector<int>& left, CancelFlag cancel) {
+    const bool all_near = std::ranges::all_of(left, [&](int t) { return is_near(mesh, t, judge, tolerance); });
     RepairStatistics repaired = repair(mesh, origins, judge, at_points * tolerance);
-    std::vector<int> wrong = std::move(repaired.left);
-    if (left.empty())
-        std::ranges::copy_if(repaired.changed, std::back_inserter(wrong),
+    std::vector<int> far;
+    if (all_near)
+        std::ranges::copy_if(repaired.changed, std::back_inserter(far),
                              [&](int t) { return !is_near(mesh, t, judge, tolerance); });
     else
-        add_far(mesh, judge, tolerance, wrong);
-    sort_once(wrong);
-    return wrong;
+        add_far(mesh, judge, tolerance, far);
+    if (repaired.left.empty()) return refine(mesh, origins, far, judge, at_points * tolerance, cancel);
+    repaired.left.insert(repaired.left.end(), far.begin(), far.end());
+    sort_once(repaired.left);
+    return repaired.left;
 }
 
 // Adds boxes around the triangle's corners, as large as its shortest edge.
@@ -199,8 +203,9 @@ Mesh triage(const SolidTree& mixed, const Box& box, const TriageOptions& options
         if (thin_out) {
             // Facets that lean are mended first: what mends them later knows of no tolerance. Smaller cells for those
             // that cannot be mended cost less before the rest is thinned out, as long as they help.
-            const std::vector<int> wrong = wrong_before_decimation(mesh, origins, *judge, options.tolerance, left);
-            const bool helped = 4 * wrong.size() < 3 * std::exchange(last_wrong, wrong.size());
+            const std::vector<int> wrong =
+                wrong_before_decimation(mesh, origins, *judge, options.tolerance, left, options.cancel);
+            const bool helped = wrong.size() < std::exchange(last_wrong, wrong.size());
             if (!wrong.empty() && helped && mending < max_fine_rounds && may_halve() &&
                 halve_all(subdivision, cells_around(mesh, origins, wrong, subdivision))) {
                 ++mending;

@@ -94,6 +94,39 @@ TEST_CASE("Splits of edges bring a mesh within a tolerance, still closed, with i
     CHECK(measure(coarse, tree).distance.max > 0.05 * r);  // or there was nothing to do
 }
 
+TEST_CASE("Some triangles are brought within a tolerance alone, and the others stay") {
+    const double r = 0.1, tolerance = 0.02 * r;
+    const SolidTree tree = crossed_boxes(r);
+    Subdivision subdivision(tree, polygonization_box(tree));
+    Subspace subspace(subdivision);
+    subspace.polygonize();
+    std::vector<Origin> origins, whole_origins;
+    const Mesh coarse = surface(subspace, tree, &origins);
+    const FacetJudge judge(tree, coarse);
+    const auto far = [&](const Mesh& mesh) {
+        std::vector<int> triangles;
+        for (int t = 0; t < int(mesh.triangles.size()); ++t) {
+            std::array<Vec3, 3> x;
+            for (std::size_t k = 0; k < 3; ++k) x[k] = mesh.positions[mesh.triangles[t].vertex[k]];
+            if (!judge.is_near(x, tolerance)) triangles.push_back(t);
+        }
+        return triangles;
+    };
+    const std::vector<int> all = far(coarse);
+    REQUIRE(all.size() > 20);
+    whole_origins = origins;
+    Mesh whole = coarse, none = coarse, some = coarse;
+    REQUIRE(refine(whole, whole_origins, judge, tolerance).empty());
+    std::vector<Origin> none_origins = origins, some_origins = origins;
+    CHECK(refine(none, none_origins, std::vector<int>{}, judge, tolerance).empty());
+    CHECK(none.triangles.size() == coarse.triangles.size());
+    refine(some, some_origins, std::vector<int>(all.begin(), all.begin() + 10), judge, tolerance);
+    CHECK(topology(some).manifold());
+    CHECK(some.triangles.size() > coarse.triangles.size());
+    CHECK(some.triangles.size() < whole.triangles.size());
+    CHECK(far(some).size() < all.size());
+}
+
 TEST_CASE("Triangles that cross each other are found, each pair once") {
     Mesh mesh;
     mesh.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0.2, 0.2, -1}, {0.2, 0.2, 1}, {0.3, 0.4, 0}, {5, 5, 5}};
