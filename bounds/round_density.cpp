@@ -81,6 +81,18 @@ void RoundDensity::make_ready() {
     }
 }
 
+bool RoundDensity::has_sharp() const {
+    return std::any_of(tree_.half_spaces.begin(), tree_.half_spaces.end(),
+                       [&](const HalfSpace& h) { return is_sharp(h); });
+}
+
+DensityTree RoundDensity::as_written() const {
+    DensityTree tree = tree_;
+    for (HalfSpace& h : tree.half_spaces)
+        if (is_sharp(h)) h.radius = 0;
+    return tree;
+}
+
 ValueGradient RoundDensity::at(Vec3 x) const {
     ValueGradient v = local_ ? local_->gradient_at(x) : tree_.gradient_at(x);
     v.value -= 0.5;
@@ -201,7 +213,7 @@ LocalSize RoundDensity::local_size(const Box& box) const {
 
 FieldPtr RoundDensity::transformed_by(const Affine& map) const {
     if (even_scale(map) == 0) return nullptr;
-    return std::make_shared<RoundDensity>(placed(tree_, map));
+    return std::make_shared<RoundDensity>(placed(as_written(), map));
 }
 
 double RoundDensity::last_sign_change_bound(Vec3 origin, Vec3 direction) const {

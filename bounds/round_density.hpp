@@ -20,6 +20,10 @@ public:
     explicit RoundDensity(DensityTree tree);
 
     const DensityTree& tree() const { return tree_; }
+    /// Whether some of its parts are sharp, and others rounded.
+    bool has_sharp() const;
+    /// The tree, with radius 0 where a sharp part got another.
+    DensityTree as_written() const;
     /// What is left of it, made ready; null where that is too much.
     const LocalDensity* local() const { return local_ ? &*local_ : nullptr; }
 
@@ -46,6 +50,8 @@ private:
     RoundDensity(Part, DensityTree tree, const Box& seen, const RoundDensity& of);
     void add_planes(const HalfSpace& part, std::vector<HalfSpace>& to) const;
     void make_ready();
+    // In a density of which a part is rounded.
+    bool is_sharp(const HalfSpace& h) const { return h.radius < radius_; }
 
     DensityTree tree_;
     std::optional<LocalDensity> local_;

@@ -3,42 +3,13 @@
 #include <algorithm>
 
 #include "bounds/box_range.hpp"
+#include "bounds/density_part.hpp"
+#include "bounds/round_density.hpp"
 
 namespace deburr {
 namespace {
 
 constexpr std::size_t max_leaves = 256;  // that one density may turn into
-
-DensityTree subtree(const DensityTree& from, int root) {
-    std::vector<char> needed(std::size_t(root) + 1, false);
-    needed.back() = true;
-    for (int i = root; i >= 0; --i) {
-        const TreeNode& n = from.nodes[i];
-        if (!needed[i] || n.op == Op::half_space || n.op == Op::constant) continue;
-        needed[n.a] = true;
-        if (n.b >= 0) needed[n.b] = true;
-    }
-    DensityTree to;
-    std::vector<int> new_index(needed.size(), -1);
-    for (std::size_t i = 0; i < needed.size(); ++i) {
-        if (!needed[i]) continue;
-        TreeNode n = from.nodes[i];
-        if (n.op == Op::half_space) {
-            to.half_spaces.push_back(from.half_spaces[n.a]);
-            n.a = int(to.half_spaces.size()) - 1;
-        } else if (n.op != Op::constant) {
-            n.a = new_index[n.a];
-            if (n.b >= 0) n.b = new_index[n.b];
-        }
-        if (n.support >= 0) {
-            to.supports.push_back(from.supports[n.support]);
-            n.support = int(to.supports.size()) - 1;
-        }
-        new_index[i] = int(to.nodes.size());
-        to.nodes.push_back(n);
-    }
-    return to;
-}
 
 struct Kinds {
     bool sharp = false, rounded = false;
@@ -50,10 +21,16 @@ Kinds kinds(const DensityTree& tree) {
     return k;
 }
 
+bool has_round(const DensityTree& tree) {
+    return std::any_of(tree.half_spaces.begin(), tree.half_spaces.end(),
+                       [](const HalfSpace& h) { return h.round != nullptr; });
+}
+
+bool same_plane(const HalfSpace& g, const HalfSpace& h) {
+    return g.normal == h.normal && g.offset == h.offset && g.radius == h.radius && g.round == h.round;
+}
+
 bool same(const DensityTree& a, const DensityTree& b) {
-    const auto same_plane = [](const HalfSpace& g, const HalfSpace& h) {
-        return g.normal == h.normal && g.offset == h.offset && g.radius == h.radius;
-    };
     const auto same_node = [](const TreeNode& m, const TreeNode& n) {
         return m.op == n.op && m.a == n.a && m.b == n.b && m.value == n.value;
     };
@@ -65,17 +42,22 @@ class Separation {
 public:
     explicit Separation(SolidTree& to) : to_(to), leaves_before_(to.leaves.size()) {}
 
-    /// Root of the density's set; −1 if it would take too many leaves.
-    int run(const SolidLeaf& leaf) {
-        const Kinds k = kinds(leaf.density);
+    /// Root of the density's set; −1 if it would take too many leaves. Leaves with round parts are densities until
+    /// finish().
+    int run(SolidLeaf leaf) {
         if (to_.leaves.size() - leaves_before_ > max_leaves) return -1;
+        if (const auto* round = dynamic_cast<const RoundDensity*>(leaf.field.get()); round && round->has_sharp()) {
+            leaf.density = round->as_written();
+            leaf.field = nullptr;
+        }
         if (leaf.field) return add(leaf);
-        if (leaf.density.nodes.back().op == Op::constant)
-            return add({leaf.density.nodes.back().value > 0.5 ? SolidOp::everything : SolidOp::nothing});
-        if (!k.sharp || !k.rounded) return add(leaf);
+        const Kinds k = kinds(leaf.density);
         const TreeNode& root = leaf.density.nodes.back();
+        if (root.op == Op::constant) return add({root.value > 0.5 ? SolidOp::everything : SolidOp::nothing});
+        if (!k.sharp || root.op == Op::half_space) return add(leaf);
+        if (!k.rounded && !has_round(leaf.density)) return add(leaf);
         if (root.op == Op::complement) return join(SolidOp::subtract, add({SolidOp::everything}), part(leaf, root.a));
-        const DensityTree a = subtree(leaf.density, root.a), b = subtree(leaf.density, root.b);
+        const DensityTree a = part_below(leaf.density, root.a), b = part_below(leaf.density, root.b);
         if (!kinds(a).rounded || !kinds(b).rounded) {
             const SolidOp op = root.op == Op::difference                          ? SolidOp::subtract
                                : root.op == Op::sum || root.op == Op::disjunction ? SolidOp::unite
@@ -85,8 +67,28 @@ public:
         return decide(leaf);
     }
 
+    /// Makes fields of what has round parts. A sharp round part is given a radius, as its surface is the same for any.
+    void finish() {
+        for (std::size_t k = leaves_before_; k < to_.leaves.size(); ++k) {
+            SolidLeaf& leaf = to_.leaves[k];
+            if (leaf.field || !has_round(leaf.density)) continue;
+            for (HalfSpace& h : leaf.density.half_spaces)
+                if (h.radius == 0) h.radius = harmless_radius(h);
+            leaf.field = std::make_shared<RoundDensity>(std::move(leaf.density));
+            leaf.density = DensityTree::constant(0);
+        }
+    }
+
 private:
-    int part(const SolidLeaf& leaf, int root) { return run({subtree(leaf.density, root), leaf.material, leaf.line}); }
+    // The filter of a round part alone stays clear of where its coordinate has no gradient.
+    static double harmless_radius(const HalfSpace& h) {
+        const double room = h.round->kind == RoundCoordinate::Kind::circle ? h.round->ring - h.offset : infinity;
+        return 0.5 * std::min(std::abs(h.offset), room);
+    }
+
+    int part(const SolidLeaf& leaf, int root) {
+        return run({part_below(leaf.density, root), leaf.material, leaf.line});
+    }
 
     int decide(const SolidLeaf& leaf) {
         std::vector<Range> ranges;
@@ -98,14 +100,14 @@ private:
         const HalfSpace plane = leaf.density.half_spaces[sharp];
         const auto with = [&](double value) {
             for (std::size_t i = 0; i < ranges.size(); ++i)  // the same plane may be there twice
-                if (leaf.density.half_spaces[i].normal == plane.normal &&
-                    leaf.density.half_spaces[i].offset == plane.offset && leaf.density.half_spaces[i].radius == 0)
-                    ranges[i] = {value, value};
+                if (same_plane(leaf.density.half_spaces[i], plane)) ranges[i] = {value, value};
             return run({prune(leaf.density, ranges).tree, leaf.material, leaf.line});
         };
         const int inside = with(1), outside = with(0);
         if (inside < 0 || outside < 0) return -1;
-        const int s = add({DensityTree{{plane}, {{Op::half_space, 0, -1, 0, leaf.line}}}, leaf.material, leaf.line});
+        DensityTree alone{{plane}, {{Op::half_space, 0, -1, 0, leaf.line}}};
+        alone.rounds = leaf.density.rounds;
+        const int s = add({std::move(alone), leaf.material, leaf.line});
         return join(SolidOp::unite, join(SolidOp::intersect, inside, s), join(SolidOp::subtract, outside, s));
     }
 
@@ -127,7 +129,9 @@ private:
     // What remains on both sides of a sharp plane is one leaf, whose surface goes on from one to the other.
     int add(const SolidLeaf& leaf) {
         std::size_t k = leaves_before_;
-        while (k < to_.leaves.size() && (leaf.field || !same(to_.leaves[k].density, leaf.density))) ++k;
+        while (k < to_.leaves.size() &&
+               (leaf.field || to_.leaves[k].field || !same(to_.leaves[k].density, leaf.density)))
+            ++k;
         if (k == to_.leaves.size()) to_.leaves.push_back(leaf);
         return add({SolidOp::leaf, int(k)});
     }
@@ -150,8 +154,10 @@ SolidTree separate_sharp(const SolidTree& solid) {
         if (n.op == SolidOp::leaf) {
             const SolidLeaf& leaf = solid.leaves[n.a];
             const std::size_t leaves = to.leaves.size(), nodes = to.nodes.size();
-            const int root = Separation(to).run(leaf);
+            Separation separation(to);
+            const int root = separation.run(leaf);
             if (root >= 0) {
+                separation.finish();
                 new_index.push_back(root);
                 continue;
             }

@@ -5,7 +5,8 @@
 //
 //     {ρ > ½} = (S ∩ {ρ with S = 1 > ½}) ∪ ({ρ with S = 0 > ½} \ S),
 //
-// and every leaf of the result is rounded throughout or sharp throughout.
+// and every leaf of the result is rounded throughout or sharp throughout. S may be round, too: then it is a leaf of its
+// own, a field.
 #pragma once
 #include "bounds/solid_tree.hpp"
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstdlib>
+#include <numbers>
 #include <string>
 
 #include "catch.hpp"
@@ -114,6 +115,38 @@ TEST_CASE("A clipped density is sharp at the clip [Triage §6.1, the punch pin]"
     CHECK(m.metrics.topology.manifold());
     CHECK(m.metrics.vertex_distance < 1e-9);
     CHECK(m.metrics.box.hi.z == Approx(1.5).epsilon(1e-12));
+}
+
+TEST_CASE("Sharp parts of densities with round parts are leaves of their own, and cost no cells") {
+    using std::numbers::pi;
+    const Density rod = Density::cylinder({0, 0, -3}, {0, 0, 3}, 0.42), box = Density::box(Vec3(-1.0), Vec3(1.0));
+    struct Case {
+        const char* what;
+        Density density;
+        double volume;
+    };
+    const Case cases[] = {
+        {"a rounded rod, clipped", rod * Density::half_space({0, 0, 1}, 1).radius(0), pi * 0.42 * 0.42 * 4},
+        {"a rounded box with a sharp bore", box & ~rod.radius(0), 8 - pi * 0.42 * 0.42 * 2},
+        {"a rounded box and a sharp ball", box | Density::sphere({1, 0, 0}, 0.5).radius(0), 8 + pi / 12},
+        {"a rounded box and half of a sharp ring", box | Density::torus({1, 0, 0}, {1, 0, 0}, 0.6, 0.2).radius(0),
+         8 + pi * pi * 0.6 * 0.04},
+        {"a rounded rod in a sharp one", rod | (Density::cylinder({0, 0, -2}, {0, 0, 2}, 0.6).radius(0)),
+         pi * (0.36 * 4 + 0.42 * 0.42 * 2)},
+        {"a rounded box with a sharp cone's hole", box & ~Density::cone({0, 0, -1.5}, {0, 0, 1.5}, 0.5, 0.1).radius(0),
+         8 - pi / 3 * 2 * (0.4333 * 0.4333 + 0.4333 * 0.1667 + 0.1667 * 0.1667)}};
+    for (const auto& [what, density, volume] : cases) {
+        CAPTURE(what);
+        const SolidTree tree = flatten(Solid::rounded(0.1, density));
+        TriageStatistics statistics;
+        const Mesh mesh = triage(tree, polygonization_box(tree), {.tolerance = 0.005}, &statistics);
+        const MeshMetrics m = measure(mesh, tree);
+        CHECK(statistics.cells < 1000);
+        CHECK(m.topology.manifold());
+        CHECK(m.inverted == 0);
+        CHECK(m.distance.max <= 0.005);
+        CHECK(m.volume == Approx(volume).epsilon(0.03));
+    }
 }
 
 TEST_CASE("What a sharp cut leaves on both of its sides is one surface") {
