@@ -268,7 +268,15 @@ Scene read_scene_text(const std::string& given, const std::string& file,
     // know the time nor remember: with the other axis it does the same again.
     const bool guess = seems_z_up(text);
     bool up_mattered = false;
-    Scene scene = run_scene(source, limits, guess, up_mattered);
+    Scene scene;
+    try {
+        scene = run_scene(source, limits, guess, up_mattered);
+    } catch (const SceneError& error) {
+        const std::string message = error.what();
+        const std::string hint = other_language_in_lua(text);
+        if (hint.empty() || message.find("; this looks like ") != std::string::npos) throw;
+        throw SceneError(message + hint);
+    }
     if (scene.z_up == guess || !up_mattered) return scene;
     SandboxLimits again = limits;
     again.mute = true;

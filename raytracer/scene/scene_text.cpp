@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
@@ -51,6 +52,9 @@ std::string scene_text(std::string text, const std::string& file) {
     return text;
 }
 
+static constexpr const char* looks_like_openscad =
+    "; this looks like OpenSCAD, which is read from a file that ends in .scad";
+
 const char* other_language(std::string_view text) {
     const auto has = [&](std::string_view word) { return text.find(word) != std::string_view::npos; };
     const auto starts = [&](std::string_view word) { return text.substr(0, word.size()) == word; };
@@ -65,8 +69,32 @@ const char* other_language(std::string_view text) {
                              "difference()", "union()",         "intersection()",  "hull()",
                              "minkowski()",  "linear_extrude(", "rotate_extrude(", "translate([",
                              "rotate([",     "mirror([",        "scale([",         "color([",
-                             "cube([",       "square([",        "polygon([",       "polyhedron("})
-        if (has(word)) return "; this looks like OpenSCAD, which is read from a file that ends in .scad";
+                             "cube([",       "square([",        "polygon([",       "polyhedron(",
+                             "cylinder(h",   "cylinder(r",      "cylinder(d",      "sphere(r",
+                             "sphere(d",     "circle(",         "= [0:",           "=[0:"})
+        if (has(word)) return looks_like_openscad;
+    return "";
+}
+
+const char* other_language_in_lua(std::string_view text) {
+    if (text.find("return") != std::string_view::npos) return "";  // what every scene has, and no program for OpenSCAD
+    // A line that calls what OpenSCAD has and does nothing with the result, which makes sense only there.
+    while (!text.empty()) {
+        std::string_view line = text.substr(0, text.find('\n'));
+        text.remove_prefix(std::min(line.size() + 1, text.size()));
+        line.remove_prefix(std::min(line.find_first_not_of(" \t"), line.size()));
+        for (const std::string_view name :
+             {"cube",           "sphere",         "cylinder",   "polyhedron",   "square", "circle",
+              "polygon",        "text",           "translate",  "rotate",       "scale",  "mirror",
+              "color",          "union",          "difference", "intersection", "hull",   "minkowski",
+              "linear_extrude", "rotate_extrude", "offset",     "projection"}) {
+            if (line.substr(0, name.size()) != name) continue;
+            line.remove_prefix(name.size());
+            line.remove_prefix(std::min(line.find_first_not_of(" \t"), line.size()));
+            if (line.substr(0, 1) == "(") return looks_like_openscad;
+            break;
+        }
+    }
     return "";
 }
 

@@ -20,4 +20,7 @@ std::string scene_text(std::string text, const std::string& file);
 /// scene for POV-Ray rather than Lua; else an empty one. It allocates nothing.
 const char* other_language(std::string_view text);
 
+/// The same for a text that Lua can read and that is no scene all the same: some programs for OpenSCAD are such.
+const char* other_language_in_lua(std::string_view text);
+
 }  // namespace deburr

@@ -373,6 +373,27 @@ TEST_CASE("a file that is no scene says what it is") {
     looks_like("module part(x) { cube([x, 2, 3]); }\npart(4);\n", scad);
     looks_like("cube([10, 10, 10]);\n", scad);
     looks_like("/* Both. */ union() { sphere(r = 3); cube(5); }\n", scad);
+    looks_like("cylinder(h = 10, d = 5);\n", scad);
+    looks_like("for (i = [0:5]) cube(i);\n", scad);
+    // Lua reads these, and finds the mistake later or never.
+    looks_like("cube();\n", scad);
+    looks_like("cube(10);\n", scad);
+    looks_like("w = 5;\n  sphere(w);\n", scad);
+    looks_like("difference() { cube(10); sphere(6); }\n", scad);
+    looks_like("union()\n{\n  cube(10);\n  sphere(6);\n}\n", scad);
+    looks_like("linear_extrude(5) circle(3);\n", scad);
+    looks_like("translate(1, 2, 3) cube(2);\n", scad);
+    // A scene that is wrong is still a scene, whatever it is about.
+    const auto is_lua = [&](const std::string& text) {
+        write(text);
+        CAPTURE(text);
+        CHECK_THAT(file_error(file),
+                   Catch::Matchers::StartsWith(file + ":") && !Catch::Matchers::Contains("this looks like"));
+    };
+    is_lua("local c = cube();\nlocal s = rounded(0.1, c)\n");
+    is_lua("cube();\nreturn { solids = { cube(3) } }\n");
+    is_lua("local c = cube()\nerror('union of what?')\n");
+    is_lua("local n = 5\n");
     looks_like("use <MCAD/boxes.scad>\nroundedBox(2);\n", scad);
     looks_like("solid a\nfacet normal 0 0 1\nouter loop\n", "STL, which is read from a file that ends in .stl");
     looks_like("ply\nformat ascii 1.0\n", "PLY, which is read from a file that ends in .ply");
