@@ -3,6 +3,7 @@
 
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <vector>
 
 #include "raytracer/cli/commands.hpp"
 #include "raytracer/cli/options.hpp"
@@ -36,7 +37,7 @@ const char* name_of(Light::Kind kind) {
 Json json_of(Vec3 v) {
     // JSON has no infinity: a side that lies there is null.
     Json j = Json::array();
-    for (int k = 0; k < 3; ++k) j.push_back(std::isfinite(v[k]) ? Json(v[k]) : Json(nullptr));
+    for (int k = 0; k < 3; ++k) j.push_back(std::isfinite(v[k]) ? Json(v[k] + 0.0) : Json(nullptr));  // -0 is 0
     return j;
 }
 
@@ -123,13 +124,22 @@ Json describe(const Scene& scene, Size size) {
     return j;
 }
 
-std::string text_of(const Json& vector) {
-    std::string text;
-    for (const Json& x : vector) {
-        text += text.empty() ? "" : " ";
-        text += x.is_null() ? "inf" : fmt::format("{:.6g}", x.get<double>());
+// Coordinates of vectors; what is nothing beside the largest of them, as rounding leaves, is 0.
+std::vector<std::string> texts_of(const std::vector<Json>& vectors) {
+    constexpr double nothing = 1e-9;
+    double largest = 0;
+    for (const Json& vector : vectors)
+        for (const Json& x : vector)
+            if (!x.is_null()) largest = std::max(largest, std::abs(x.get<double>()));
+    std::vector<std::string> texts;
+    for (const Json& vector : vectors) {
+        std::string& text = texts.emplace_back();
+        for (const Json& x : vector) {
+            const double value = x.is_null() ? infinity : x.get<double>();
+            text += fmt::format("{}{:.6g}", text.empty() ? "" : " ", std::abs(value) <= nothing * largest ? 0 : value);
+        }
     }
-    return text;
+    return texts;
 }
 
 // lo .. hi, where a side at infinity has the sign of its end.
@@ -169,8 +179,9 @@ void print(const Json& j) {
         fmt::format("{}x{}, {} samples per pixel", j["image"]["width"].get<int>(), j["image"]["height"].get<int>(),
                     j["image"]["spp"].is_null() ? "as many as it takes" : j["image"]["spp"].dump()));
     const Json& camera = j["camera"];
-    row("camera", fmt::format("eye {}; target {}; up {}; fov {:g}", text_of(camera["eye"]), text_of(camera["target"]),
-                              text_of(camera["up"]), camera["fov"].get<double>()));
+    const std::vector<std::string> places = texts_of({camera["eye"], camera["target"]});
+    row("camera", fmt::format("eye {}; target {}; up {}; fov {:g}", places[0], places[1], texts_of({camera["up"]})[0],
+                              camera["fov"].get<double>()));
     for (const auto& [name, value] : j["parameters"].items())
         row("parameter", fmt::format("{} = {}", name, value.get<std::string>()));
     row("bounds", text_of_box(j["bounds"]));

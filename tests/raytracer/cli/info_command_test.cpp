@@ -90,6 +90,25 @@ TEST_CASE("info rounds away what a box reaches too far, and minus zero") {
     CHECK(j["solids"][0]["bounds"]["lo"].dump() == "[-2.0,0.0,-2.0]");
 }
 
+TEST_CASE("info shows a camera without what rounding leaves") {
+    const SceneFolder place;
+    const std::string scene = place / "s.lua";
+    const auto camera = [&](const std::string& fields, const std::vector<std::string>& options = {}) {
+        write_file(scene, "return { solids = { cube() }, camera = " + fields + " }");
+        std::vector<std::string> call{"info", scene};
+        call.insert(call.end(), options.begin(), options.end());
+        const std::string out = run(call).out;
+        const std::size_t at = out.find("eye ");
+        return out.substr(at, out.find("; fov", at) - at);
+    };
+    CHECK(camera("{ eye = {3, 1e-17, -0.0}, target = {0, 0, -1e-9} }") == "eye 3 0 0; target 0 0 0; up 0 1 0");
+    CHECK(camera("{ eye = {3e-9, 1e-12, 0}, target = {0, 0, -1e-9} }") ==
+          "eye 3e-09 1e-12 0; target 0 0 -1e-09; up 0 1 0");
+    CHECK_THAT(camera("frame{}", {"--from", "0,-1,0"}), Catch::Matchers::EndsWith("up 0 0 1"));
+    write_file(scene, "return { solids = { cube() }, camera = { eye = {3, -0.0, 0} } }");
+    CHECK(nlohmann::json::parse(run({"info", "--json", scene}).out)["camera"]["eye"].dump() == "[3.0,0.0,0.0]");
+}
+
 TEST_CASE("no name and no text of a scene reaches the terminal as a control character") {
     const SceneFolder place;
     const std::string scene = place / "a\33[31m.lua", title = "\33]0;owned\7\302\233";
