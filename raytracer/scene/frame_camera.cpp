@@ -56,24 +56,28 @@ std::optional<Camera> framed_camera(const std::vector<Solid>& solids, const Fram
     const Affine first = rows(axes.right + tx * axes.back, -axes.right + tx * axes.back, axes.up + ty * axes.back);
     const Affine second = rows(-axes.up + ty * axes.back, axes.right, axes.back);
 
-    Box all, firsts, seconds;
+    Box all;
+    Vec3 firsts(-infinity), seconds(-infinity);  // upper sides
+    const auto none_above = [](Vec3 side, Vec3 known) { return glm::all(glm::lessThanEqual(side, known)); };
     SolidSurvey survey;
     for (const Solid& solid : solids) {
         const Box box = survey.at(solid).box;
         if (box.empty() || !box.finite()) continue;
         all = hull(all, box);
-        Box in_first = image(first, box), in_second = image(second, box);
+        Vec3 in_first = image(first, box).hi, in_second = image(second, box).hi;
+        // Most solids of a large scene lie between others.
+        if (none_above(in_first, firsts) && none_above(in_second, seconds)) continue;
         if (solid.node().leaves <= max_laid_out) {
-            in_first = intersection(in_first, bounding_box(flatten(solid.transformed(first))));
-            in_second = intersection(in_second, bounding_box(flatten(solid.transformed(second))));
+            in_first = glm::min(in_first, bounding_box(flatten(solid.transformed(first))).hi);
+            in_second = glm::min(in_second, bounding_box(flatten(solid.transformed(second))).hi);
         }
-        firsts = hull(firsts, in_first);
-        seconds = hull(seconds, in_second);
+        firsts = glm::max(firsts, in_first);
+        seconds = glm::max(seconds, in_second);
     }
     if (all.empty()) return std::nullopt;
 
-    const double right = firsts.hi.x, left = firsts.hi.y, top = firsts.hi.z, bottom = seconds.hi.x;
-    const double z = std::max({(right + left) / (2 * tx), (top + bottom) / (2 * ty), seconds.hi.z});
+    const double right = firsts.x, left = firsts.y, top = firsts.z, bottom = seconds.x;
+    const double z = std::max({(right + left) / (2 * tx), (top + bottom) / (2 * ty), seconds.z});
     const double depth = z - glm::dot(axes.back, 0.5 * (all.lo + all.hi));
     Camera camera;
     camera.fov = framing.fov;

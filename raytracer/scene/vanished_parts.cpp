@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <unordered_map>
 #include <unordered_set>
 
 #include "bounds/bounding_box.hpp"
@@ -202,6 +203,7 @@ VanishedParts vanished_parts(const Scene& scene, std::int64_t nodes) {
     std::unordered_set<const SolidNode*> met;
     CanonicalSolids canonical;
     std::unordered_set<int> seen;
+    std::unordered_map<int, bool> is_empty_by_part;  // of canonical solids
     for (std::size_t i = 0; i < scene.solids.size() && nodes > 0; ++i) {
         const Solid& solid = scene.solids[i];
         const std::string name = scene.names[i].empty() ? "" : fmt::format(" ({})", scene.names[i]);
@@ -231,7 +233,10 @@ VanishedParts vanished_parts(const Scene& scene, std::int64_t nodes) {
         try {
             for_each_leaf(
                 {solid}, [&](const SolidNode& node) { return nodes > 0 && met.insert(&node).second; }, look);
-            if (!is_empty(solid, nodes)) continue;
+            // One of all placements of a solid is looked at.
+            const auto [at, is_new] = is_empty_by_part.try_emplace(canonical.of(solid).canonical, false);
+            if (is_new) at->second = is_empty(solid, nodes);
+            if (!at->second) continue;
         } catch (const TooEntangled&) {  // it is told when it is rendered
             continue;
         }

@@ -97,15 +97,18 @@ std::vector<std::string> view_warnings(const Scene& scene, double aspect) {
     bool bounded = false, visible = false;
     for (std::size_t i = 0; i < scene.solids.size(); ++i) {
         const Solid& solid = scene.solids[i];
-        if (solid.node().leaves <= max_leaves) {
+        const Box box = survey.at(solid).box;
+        std::vector<const Place*> near;
+        for (const Place& place : all_places)
+            if (box.contains(place.point)) near.push_back(&place);
+        if (!near.empty() && solid.node().leaves <= max_leaves) {
             const SolidTree tree = flatten(solid);
             if (!is_clear(tree, scene.materials))
-                for (const Place& place : all_places)
-                    if (holds(tree, place.point))
-                        say(fmt::format("{} is inside {}, at ({:.4g}, {:.4g}, {:.4g})", place.what, name_of(scene, i),
-                                        place.point.x, place.point.y, place.point.z));
+                for (const Place* place : near)
+                    if (holds(tree, place->point))
+                        say(fmt::format("{} is inside {}, at ({:.4g}, {:.4g}, {:.4g})", place->what, name_of(scene, i),
+                                        place->point.x, place->point.y, place->point.z));
         }
-        const Box box = survey.at(solid).box;
         if (box.empty() || !box.finite()) continue;
         bounded = true;
         visible |= !out_of_view(box, scene.camera, aspect);

@@ -2,11 +2,14 @@
 
 #include <fmt/format.h>
 
+#include <glm/ext/matrix_transform.hpp>
 #include <numbers>
 
 #include "catch.hpp"
 #include "raytracer/render/camera.hpp"
 #include "raytracer/scene/scene_reader.hpp"
+#include "raytracer/scene/solid_survey.hpp"
+#include "raytracer/util/cpu_time.hpp"
 
 using namespace deburr;
 
@@ -127,4 +130,43 @@ TEST_CASE("the default light stays over the viewer's left shoulder when the came
     CHECK(travels.x > 0);
     CHECK(travels.y < 0);
     CHECK(travels.z < 0);
+}
+
+TEST_CASE("a camera that frames many solids looks at few of them, and does not depend on their order") {
+    // A turned grid: boxes of boxes are far larger than what they hold, so the outermost ones decide.
+    const auto grid = [](int n, const char* order) {
+        return scene_of(
+            fmt::format("local t = {{}} local n = {} local block = rounded(0.1, cube()):rotate(30, {{1, 2, 3}})\n"
+                        "for i = 0, n * n - 1 do t[i + 1] = block:translate(3 * (i % n), 0, 3 * (i // n)) end\n"
+                        "local s = {{}} for i = 1, #t do s[i] = t[{}] end\n"
+                        "return {{ solids = s }}",
+                        n, order));
+    };
+    const double aspect = double(width) / height;
+    const auto camera = [&](const Scene& scene) { return *framed_camera(scene.solids, {}, Vec3(0, 1, 0), aspect); };
+    const Camera one = camera(grid(12, "i"));
+    for (const char* order : {"#t + 1 - i", "1 + (i * 55) % #t"}) {
+        const Camera other = camera(grid(12, order));
+        CHECK(one.eye == other.eye);
+        CHECK(one.target == other.target);
+    }
+    // Each corner of the grid's blocks, turned as they are.
+    const Scene scene = grid(12, "i");
+    const Mat3 turn(glm::rotate(glm::dmat4(1), glm::radians(30.0), glm::normalize(Vec3(1, 2, 3))));
+    std::vector<Vec3> points;
+    for (const Vec3 p : corners({0, 0, 0}, {1, 1, 1}))
+        for (int i = 0; i < 144; ++i) points.push_back(turn * p + Vec3(3 * (i % 12), 0, 3 * (i / 12)));
+    const Box at = seen(one, points);
+    CHECK(std::max((at.hi.x - at.lo.x) / width, (at.hi.y - at.lo.y) / height) == Approx(0.86).epsilon(0.01));
+
+    const Scene many = grid(100, "i");
+    const Ratio ratio = ratio_of_times([&] { return cpu_seconds_of([&] { camera(many); }); },
+                                       [&] {
+                                           return cpu_seconds_of([&] {
+                                               SolidSurvey survey;
+                                               for (const Solid& solid : many.solids) survey.at(solid);
+                                           });
+                                       },
+                                       3);
+    CHECK(ratio.value() < 2);
 }
