@@ -7,9 +7,11 @@
 
 #include <CLI/CLI.hpp>
 #include <cstdio>
+#include <cstring>
 #include <exception>
 #include <new>
 #include <string>
+#include <system_error>
 #include <vector>
 
 #include "bounds/decision_diagram.hpp"
@@ -39,17 +41,31 @@ void open_standard_files() {
         if (fcntl(descriptor, F_GETFD) < 0 && open("/dev/null", O_RDWR) < 0) _exit(1);
 }
 
+// What the system says where a thread cannot start: as a rule there is no memory for its stack.
+constexpr const char* no_thread = "out of memory, or no further thread may be started";
+
+bool is_no_thread(const std::exception& error) {
+    const auto* known = dynamic_cast<const std::system_error*>(&error);
+    return known && known->code() == std::errc::resource_unavailable_try_again;
+}
+
 // Where an exception cannot get out, of a library's thread or for want of memory to throw it, the program would be
 // aborted without a word.
 [[noreturn]] void end_with_error() {
-    std::string_view line = "deburr: out of memory\n";  // if nothing could be thrown
+    char line[256] = "deburr: out of memory\n";  // if nothing could be thrown
+    constexpr const char* inside = "deburr: an error inside the program: %.200s\n";
     if (const std::exception_ptr error = std::current_exception()) try {
             std::rethrow_exception(error);
         } catch (const std::bad_alloc&) {
+        } catch (const std::exception& known) {
+            if (is_no_thread(known))
+                std::snprintf(line, sizeof line, "deburr: %s\n", no_thread);
+            else
+                std::snprintf(line, sizeof line, inside, known.what());
         } catch (...) {
-            line = "deburr: an error inside the program: an exception was not caught\n";
+            std::snprintf(line, sizeof line, inside, "an exception was not caught");
         }
-    [[maybe_unused]] const auto n = write(STDERR_FILENO, line.data(), line.size());
+    [[maybe_unused]] const auto n = write(STDERR_FILENO, line, std::strlen(line));
     remove_unfinished_files();
     _exit(1);
 }
@@ -148,7 +164,7 @@ int answer(int argc, char** argv, const std::vector<Command (*)(CLI::App&)>& mor
     } catch (const std::bad_alloc&) {
         return fail(1, "out of memory");
     } catch (const std::exception& error) {
-        return fail(1, error.what());
+        return fail(1, is_no_thread(error) ? no_thread : error.what());
     }
 }
 

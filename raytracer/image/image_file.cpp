@@ -175,6 +175,8 @@ void write_raster(const std::string& path, const ImageRaster& image, int threads
                                       : image_module().encode(extension, image, done);
     } catch (const UnsupportedError&) {
         throw;
+    } catch (const std::bad_alloc&) {
+        throw;
     } catch (const std::exception& error) {
         throw WorkError(fmt::format("cannot write '{}': {}", path, error.what()));
     }

@@ -35,7 +35,7 @@ struct alignas(16) Block {
 // A block's share of the memory, its header included.
 std::size_t bytes_of(std::size_t size) { return block_bytes(sizeof(Block) + size); }
 
-enum class Spent { nothing, memory, work, time, output };
+enum class Spent { nothing, memory, system_memory, work, time, output };
 
 // What a run that heeds the end of its time needs to come back, which is a few instructions.
 constexpr std::chrono::milliseconds grace(200);
@@ -103,7 +103,7 @@ struct Sandbox::State {
     static int body(lua_State* lua);
     static int placed_error(lua_State* lua);
     int execute();
-    bool print_line(lua_State* lua, int first, int last) noexcept;
+    Spent print_line(lua_State* lua, int first, int last) noexcept;
 };
 
 void* Sandbox::State::allocate(void* user, void* old, std::size_t old_size, std::size_t size) {
@@ -136,7 +136,7 @@ void* Sandbox::State::allocate(void* user, void* old, std::size_t old_size, std:
     auto* moved = static_cast<Block*>(std::realloc(block, sizeof(Block) + size));
     if (!moved) {
         if (needed <= held) return old;  // shrinking must not fail
-        if (state.armed) state.abandon(Spent::memory);
+        if (state.armed) state.abandon(Spent::system_memory);
         state.memory.give_back(needed - held);
         return nullptr;
     }
@@ -184,7 +184,7 @@ int Sandbox::State::execute() {
     if (setjmp(escape)) return LUA_ERRERR;
     armed = true;
     lua = lua_newstate(allocate, this);
-    if (!lua) abandon(Spent::memory);
+    if (!lua) abandon(Spent::system_memory);
     *static_cast<State**>(lua_getextraspace(lua)) = this;
     lua_sethook(lua, sample, LUA_MASKCOUNT, sample_interval);
     lua_pushcfunction(lua, placed_error);
@@ -195,24 +195,24 @@ int Sandbox::State::execute() {
     return result;
 }
 
-// The values are texts. False: that would be more than a scene may print.
-bool Sandbox::State::print_line(lua_State* caller, int first, int last) noexcept try {
+// The values are texts. Whether that would be more than a scene may print, or than there is memory for.
+Spent Sandbox::State::print_line(lua_State* caller, int first, int last) noexcept try {
     std::string text_line;
     for (int i = first; i <= last; ++i) {
         std::size_t size = 0;
         const char* value = lua_tolstring(caller, i, &size);
-        if (size > limits.output) return false;
+        if (size > limits.output) return Spent::output;
         if (i > first) text_line += '\t';
         text_line += printable({value, size}, "\n\t");
-        if (text_line.size() > limits.output) return false;
+        if (text_line.size() > limits.output) return Spent::output;
     }
     text_line += '\n';
-    if (text_line.size() > limits.output - printed) return false;
+    if (text_line.size() > limits.output - printed) return Spent::output;
     printed += text_line.size();
     if (!limits.mute) std::fwrite(text_line.data(), 1, text_line.size(), stderr);
-    return true;
+    return Spent::nothing;
 } catch (const std::bad_alloc&) {
-    return false;
+    return Spent::system_memory;
 }
 
 Sandbox::Sandbox(SandboxLimits limits, void* host) : state_(std::make_shared<State>(limits, host)) {}
@@ -231,9 +231,10 @@ void Sandbox::spend(lua_State* lua, std::int64_t work) {
 void Sandbox::print(lua_State* lua, int first, int last) {
     State& state = State::of(lua);
     state.heed_time();
-    if (state.print_line(lua, first, last)) return;
+    const Spent what = state.print_line(lua, first, last);
+    if (what == Spent::nothing) return;
     if (const int line = current_line(lua)) state.line = line;
-    state.abandon(Spent::output);
+    state.abandon(what);
 }
 
 HostCall HostCall::enter(lua_State* lua) {
@@ -247,14 +248,14 @@ HostCall HostCall::enter(lua_State* lua) {
     return {state.host, &state.memory, &state.sources, state.limits.work - state.work, lua};
 }
 
-void HostCall::leave(std::int64_t work, bool memory_spent) const {
+void HostCall::leave(std::int64_t work, Memory of_visit) const {
     Sandbox::State& state = Sandbox::State::of(lua_);
     state.armed = true;
     state.visiting.unlock();
     Sandbox::spend(lua_, work);
-    if (!memory_spent) return;
+    if (of_visit == Memory::enough) return;
     if (const int line = current_line(lua_)) state.line = line;
-    state.abandon(Spent::memory);
+    state.abandon(of_visit == Memory::spent ? Spent::memory : Spent::system_memory);
 }
 
 static std::string reason(const SandboxLimits& limits, Spent spent) {
@@ -322,6 +323,7 @@ lua_State* Sandbox::run(std::string text, const std::string& file, Prepare prepa
         }
     }
     thread.join();
+    if (state.spent == Spent::system_memory || state.status == LUA_ERRMEM) throw std::bad_alloc();
     if (state.spent != Spent::nothing) throw fail(state.spent);
     if (state.status != LUA_OK) throw SceneError(one_line(error_text(state.lua), state.sources));
     return state.lua;

@@ -54,7 +54,7 @@ public:
 
     /// Runs `text`, named `file` in messages, once; its first result is at index 1 of the state
     /// that is returned, and may be read with functions of Lua that neither raise nor allocate.
-    /// Throws SceneError.
+    /// Throws SceneError, and std::bad_alloc where the system has no memory left, whatever the limit.
     lua_State* run(std::string text, const std::string& file, Prepare prepare = nullptr);
 
     /// Shared by the interpreter and the host. Not to be used by another thread while run() runs.
@@ -81,6 +81,9 @@ private:
     std::shared_ptr<State> state_;
 };
 
+/// Why a visit of the host may have to end the run: its limit of memory is spent, or the system has no more.
+enum class Memory { enough, spent, none };
+
 /// A visit of a function that prepare() registered to the host. In between, run() does not return,
 /// and allocation by Lua fails instead of abandoning the run; so objects with destructors may live.
 class HostCall {
@@ -88,7 +91,7 @@ public:
     /// Does not return if time is up.
     static HostCall enter(lua_State* lua);
     /// Ends the visit and charges its work; does not return if a budget is spent.
-    void leave(std::int64_t work, bool memory_spent) const;
+    void leave(std::int64_t work, Memory memory) const;
 
     void* host;
     MemoryMeter* memory;

@@ -152,7 +152,7 @@ constexpr std::int64_t work_per_value = 20;
 // So do an exception and the message that it carries, of some 500.
 constexpr std::int64_t work_per_failure = 500;
 
-enum class Ending { done, failed, memory_spent, work_spent };
+enum class Ending { done, failed, memory_spent, no_memory, work_spent };
 
 // Everything between Lua's two worlds: no exception leaves it, and it calls nothing of Lua that
 // raises. If it failed, the message is set.
@@ -178,7 +178,7 @@ Ending call_body(lua_State* lua, SceneBuilder& builder, const SceneFunction& fun
     } catch (const WorkSpent&) {
         return Ending::work_spent;
     } catch (const std::bad_alloc&) {
-        return fail("expected a scene that fits into memory, got one that does not");
+        return Ending::no_memory;
     } catch (const BadValue& error) {
         return fail(error.what());
     } catch (const std::exception& error) {
@@ -222,7 +222,10 @@ int call_scene_function(lua_State* lua, const SceneFunction& function) {
     const Ending ending = call_body(lua, *builder, function);
     visit.memory->give_back(builder->cost.bytes);
     if (ending == Ending::failed) builder->work += work_per_failure;
-    visit.leave(ending == Ending::work_spent ? visit.work_left + 1 : builder->work, ending == Ending::memory_spent);
+    const Memory memory = ending == Ending::memory_spent ? Memory::spent
+                          : ending == Ending::no_memory  ? Memory::none
+                                                         : Memory::enough;
+    visit.leave(ending == Ending::work_spent ? visit.work_left + 1 : builder->work, memory);
     if (ending == Ending::done) return push_result(lua, builder->result);
     lua_pushstring(lua, builder->message);
     return lua_error(lua);

@@ -239,8 +239,6 @@ Scene run_scene(const SceneSource& source, const SandboxLimits& limits, bool z_u
     } catch (const MemorySpent&) {
         throw SceneError(
             one_line(fmt::format("{}:{}: {}", file_mark, line_of(text, "scene"), sandbox.memory_reason()), file));
-    } catch (const std::bad_alloc&) {
-        throw SceneError(one_line("expected a scene that fits into memory, got one that does not", file));
     } catch (const SceneError&) {
         throw;
     } catch (const std::runtime_error& error) {
