@@ -2,12 +2,24 @@
 
 #include <algorithm>
 
+#include "bounds/bounding_box.hpp"
+#include "bounds/density.hpp"
 #include "bounds/density_part.hpp"
 #include "bounds/free_form.hpp"
 #include "bounds/torus.hpp"
 
 namespace deburr {
 namespace {
+
+// A slanted cylinder or cone has no box of its own, and what cuts it off at a slant has none either: their intersection
+// gets one, which is this share of its size larger than what it holds, so that few cells meet it.
+constexpr double around = 1.0 / 64;
+
+bool is_slanted(const HalfSpace& h) {
+    if (!h.round || h.round->kind != RoundCoordinate::Kind::axis) return false;
+    const Vec3 axis = h.round->axis;
+    return (axis.x != 0) + (axis.y != 0) + (axis.z != 0) > 1;
+}
 
 class Conversion {
 public:
@@ -43,10 +55,20 @@ public:
             else
                 done[i] = add({solid_op(n.op), done[n.a], done[n.b]});
         }
-        return done.back();
+        const std::vector<HalfSpace>& parts = density_.half_spaces;
+        return std::any_of(parts.begin(), parts.end(), is_slanted) ? boxed(done.back()) : done.back();
     }
 
 private:
+    // The node, cut off where the density ends: nothing is cut off of it.
+    int boxed(int node) {
+        const Box box = bounding_box(density_);
+        if (box.empty() || !box.finite()) return node;
+        const Vec3 size = box.hi - box.lo;
+        const Box outer = inflated(box, around * std::max({size.x, size.y, size.z}));
+        return add({SolidOp::intersect, node, leaf({flatten(Density::box(outer.lo, outer.hi), 0), material_, line_})});
+    }
+
     static SolidOp solid_op(Op op) {
         if (op == Op::sum || op == Op::disjunction) return SolidOp::unite;
         return op == Op::difference ? SolidOp::subtract : SolidOp::intersect;

@@ -1,6 +1,7 @@
 // Densities with round parts, against their plain definition.
 #include "bounds/round_density.hpp"
 
+#include "bounds/bounding_box.hpp"
 #include "bounds/solid_tree.hpp"
 #include "bounds/torus.hpp"
 #include "catch.hpp"
@@ -219,6 +220,23 @@ TEST_CASE("sharp densities with round parts are the sets that they name") {
     }
     CHECK(inside > 5'000);
     CHECK(fields > 300);
+}
+
+TEST_CASE("sharp slanted cylinders and cones have a box that holds them and is near") {
+    const Vec3 from(1, 2, 3), axis = glm::normalize(Vec3(1, 2, 2)), to = from + 3.0 * axis;
+    const Density rod = Density::cylinder(from, to, 0.5), spike = Density::cone(from, to, 0.5, 0),
+                  stump = Density::cone(from, to, 0.5, 0.2);
+    for (const Density& d : {rod, spike, stump, rod | Density::sphere(to, 0.5), rod & ~stump}) {
+        const Box box = bounding_box(flatten(Solid::sharp(d)));
+        REQUIRE(box.finite());
+        for (int k = 0; k < 3; ++k) {
+            const double reach = 0.5 * std::sqrt(1 - axis[k] * axis[k]);
+            CHECK(box.lo[k] <= from[k] - reach);
+            CHECK(box.lo[k] >= from[k] - reach - 0.1);
+            CHECK(box.hi[k] >= to[k]);
+            CHECK(box.hi[k] <= to[k] + 0.5 + 0.1);
+        }
+    }
 }
 
 TEST_CASE("a torus' field holds its range, and its bounds along rays") {
