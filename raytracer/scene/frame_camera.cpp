@@ -5,9 +5,13 @@
 // leaves the same margin on opposite sides, and none on those that decide.
 #include "raytracer/scene/frame_camera.hpp"
 
+#include <algorithm>
+#include <memory>
 #include <numbers>
+#include <queue>
 
 #include "bounds/bounding_box.hpp"
+#include "bounds/solid_range.hpp"
 #include "raytracer/scene/default_light.hpp"
 #include "raytracer/scene/solid_survey.hpp"
 
@@ -36,6 +40,60 @@ Axes axes_of(Vec3 from, Vec3 up) {
     axes.right = glm::normalize(side - glm::dot(side, axes.back) * axes.back);
     axes.up = glm::cross(axes.back, axes.right);
     return axes;
+}
+
+// Round parts have no planes to be laid out anew. Where they end is sought in boxes, those first that reach farthest
+// and may hold some of the solid: to this share of the solid's own box, and in no more boxes than this for each
+// direction.
+constexpr double close = 1.0 / 256;
+constexpr int most_boxes = 2'000;
+constexpr std::size_t max_sought = 1'000;  // leaves
+
+bool has_fields(const SolidTree& tree) {
+    return std::any_of(tree.leaves.begin(), tree.leaves.end(), [](const SolidLeaf& leaf) { return leaf.field; });
+}
+
+// Not below where the solid ends, along the map's axis k.
+double end_along(const Affine& map, int k, const SolidTree& solid, const Box& box) {
+    struct Part {
+        double end;
+        Box box;
+        std::shared_ptr<const SolidTree> tree;  // what is left in the box
+        bool operator<(const Part& other) const { return end < other.end; }
+    };
+    std::priority_queue<Part> parts;
+    const auto add = [&](const Box& within, const SolidTree& tree) {
+        auto left = std::make_shared<SolidTree>(prune(tree, within));
+        if (left->nodes.back().op != SolidOp::nothing) parts.push({image(map, within).hi[k], within, std::move(left)});
+    };
+    add(box, solid);
+    if (parts.empty()) return image(map, box).hi[k];
+    const auto extent = [&](const Box& of, int axis) {
+        return std::abs(map.linear[axis][k]) * (of.hi[axis] - of.lo[axis]);
+    };
+    const double enough = close * (extent(box, 0) + extent(box, 1) + extent(box, 2));
+    for (int boxes = 0; boxes < most_boxes; ++boxes) {
+        const Part part = parts.top();
+        int widest = 0;
+        for (int axis = 1; axis < 3; ++axis)
+            if (extent(part.box, axis) > extent(part.box, widest)) widest = axis;
+        if (3 * extent(part.box, widest) <= enough) break;
+        parts.pop();
+        Box halves[2] = {part.box, part.box};
+        halves[0].hi[widest] = halves[1].lo[widest] = 0.5 * (part.box.lo[widest] + part.box.hi[widest]);
+        for (const Box& half : halves) add(half, *part.tree);
+        if (parts.empty()) return image(map, box).hi[k];
+    }
+    return parts.top().end;
+}
+
+// Not below where the solid ends, along each of the map's axes.
+Vec3 ends_along(const Affine& map, const Solid& solid, const Box& box) {
+    Vec3 ends = bounding_box(flatten(solid.transformed(map))).hi;
+    const SolidTree tree = flatten(solid);
+    if (tree.leaves.size() <= max_sought && has_fields(tree))
+        for (int k = 0; k < 3; ++k) ends[k] = std::min(ends[k], end_along(map, k, tree, box));
+    return ends;
 }
 
 Affine rows(Vec3 a, Vec3 b, Vec3 c) { return {glm::transpose(Mat3(a, b, c)), Vec3(0)}; }
@@ -68,8 +126,8 @@ std::optional<Camera> framed_camera(const std::vector<Solid>& solids, const Fram
         // Most solids of a large scene lie between others.
         if (none_above(in_first, firsts) && none_above(in_second, seconds)) continue;
         if (solid.node().leaves <= max_laid_out) {
-            in_first = glm::min(in_first, bounding_box(flatten(solid.transformed(first))).hi);
-            in_second = glm::min(in_second, bounding_box(flatten(solid.transformed(second))).hi);
+            in_first = glm::min(in_first, ends_along(first, solid, box));
+            in_second = glm::min(in_second, ends_along(second, solid, box));
         }
         firsts = glm::max(firsts, in_first);
         seconds = glm::max(seconds, in_second);

@@ -95,6 +95,31 @@ TEST_CASE("a turned box and a ball are framed by themselves, not by the boxes ar
     CHECK(tangent / std::tan(15 * std::numbers::pi / 180) == Approx(0.86).epsilon(1e-3));
 }
 
+TEST_CASE("round solids are framed by themselves, not by the boxes around them") {
+    // A sphere on a rod, far from the corners of their box.
+    std::vector<Vec3> points;
+    constexpr int n = 40;
+    for (int i = 0; i <= n; ++i)
+        for (int j = 0; j < 2 * n; ++j) {
+            const double a = std::numbers::pi * i / n, b = std::numbers::pi * j / n;
+            points.push_back(Vec3(5) + Vec3(std::sin(a) * std::cos(b), std::sin(a) * std::sin(b), std::cos(a)));
+        }
+    points.push_back(Vec3(0));
+    for (const char* camera : {"", "camera = frame{ from = {1, 0, 0} },", "camera = frame{ from = {-1, 2, -3} },"})
+        for (const char* solid : {"rounded(0.01, sphere{ center = {5, 5, 5} } | cylinder{ to = {5, 5, 5}, from = {0, "
+                                  "0, 0}, radius = 0.05 })",
+                                  "ellipsoid{ center = {5, 5, 5}, radius = 1 } | "
+                                  "sharp(cylinder{ to = {5, 5, 5}, from = {0, 0, 0}, radius = 0.05 })"}) {
+            CAPTURE(camera, solid);
+            const Box at = seen(framed(solid, camera).camera, points);
+            const double across = (at.hi.x - at.lo.x) / width, along = (at.hi.y - at.lo.y) / height;
+            CHECK(std::max(across, along) == Approx(0.86).margin(0.03));
+            // The direction that decides has even margins.
+            CHECK((across > along ? std::abs(at.lo.x + at.hi.x - width) / width
+                                  : std::abs(at.lo.y + at.hi.y - height) / height) < 0.03);
+        }
+}
+
 TEST_CASE("a framed camera looks from where it is told, and needs no up that fits") {
     for (const Vec3 from : {Vec3(0, 1, 0), Vec3(0, -1, 0), Vec3(1, 0, 0), Vec3(-3, 1, 2), Vec3(0, 1e-9, 1)}) {
         CAPTURE(from.x, from.y, from.z);
