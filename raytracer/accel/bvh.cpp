@@ -18,7 +18,7 @@ BoxFrame::BoxFrame(const Box& around) : middle(0.5 * (around.lo + around.hi)) {
     if (side > 0) per_unit = 2 / side;
 }
 
-Bvh4::Bvh4(const Builder& from, int root) {
+Bvh8::Bvh8(const Builder& from, int root) {
     if (root == Builder::nothing) return;
     box_ = from.parts_[root].box;
     frame_ = BoxFrame(box_);
@@ -28,13 +28,13 @@ Bvh4::Bvh4(const Builder& from, int root) {
     }
 }
 
-// The largest of the children is opened until there are four, or items only.
-std::int32_t Bvh4::collapse(const Builder& from, int root, int depth) {
+// The largest of the children is opened until there are eight, or items only.
+std::int32_t Bvh8::collapse(const Builder& from, int root, int depth) {
     const auto part = [&](int i) -> const Builder::Part& { return from.parts_[i]; };
     if (part(root).b < 0) return ~part(root).a;
-    if (depth >= max_depth) throw std::length_error("expected a tree of at most 150 levels");
+    if (depth >= BoxTree::max_depth) throw std::length_error("expected a tree of at most 150 levels");
     std::vector<int> children{part(root).a, part(root).b};
-    while (children.size() < 4) {
+    while (children.size() < BoxNode::width) {
         int largest = -1;
         for (std::size_t i = 0; i < children.size(); ++i)
             if (part(children[i]).b >= 0 &&
@@ -54,17 +54,17 @@ std::int32_t Bvh4::collapse(const Builder& from, int root, int depth) {
     return number;
 }
 
-Bvh4::Node Bvh4::node_of(const Builder& from, const std::vector<int>& children) const {
-    Node n;
-    for (std::size_t i = 0; i < 4; ++i) {
+BoxNode Bvh8::node_of(const Builder& from, const std::vector<int>& children) const {
+    BoxNode n;
+    for (std::size_t i = 0; i < BoxNode::width; ++i) {
         n.child[i] = 0;
         for (int k = 0; k < 3; ++k) {
             n.side[k][i] = std::numeric_limits<float>::max();
-            n.side[k][i + 4] = -std::numeric_limits<float>::max();
+            n.side[k][i + BoxNode::width] = -std::numeric_limits<float>::max();
             if (i >= children.size()) continue;
             const Box& box = from.parts_[children[i]].box;
             n.side[k][i] = float(frame_.to_local(box.lo)[k] - slack);
-            n.side[k][i + 4] = float(frame_.to_local(box.hi)[k] + slack);
+            n.side[k][i + BoxNode::width] = float(frame_.to_local(box.hi)[k] + slack);
         }
     }
     return n;

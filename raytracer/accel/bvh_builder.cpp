@@ -1,4 +1,4 @@
-// Binary trees for Bvh4: what is not laid out by a BSP is split by the surface-area heuristic
+// Binary trees for Bvh8: what is not laid out by a BSP is split by the surface-area heuristic
 // (MacDonald & Booth 1990) in bins (Wald 2007).
 #include <tbb/parallel_invoke.h>
 
@@ -24,19 +24,19 @@ struct Bin {
 
 }  // namespace
 
-int Bvh4::Builder::item(std::uint32_t number, const Box& box) {
+int Bvh8::Builder::item(std::uint32_t number, const Box& box) {
     parts_.push_back({box, int(number), -1});
     return int(parts_.size()) - 1;
 }
 
-int Bvh4::Builder::join(int a, int b) {
+int Bvh8::Builder::join(int a, int b) {
     if (a == nothing) return b;
     if (b == nothing) return a;
     parts_.push_back({hull(box(a), box(b)), a, b});
     return int(parts_.size()) - 1;
 }
 
-int Bvh4::Builder::join_by_area(std::vector<int> parts) {
+int Bvh8::Builder::join_by_area(std::vector<int> parts) {
     std::erase(parts, nothing);
     if (parts.empty()) return nothing;
     const int first = int(parts_.size());
@@ -46,7 +46,7 @@ int Bvh4::Builder::join_by_area(std::vector<int> parts) {
 
 // n parts have n − 1 joins: where each subtree's are is known beforehand. It does not depend on the number
 // of threads.
-int Bvh4::Builder::split(std::vector<int>& order, std::size_t first, std::size_t end, int slot, int depth) {
+int Bvh8::Builder::split(std::vector<int>& order, std::size_t first, std::size_t end, int slot, int depth) {
     if (end - first == 1) return order[first];
     const auto box_at = [&](std::size_t i) -> const Box& { return box(order[i]); };
     Box middles;

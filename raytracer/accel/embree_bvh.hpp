@@ -24,7 +24,7 @@ public:
     ~EmbreeBvh();
 
     enum class Order { nearest_first, any };
-    /// Visits boxes as Bvh4::visit does. visit() returns the distance up to which the ray goes on; a negative
+    /// Visits boxes as Bvh8::visit does. visit() returns the distance up to which the ray goes on; a negative
     /// one ends it.
     template <class Visit>
     void visit(const Vec3& origin, const Vec3& direction, double t0, double t1, Order order, Visit visit) const {

@@ -9,6 +9,7 @@
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
+#include "raytracer/simd/box_walk-inl.hpp"
 #include "raytracer/simd/convex_packet-inl.hpp"
 #include "raytracer/simd/lanes-inl.hpp"
 #include "raytracer/simd/product_sum_packet-inl.hpp"
@@ -296,7 +297,9 @@ const PacketFunctions functions{load,
                                 surface_normals,
                                 sum_crossings,
                                 sum_any_crossings,
-                                sum_normals};
+                                sum_normals,
+                                walk_ray,
+                                walk_beam};
 
 }  // namespace HWY_NAMESPACE
 }  // namespace deburr

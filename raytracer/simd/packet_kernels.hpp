@@ -9,6 +9,7 @@
 #include "bounds/convex_density.hpp"
 #include "bounds/product_sum.hpp"
 #include "bounds/round_product.hpp"
+#include "raytracer/simd/box_tree.hpp"
 #include "raytracer/simd/ray_packet.hpp"
 
 namespace deburr {
@@ -100,6 +101,11 @@ struct PacketFunctions {
                                double scale, RootCounters& counters);
     void (*sum_normals)(const ProductSum& sum, const RayPacket& rays, const double* end, Lanes lanes,
                         const PacketNearest& nearest, double (*normal)[RayPacket::size]);
+
+    /// Visits the items of a tree of boxes that a ray, or one of a beam's, may meet: the nearest first, but where boxes
+    /// overlap.
+    void (*walk_ray)(const BoxTree& tree, const BoxRay& ray, BoxVisitor visitor);
+    void (*walk_beam)(const BoxTree& tree, const BoxBeam& beam, BoxVisitor visitor);
 };
 
 struct PacketInstructions {

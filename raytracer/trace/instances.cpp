@@ -181,10 +181,10 @@ private:
 
     /// Which of the boxes nearly meet, directly or by way of others: ordered lists, that of the least number first.
     static std::vector<std::vector<int>> clusters(const std::vector<Box>& boxes, double clearance) {
-        Bvh4::Builder builder;
+        Bvh8::Builder builder;
         std::vector<int> items;
         for (std::size_t i = 0; i < boxes.size(); ++i) items.push_back(builder.item(std::uint32_t(i), boxes[i]));
-        const Bvh4 tree(builder, builder.join_by_area(std::move(items)));
+        const Bvh8 tree(builder, builder.join_by_area(std::move(items)));
         UnionFind together(boxes.size());
         for (std::size_t i = 0; i < boxes.size(); ++i) {
             const Box near = inflated(boxes[i], clearance);

@@ -26,7 +26,7 @@ public:
     /// Whether a ray begins beyond `farthest`.
     bool is_far() const { return is_far_; }
 
-    void search(const Bvh4& boxes) {
+    void search(const Bvh8& boxes) {
         visit_planes();
         visit_boxes(boxes);
         if constexpr (!Any) nearest_.finish(rays_, terms_);
@@ -36,11 +36,11 @@ public:
     Lanes any_hit() const { return any_; }
 
 private:
-    void visit_boxes(const Bvh4& boxes) {
+    void visit_boxes(const Bvh8& boxes) {
         if (boxes.empty() || lanes_ == 0) return;
         lanes_ = packet_functions.enter(boxes.box(), rays_, terms_, lanes_, entry_);
         if (lanes_ == 0) return;
-        const Bvh4::Beam beam{entry_.min_point, entry_.max_point, entry_.min_direction, entry_.max_direction,
+        const Bvh8::Beam beam{entry_.min_point, entry_.max_point, entry_.min_direction, entry_.max_direction,
                               longest_distance()};
         boxes.visit_packet(beam, [&](std::uint32_t i) {
             if (!visit(i)) return infinity;

@@ -239,8 +239,8 @@ Lanes SurfaceTracer::any_hit_from_afar(const RayPacket& rays, Lanes lanes, Trace
 
 namespace {
 
-// So many boxes are a single node of a Bvh4, and not worth a scene of Embree's.
-constexpr std::size_t few = 4;
+// So many boxes are a single node of a Bvh8, and not worth a scene of Embree's.
+constexpr std::size_t few = BoxNode::width;
 
 // The cells, by the places of what is in them.
 std::vector<Box> cells_of_locals(const BspTree& tree) {
@@ -263,10 +263,10 @@ std::vector<Box> cells_of_locals(const BspTree& tree) {
 
 // As the BSP has them; item(place) makes one.
 template <class Item>
-int join_like(const BspTree& tree, Bvh4::Builder& builder, Item item) {
-    std::vector<int> part(tree.nodes.size(), Bvh4::Builder::nothing);
+int join_like(const BspTree& tree, Bvh8::Builder& builder, Item item) {
+    std::vector<int> part(tree.nodes.size(), Bvh8::Builder::nothing);
     const auto list = [&](auto&& self, std::uint32_t first, std::uint32_t last) -> int {
-        if (first == last) return Bvh4::Builder::nothing;
+        if (first == last) return Bvh8::Builder::nothing;
         if (last - first == 1) return item(first);
         const std::uint32_t middle = first + (last - first) / 2;
         const int a = self(self, first, middle), b = self(self, middle, last);
@@ -332,14 +332,14 @@ SurfaceTracer::SurfaceTracer(std::vector<NamedBsp> bsps, const std::vector<Box>&
                 bounded_ = false;
         }
     }
-    Bvh4::Builder builder;
+    Bvh8::Builder builder;
     std::vector<int> parts;
     std::vector<NumberedBox> items;
     std::uint32_t first = 0;
     for (NamedBsp& bsp : bsps) {
         parts.push_back(join_like(bsp.tree, builder, [&](std::uint32_t i) {
             const Box box = intersection(boxes[first + i], world);
-            if (box.empty()) return Bvh4::Builder::nothing;
+            if (box.empty()) return Bvh8::Builder::nothing;
             items.push_back({first + i, box});
             return builder.item(first + i, box);
         }));
@@ -360,7 +360,7 @@ SurfaceTracer::SurfaceTracer(std::vector<NamedBsp> bsps, const std::vector<Box>&
     if (accel == Accel::embree && items.size() > few)
         embree_.emplace(items);
     else
-        boxes_ = Bvh4(builder, builder.join_by_area(std::move(parts)));
+        boxes_ = Bvh8(builder, builder.join_by_area(std::move(parts)));
 }
 
 }  // namespace deburr

@@ -84,7 +84,7 @@ private:
     std::vector<BspTree> trees_;
     Surfaces surfaces_;
     // Of primitives and then of instances; unbounded primitives as far as all else reaches. One of the two is there.
-    Bvh4 boxes_;
+    Bvh8 boxes_;
     std::optional<EmbreeBvh> embree_;
     Box around_;  // all of these
     Vicinity vicinity_;

@@ -11,7 +11,7 @@ using namespace deburr;
 namespace {
 
 // Numbers of the boxes that are visited where the ray goes on to `until`.
-std::set<std::uint32_t> visited_by(const Bvh4& tree, Vec3 o, Vec3 d, BoxSpan whole, double until) {
+std::set<std::uint32_t> visited_by(const Bvh8& tree, Vec3 o, Vec3 d, BoxSpan whole, double until) {
     std::set<std::uint32_t> seen;
     tree.visit(o, d, reciprocal(d), whole.lo, whole.hi, [&](std::uint32_t i) {
         REQUIRE(seen.insert(i).second);
@@ -50,8 +50,8 @@ TEST_CASE("every box that a ray touches is visited, by either hierarchy, whereve
         const double size = std::pow(10.0, g.between(-30, 30));
         const Vec3 away = g.chance(0.5) ? Vec3(0) : g.point(1e6) * size;
         std::vector<NumberedBox> boxes;
-        Bvh4::Builder builder;
-        int root = Bvh4::Builder::nothing;
+        Bvh8::Builder builder;
+        int root = Bvh8::Builder::nothing;
         const int count = 1 + g.below(60);
         const bool grid = g.chance(0.3);  // faces coincide
         for (int i = 0; i < count; ++i) {
@@ -63,7 +63,7 @@ TEST_CASE("every box that a ray touches is visited, by either hierarchy, whereve
             boxes.push_back({std::uint32_t(i), {away + (middle - half) * size, away + (middle + half) * size}});
             root = builder.join(root, builder.item(std::uint32_t(i), boxes.back().box));
         }
-        const Bvh4 tree(builder, root);
+        const Bvh8 tree(builder, root);
         const EmbreeBvh embree(boxes);
         for (int k = 0; k < 40; ++k) {
             const Box& aim = boxes[g.below(count)].box;
@@ -107,7 +107,7 @@ TEST_CASE("every box that a ray touches is visited, by either hierarchy, whereve
 
 namespace {
 
-int balanced(Bvh4::Builder& builder, int first, int last) {
+int balanced(Bvh8::Builder& builder, int first, int last) {
     if (last - first == 1)
         return builder.item(std::uint32_t(first), {Vec3(2 * first, 0, 0), Vec3(2 * first + 1, 1, 1)});
     const int middle = first + (last - first) / 2;
@@ -118,9 +118,9 @@ int balanced(Bvh4::Builder& builder, int first, int last) {
 }  // namespace
 
 TEST_CASE("boxes come nearest first, and none beyond the distance that is asked for") {
-    Bvh4::Builder builder;
+    Bvh8::Builder builder;
     const int root = balanced(builder, 0, 1'000);
-    const Bvh4 tree(builder, root);
+    const Bvh8 tree(builder, root);
     for (const bool forward : {true, false}) {
         const Vec3 d = glm::normalize(Vec3(forward ? 1 : -1, 1e-5, 0)), o(forward ? -1 : 2'000, 0.5, 0.5);
         std::vector<std::uint32_t> order;
@@ -139,20 +139,20 @@ TEST_CASE("what one of several rays touches, they meet together") {
         CAPTURE(seed);
         Gen g(seed);
         const double size = std::pow(10.0, g.between(-30, 30));
-        Bvh4::Builder builder;
-        int root = Bvh4::Builder::nothing;
+        Bvh8::Builder builder;
+        int root = Bvh8::Builder::nothing;
         std::vector<Box> boxes;
         for (int i = 0, count = 1 + g.below(60); i < count; ++i) {
             const Vec3 half = 0.2 * Vec3(g.number(), g.number(), g.number()), middle = g.point(1);
             boxes.push_back({(middle - half) * size, (middle + half) * size});
             root = builder.join(root, builder.item(std::uint32_t(i), boxes.back()));
         }
-        const Bvh4 tree(builder, root);
+        const Bvh8 tree(builder, root);
         // A beam, or rays in all directions.
         const double apart = g.chance(0.2) ? 3 : std::pow(10.0, g.between(-12, -1));
         const Vec3 middle = awkward_direction(g), from = g.point(0.5) - middle * g.between(0, 4);
         std::set<std::uint32_t> any;
-        Bvh4::Beam beam{Vec3(infinity), Vec3(-infinity), Vec3(infinity), Vec3(-infinity), 0};
+        Bvh8::Beam beam{Vec3(infinity), Vec3(-infinity), Vec3(infinity), Vec3(-infinity), 0};
         for (int k = 2 + g.below(15); k > 0; --k) {
             const Vec3 d = g.chance(0.2) ? middle : glm::normalize(middle + g.point(apart)), inverse = reciprocal(d);
             const Vec3 o = (g.chance(0.5) ? from : from + g.point(apart)) * size;
