@@ -127,7 +127,8 @@ inline Vec3 reciprocal(Vec3 d) { return {reciprocal(d.x), reciprocal(d.y), recip
                                               double t1) {
     for (int k = 0; k < 3; ++k) {
         const double a = (box.lo[k] - origin[k]) * inverse[k], b = (box.hi[k] - origin[k]) * inverse[k];
-        const double lo = a < b ? a : b, hi = a < b ? b : a;
+        // Two comparisons: of one the compiler makes a branch, which no processor foresees.
+        const double lo = a < b ? a : b, hi = a > b ? a : b;
         t0 = lo > t0 ? lo : t0;
         t1 = hi < t1 ? hi : t1;
     }
