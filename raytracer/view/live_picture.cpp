@@ -44,7 +44,8 @@ std::string rgba_of(const Film& film, double exposure, ViewTransform view) {
 
 // A scene with what its rays are traced in; with another camera it shares the tracer.
 struct LivePicture::World {
-    Scene scene;
+    Scene scene;    // with the camera that it is seen by
+    Camera camera;  // the scene's own
     std::shared_ptr<const RayTracer> tracer;
     std::shared_ptr<const SceneMesh> wires;  // null: none are shown
     std::shared_ptr<const RayTracer> wire_tracer;
@@ -207,6 +208,7 @@ bool LivePicture::read_scene() {
         publish_error(error.what());
         return false;
     }
+    world->camera = world->scene.camera;
     if (camera) world->scene.camera = *camera;
     const std::lock_guard lock(mutex_);
     world->number = ++scenes_;
@@ -274,7 +276,7 @@ void LivePicture::run() {
             is_scene_asked_ = is_camera_asked_ = cancel_ = false;
             if (is_moved && !is_read && world_) {
                 auto world = std::make_shared<World>(*world_);
-                if (camera_) world->scene.camera = *camera_;
+                world->scene.camera = camera_.value_or(world->camera);
                 world_ = std::move(world);
             }
         }

@@ -1,6 +1,7 @@
 // `deburr view` as a browser uses it: over HTTP, while its file is edited.
 #include <httplib.h>
 #include <signal.h>
+#include <zlib.h>
 
 #include <filesystem>
 #include <nlohmann/json.hpp>
@@ -153,6 +154,10 @@ TEST_CASE("the camera, parameters and the place that is clicked are answered") {
     REQUIRE(page.post("camera", R"({"eye": [4, 1, 1], "target": [0.5, 0.5, 0.5], "up": [0, 1, 0]})") == 200);
     const Frame moved = page.finished();
     CHECK(moved.rgba != before.rgba);
+    REQUIRE(page.post("camera", "null") == 200);
+    CHECK(page.finished().rgba == before.rgba);
+    REQUIRE(page.post("camera", R"({"eye": [4, 1, 1], "target": [0.5, 0.5, 0.5], "up": [0, 1, 0]})") == 200);
+    CHECK(page.finished().rgba == moved.rgba);
     REQUIRE(page.post("parameters", R"({"r": "0.3"})") == 200);
     const Frame rounder = page.frame(
         [&](const Frame& f) { return f.head["finished"] == true && f.head["scene"] != before.head["scene"]; });
@@ -165,6 +170,23 @@ TEST_CASE("the camera, parameters and the place that is clicked are answered") {
     CHECK(json::parse(page.get("pick?x=1&y=1")->body).is_null());
     REQUIRE(page.post("parameters", R"({"q": "1"})") == 200);
     page.frame([](const Frame& f) { return f.head["error"] != ""; });
+}
+
+TEST_CASE("a page behind a slow line gets its frames compressed") {
+    Page page;
+    page.finished();
+    page.client->set_decompress(false);
+    const auto whole = page.get("frame?after=0"), packed = page.get("frame?after=0&packed=1");
+    REQUIRE(whole);
+    REQUIRE(packed);
+    CHECK(packed->get_header_value("Content-Encoding") == "deflate");
+    std::string body(whole->body.size(), '\0');
+    uLongf size = body.size();
+    REQUIRE(uncompress(reinterpret_cast<Bytef*>(body.data()), &size,
+                       reinterpret_cast<const Bytef*>(packed->body.data()), packed->body.size()) == Z_OK);
+    CHECK(size == body.size());
+    CHECK(body == whole->body);
+    CHECK(packed->body.size() < whole->body.size());
 }
 
 TEST_CASE("a file that is edited, broken, mended, replaced, deleted and there again is followed") {
