@@ -16,7 +16,8 @@ constexpr int face_corners[6][4] = {{0, 4, 6, 2}, {1, 3, 7, 5}, {0, 1, 5, 4}, {2
 // matters there.
 class Grid {
 public:
-    Grid(const SignedDistance& solid, const Box& box, double side, CancelFlag cancel) : side_(side) {
+    Grid(const SignedDistance& solid, const Box& box, double side, CancelFlag cancel, WorkProgress* progress)
+        : side_(side) {
         for (int k = 0; k < 3; ++k) {
             // The outermost corners are outside: they lie beyond the box.
             n_[k] = std::max(1, int(std::ceil((box.hi[k] - box.lo[k]) / side))) + 3;
@@ -26,12 +27,15 @@ public:
         blocks_y_ = (n_[1] + block - 1) / block;
         blocks_z_ = (n_[2] + block - 1) / block;
         blocks_.resize(std::size_t(blocks_x_) * std::size_t(blocks_y_) * std::size_t(blocks_z_));
+        if (progress) progress->begin(0.6);
         for (int z = 0; z < blocks_z_; ++z)
-            for (int y = 0; y < blocks_y_; ++y)
+            for (int y = 0; y < blocks_y_; ++y) {
                 for (int x = 0; x < blocks_x_; ++x) {
                     throw_if_cancelled(cancel);
                     sample(solid, x, y, z);
                 }
+                if (progress) progress->advance(1.0 / blocks_y_ / blocks_z_);
+            }
     }
 
     int size(int axis) const { return n_[axis]; }
@@ -92,17 +96,20 @@ private:
 
 class March {
 public:
-    March(const SolidTree& solid, const Box& box, double side, CancelFlag cancel)
+    March(const SolidTree& solid, const Box& box, double side, CancelFlag cancel, WorkProgress* progress)
         : field_(solid, inflated(box, 2 * side)),
           box_(box),
-          grid_(SignedDistance(solid), box, side, cancel),
+          grid_(SignedDistance(solid), box, side, cancel, progress),
           side_(side),
-          cancel_(cancel) {}
+          cancel_(cancel),
+          progress_(progress) {}
 
     Mesh run() {
         constexpr int n = Grid::block;
+        if (progress_) progress_->begin(0.9);
         for (int bz = 0; bz < grid_.blocks(2); ++bz)
-            for (int by = 0; by < grid_.blocks(1); ++by)
+            for (int by = 0; by < grid_.blocks(1); ++by) {
+                if (progress_) progress_->advance(1.0 / grid_.blocks(1) / grid_.blocks(2));
                 for (int bx = 0; bx < grid_.blocks(0); ++bx) {
                     throw_if_cancelled(cancel_);
                     if (!grid_.is_open(bx, by, bz)) continue;
@@ -110,6 +117,7 @@ public:
                         for (int y = by * n; y < std::min((by + 1) * n, grid_.size(1) - 1); ++y)
                             for (int x = bx * n; x < std::min((bx + 1) * n, grid_.size(0) - 1); ++x) cube(x, y, z);
                 }
+            }
         mesh_.polygons = mesh_.triangles.size();
         return std::move(mesh_);
     }
@@ -264,6 +272,7 @@ private:
     Grid grid_;
     double side_;
     CancelFlag cancel_;
+    WorkProgress* progress_;
     Mesh mesh_;
     std::vector<int> materials_;
     std::unordered_map<std::size_t, int> on_edge_;
@@ -282,9 +291,9 @@ double marching_cubes_count(const Box& box, double grid) {
     return count;
 }
 
-Mesh marching_cubes(const SolidTree& solid, const Box& box, double grid, CancelFlag cancel) {
+Mesh marching_cubes(const SolidTree& solid, const Box& box, double grid, CancelFlag cancel, WorkProgress* progress) {
     if (box.empty()) return {};
-    Mesh mesh = March(solid, box, grid, cancel).run();
+    Mesh mesh = March(solid, box, grid, cancel, progress).run();
     merge_close(mesh);
     return mesh;
 }

@@ -8,6 +8,7 @@
 #include "bounds/solid_tree.hpp"
 #include "polygonizer/mesh/cancel.hpp"
 #include "polygonizer/mesh/mesh.hpp"
+#include "polygonizer/mesh/work_progress.hpp"
 
 namespace deburr {
 
@@ -19,6 +20,7 @@ double marching_cubes_grid(const SolidTree& solid, const Box& box);
 double marching_cubes_count(const Box& box, double grid);
 
 /// A closed mesh. What leaves `box` is cut off by it. Vertices are roots, not interpolated. Throws Cancelled.
-Mesh marching_cubes(const SolidTree& solid, const Box& box, double grid, CancelFlag cancel = nullptr);
+Mesh marching_cubes(const SolidTree& solid, const Box& box, double grid, CancelFlag cancel = nullptr,
+                    WorkProgress* progress = nullptr);
 
 }  // namespace deburr

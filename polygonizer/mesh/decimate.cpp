@@ -42,13 +42,11 @@ double distance_to_triangle(Vec3 x, Vec3 a, Vec3 b, Vec3 c, Vec3 area, double en
 class Decimation {
 public:
     Decimation(Mesh& mesh, std::vector<Origin>& origins, const FacetJudge& judge, double tolerance,
-               const std::vector<Box>& dense, CancelFlag cancel, std::size_t enough = 0)
+               const DecimationOptions& options)
         : facets_(mesh, origins),
           judge_(judge),
           tolerance_(tolerance),
-          dense_(dense),
-          cancel_(cancel),
-          enough_(enough),
+          options_(options),
           left_(mesh.triangles.size()),
           border_(mesh.positions.size(), false),
           first_(mesh.positions.size(), true) {
@@ -67,7 +65,8 @@ public:
         }
     }
 
-    std::size_t run() {
+    /// `share` of the phase is told, by and by.
+    std::size_t run(double share_of_phase = 0) {
         // What costs little goes first, so that what is left can bear more.
         std::size_t gone = 0;
         for (const double share : {0.1, 1.0}) {
@@ -75,7 +74,7 @@ public:
             changed_.resize(std::size_t(facets_.vertices()), true);
             constexpr int max_rounds = 6;
             for (int round = 0; round < max_rounds; ++round) {
-                const std::size_t now = pass(share * tolerance_);
+                const std::size_t now = pass(share * tolerance_, round == 0 ? 0.5 * share_of_phase : 0);
                 gone += now;
                 if (100 * now < std::size_t(facets_.vertices())) break;
             }
@@ -100,11 +99,16 @@ private:
         bool fixed = false;
     };
 
-    std::size_t pass(double tolerance) {
+    std::size_t pass(double tolerance, double share_of_phase) {
+        constexpr int at_once = 1024;
         std::size_t gone = 0;
         for (int v = 0; v < facets_.vertices(); ++v) {
-            if (v % 1024 == 0) throw_if_cancelled(cancel_);
-            if (left_ <= enough_) break;
+            if (v % at_once == 0) {
+                throw_if_cancelled(options_.cancel);
+                if (options_.progress && share_of_phase > 0)
+                    options_.progress->advance(share_of_phase * at_once / facets_.vertices());
+            }
+            if (left_ <= options_.enough) break;
             if (!changed_[v] || facets_.around(v).empty()) continue;
             changed_[v] = false;
             if (find_candidates(v, tolerance)) gone += collapse(v, tolerance);
@@ -139,8 +143,8 @@ private:
     Kind kind_of(int v) const {
         Kind kind;
         const Vec3 x = facets_.position(v);
-        kind.fixed = is_on_border(v) ||
-                     std::any_of(dense_.begin(), dense_.end(), [&](const Box& box) { return box.contains(x); });
+        kind.fixed = is_on_border(v) || std::any_of(options_.dense.begin(), options_.dense.end(),
+                                                    [&](const Box& box) { return box.contains(x); });
         if (kind.fixed) return kind;
         const auto& fan = facets_.around(v);
         for (const int f : fan) {
@@ -347,9 +351,8 @@ private:
     Facets facets_;
     const FacetJudge& judge_;
     double tolerance_;
-    const std::vector<Box>& dense_;
-    CancelFlag cancel_;
-    std::size_t enough_, left_;  // triangles
+    const DecimationOptions options_;
+    std::size_t left_;  // triangles
     std::vector<char> border_, first_;
     std::vector<Vec3> flat_normals_;  // of facets; 0: curved
     // Of the vertex that is looked at.
@@ -371,9 +374,9 @@ std::vector<T> kept(const std::vector<int>& numbers, const std::vector<T>& known
 }
 
 // Returns how many vertices went.
-std::size_t decimate_block(MeshBlock& block, const FacetJudge& judge, double tolerance, const std::vector<Box>& dense,
-                           CancelFlag cancel) {
-    Decimation decimation(block.mesh, block.origins, judge, tolerance, dense, cancel);
+std::size_t decimate_block(MeshBlock& block, const FacetJudge& judge, double tolerance,
+                           const DecimationOptions& options) {
+    Decimation decimation(block.mesh, block.origins, judge, tolerance, options);
     decimation.keep_border(block.on_border);
     const std::size_t gone = decimation.run();
     std::vector<int> vertices, normals;
@@ -384,15 +387,17 @@ std::size_t decimate_block(MeshBlock& block, const FacetJudge& judge, double tol
     return gone;
 }
 
+constexpr double share_of_blocks = 0.85;  // of all the work, the rest being where they meet
+
 // Blocks of a large mesh by themselves, side by side; returns how many vertices went. `border` gets the vertices where
 // blocks meet.
 std::size_t decimate_blocks(Mesh& mesh, std::vector<Origin>& origins, const FacetJudge& judge, double tolerance,
-                            const std::vector<Box>& dense, CancelFlag cancel, std::size_t most,
-                            std::vector<char>& border) {
+                            const DecimationOptions& options, std::size_t most, std::vector<char>& border) {
     std::vector<MeshBlock> blocks = cut_into_blocks(mesh, origins, most);
     std::vector<std::size_t> gone(blocks.size(), 0);
     in_parallel(blocks.size(), [&](std::size_t k) {
-        judge.lend([&](const FacetJudge& own) { gone[k] = decimate_block(blocks[k], own, tolerance, dense, cancel); });
+        judge.lend([&](const FacetJudge& own) { gone[k] = decimate_block(blocks[k], own, tolerance, options); });
+        if (options.progress) options.progress->advance(share_of_blocks / double(blocks.size()));
     });
     border = join_blocks(blocks, mesh, origins);
     return std::accumulate(gone.begin(), gone.end(), std::size_t(0));
@@ -401,17 +406,17 @@ std::size_t decimate_blocks(Mesh& mesh, std::vector<Origin>& origins, const Face
 }  // namespace
 
 std::size_t decimate(Mesh& mesh, std::vector<Origin>& origins, const FacetJudge& judge, double tolerance,
-                     const std::vector<Box>& dense, CancelFlag cancel, std::size_t enough) {
+                     const DecimationOptions& options) {
     if (mesh.triangles.empty()) return 0;
     // Triangles of a block: of one that is smaller too much is border.
     constexpr std::size_t most = 10'000;
     std::size_t gone = 0;
     std::vector<char> border;
-    const bool in_blocks = enough == 0 && mesh.triangles.size() > 2 * most;
-    if (in_blocks) gone = decimate_blocks(mesh, origins, judge, tolerance, dense, cancel, most, border);
-    Decimation decimation(mesh, origins, judge, tolerance, dense, cancel, enough);
+    const bool in_blocks = options.enough == 0 && mesh.triangles.size() > 2 * most;
+    if (in_blocks) gone = decimate_blocks(mesh, origins, judge, tolerance, options, most, border);
+    Decimation decimation(mesh, origins, judge, tolerance, options);
     if (in_blocks) decimation.look_around(border);
-    gone += decimation.run();
+    gone += decimation.run(in_blocks ? 1 - share_of_blocks : 1);
     if (gone > 0) decimation.finish();
     return gone;
 }

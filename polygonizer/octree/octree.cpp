@@ -76,6 +76,7 @@ public:
         // Each halving of cells quarters distances; what leans still is left to repair.
         for (int round = 1;; ++round) {
             ++statistics.rounds;
+            if (options_.progress) options_.progress->begin(0.5);
             linking_ = link(tree_);
             place_crossings();
             place_points();
@@ -128,12 +129,19 @@ private:
         return changed;
     }
 
+    // Before one of `count` that are half of a round's work.
+    void go_on(std::size_t count) {
+        throw_if_cancelled(options_.cancel);
+        constexpr int at_once = 256;
+        if (options_.progress && ++gone_on_ % at_once == 0) options_.progress->advance(0.5 * at_once / double(count));
+    }
+
     void place_crossings() {
         std::unordered_map<std::uint64_t, CrossingPoint> known = std::move(known_crossings_);
         known_crossings_.clear();
         crossings_.clear();
         for (const EdgeCrossing& x : linking_.crossings) {
-            throw_if_cancelled(options_.cancel);
+            go_on(linking_.crossings.size());
             const std::uint64_t key =
                 (std::uint64_t(x.lo[0]) | std::uint64_t(x.lo[1]) << 20 | std::uint64_t(x.lo[2]) << 40) * 4 +
                 std::uint64_t(x.axis);
@@ -164,7 +172,7 @@ private:
             return surface_point(tree_.solid(cell), tree_.box(cell), around, hard_cosine_, tip_may_stick_out);
         };
         for (const Loop& loop : linking_.loops) {
-            throw_if_cancelled(options_.cancel);
+            go_on(linking_.loops.size());
             mesh_.points.push_back(make_point(loop, true));
             if (!tree_.box(tree_.cell(loop.leaf)).contains(mesh_.points.back().position))
                 tips.push_back(mesh_.points.size() - 1);
@@ -321,6 +329,7 @@ private:
     bool has_forms_;
     // In the first run, of free forms; gaps between touching polyhedra taper to nothing.
     bool looks_for_thin_;
+    int gone_on_ = 0;
     Linking linking_;
     std::multimap<int, int> doubles_at_;  // of crossings
     std::vector<CrossingPoint> crossings_;

@@ -18,6 +18,7 @@
 #include "bounds/solid_tree.hpp"
 #include "polygonizer/mesh/cancel.hpp"
 #include "polygonizer/mesh/mesh.hpp"
+#include "polygonizer/mesh/work_progress.hpp"
 
 namespace deburr {
 
@@ -29,6 +30,7 @@ struct OctreeOptions {
     double tolerance = infinity;               // largest distance of a triangle's middle from the surface
     std::size_t max_open_cells = 100'000'000;  // that the surface may pass
     CancelFlag cancel = nullptr;
+    WorkProgress* progress = nullptr;  // told how far the work is; it is never finished here
 };
 
 struct OctreeStatistics {

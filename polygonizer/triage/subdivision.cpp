@@ -24,7 +24,8 @@ std::shared_ptr<const LocalDensity> Subdivision::density_of(const OpenLeaf& leaf
     return leaf.field ? std::make_shared<LocalDensity>(leaf.field) : std::make_shared<LocalDensity>(*leaf.tree);
 }
 
-Subdivision::Subdivision(const SolidTree& solid, const Box& box) : complex(box, 1e-9 * glm::length(box.hi - box.lo)) {
+Subdivision::Subdivision(const SolidTree& solid, const Box& box, WorkProgress* progress)
+    : complex(box, 1e-9 * glm::length(box.hi - box.lo)) {
     PartitionNode whole;
     whole.solid = solid.nodes;
     for (std::size_t k = 0; k < solid.leaves.size(); ++k) {
@@ -36,7 +37,7 @@ Subdivision::Subdivision(const SolidTree& solid, const Box& box) : complex(box, 
     refused_.emplace_back();
     node_of.push_back(0);
     node_of[0] = add_node(0, 0);
-    subdivide(0);
+    subdivide(0, progress);
 }
 
 // Of corners_, along a normal.
@@ -185,26 +186,46 @@ bool Subdivision::halve(int cell, const Plane& plane) {
     return true;
 }
 
-void Subdivision::subdivide(int cell) {
-    std::vector<int> todo{cell};
+void Subdivision::subdivide(int cell, WorkProgress* progress) {
+    // Of the work that a cell is: a half each for what it is cut into.
+    struct Task {
+        int cell;
+        double share;
+    };
+    std::vector<Task> todo{{cell, 1}};
+    double done = 0;
+    const auto finish = [&](double share) {
+        constexpr double worth_a_word = 0.005;
+        done += share;
+        if (!progress || done < worth_a_word) return;
+        progress->advance(done);
+        done = 0;
+    };
     while (!todo.empty()) {
-        current_ = todo.back();
+        const double share = todo.back().share;
+        current_ = todo.back().cell;
         todo.pop_back();
         const int at = node_of[current_];
-        if (nodes[at].side != Side::straddling) continue;
+        if (nodes[at].side != Side::straddling) {
+            finish(share);
+            continue;
+        }
         visit(current_);
         Plane plane{};
         if (!choose(nodes[at], plane)) {
             // Cells of a filter that reaches all over the object stay large, with many half-spaces.
             for (OpenLeaf& leaf : nodes[at].open)
                 if (!leaf.density) leaf.density = density_of(leaf);
+            finish(share);
             continue;
         }
-        if (halve(current_, plane))
-            todo.push_back(int(complex.cells.size()) - 1);
-        else
+        if (halve(current_, plane)) {
+            todo.push_back({int(complex.cells.size()) - 1, 0.5 * share});
+            todo.push_back({current_, 0.5 * share});
+        } else {
             refused_[current_].push_back(plane);
-        todo.push_back(current_);
+            todo.push_back({current_, share});
+        }
     }
 }
 

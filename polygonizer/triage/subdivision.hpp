@@ -15,6 +15,7 @@
 
 #include "bounds/local_density.hpp"
 #include "bounds/solid_tree.hpp"
+#include "polygonizer/mesh/work_progress.hpp"
 #include "polygonizer/triage/cell_complex.hpp"
 
 namespace deburr {
@@ -39,7 +40,8 @@ struct PartitionNode {
 class Subdivision {
 public:
     /// `box` should hold the solid; where it does not, the solid is cut off by it.
-    Subdivision(const SolidTree& solid, const Box& box);
+    /// The progress, if there is one, is advanced by a phase.
+    Subdivision(const SolidTree& solid, const Box& box, WorkProgress* progress = nullptr);
 
     CellComplex complex;
     std::vector<PartitionNode> nodes;
@@ -51,7 +53,7 @@ public:
     /// Cuts a cell that is not decided; its halves become cells of their own. False if the plane does not cut it.
     bool halve(int cell, const Plane& plane);
     /// Cuts the cell and what comes of it as far as planes go.
-    void subdivide(int cell);
+    void subdivide(int cell, WorkProgress* progress = nullptr);
 
 private:
     // With more half-spaces than this in a cell it is halved along an axis first: chosen, near the

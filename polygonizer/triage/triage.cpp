@@ -160,7 +160,12 @@ Mesh triage(const SolidTree& mixed, const Box& box, const TriageOptions& options
     if (box.empty()) return {};
     const SolidTree solid = separate_sharp(mixed);
     const bool thin_out = options.decimate && std::isfinite(options.tolerance);
-    Subdivision subdivision(solid, box);
+    // Shares of what is left, as they are with most models.
+    const auto begin = [&](double share) {
+        if (options.progress) options.progress->begin(share);
+    };
+    begin(0.25);
+    Subdivision subdivision(solid, box, options.progress);
     Mesh mesh, best;
     std::vector<Origin> origins, best_origins;
     constexpr std::size_t most = std::numeric_limits<std::size_t>::max();
@@ -179,6 +184,7 @@ Mesh triage(const SolidTree& mixed, const Box& box, const TriageOptions& options
     const auto may_halve = [&] { return subdivision.complex.cells.size() < max_cells; };
     for (std::size_t round = 0; mending < max_mending_rounds; ++round) {
         throw_if_cancelled(options.cancel);
+        begin(0.15);
         Subspace subspace(subdivision);
         subspace.polygonize();
         origins.clear();
@@ -192,6 +198,7 @@ Mesh triage(const SolidTree& mixed, const Box& box, const TriageOptions& options
         drop_flat_shells(mesh, origins, 10 * subdivision.complex.tolerance, judge->solid());
         std::vector<int> left;
         if (std::isfinite(options.tolerance)) {
+            begin(0.2);
             const double tolerance = (options.decimate ? at_points : at_points_of_picture) * options.tolerance;
             left = refine(mesh, origins, *judge, tolerance, options.cancel);
             // What hardly becomes less is looked at again when all is done, by the tolerance itself.
@@ -211,9 +218,12 @@ Mesh triage(const SolidTree& mixed, const Box& box, const TriageOptions& options
                 ++mending;
                 continue;
             }
-            decimate(mesh, origins, *judge, at_points * options.tolerance, dense, options.cancel);
+            begin(0.8);
+            decimate(mesh, origins, *judge, at_points * options.tolerance,
+                     {.dense = dense, .cancel = options.cancel, .progress = options.progress});
         }
         // What repair cannot help needs smaller cells around it.
+        begin(0.3);
         ++mending;
         std::vector<Cut> cuts[2];
         for (const bool may_split : {true, false}) {

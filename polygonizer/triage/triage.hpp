@@ -3,6 +3,7 @@
 #include "bounds/solid_tree.hpp"
 #include "polygonizer/mesh/cancel.hpp"
 #include "polygonizer/mesh/mesh.hpp"
+#include "polygonizer/mesh/work_progress.hpp"
 
 namespace deburr {
 
@@ -14,6 +15,8 @@ struct TriageOptions {
     bool decimate = true;
     /// Looked at between the rounds of refinement.
     CancelFlag cancel = nullptr;
+    /// Told how far the work is; it is never finished here. Null: nobody asks.
+    WorkProgress* progress = nullptr;
 };
 
 struct TriageStatistics {

@@ -9,11 +9,11 @@
 #include <tuple>
 #include <utility>
 
+#include "bounds/in_parallel.hpp"
 #include "polygonizer/mesh/decimate.hpp"
 #include "polygonizer/mesh/sharp_parts.hpp"
 #include "polygonizer/triage/triage.hpp"
 #include "raytracer/util/errors.hpp"
-#include "bounds/in_parallel.hpp"
 
 namespace deburr {
 namespace {
@@ -84,7 +84,7 @@ public:
     void thin(double coarseness, std::size_t enough, CancelFlag cancel) {
         if (!can_thin(coarseness)) return;
         reached_ = coarseness * tolerance_;
-        decimate(mesh_, origins_, *judge_, reached_, {}, cancel, enough);
+        decimate(mesh_, origins_, *judge_, reached_, {.enough = enough, .cancel = cancel});
     }
     /// Before it is thinned out further.
     void save() {

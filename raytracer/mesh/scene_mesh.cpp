@@ -7,12 +7,12 @@
 #include <utility>
 
 #include "bounds/bounding_box.hpp"
+#include "bounds/in_parallel.hpp"
 #include "polygonizer/marching_cubes/marching_cubes.hpp"
 #include "polygonizer/mesh/model_mesh.hpp"
 #include "polygonizer/mesh/separate_touching.hpp"
 #include "polygonizer/octree/octree_cells.hpp"
 #include "raytracer/util/errors.hpp"
-#include "bounds/in_parallel.hpp"
 
 namespace deburr {
 namespace {
@@ -67,7 +67,7 @@ bool has_chosen_cells(const MeshSettings& settings) {
 }
 
 OctreeOptions octree_options(const SolidTree& tree, const Box& box, bool cut_off, const MeshSettings& settings,
-                             CancelFlag cancel) {
+                             CancelFlag cancel, WorkProgress* progress) {
     const double longest = largest(box.hi - box.lo), own = octree_edge(tree, box);
     OctreeOptions options;
     options.edge = settings.level > 0 ? std::ldexp(longest, -settings.level) : settings.edge > 0 ? settings.edge : own;
@@ -77,6 +77,7 @@ OctreeOptions octree_options(const SolidTree& tree, const Box& box, bool cut_off
     options.hard_angle = settings.hard_angle;
     options.max_open_cells = has_chosen_cells(settings) ? CellTree::max_cells : max_own_open_cells;
     options.cancel = cancel;
+    options.progress = progress;
     options.tolerance = octree_tolerance(tree, box, settings);
     return options;
 }
@@ -100,8 +101,8 @@ auto with_octree_errors(const Box& box, const MeshSettings& settings, double edg
 }
 
 Mesh by_octree(const SolidTree& tree, const Box& box, bool cut_off, const MeshSettings& settings, std::size_t id,
-               CancelFlag cancel, OctreeStatistics& statistics) {
-    const OctreeOptions options = octree_options(tree, box, cut_off, settings, cancel);
+               CancelFlag cancel, WorkProgress& progress, OctreeStatistics& statistics) {
+    const OctreeOptions options = octree_options(tree, box, cut_off, settings, cancel, &progress);
     return with_octree_errors(box, settings, options.edge, id, [&] { return octree(tree, box, options, &statistics); });
 }
 
@@ -113,7 +114,7 @@ MeshMethod method_of(const SolidTree& tree, const MeshSettings& settings) {
 void check_cells(const SolidTree& tree, bool cut_off, const MeshSettings& settings, std::size_t id, CancelFlag cancel) {
     const Box box = polygonization_box(tree);
     if (box.empty() || closed_mesh_of(tree) || method_of(tree, settings) != MeshMethod::octree) return;
-    const OctreeOptions options = octree_options(tree, box, cut_off, settings, cancel);
+    const OctreeOptions options = octree_options(tree, box, cut_off, settings, cancel, nullptr);
     with_octree_errors(box, settings, options.edge, id, [&] { check_octree_cells(tree, box, options); });
 }
 
@@ -138,7 +139,7 @@ struct SolidMesh {
 
 // `id` is for messages. Where the solid has been cut off, its box is not its own.
 SolidMesh polygonize(const SolidTree& tree, bool cut_off, const MeshSettings& settings, std::size_t id,
-                     CancelFlag cancel) {
+                     CancelFlag cancel, WorkProgress& progress) {
     SolidMesh result;
     const Box box = polygonization_box(tree);
     if (box.empty()) return result;
@@ -151,7 +152,7 @@ SolidMesh polygonize(const SolidTree& tree, bool cut_off, const MeshSettings& se
     result.method = method_of(tree, settings);
     result.check_options.cancel = cancel;
     if (result.method == MeshMethod::octree) {
-        result.mesh = by_octree(tree, box, cut_off, settings, id, cancel, result.octree);
+        result.mesh = by_octree(tree, box, cut_off, settings, id, cancel, progress, result.octree);
         result.tolerance = octree_tolerance(tree, box, settings);
         result.check_options.tolerance = check_slack * result.tolerance;
         if (!std::isfinite(result.check_options.tolerance)) result.check_options.min_tolerance = result.octree.edge;
@@ -167,16 +168,17 @@ SolidMesh polygonize(const SolidTree& tree, bool cut_off, const MeshSettings& se
         const double most = of_model ? std::min(in_radii, coarsest_of_model) : in_radii;
         const double relative = radius > 0 ? most * radius : infinity;
         result.tolerance = settings.coarseness * std::min(settings.tolerance, relative);
-        result.mesh =
-            triage(tree, box, {.tolerance = result.tolerance, .decimate = settings.decimate, .cancel = cancel},
-                   &result.triage);
+        result.mesh = triage(
+            tree, box,
+            {.tolerance = result.tolerance, .decimate = settings.decimate, .cancel = cancel, .progress = &progress},
+            &result.triage);
         result.check_options.tolerance = check_slack * result.tolerance;
     } else {
         const double grid = settings.coarseness * (settings.grid > 0 ? settings.grid : marching_cubes_grid(tree, box));
         if (marching_cubes_count(box, grid) > max_cubes)
             throw UnsupportedError(fmt::format("--grid: a grid of {:g} would have more than {:g} cubes for solid {}",
                                                grid, max_cubes, id));
-        result.mesh = marching_cubes(tree, box, grid, cancel);
+        result.mesh = marching_cubes(tree, box, grid, cancel, &progress);
         result.check_options.min_tolerance = grid;
         result.check_options.may_lean = true;
     }
@@ -185,8 +187,8 @@ SolidMesh polygonize(const SolidTree& tree, bool cut_off, const MeshSettings& se
 
 // The mesh and its check. What fails is made once more, finer, and the better one of both is taken.
 SolidMesh polygonize_checked(const SolidTree& tree, bool cut_off, const MeshSettings& settings, std::size_t id,
-                             CancelFlag cancel) {
-    SolidMesh first = polygonize(tree, cut_off, settings, id, cancel);
+                             CancelFlag cancel, WorkProgress& progress) {
+    SolidMesh first = polygonize(tree, cut_off, settings, id, cancel, progress);
     if (!settings.check) return first;
     const Box box = polygonization_box(tree);
     first.check = check_mesh(first.mesh, tree, box, first.check_options);
@@ -198,7 +200,7 @@ SolidMesh polygonize_checked(const SolidTree& tree, bool cut_off, const MeshSett
     finer.tolerance_in_radii = std::min(finer.tolerance_in_radii, 2 * expected);
     finer.tolerance_in_sizes = std::min(finer.tolerance_in_sizes, 1.0);
     try {
-        SolidMesh second = polygonize(tree, cut_off, finer, id, cancel);
+        SolidMesh second = polygonize(tree, cut_off, finer, id, cancel, progress);
         second.check_options = first.check_options;
         second.check = check_mesh(second.mesh, tree, box, second.check_options);
         if (second.check->faults() < first.check->faults()) std::swap(first, second);
@@ -307,8 +309,12 @@ SceneMesh mesh_parts(const Scene& scene, const MeshSettings& settings, const Mes
     in_parallel(count, [&](std::size_t i) {
         throw_if_cancelled(watch.cancel);
         if (!wanted[i]) return;
-        parts[i] = polygonize_checked(result.trees[i], !finite(boxes[i]), settings, i + 1, watch.cancel);
-        if (watch.done) watch.done(work_of(result.trees[i]) / work);
+        const double share = work_of(result.trees[i]) / work;
+        WorkProgress progress([&](double done) {
+            if (watch.done) watch.done(share * done);
+        });
+        parts[i] = polygonize_checked(result.trees[i], !finite(boxes[i]), settings, i + 1, watch.cancel, progress);
+        progress.finish();
     });
     for (std::size_t i = 0; i < count; ++i) {
         add_statistics(result, parts[i]);

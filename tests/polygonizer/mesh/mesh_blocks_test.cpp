@@ -85,7 +85,7 @@ TEST_CASE("A mesh that is thinned out in blocks has little more left than one th
     Mesh whole = dense.mesh;
     std::vector<Origin> origins = dense.origins;
     // Told to end with one triangle, it works through the whole at once.
-    decimate(whole, origins, judge, tolerance, {}, nullptr, 1);
+    decimate(whole, origins, judge, tolerance, {.enough = 1});
     decimate(dense.mesh, dense.origins, judge, tolerance);
     CHECK(double(dense.mesh.triangles.size()) < 1.05 * double(whole.triangles.size()));
     CHECK(2 * whole.triangles.size() < before);
