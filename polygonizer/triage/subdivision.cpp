@@ -24,8 +24,8 @@ std::shared_ptr<const LocalDensity> Subdivision::density_of(const OpenLeaf& leaf
     return leaf.field ? std::make_shared<LocalDensity>(leaf.field) : std::make_shared<LocalDensity>(*leaf.tree);
 }
 
-Subdivision::Subdivision(const SolidTree& solid, const Box& box, WorkProgress* progress)
-    : complex(box, 1e-9 * glm::length(box.hi - box.lo)) {
+Subdivision::Subdivision(const SolidTree& solid, const Box& box, const SubdivisionOptions& options)
+    : complex(box, 1e-9 * glm::length(box.hi - box.lo)), options_(options) {
     PartitionNode whole;
     whole.solid = solid.nodes;
     for (std::size_t k = 0; k < solid.leaves.size(); ++k) {
@@ -37,7 +37,7 @@ Subdivision::Subdivision(const SolidTree& solid, const Box& box, WorkProgress* p
     refused_.emplace_back();
     node_of.push_back(0);
     node_of[0] = add_node(0, 0);
-    subdivide(0, progress);
+    subdivide(0);
 }
 
 // Of corners_, along a normal.
@@ -186,7 +186,7 @@ bool Subdivision::halve(int cell, const Plane& plane) {
     return true;
 }
 
-void Subdivision::subdivide(int cell, WorkProgress* progress) {
+void Subdivision::subdivide(int cell) {
     // Of the work that a cell is: a half each for what it is cut into.
     struct Task {
         int cell;
@@ -197,11 +197,12 @@ void Subdivision::subdivide(int cell, WorkProgress* progress) {
     const auto finish = [&](double share) {
         constexpr double worth_a_word = 0.005;
         done += share;
-        if (!progress || done < worth_a_word) return;
-        progress->advance(done);
+        if (!options_.progress || done < worth_a_word) return;
+        options_.progress->advance(done);
         done = 0;
     };
-    while (!todo.empty()) {
+    for (std::size_t looks = 0; !todo.empty(); ++looks) {
+        if (looks % 256 == 0) throw_if_cancelled(options_.cancel);
         const double share = todo.back().share;
         current_ = todo.back().cell;
         todo.pop_back();
@@ -214,8 +215,11 @@ void Subdivision::subdivide(int cell, WorkProgress* progress) {
         Plane plane{};
         if (!choose(nodes[at], plane)) {
             // Cells of a filter that reaches all over the object stay large, with many half-spaces.
-            for (OpenLeaf& leaf : nodes[at].open)
+            for (OpenLeaf& leaf : nodes[at].open) {
                 if (!leaf.density) leaf.density = density_of(leaf);
+                left_ += 1 + leaf.tree->half_spaces.size();
+            }
+            if (left_ > options_.max_half_spaces) throw TooManyCells(complex.cells.size());
             finish(share);
             continue;
         }

@@ -12,9 +12,12 @@
 // over the cell say at least as much, and see that a sum of two small densities is small.
 #pragma once
 #include <memory>
+#include <stdexcept>
+#include <string>
 
 #include "bounds/local_density.hpp"
 #include "bounds/solid_tree.hpp"
+#include "polygonizer/mesh/cancel.hpp"
 #include "polygonizer/mesh/work_progress.hpp"
 #include "polygonizer/triage/cell_complex.hpp"
 
@@ -37,11 +40,23 @@ struct PartitionNode {
     std::vector<SolidTreeNode> solid;              // of a cell: the solid as a function of its open leaves
 };
 
+/// Thrown where cells that are as small as a filter would be too many for the size of the solid.
+struct TooManyCells : std::length_error {
+    explicit TooManyCells(std::size_t cells)
+        : std::length_error("expected a solid of fewer cells, got more than " + std::to_string(cells)) {}
+};
+
+struct SubdivisionOptions {
+    /// Of those that are left in open cells no more are looked after; of the default some 3 GB.
+    std::size_t max_half_spaces = 4'000'000;
+    CancelFlag cancel = nullptr;
+    WorkProgress* progress = nullptr;  // advanced by a phase; null: nobody asks
+};
+
 class Subdivision {
 public:
-    /// `box` should hold the solid; where it does not, the solid is cut off by it.
-    /// The progress, if there is one, is advanced by a phase.
-    Subdivision(const SolidTree& solid, const Box& box, WorkProgress* progress = nullptr);
+    /// `box` should hold the solid; where it does not, the solid is cut off by it. Throws TooManyCells and Cancelled.
+    Subdivision(const SolidTree& solid, const Box& box, const SubdivisionOptions& options = {});
 
     CellComplex complex;
     std::vector<PartitionNode> nodes;
@@ -52,8 +67,8 @@ public:
     const OpenLeaf* open(int cell, int leaf) const;
     /// Cuts a cell that is not decided; its halves become cells of their own. False if the plane does not cut it.
     bool halve(int cell, const Plane& plane);
-    /// Cuts the cell and what comes of it as far as planes go.
-    void subdivide(int cell, WorkProgress* progress = nullptr);
+    /// Cuts the cell and what comes of it as far as planes go. Throws TooManyCells and Cancelled.
+    void subdivide(int cell);
 
 private:
     // With more half-spaces than this in a cell it is halved along an axis first: chosen, near the
@@ -73,7 +88,8 @@ private:
         int axis = 0;              // the longest, of those along which the density changes
         double size = 0;           // along it
         double radius = infinity;  // the least one that is not 0
-        double width = 0;          // the greatest, across the plane of a half-space
+        double width = 0;          // the greatest, across the plane of a half-space,
+        Plane widest{};            // and the plane that halves it
         std::size_t half_spaces = 0;
         bool all_small = true;  // every density is there to be evaluated
     };
@@ -97,7 +113,9 @@ private:
     static std::shared_ptr<const LocalDensity> density_of(const OpenLeaf& leaf);
     static bool make_densities(PartitionNode& node);
     bool choose(PartitionNode& node, Plane& plane);
+    bool choose_outer(const PartitionNode& node, const Extents& cell, Plane& plane);
     bool choose_own(const PartitionNode& node, Plane& plane);
+    void reach_of(const PartitionNode& node);
     bool choose_neutral(const PartitionNode& node, const Extents& cell, Plane& plane) const;
     bool is_simple_cell(const PartitionNode& node) const;
     bool shows_surface(const PartitionNode& node) const;
@@ -107,6 +125,8 @@ private:
     bool is_refused(const Plane& plane) const;
     void visit(int cell);
 
+    const SubdivisionOptions options_;
+    std::size_t left_ = 0;                        // half-spaces in open cells that are done
     std::pair<int, std::size_t> visited_{-1, 0};  // a cell, and how many there were
     std::vector<Vec3> corners_;                   // of that cell
     std::vector<AlongNormal> along_normals_;      // of them, along normals that were asked for

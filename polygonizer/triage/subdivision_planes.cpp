@@ -90,21 +90,21 @@ Subdivision::Extents Subdivision::extents(const PartitionNode& node) const {
             if (h.radius > 0) e.radius = std::min(e.radius, h.radius);
         }
     }
-    if (e.half_spaces <= many) {
-        // Along a sweep nothing changes.
-        size *= glm::min(across, Vec3(1.0));
-        for (const OpenLeaf& leaf : node.open)
-            for (const HalfSpace& h : leaf.tree->half_spaces) {
-                const Range along = extent_along(h.normal, corners_);
-                e.width = std::max(e.width, along.hi - along.lo);
-            }
-    } else {
-        e.width = std::max({size.x, size.y, size.z});
-    }
+    // Along a sweep nothing changes.
+    if (e.half_spaces <= many) size *= glm::min(across, Vec3(1.0));
+    for (const OpenLeaf& leaf : node.open)
+        for (const HalfSpace& h : leaf.tree->half_spaces) {
+            const Range along = extent_along(h.normal, corners_);
+            if (along.hi - along.lo <= e.width) continue;
+            e.width = along.hi - along.lo;
+            e.widest = {h.normal, 0.5 * (along.lo + along.hi)};
+        }
     // Where many meet, a cut along an axis that few of their normals have leaves most of them to both sides.
     constexpr double least_weight = 0.25;
     Vec3 weighed = size;
-    if (e.half_spaces > many) weighed *= glm::max(across / largest(across), Vec3(least_weight));
+    if (e.half_spaces > many)
+        for (int k = 0; k < 3; ++k)
+            weighed[k] *= across[k] > 0 ? std::max(across[k] / largest(across), least_weight) : 0.0;
     e.axis = weighed.x >= weighed.y && weighed.x >= weighed.z ? 0 : weighed.y >= weighed.z ? 1 : 2;
     e.size = size[e.axis];
     return e;
@@ -144,18 +144,57 @@ bool Subdivision::choose(PartitionNode& node, Plane& plane) {
     constexpr double small = 4;  // in radii, across any of the planes: two filters
     // A model's round parts have a plane for each of their facets, which part nothing.
     constexpr std::size_t many_of_mesh = 2;
-    const bool is_small = cell.width <= small * cell.radius;
+    const bool is_small = std::min(cell.width, largest(cell.box.hi - cell.box.lo)) <= small * cell.radius;
     const bool of_mesh =
         std::any_of(node.open.begin(), node.open.end(), [](const OpenLeaf& l) { return l.field != nullptr; });
     // Where very many half-spaces reach everywhere, no cell of such a size has few of them.
     if (!cell.all_small && !of_mesh && is_small && cell.radius < infinity) cell.all_small = make_densities(node);
     const bool crowded = cell.half_spaces > (of_mesh ? many_of_mesh : many);
     if (cell.all_small && crowded && is_small && is_simple_cell(node)) return false;
+    if (crowded && !of_mesh && choose_outer(node, cell, plane)) return true;
     if ((crowded || !cell.all_small) && choose_neutral(node, cell, plane)) return true;
     if (!cell.all_small) return false;
     if (choose_own(node, plane)) return true;
     // No plane is left. A part of the surface that the cell's corners do not tell of may lie whole within.
     return !shows_surface(node) && !is_simple_cell(node) && choose_neutral(node, cell, plane);
+}
+
+// Makes ready for cost().
+void Subdivision::reach_of(const PartitionNode& node) {
+    reach_.clear();
+    turned_to_ = Vec3(0.0);
+    for (const OpenLeaf& leaf : node.open)
+        for (const HalfSpace& h : leaf.density->half_spaces()) {
+            const Range d = distances(h);
+            reach_.push_back({&h, d, rho_between(h, d.lo, d.hi, complex.tolerance), 0});
+        }
+}
+
+// Of a cell that is large against the filter, a parallel plane at ±r beyond which much of it is decided. Without such
+// planes a rod of many sides that lies across the axes would be cut into as many cells as it is long in its width.
+bool Subdivision::choose_outer(const PartitionNode& node, const Extents& cell, Plane& plane) {
+    constexpr double large = 64;            // in radii
+    constexpr double least_share = 0.25;    // of the cell's extent along the plane's normal
+    constexpr std::size_t max_count = 128;  // half-spaces for which this is tried
+    if (!(cell.size > large * cell.radius) || cell.half_spaces > max_count) return false;
+    PartitionNode ready = node;  // densities that are put off stay so
+    if (!cell.all_small && !make_densities(ready)) return false;
+    reach_of(ready);
+    double most = least_share;
+    for (const OpenLeaf& leaf : ready.open)
+        for (const HalfSpace& h : leaf.density->half_spaces()) {
+            const Range s = extent(h.normal);
+            for (const bool above : {true, false}) {
+                const Plane p{h.normal, h.offset + (above ? h.radius : -h.radius)};
+                const double share = (above ? s.hi - p.offset : p.offset - s.lo) / (s.hi - s.lo);
+                if (!(share > most && share < 1) || is_refused(p)) continue;
+                turn(ready, p.normal);
+                if (cost(ready, p.offset, above) > 0) continue;
+                most = share;
+                plane = p;
+            }
+        }
+    return most > least_share;
 }
 
 // A plane of the half-spaces in the cell, or one of their parallels at ±r.
@@ -184,13 +223,7 @@ bool Subdivision::choose_own(const PartitionNode& node, Plane& plane) {
     plane = candidates_[0].plane;
     if (candidates_.size() == 1) return true;
 
-    reach_.clear();
-    turned_to_ = Vec3(0.0);
-    for (const OpenLeaf& leaf : node.open)
-        for (const HalfSpace& h : leaf.density->half_spaces()) {
-            const Range d = distances(h);
-            reach_.push_back({&h, d, rho_between(h, d.lo, d.hi, complex.tolerance), 0});
-        }
+    reach_of(node);
     double best = infinity;
     for (const auto& [p, s, bias] : candidates_) {
         turn(node, p.normal);
@@ -210,10 +243,19 @@ bool Subdivision::choose_neutral(const PartitionNode& node, const Extents& cell,
     // That may hold several sheets, though only of a surface that its corners tell of: or of one that is lost.
     constexpr double smallest_seen = 1, smallest_unseen = 0.125;  // in radii
     constexpr double sharp_smallest = 1e5;                        // in tolerances
-    const auto& [box, axis, size, radius, width, half_spaces, all_small] = cell;
+    // A cell whose longest side is so many times its greatest width across planes lies along a sweep.
+    constexpr double slender = 4;
+    const bool is_slender = cell.width > 0 && cell.size > slender * cell.width;
+    const double size = is_slender ? cell.width : cell.size, radius = cell.radius;
+    const int axis = cell.axis;
+    const Box& box = cell.box;
     if (radius == infinity ? size <= sharp_smallest * complex.tolerance
                            : size <= (shows_surface(node) ? smallest_seen : smallest_unseen) * radius)
         return false;
+    if (is_slender) {
+        plane = cell.widest;
+        return !is_refused(plane);
+    }
     const double middle = 0.5 * (box.lo[axis] + box.hi[axis]);
     plane.normal = Vec3(0.0);
     plane.normal[axis] = 1;

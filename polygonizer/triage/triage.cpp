@@ -165,7 +165,7 @@ Mesh triage(const SolidTree& mixed, const Box& box, const TriageOptions& options
         if (options.progress) options.progress->begin(share);
     };
     begin(0.25);
-    Subdivision subdivision(solid, box, options.progress);
+    Subdivision subdivision(solid, box, {options.max_half_spaces, options.cancel, options.progress});
     Mesh mesh, best;
     std::vector<Origin> origins, best_origins;
     constexpr std::size_t most = std::numeric_limits<std::size_t>::max();

@@ -4,6 +4,7 @@
 #include "polygonizer/mesh/cancel.hpp"
 #include "polygonizer/mesh/mesh.hpp"
 #include "polygonizer/mesh/work_progress.hpp"
+#include "polygonizer/triage/subdivision.hpp"
 
 namespace deburr {
 
@@ -15,6 +16,8 @@ struct TriageOptions {
     bool decimate = true;
     /// Looked at between the rounds of refinement.
     CancelFlag cancel = nullptr;
+    /// Half-spaces that may be left in open cells.
+    std::size_t max_half_spaces = SubdivisionOptions{}.max_half_spaces;
     /// Told how far the work is; it is never finished here. Null: nobody asks.
     WorkProgress* progress = nullptr;
 };
@@ -24,7 +27,8 @@ struct TriageStatistics {
     std::size_t rounds = 1;                 // of refinement
 };
 
-/// A closed, oriented 2-manifold mesh of the solid. What leaves `box` is cut off by it. Throws Cancelled.
+/// A closed, oriented 2-manifold mesh of the solid. What leaves `box` is cut off by it. Throws Cancelled, and
+/// TooManyCells.
 Mesh triage(const SolidTree& solid, const Box& box, const TriageOptions& options = {},
             TriageStatistics* statistics = nullptr);
 

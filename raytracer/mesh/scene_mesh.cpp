@@ -168,10 +168,18 @@ SolidMesh polygonize(const SolidTree& tree, bool cut_off, const MeshSettings& se
         const double most = of_model ? std::min(in_radii, coarsest_of_model) : in_radii;
         const double relative = radius > 0 ? most * radius : infinity;
         result.tolerance = settings.coarseness * std::min(settings.tolerance, relative);
-        result.mesh = triage(
-            tree, box,
-            {.tolerance = result.tolerance, .decimate = settings.decimate, .cancel = cancel, .progress = &progress},
-            &result.triage);
+        try {
+            result.mesh = triage(
+                tree, box,
+                {.tolerance = result.tolerance, .decimate = settings.decimate, .cancel = cancel, .progress = &progress},
+                &result.triage);
+        } catch (const TooManyCells&) {
+            throw UnsupportedError(
+                fmt::format("triage: solid {}, {:.3g} across, has more than {} half-spaces in cells as small as its "
+                            "radius of {:.3g}: "
+                            "choose a larger radius, or --method octree",
+                            id, largest(box.hi - box.lo), SubdivisionOptions{}.max_half_spaces, radius));
+        }
         result.check_options.tolerance = check_slack * result.tolerance;
     } else {
         const double grid = settings.coarseness * (settings.grid > 0 ? settings.grid : marching_cubes_grid(tree, box));

@@ -20,6 +20,18 @@ namespace {
 
 Density unit_cube() { return Density::box(Vec3(0.0), Vec3(1.0)); }
 
+// A regular prism of radius 1 along an axis, or across all of them.
+Density rod(int sides, double length, bool across) {
+    const Vec3 z = across ? glm::normalize(Vec3(3, 2, 1)) : Vec3(0, 0, 1);
+    const Vec3 x = glm::normalize(glm::cross(Vec3(0, 1, 0), z)), y = glm::cross(z, x);
+    Density all = Density::half_space(z, length) & Density::half_space(-z, 0);
+    for (int k = 0; k < sides; ++k) {
+        const double a = 2 * std::numbers::pi * k / sides;
+        all = all & Density::half_space(std::cos(a) * x + std::sin(a) * y, 1);
+    }
+    return all;
+}
+
 // obj4 [Lobb figures 11 and 13], with the clip that it needs.
 Solid obj4(double r) {
     return Solid::rounded(
@@ -147,6 +159,30 @@ TEST_CASE("Sharp parts of densities with round parts are leaves of their own, an
         CHECK(m.distance.max <= 0.005);
         CHECK(m.volume == Approx(volume).epsilon(0.03));
     }
+}
+
+TEST_CASE("A rod of many sides takes cells for its sides and not for its length, however it lies") {
+    for (const bool across : {false, true}) {
+        std::size_t cells = 0;
+        for (const double length : {10.0, 1e4}) {
+            CAPTURE(across, length);
+            const SolidTree tree = flatten(Solid::rounded(0.3, rod(20, length, across)));
+            TriageStatistics statistics;
+            const Mesh mesh = triage(tree, polygonization_box(tree), {.tolerance = 0.015}, &statistics);
+            const MeshMetrics m = measure(mesh, tree);
+            CHECK(m.topology.manifold());
+            CHECK(m.inverted == 0);
+            CHECK(m.distance.max <= 0.015);
+            if (length > 10) CHECK(statistics.cells < 10 * cells);
+            cells = statistics.cells;
+        }
+    }
+}
+
+TEST_CASE("A solid that needs too many cells is refused, and memory stays bounded") {
+    const SolidTree tree = flatten(Solid::rounded(0.3, rod(200, 3e6, true)));
+    CHECK_THROWS_AS(triage(tree, polygonization_box(tree), {.tolerance = 0.015, .max_half_spaces = 100'000}),
+                    TooManyCells);
 }
 
 TEST_CASE("What a sharp cut leaves on both of its sides is one surface") {
