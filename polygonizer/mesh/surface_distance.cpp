@@ -221,6 +221,10 @@ const SignedDistance& DistanceField::near(Vec3 x) const {
     constexpr std::size_t large = 512;  // of more, copies of nearly all of them would take too much memory
     constexpr int max_depth = 40;
     constexpr double min_margin = 0.05;  // of the margin
+    // Of the half-spaces of the box that was split three times, once along each axis: what is left for more to pay.
+    constexpr double most_left = 0.6;
+    // Of the half-spaces of the box that is split: where more are left, the half is told of all of them.
+    constexpr double nearly_all = 0.9;
     Node* node = root_.get();
     // What is in the wall between two boxes belongs to the lower one, whichever was asked for last.
     const auto belongs_to = [&](const Box& box) {
@@ -232,6 +236,7 @@ const SignedDistance& DistanceField::near(Vec3 x) const {
     if (last_ && belongs_to(last_->box)) return *last_->solid;
     // What is beyond the box sees what is nearest in it: the whole solid at once may be too much to evaluate.
     const Vec3 y = glm::clamp(x, node->box.lo, node->box.hi);
+    std::size_t before[3] = {node->half_spaces, node->half_spaces, node->half_spaces};  // of boxes around, by depth
     while (node->depth < max_depth && node->half_spaces > few) {
         const Vec3 size = node->box.hi - node->box.lo;
         const int axis = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
@@ -239,6 +244,8 @@ const SignedDistance& DistanceField::near(Vec3 x) const {
         if (size[axis] < 2 * margin_) {
             margin = 0.5 * size[axis];
             if (node->half_spaces <= many || margin < min_margin * margin_) break;
+            const std::size_t was = before[node->depth % 3];
+            if (double(node->half_spaces) > most_left * double(was)) break;
         }
         const double middle = 0.5 * (node->box.lo[axis] + node->box.hi[axis]);
         std::unique_ptr<Node>& child = node->children[y[axis] > middle];
@@ -247,9 +254,12 @@ const SignedDistance& DistanceField::near(Vec3 x) const {
             (y[axis] > middle ? half.lo : half.hi)[axis] = middle;
             auto part = std::make_shared<const SignedDistance>(node->solid->within(inflated(half, margin)));
             const std::size_t left = part->half_spaces();
-            if (left > large && 4 * left > 3 * node->half_spaces) part = node->solid;
+            if ((left > large && 4 * left > 3 * node->half_spaces) ||
+                double(left) > nearly_all * double(node->half_spaces))
+                part = node->solid;
             child = std::make_unique<Node>(half, std::move(part), node->depth + 1);
         }
+        before[node->depth % 3] = node->half_spaces;
         node = child.get();
     }
     last_ = node;

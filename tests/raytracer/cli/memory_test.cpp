@@ -2,9 +2,9 @@
 #include <algorithm>
 #include <cstdlib>
 
+#include "bounds/in_parallel.hpp"
 #include "catch.hpp"
 #include "raytracer/program.hpp"
-#include "bounds/in_parallel.hpp"
 
 using namespace deburr::test;
 
@@ -71,5 +71,26 @@ TEST_CASE("running out of memory is one line and exit code 1, at whatever limit"
         }
     CHECK(failed > 2);
     CHECK(done > 2);
+}
+
+TEST_CASE("two thousand half-spaces that reach one another everywhere are meshed and checked in 800 MB") {
+    const Folder folder;
+    write_file(folder / "s.lua", R"(
+        local n, all = 2000
+        for i = 0, n - 1 do
+            local y, a = 1 - 2 * (i + 0.5) / n, i * 2.399963229728653
+            local q = math.sqrt(1 - y * y)
+            local h = halfspace({q * math.cos(a), y, q * math.sin(a)}, 1)
+            all = all and all * h or h
+        end
+        return { solids = { rounded(0.05, all) } })");
+    // Address space; of it 230 MB are used.
+    const std::string call = "cd '" + folder / "" +
+                             "' && ulimit -c 0 -v 800000 && exec timeout 60 '" DEBURR_PROGRAM
+                             "' mesh s.lua -q --threads 1 -o a.stl 2>err";
+    const int status = std::system(("bash -c \"" + call + "\"").c_str());
+    REQUIRE(WIFEXITED(status));
+    CHECK(WEXITSTATUS(status) == 0);
+    CHECK(read_file(folder / "err").empty());
 }
 #endif
