@@ -65,6 +65,80 @@ Vec3 CellComplex::area_vector(int face) const {
     return sum;
 }
 
+namespace {
+
+// Some of the numbers below `count`, each once, and a number's place among them.
+class Numbers {
+public:
+    explicit Numbers(std::size_t count) : place_(count, -1) {}
+
+    void add(int number) {
+        if (place_[number] >= 0) return;
+        place_[number] = int(all_.size());
+        all_.push_back(number);
+    }
+    void sort() {
+        std::sort(all_.begin(), all_.end());
+        for (std::size_t k = 0; k < all_.size(); ++k) place_[all_[k]] = int(k);
+    }
+    const std::vector<int>& all() const { return all_; }
+    /// −1 for a number that is not there.
+    int operator[](int number) const { return place_[number]; }
+
+private:
+    std::vector<int> all_, place_;
+};
+
+}  // namespace
+
+std::vector<int> CellComplex::with_neighbours(std::span<const int> of) const {
+    std::vector<int> all(of.begin(), of.end());
+    for (const int c : of)
+        for (const int f : cells[c])
+            for (const Step s : faces[f].loop)
+                for (const int around : edges[s >> 1].faces)
+                    for (const int beside : {faces[around].back, faces[around].front})
+                        if (beside != outside) all.push_back(beside);
+    std::sort(all.begin(), all.end());
+    all.erase(std::unique(all.begin(), all.end()), all.end());
+    return all;
+}
+
+CellComplex CellComplex::part(std::span<const int> cells_of_part) const {
+    Numbers of_cells(cells.size()), of_faces(faces.size()), of_edges(edges.size()), of_vertices(vertices.size());
+    for (const int c : cells_of_part) {
+        of_cells.add(c);
+        for (const int f : cells[c]) of_faces.add(f);
+    }
+    of_cells.sort();
+    of_faces.sort();
+    for (const int f : of_faces.all())
+        for (const Step s : faces[f].loop) of_edges.add(s >> 1);
+    of_edges.sort();
+    for (const int e : of_edges.all()) {
+        of_vertices.add(edges[e].tail);
+        of_vertices.add(edges[e].head);
+    }
+    of_vertices.sort();
+    CellComplex to(tolerance);
+    for (const int v : of_vertices.all()) to.vertices.push_back(vertices[v]);
+    for (const int e : of_edges.all()) {
+        Edge& edge = to.edges.emplace_back(Edge{of_vertices[edges[e].tail], of_vertices[edges[e].head], {}});
+        for (const int f : edges[e].faces)
+            if (const int face = of_faces[f]; face >= 0) edge.faces.push_back(face);
+    }
+    for (const int f : of_faces.all()) {
+        const auto cell = [&](int c) { return c == outside ? outside : of_cells[c]; };
+        Face& face = to.faces.emplace_back(Face{{}, cell(faces[f].back), cell(faces[f].front)});
+        for (const Step s : faces[f].loop) face.loop.push_back(2 * of_edges[s >> 1] + (s & 1));
+    }
+    for (const int c : of_cells.all()) {
+        List<12>& cell = to.cells.emplace_back();
+        for (const int f : cells[c]) cell.push_back(of_faces[f]);
+    }
+    return to;
+}
+
 bool CellComplex::is_sound() const {
     for (std::size_t f = 0; f < faces.size(); ++f) {
         const auto& loop = faces[f].loop;

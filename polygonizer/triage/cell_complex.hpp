@@ -67,6 +67,12 @@ public:
     /// Area vector of the face: twice its area, towards the front cell.
     Vec3 area_vector(int face) const;
 
+    /// Cells that share an edge with one of these, and these, in rising order: what their parts of a mesh depend on.
+    std::vector<int> with_neighbours(std::span<const int> cells) const;
+    /// These cells alone, which come in rising order, as a complex: cell k of it is cells[k], and beyond its faces that
+    /// no other of them has is `outside`.
+    CellComplex part(std::span<const int> cells) const;
+
     /// Whether every loop is closed, every edge of a cell lies in two of its faces, and every cell is
     /// a ball. For tests: the steps keep it so.
     bool is_sound() const;
@@ -86,6 +92,8 @@ public:
     int cut(int cell, const Plane& plane);
 
 private:
+    explicit CellComplex(double least_distance) : tolerance(least_distance) {}
+
     struct Join {  // of two places of a cut, an edge or a vertex each
         int from, to;
         bool used = false;

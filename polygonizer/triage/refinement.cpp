@@ -166,17 +166,4 @@ std::vector<Cut> cells_around(const Mesh& mesh, const std::vector<Origin>& origi
     return cuts;
 }
 
-std::vector<int> with_neighbours(const CellComplex& complex, const std::vector<int>& cells) {
-    std::vector<int> all = cells;
-    for (const int c : cells)
-        for (const int f : complex.cells[c])
-            for (const CellComplex::Step s : complex.faces[f].loop)
-                for (const int around : complex.edges[s >> 1].faces)
-                    for (const int beside : {complex.faces[around].back, complex.faces[around].front})
-                        if (beside >= 0) all.push_back(beside);
-    std::sort(all.begin(), all.end());
-    all.erase(std::unique(all.begin(), all.end()), all.end());
-    return all;
-}
-
 }  // namespace deburr

@@ -27,7 +27,4 @@ std::vector<Cut> cells_to_halve(const Subspace& subspace, double tolerance);
 std::vector<Cut> cells_around(const Mesh& mesh, const std::vector<Origin>& origins, const std::vector<int>& triangles,
                               const Subdivision& subdivision);
 
-/// Cells that share an edge with one of these, and these: what their parts of the mesh depend on.
-std::vector<int> with_neighbours(const CellComplex& complex, const std::vector<int>& cells);
-
 }  // namespace deburr

@@ -33,32 +33,43 @@ Vec3 root_between(const LocalDensity& density, Vec3 a, double fa, Vec3 b, double
     return a + (b - a) * (0.5 * (ta + tb));
 }
 
-Subspace::Subspace(const Subdivision& subdivision)
+Subspace::Subspace(const Subdivision& subdivision) : subdivision_(subdivision), complex_(subdivision.complex) {
+    undivided_.resize(complex_.cells.size());
+    std::iota(undivided_.begin(), undivided_.end(), 0);
+    open_ = undivided_;
+    begin();
+}
+
+// What lies beside the cells tells them on which side of a leaf their rims are.
+Subspace::Subspace(const Subdivision& subdivision, std::span<const int> cells)
     : subdivision_(subdivision),
-      complex_(subdivision.complex),
-      leaf_of_face_(complex_.faces.size(), -1),
-      next_of_origin_(complex_.cells.size(), -1),
-      resolved_(complex_.cells.size()) {
-    for (std::size_t c = 0; c < complex_.cells.size(); ++c) origin_.push_back(int(c));
+      undivided_(subdivision.complex.with_neighbours(cells)),
+      complex_(subdivision.complex.part(undivided_)) {
+    for (const int c : cells)
+        open_.push_back(int(std::lower_bound(undivided_.begin(), undivided_.end(), c) - undivided_.begin()));
+    begin();
+}
+
+void Subspace::begin() {
+    root_.resize(complex_.cells.size());
+    std::iota(root_.begin(), root_.end(), 0);
+    leaf_of_face_.assign(complex_.faces.size(), -1);
+    next_of_root_.assign(complex_.cells.size(), -1);
+    resolved_.resize(complex_.cells.size());
 }
 
 void Subspace::polygonize() {
-    std::vector<int> all(complex_.cells.size());
-    std::iota(all.begin(), all.end(), 0);
-    polygonize(all);
-}
-
-void Subspace::polygonize(std::span<const int> undivided) {
     std::vector<std::pair<int, int>> open;  // leaf, and undivided cell
-    for (const int c : undivided)
-        for (const OpenLeaf& o : subdivision_.nodes[subdivision_.node_of[c]].open) open.push_back({o.leaf, c});
+    for (const int c : open_)
+        for (const OpenLeaf& o : subdivision_.nodes[subdivision_.node_of[undivided_[c]]].open)
+            open.push_back({o.leaf, c});
     std::sort(open.begin(), open.end());
     std::vector<int> cells;
     for (std::size_t k = 0; k < open.size();) {
         const int leaf = open[k].first;
         cells.clear();
         for (; k < open.size() && open[k].first == leaf; ++k)
-            for (int c = open[k].second; c >= 0; c = next_of_origin_[c]) cells.push_back(c);
+            for (int c = open[k].second; c >= 0; c = next_of_root_[c]) cells.push_back(c);
         std::sort(cells.begin(), cells.end());
         cut_by(leaf, cells);
     }
@@ -266,10 +277,10 @@ void Subspace::span(int cell, const LocalDensity& density) {
         family.push_back(fresh);
         for (std::size_t f = leaf_of_face_.size(); f < complex_.faces.size(); ++f) face_labels_.set(int(f), Sign::none);
         leaf_of_face_.resize(complex_.faces.size(), leaf_);
-        origin_.push_back(origin(cell));
+        root_.push_back(root_[cell]);
         resolved_.push_back(resolved_[cell]);
-        next_of_origin_.push_back(next_of_origin_[origin(cell)]);
-        next_of_origin_[origin(cell)] = fresh;
+        next_of_root_.push_back(next_of_root_[root_[cell]]);
+        next_of_root_[root_[cell]] = fresh;
     }
     for (const int c : family) {
         Side side = Side::outside;

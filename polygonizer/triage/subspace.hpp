@@ -28,11 +28,11 @@ class Subspace {
 public:
     /// Keeps a reference to the subdivision, and cuts a copy of its cells.
     explicit Subspace(const Subdivision& subdivision);
+    /// Of some cells of the subdivision, in rising order, only: what it costs does not depend on how many there are
+    /// besides. The surface is right in cells whose neighbours are included, too, and it is not closed.
+    Subspace(const Subdivision& subdivision, std::span<const int> cells);
     /// Cuts by the isosurfaces of all leaves.
     void polygonize();
-    /// Polygonizes some cells of the subdivision only. The surface is right in cells whose neighbours are
-    /// included, too, and it is not closed.
-    void polygonize(std::span<const int> cells);
 
     const CellComplex& complex() const { return complex_; }
     /// Whether the cell is inside the solid; right after polygonize().
@@ -42,7 +42,7 @@ public:
     /// Side of the leaf throughout the cell; straddling where it was never asked.
     Side side(int cell, int leaf) const;
     /// The undivided cell of the subdivision that the cell was cut from.
-    int origin(int cell) const { return origin_[cell]; }
+    int origin(int cell) const { return undivided_[root_[cell]]; }
     /// The leaf where the cell was cut from, if it was undecided there.
     const OpenLeaf* open(int cell, int leaf) const { return subdivision_.open(origin(cell), leaf); }
 
@@ -84,6 +84,7 @@ private:
         int turn_ = 1;
     };
 
+    void begin();
     void cut_by(int leaf, const std::vector<int>& open);
     Side side_now(int cell);
     Sign vertex_sign(int vertex, const LocalDensity& density);
@@ -100,10 +101,13 @@ private:
     int owner(int face, std::span<const int> family) const;
 
     const Subdivision& subdivision_;
+    std::vector<int> undivided_;  // of a cell that was there first: the subdivision's
     CellComplex complex_;
     int leaf_ = 0;
-    std::vector<int> leaf_of_face_, origin_;
-    std::vector<int> next_of_origin_;               // of a cell: another that was cut from the same, or −1
+    std::vector<int> leaf_of_face_;
+    std::vector<int> open_;                         // cells that were there first, and are cut
+    std::vector<int> root_;                         // of a cell: the one that it was cut from
+    std::vector<int> next_of_root_;                 // of a cell: another that was cut from the same, or −1
     std::vector<ShortList<Resolved, 2>> resolved_;  // by cell
     Signs vertex_signs_, edge_signs_, face_labels_;
     Signs sides_;  // of cells: above, below, none for straddling

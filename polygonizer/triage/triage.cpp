@@ -94,8 +94,8 @@ bool cut_cells(Subdivision& subdivision, const Mesh& mesh, const std::vector<Ori
     const bool changed = !halves.empty();
     for (std::size_t k = 0; k < max_rounds && !halves.empty() && subdivision.complex.cells.size() < max_cells; ++k) {
         throw_if_cancelled(cancel);
-        Subspace part(subdivision);
-        part.polygonize(with_neighbours(subdivision.complex, halves));
+        Subspace part(subdivision, subdivision.complex.with_neighbours(halves));
+        part.polygonize();
         halves = halve(subdivision, cells_to_halve(part, coarse * tolerance));
     }
     return changed;

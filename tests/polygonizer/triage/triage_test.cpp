@@ -275,8 +275,11 @@ TEST_CASE("Cells and their neighbours polygonized alone are judged as in the who
             const std::vector<Cut> wanted = cells_to_halve(whole, tolerance);
             REQUIRE(wanted.size() > 20);
             for (std::size_t k = 0; k < wanted.size(); k += 7) {
-                Subspace part(subdivision);
-                part.polygonize(with_neighbours(subdivision.complex, {wanted[k].cell}));
+                const std::vector<int> cells = subdivision.complex.with_neighbours(std::vector<int>{wanted[k].cell});
+                Subspace part(subdivision, cells);
+                CHECK(part.complex().is_sound());
+                CHECK(part.complex().cells.size() < subdivision.complex.cells.size());
+                part.polygonize();
                 const std::vector<Cut> found = cells_to_halve(part, tolerance);
                 const auto same =
                     std::find_if(found.begin(), found.end(), [&](const Cut& c) { return c.cell == wanted[k].cell; });
