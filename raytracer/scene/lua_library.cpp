@@ -11,6 +11,7 @@
 
 #include "raytracer/scene/lua_replacements.hpp"
 #include "raytracer/scene/lua_sandbox.hpp"
+#include "raytracer/scene/name_hints.hpp"
 #include "raytracer/util/nearest_name.hpp"
 
 namespace deburr {
@@ -66,7 +67,9 @@ int missing_name(lua_State* lua) {
     if ((base && (among(gone_from_base, name) || among(gone_libraries, name))) ||
         (std::strcmp(prefix, "string.") == 0 && among(gone_from_string, name)))
         return luaL_error(lua, "%s%s: not available in a scene%s", prefix, name,
-                          std::strcmp(name, "next") == 0 ? ", use pairs" : "");
+                          std::strcmp(name, "next") == 0 ? ", use pairs" : instead_of_name(base ? name : ""));
+    if (const char* instead = instead_of_name(base ? name : ""); *instead)
+        return luaL_error(lua, "expected a known name, got '%s'%s", name, instead);
     std::size_t count = 0;
     for (lua_pushnil(lua); lua_next(lua, 1); lua_pop(lua, 1)) ++count;
     constexpr double work_of_name = 200;  // about as many steps as there are pairs of letters

@@ -16,6 +16,7 @@
 
 #include "raytracer/scene/lua_library.hpp"
 #include "raytracer/scene/lua_replacements.hpp"
+#include "raytracer/scene/name_hints.hpp"
 #include "raytracer/scene/scene_text.hpp"
 #include "raytracer/util/printable.hpp"
 
@@ -158,7 +159,8 @@ int Sandbox::State::body(lua_State* lua) {
     if (state.prepare) state.prepare(lua);
     const char name[] = {'=', file_mark, 0};
     if (luaL_loadbufferx(lua, state.text.data(), state.text.size(), name, "t") != LUA_OK) {
-        lua_pushstring(lua, other_language(state.text));
+        const char* hint = other_language(state.text);
+        lua_pushstring(lua, *hint ? hint : instead_of_syntax(lua_tostring(lua, -1)));
         lua_concat(lua, 2);
         return lua_error(lua);
     }

@@ -1,6 +1,8 @@
 // Quadrics, perturbations and free forms of a scene [Vyatkin §3.1].
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "raytracer/scene/scene_functions.hpp"
 
 namespace deburr {
@@ -92,20 +94,25 @@ SceneResult ellipsoid(SceneCall& call) {
     return checked(call, q);
 }
 
-// With `from` they are round parts.
-bool has_ends(const SceneCall& call) {
+bool has_any(const SceneCall& call, std::initializer_list<const char*> names) {
     const LuaTable* table = as_table(call.argument(0));
-    return table && (table->fields.contains("from") || table->fields.contains("to"));
+    return table &&
+           std::any_of(names.begin(), names.end(), [&](const char* name) { return table->fields.contains(name); });
+}
+
+// Round parts have ends; what those who know OpenSCAD write is meant for them, too.
+bool is_round(const SceneCall& call) {
+    return has_any(call, {"from", "to", "h", "r", "r1", "r2", "d", "d1", "d2", "diameter"});
 }
 
 SceneResult cylinder(SceneCall& call) {
-    if (has_ends(call)) return round_cylinder(call);
+    if (is_round(call) || has_any(call, {"height"})) return round_cylinder(call);
     const Placed p(call, "center", {"center", "axis", "radius"});
     return checked(call, p.revolved({1, 0, 0, -1}));
 }
 
 SceneResult cone(SceneCall& call) {
-    if (has_ends(call)) return round_cone(call);
+    if (is_round(call)) return round_cone(call);
     const Placed p(call, "apex", {"apex", "axis", "radius", "height"});
     return checked(call, p.revolved({0, 0, 1, -1}));
 }

@@ -7,6 +7,7 @@
 #include <lua.hpp>
 
 #include "raytracer/scene/lua_sandbox.hpp"
+#include "raytracer/scene/name_hints.hpp"
 #include "raytracer/scene/scene_descriptions.hpp"
 #include "raytracer/util/printable.hpp"
 
@@ -241,8 +242,8 @@ int find_method(lua_State* lua) {
     const char* name = lua_type(lua, 2) == LUA_TSTRING ? lua_tostring(lua, 2) : luaL_typename(lua, 2);
     return luaL_error(lua,
                       "expected a method (translate, scale, rotate, mirror, radius, material, name), "
-                      "got '%s'",
-                      name);
+                      "got '%s'%s",
+                      name, instead_of_name(name));
 }
 
 SceneResult object_text(SceneCall& call) {

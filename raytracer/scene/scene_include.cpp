@@ -7,6 +7,7 @@
 
 #include "raytracer/scene/lua_replacements.hpp"
 #include "raytracer/scene/lua_sandbox.hpp"
+#include "raytracer/scene/name_hints.hpp"
 #include "raytracer/scene/scene_functions.hpp"
 #include "raytracer/scene/scene_text.hpp"
 
@@ -90,7 +91,8 @@ int include_part(lua_State* lua) {
     PartReader reader{part->text.data(), part->text.size(), part->lines_before};
     const char name[] = {'=', file_mark, 0};
     if (lua_load(lua, read_piece, &reader, name, "t") != LUA_OK) {
-        lua_pushstring(lua, other_language(part->text));
+        const char* hint = other_language(part->text);
+        lua_pushstring(lua, *hint ? hint : instead_of_syntax(lua_tostring(lua, -1)));
         lua_concat(lua, 2);
         return lua_error(lua);
     }

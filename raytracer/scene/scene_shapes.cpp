@@ -260,6 +260,11 @@ SceneResult complement(SceneCall& call) {
     return call.make(~*density);
 }
 
+// In Lua a ~ b is an operator, too.
+SceneResult complement_of_two(SceneCall& call) {
+    throw BadValue(call.name, "expected one density, as in a & ~b, got two, as in a ~ b");
+}
+
 // Methods.
 
 SceneResult radius(SceneCall& call) {
@@ -383,6 +388,7 @@ const std::vector<SceneFunction>& shape_functions() {
         {Kind::metamethod, "operator |", "__bor", disjoin},
         {Kind::metamethod, "operator &", "__band", conjoin},
         {Kind::metamethod, "operator ~", "__bnot", complement},
+        {Kind::metamethod, "operator ~", "__bxor", complement_of_two},
         {Kind::method, "radius", "", radius},
         {Kind::method, "material", "", material},
         {Kind::method, "name", "", name},

@@ -78,11 +78,13 @@ const char* other_language(std::string_view text) {
 
 const char* other_language_in_lua(std::string_view text) {
     if (text.find("return") != std::string_view::npos) return "";  // what every scene has, and no program for OpenSCAD
-    // A line that calls what OpenSCAD has and does nothing with the result, which makes sense only there.
+    // A line that calls what OpenSCAD has and does nothing with the result, or goes on with a block.
     while (!text.empty()) {
         std::string_view line = text.substr(0, text.find('\n'));
         text.remove_prefix(std::min(line.size() + 1, text.size()));
         line.remove_prefix(std::min(line.find_first_not_of(" \t"), line.size()));
+        line = line.substr(0, line.find_last_not_of(" \t\r") + 1);
+        if (line.empty() || std::string_view(";{}").find(line.back()) == std::string_view::npos) continue;
         for (const std::string_view name :
              {"cube",           "sphere",         "cylinder",   "polyhedron",   "square", "circle",
               "polygon",        "text",           "translate",  "rotate",       "scale",  "mirror",

@@ -402,6 +402,30 @@ TEST_CASE("a file that is no scene says what it is") {
     std::filesystem::remove_all(folder);
 }
 
+TEST_CASE("words of other languages say what to write instead") {
+    check(GENERATE(values<Case>({
+        {"union(cube(), cube())", "s.lua:1: expected a known name, got 'union'; write a | b"},
+        {"difference(cube(), cube())", "s.lua:1: expected a known name, got 'difference'; write a & ~b"},
+        {"translate(cube(), 1, 0, 0)", "s.lua:1: expected a known name, got 'translate'; write d:translate(x, y, z)"},
+        {"local a = sin(1)", "s.lua:1: expected a known name, got 'sin'; write math.sin, of an angle in radians"},
+        {"require('part')", "s.lua:1: require: not available in a scene, use include(\"part.lua\")"},
+        {"cube():move(1, 0, 0)",
+         "s.lua:1: expected a method (translate, scale, rotate, mirror, radius, material, name), got 'move'; write "
+         "d:translate(x, y, z)"},
+        {"string.union('a')", "s.lua:1: expected a known name, got 'string.union'"},
+        {"cylinder{ h = 10, r = 5 }", "s.lua:1: cylinder.h: expected one of the fields from, to, radius, got 'h'"},
+        {"cone{ h = 10 }", "s.lua:1: cone.h: expected one of the fields from, to, radius, got 'h'"},
+        {"cylinder{ radius = 5, height = 10 }",
+         "s.lua:1: cylinder.height: expected one of the fields from, to, radius, got 'height'"},
+        {"local a = cube() ~ cube()", "s.lua:1: operator ~: expected one density, as in a & ~b, got two, as in a ~ b"},
+        {"if 1 != 2 then end",
+         "s.lua:1: 'then' expected near '!'; Lua writes ~= where others write !=, and not a where others write !a"},
+        {"local n = 1\nn += 1", "s.lua:2: syntax error near '+'; Lua writes x = x + 1 where others write x += 1"},
+        {"return { solids = { cube() } camera = frame{} }",
+         "s.lua:1: '}' expected near 'camera'; is a comma missing there?"},
+    })));
+}
+
 TEST_CASE("long names of files are not cut in messages") {
     const std::string name = std::string(200, 'x') + ".lua";
     try {
