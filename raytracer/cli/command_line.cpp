@@ -81,8 +81,12 @@ void refuse_rest(const CLI::App& app, const std::string& name, const char* kind,
         }
         const bool option = options && given.size() > 1 && given[0] == '-';
         const std::string word = option ? given.substr(0, given.find('=')) : given;
-        throw UsageError(fmt::format("{} '{}'{} (see {} --help)", option ? "unknown option" : kind, word,
-                                     suggestion(word, option ? option_names(app) : words), name));
+        std::string nearest = suggestion(word, option ? option_names(app) : words);
+        // Where a command is missing the first word may be a scene or a model.
+        if (!option && !words.empty() && nearest.empty() && word.find('.') != std::string::npos)
+            nearest = ", did you mean render " + word + "?";
+        throw UsageError(
+            fmt::format("{} '{}'{} (see {} --help)", option ? "unknown option" : kind, word, nearest, name));
     }
 }
 

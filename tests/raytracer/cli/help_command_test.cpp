@@ -87,6 +87,7 @@ TEST_CASE("an unknown name of help, an unknown command and an unknown option com
         {{"help", "matte", "roughnes"},
          "help: expected a command or a name of the scene language, got 'roughnes', did you mean roughness? (see "
          "deburr help)"},
+        {{"a.lua", "-o", "a.png"}, "unknown command 'a.lua', did you mean render a.lua? (see deburr --help)"},
         {{"rendr", "a.lua"}, "unknown command 'rendr', did you mean render? (see deburr --help)"},
         {{"render", "a.lua", "--sise=3x3"}, "unknown option '--sise', did you mean --size? (see deburr render --help)"},
         {{"mesh", "a.lua", "--tolerence", "1"},
