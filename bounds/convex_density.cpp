@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "bounds/clamped_alpha.hpp"
 #include "bounds/convex_search.hpp"
 
 namespace deburr {
@@ -55,7 +56,7 @@ private:
         Point p{1, 0};
         for (int i = 0; i < soft(); ++i) {
             const double alpha = a_[i] + b_[i] * t;
-            const double least = alpha < 1 ? alpha : 1, c = least > -1 ? least : -1, u = 1 - c;
+            const double c = clamped_alpha(alpha), u = 1 - c;
             const double F = u * u * (2 + c) * 0.25;
             p.slope = p.slope * F - p.P * (0.75 * u * (1 + c) * b_[i]);
             p.P *= F;
@@ -114,8 +115,7 @@ Vec3 surface_normal(const ConvexView& density, const ConvexCrossing& crossing, c
         double P = 1;
         for (int i = 0; i < density.soft; ++i) {
             const AlphaPlane& p = density.planes[i];
-            const double alpha = glm::dot(p.slope, x) + p.base, least = alpha < 1 ? alpha : 1;
-            const double c = least > -1 ? least : -1, u = 1 - c, F = u * u * (2 + c) * 0.25;
+            const double c = clamped_alpha(glm::dot(p.slope, x) + p.base), u = 1 - c, F = u * u * (2 + c) * 0.25;
             sum = sum * F + p.slope * (P * (u * (1 + c)));
             P *= F;
         }

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "bounds/clamped_alpha.hpp"
 #include "bounds/product_sum.hpp"
 
 namespace deburr {
@@ -181,20 +182,26 @@ bool ProductSumRay::choose_varying(double t0, double t1) {
     return terms_ > 0;
 }
 
+namespace {
+
+DoublePair pair_at(const double* aligned) { return *reinterpret_cast<const DoublePair*>(aligned); }
+void set_pair(double* aligned, DoublePair x) { *reinterpret_cast<DoublePair*>(aligned) = x; }
+
+}  // namespace
+
 ProductSumRay::Point ProductSumRay::evaluate(double t, RootCounters& counters) const {
     ++counters.evaluations;
     alignas(16) double F[max_planes + 1], slope[max_planes + 1];
-    const int even = varying_ + (varying_ & 1);
-    for (int i = 0; i < even; ++i) {
-        const double alpha = varying_a_[i] + varying_b_[i] * t;
-        const double least = alpha < 1 ? alpha : 1, c = least > -1 ? least : -1, u = 1 - c;
-        F[i] = u * u * (2 + c) * 0.25;
-        slope[i] = -0.75 * u * (1 + c) * varying_b_[i];
+    for (int i = 0; i < varying_; i += 2) {
+        const DoublePair a = pair_at(varying_a_ + i), b = pair_at(varying_b_ + i);
+        const DoublePair c = clamped_alpha(a + b * t), u = 1 - c;
+        set_pair(F + i, u * u * (2 + c) * 0.25);
+        set_pair(slope + i, -0.75 * u * (1 + c) * b);
     }
     double round_F[max_rounds], round_slope[max_rounds];
     for (std::size_t i = 0; i < sum_->rounds().size(); ++i) {
         const double here = round_alpha(int(i), t), rate = on_ray_[i].slope(t) * sum_->rounds()[i].inverse_radius;
-        const double least = here < 1 ? here : 1, c = least > -1 ? least : -1, u = 1 - c;
+        const double c = clamped_alpha(here), u = 1 - c;
         round_F[i] = u * u * (2 + c) * 0.25;
         round_slope[i] = -0.75 * u * (1 + c) * rate;
     }
