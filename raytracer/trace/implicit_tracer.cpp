@@ -63,8 +63,8 @@ struct Inside {
 };
 
 // What was found along `ray`, in the space around again.
-FoundSurface outside(FoundSurface found, const Instance& p, const Ray& ray, double rate) {
-    if (!(found.crossing.t < infinity)) return {};
+void outside(FoundSurface& found, const Instance& p, const Ray& ray, double rate) {
+    if (!(found.crossing.t < infinity)) return;
     found.crossing.t = (found.start + found.crossing.t) / rate;
     found.start = 0;
     if (!p.only_moved)
@@ -72,7 +72,6 @@ FoundSurface outside(FoundSurface found, const Instance& p, const Ray& ray, doub
     if (found.crossing.material < 0) found.crossing.material = p.material;
     found.solid = p.solid;
     found.error = found.error * p.stretch + 4 * epsilon * (largest(ray.origin) + found.crossing.t);
-    return found;
 }
 
 // The same of ray k of several.
@@ -93,7 +92,9 @@ FoundSurface PrototypeInstances::closest_hit(std::uint32_t number, const Ray& ra
                                              TraceCounters& counters) const {
     const Entered e(*this, number, 1, counters);
     const Inside in(e.p, ray);
-    return outside(e.bsp.closest_hit(in.ray, t_max * in.rate, counters, &e.instances, in.end(end)), e.p, ray, in.rate);
+    FoundSurface found = e.bsp.closest_hit(in.ray, t_max * in.rate, counters, &e.instances, in.end(end));
+    outside(found, e.p, ray, in.rate);
+    return found;
 }
 
 bool PrototypeInstances::any_hit(std::uint32_t number, const Ray& ray, double t_max, TraceCounters& counters) const {

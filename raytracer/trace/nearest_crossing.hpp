@@ -28,7 +28,8 @@ public:
         const CellPrimitive& p = primitives[number];
         if (!take(c.t, p.solid, number)) return;
         primitives_ = &primitives;
-        convex_ = c;
+        entering_ = c.entering;  // not copied as a whole, which would wait for its parts
+        plane_ = c.plane;
         material_ = p.material;
         error_ = 0;
     }
@@ -45,7 +46,7 @@ public:
     [[gnu::always_inline]] FoundSurface surface(const Ray& ray, double rounding) const {
         if (!found_) return {};
         if (!primitives_) return {{end_, normal_, material_}, solid_, error_};
-        return {{end_, primitives_->normal((*primitives_)[number_], convex_, ray.origin, ray.direction), material_},
+        return {{end_, primitives_->normal((*primitives_)[number_], {end_, entering_, plane_}, ray.origin, ray.direction), material_},
                 solid_,
                 rounding};
     }
@@ -67,7 +68,8 @@ private:
     std::uint32_t number_ = 0;
     // Of which it is, if it is still without its normal.
     const CellPrimitives* primitives_ = nullptr;
-    ConvexCrossing convex_;
+    bool entering_ = false;
+    int plane_ = -1;
     Vec3 normal_{0.0};
     int material_ = 0;
     double error_ = 0;
