@@ -76,7 +76,7 @@ private:
 };
 
 template <class Ask>
-auto with_ray(const ConvexView& density, const Vec3& origin, const Vec3& direction, std::uint64_t& evaluations,
+[[gnu::always_inline]] inline auto with_ray(const ConvexView& density, const Vec3& origin, const Vec3& direction, std::uint64_t& evaluations,
               Ask ask) {
     switch (density.soft) {
         case 1: return ask(Ray<1>(density, origin, direction, evaluations));
