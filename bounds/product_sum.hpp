@@ -88,7 +88,7 @@ public:
     /// false if nothing is left.
     bool narrow(double& t0, double& t1);
     /// evaluate() and slopes() are valid only within the interval that narrow() left.
-    Point evaluate(double t, RootCounters& counters) const;
+    void evaluate(double t, RootCounters& counters, Point& point) const;
     SlopeRange slopes(const Point& a, const Point& b) const;  // f′ between two points, a before b
 
 private:
@@ -104,7 +104,8 @@ private:
         return round < 0 ? a_[factor] + b_[factor] * t : round_alpha(round, t);
     }
     SlopeRange slopes_near_zero(int term, const Point& a, const Point& b) const;
-    double root(Point a, Point b, double t_tolerance, RootCounters& counters) const;
+    void densities(double t, double* F, double* slope) const;
+    double root(const Point& from, const Point& until, double t_tolerance, RootCounters& counters) const;
 
     static constexpr int max_planes = ProductSum::max_planes;
     static constexpr int max_rounds = ProductSum::max_rounds;
@@ -138,8 +139,9 @@ void ProductSumRay::crossings(double t0, double t1, double t_tolerance, bool coa
     if (!narrow(t0, t1)) return;
     constexpr double f_tolerance = RootSettings{}.f_tolerance;
     stack_.clear();
-    Point a = evaluate(t0, counters);
-    stack_.push_back(evaluate(t1, counters));
+    Point a;
+    evaluate(t0, counters, a);
+    evaluate(t1, counters, stack_.emplace_back());
     while (!stack_.empty()) {
         const Point& b = stack_.back();
         ++counters.segments;
@@ -147,7 +149,7 @@ void ProductSumRay::crossings(double t0, double t1, double t_tolerance, bool coa
             const double middle = a.t + 0.5 * (b.t - a.t);
             if (middle > a.t && middle < b.t) {
                 ++counters.splits;
-                stack_.push_back(evaluate(middle, counters));
+                evaluate(middle, counters, stack_.emplace_back());
                 continue;
             }
         }

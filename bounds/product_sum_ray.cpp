@@ -6,6 +6,13 @@
 
 namespace deburr {
 
+namespace {
+
+DoublePair pair_at(const double* aligned) { return *reinterpret_cast<const DoublePair*>(aligned); }
+void set_pair(double* aligned, DoublePair x) { *reinterpret_cast<DoublePair*>(aligned) = x; }
+
+}  // namespace
+
 void ProductSumRay::set(const ProductSum& sum, const Vec3& origin, const Vec3& direction) {
     sum_ = &sum;
     const int n = sum.even_planes();
@@ -21,31 +28,49 @@ void ProductSumRay::set(const ProductSum& sum, const Vec3& origin, const Vec3& d
     for (std::size_t i = 0; i < sum.rounds().size(); ++i) on_ray_[i].set(sum.rounds()[i].coordinate, origin, direction);
 }
 
+// Of every plane and round part: density, and its slope by α.
+void ProductSumRay::densities(double t, double* F, double* slope) const {
+    const int planes = sum_->planes(), rounds = int(sum_->rounds().size());
+    for (int i = 0; i < planes; i += 2) {  // a plane too many is overwritten
+        const DoublePair c = clamped_alpha(pair_at(a_ + i) + pair_at(b_ + i) * t), u = 1 - c;
+        set_pair(F + i, u * u * (2 + c) * 0.25);
+        set_pair(slope + i, -0.75 * u * (1 + c));
+    }
+    for (int i = 0; i < rounds; ++i) {
+        const double c = clamped_alpha(round_alpha(i, t)), u = 1 - c;
+        F[planes + i] = u * u * (2 + c) * 0.25;
+        slope[planes + i] = -0.75 * u * (1 + c);
+    }
+}
+
 bool ProductSumRay::inside(double t) const {
+    alignas(16) double F[max_planes + 1], slope[max_planes + 1];
+    densities(t, F, slope);
     double rho = sum_->constant();
     for (const ProductSum::Term& term : sum_->terms()) {
         double P = term.weight;
-        for (const int i : term.factors) P *= profile(alpha(i, t));
+        for (const int i : term.factors) P *= F[i];
         rho += P;
     }
     return rho > 0.5;
 }
 
 Vec3 ProductSumRay::gradient(double t) const {
+    alignas(16) double F[max_planes + 1], slope[max_planes + 1];
+    densities(t, F, slope);
     double share[max_planes] = {};  // of every factor: dρ/dα
     for (const ProductSum::Term& term : sum_->terms()) {
         double before[max_planes];  // the product of the factors before
         double P = term.weight;
         for (std::size_t k = 0; k < term.factors.size(); ++k) {
             before[k] = P;
-            P *= profile(alpha(term.factors[k], t));
+            P *= F[term.factors[k]];
         }
         double after = 1;
         for (std::size_t k = term.factors.size(); k-- > 0;) {
             const int i = term.factors[k];
-            const double here = alpha(i, t);
-            share[i] += before[k] * after * profile_slope(here);
-            after *= profile(here);
+            share[i] += before[k] * after * slope[i];
+            after *= F[i];
         }
     }
     Vec3 sum(0.0);
@@ -182,14 +207,7 @@ bool ProductSumRay::choose_varying(double t0, double t1) {
     return terms_ > 0;
 }
 
-namespace {
-
-DoublePair pair_at(const double* aligned) { return *reinterpret_cast<const DoublePair*>(aligned); }
-void set_pair(double* aligned, DoublePair x) { *reinterpret_cast<DoublePair*>(aligned) = x; }
-
-}  // namespace
-
-ProductSumRay::Point ProductSumRay::evaluate(double t, RootCounters& counters) const {
+void ProductSumRay::evaluate(double t, RootCounters& counters, Point& p) const {
     ++counters.evaluations;
     alignas(16) double F[max_planes + 1], slope[max_planes + 1];
     for (int i = 0; i < varying_; i += 2) {
@@ -205,7 +223,6 @@ ProductSumRay::Point ProductSumRay::evaluate(double t, RootCounters& counters) c
         round_F[i] = u * u * (2 + c) * 0.25;
         round_slope[i] = -0.75 * u * (1 + c) * rate;
     }
-    Point p;
     p.t = t;
     p.f = constant_;
     p.slope = 0;
@@ -228,7 +245,6 @@ ProductSumRay::Point ProductSumRay::evaluate(double t, RootCounters& counters) c
         p.slope += term.weight * rate;
     }
     if (std::abs(p.f) <= RootFinder::rounding) p.f = 0;
-    return p;
 }
 
 namespace {
@@ -308,9 +324,15 @@ bool at_most_one_root(const ProductSumRay::Point& a, const ProductSumRay::Point&
 
 // Newton's method within the bracket. With |f″| ≤ G and step = f/f′, h = G |step/f′| ≤ ½ leaves an error of
 // 2h |step| at most [Kantorovich].
-double ProductSumRay::root(Point a, Point b, double t_tolerance, RootCounters& counters) const {
+double ProductSumRay::root(const Point& from, const Point& until, double t_tolerance, RootCounters& counters) const {
+    struct End {
+        double t, f, slope;
+    };
+    const auto end = [](const Point& at) { return End{at.t, at.f, at.slope}; };
+    End a = end(from), b = end(until);
+    Point at;
     const double sign = b.f > 0 ? 1 : -1;  // f·sign rises through 0 from a to b
-    Point p = std::abs(a.f) < std::abs(b.f) ? a : b;
+    End p = std::abs(a.f) < std::abs(b.f) ? a : b;
     double last = b.t - a.t;         // step
     constexpr int max_steps = 2000;  // halving doubles ends before
     for (int k = 0; k < max_steps && b.t - a.t > t_tolerance; ++k) {
@@ -341,7 +363,8 @@ double ProductSumRay::root(Point a, Point b, double t_tolerance, RootCounters& c
         } else {
             last = std::abs(step);
         }
-        p = evaluate(t, counters);
+        evaluate(t, counters, at);
+        p = end(at);
         (p.f * sign > 0 ? b : a) = p;
     }
     return a.f == b.f ? b.t : a.t - a.f * ((b.t - a.t) / (b.f - a.f));

@@ -105,7 +105,9 @@ TEST_CASE("slopes between two points of a ray are within the range that the poin
         if (!ray.narrow(t0, t1)) continue;
         RootCounters counters;
         const double from = t0 + (t1 - t0) * g.number(), length = (t1 - from) * std::pow(10.0, g.between(-3, 0));
-        const auto a = ray.evaluate(from, counters), b = ray.evaluate(from + length, counters);
+        ProductSumRay::Point a, b;
+        ray.evaluate(from, counters, a);
+        ray.evaluate(from + length, counters, b);
         REQUIRE(a.f == Approx(plain_ray.at(from).value - 0.5).margin(1e-12));
         const auto [lo, hi] = ray.slopes(a, b);
         const double slack = 1e-11 * (1 + hi - lo);
