@@ -1,7 +1,10 @@
 #include "bounds/profile.hpp"
 
+#include <bit>
 #include <cmath>
+#include <vector>
 
+#include "bounds/clamped_alpha.hpp"
 #include "catch.hpp"
 #include "random_case.hpp"
 
@@ -20,6 +23,25 @@ TEST_CASE("Lobb eq. 2: the profile falls from 1 to 0 and its slope is its deriva
         last = profile(a);
         if (std::abs(std::abs(a) - 1) > 0.001)
             CHECK(std::abs((profile(a + h) - profile(a - h)) / (2 * h) - profile_slope(a)) < 1e-9);
+    }
+}
+
+TEST_CASE("clamping without branches is clamping, to the bit, of one and of two") {
+    std::vector<double> all{-infinity, -1.0, -0.0, 0.0, 1.0, infinity};
+    for (const double edge : {-1.0, 1.0}) {
+        all.push_back(std::nextafter(edge, -infinity));
+        all.push_back(std::nextafter(edge, infinity));
+    }
+    Gen g(1);
+    for (int i = 0; i < 1'000; ++i) all.push_back(g.between(-3, 3));
+    const auto bits = [](double x) { return std::bit_cast<std::uint64_t>(x); };
+    for (std::size_t i = 0; i < all.size(); ++i) {
+        const double a = all[i], b = all[all.size() - 1 - i];
+        CAPTURE(a, b);
+        REQUIRE(bits(clamped_alpha(a)) == bits(std::clamp(a, -1.0, 1.0)));
+        const DoublePair pair = clamped_alpha(DoublePair{a, b});
+        REQUIRE(bits(pair[0]) == bits(std::clamp(a, -1.0, 1.0)));
+        REQUIRE(bits(pair[1]) == bits(std::clamp(b, -1.0, 1.0)));
     }
 }
 
