@@ -58,7 +58,7 @@ template <bool Any>
     // What is no number would be let into empty boxes.
     const Vec3 sum = ray.origin + ray.direction;
     if (!(sum == sum)) return false;
-    const BoxSpan span = span_in(around_, ray.origin, search.inverse(), 0, search.end());
+    const BoxSpan span = span_in(around_, ray.origin, search.inverse(), search.begin(), search.end());
     const bool meets = !around_.empty() && span.lo <= span.hi;
     if (!bounded_) {
         walk(search, search.begin(), meets ? span.lo : search.end());
