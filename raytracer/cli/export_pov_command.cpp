@@ -18,6 +18,7 @@ namespace {
 
 struct ExportPovOptions : Options {
     PovSurface surface;
+    bool radiosity = false;
 };
 
 int run_export_pov(const ExportPovOptions& o) {
@@ -34,7 +35,7 @@ int run_export_pov(const ExportPovOptions& o) {
     Scene scene = load_scene(o);
     load_pictures(scene);
     for (const std::string& path : o.outputs) check_writable(path);
-    const PovScene pov = pov_scene(scene, picture_size(o, scene), o.surface);
+    const PovScene pov = pov_scene(scene, picture_size(o, scene), o.surface, o.radiosity);
     if (!o.quiet) {
         for (const std::string& what : illegal_densities(scene)) message("warning: " + what);
         for (const std::string& what : pov.warnings) message(what);
@@ -53,6 +54,8 @@ Command add_export_pov_command(CLI::App& program) {
     add_output_option(*command, o, ".pov");
     add_view_options(*command, o);
     command->add_flag("--sharp", o.surface.sharp, "sharp edges: CSG of planes and boxes, no isosurfaces");
+    command->add_flag("--radiosity", o.radiosity,
+                      "diffuse light goes from surface to surface, as in render; default: as much of it everywhere");
     command->add_flag(
         "--min-max", o.surface.min_max,
         "the profile with min and max, as a formula has it; default: by cases, in half of POV-Ray's time");

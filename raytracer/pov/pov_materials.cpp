@@ -68,7 +68,14 @@ std::string highlight(double alpha, double f0) {
 
 }  // namespace
 
-std::string pov_settings(const Scene& scene) {
+std::string pov_settings(const Scene& scene, bool radiosity) {
+    // Finer than POV-Ray's own settings, so that what is left of its patches is a percent or two.
+    if (radiosity)
+        return fmt::format(
+            "global_settings {{\n  assumed_gamma 1.0 max_trace_level {} ambient_light 0\n  radiosity {{\n"
+            "    pretrace_start 0.08 pretrace_end 0.005 count 400 nearest_count 10 error_bound 0.3\n"
+            "    low_error_factor 0.5 recursion_limit 5 minimum_reuse 0.005 gray_threshold 0 brightness 1\n  }}\n}}\n",
+            std::max(5, scene.bounces + 1));
     const SkyLight sky(scene.lighting());
     const Vec3 ambient = scene.ambient + sky.mean(scene.z_up ? Vec3(0, 0, 1) : Vec3(0, 1, 0));
     return fmt::format("global_settings {{ assumed_gamma 1.0 max_trace_level {} ambient_light {} }}\n",

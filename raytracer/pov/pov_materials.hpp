@@ -7,8 +7,9 @@
 
 namespace deburr {
 
-/// assumed_gamma, depth of reflections, and the light from all around.
-std::string pov_settings(const Scene& scene);
+/// assumed_gamma, depth of reflections, and the light from all around: the same everywhere, or, by POV-Ray's radiosity,
+/// what other surfaces and the background send.
+std::string pov_settings(const Scene& scene, bool radiosity);
 std::string pov_camera(const Camera& camera, Size size);
 std::string pov_background(const Background& background);
 std::string pov_light(const Light& light, const Scene& scene);

@@ -32,7 +32,7 @@ Box sight(const Scene& scene, const std::vector<SolidTree>& trees) {
 
 }  // namespace
 
-PovScene pov_scene(const Scene& scene, Size size, PovSurface surface) {
+PovScene pov_scene(const Scene& scene, Size size, PovSurface surface, bool radiosity) {
     PovScene out;
     std::vector<SolidTree> trees;
     for (const Solid& solid : scene.solids) trees.push_back(flatten(solid));
@@ -52,7 +52,7 @@ PovScene pov_scene(const Scene& scene, Size size, PovSurface surface) {
     out.text =
         fmt::format("// {}, for POV-Ray 3.7, by Deburr " DEBURR_VERSION ": povray +W{} +H{} FILE\n#version 3.7;\n",
                     in_one_line(scene.file), size.width, size.height);
-    out.text += pov_settings(scene) + pov_camera(scene.camera, size) + pov_background(scene.background);
+    out.text += pov_settings(scene, radiosity) + pov_camera(scene.camera, size) + pov_background(scene.background);
     for (const Light& light : scene.lights) out.text += pov_light(light, scene);
     out.text += "\n";
     if (!surface.sharp) out.text += pov_profile(!surface.min_max);

@@ -3,7 +3,7 @@
 //
 // POV-Ray counts as left-handed only where a cross product is taken; the camera is written by its
 // vectors, so coordinates are those of the scene. What differs: highlights are Blinn's, smooth layers
-// reflect nothing but in metals, mirrors and glass, the sky lights every surface alike, area lights
+// reflect nothing but in metals, mirrors and glass, the sky lights every surface alike but with radiosity, area lights
 // shine from both sides, and wood is POV-Ray's.
 #pragma once
 #include <string>
@@ -20,7 +20,8 @@ struct PovScene {
     std::vector<std::string> warnings;
 };
 
-/// `surface.limit` is set here. Throws as pov_solid does.
-PovScene pov_scene(const Scene& scene, Size size, PovSurface surface);
+/// `surface.limit` is set here. With `radiosity` diffuse light goes from surface to surface, as it does in Deburr's
+/// path tracer. Throws as pov_solid does.
+PovScene pov_scene(const Scene& scene, Size size, PovSurface surface, bool radiosity = false);
 
 }  // namespace deburr

@@ -208,6 +208,41 @@ TEST_CASE("POV-Ray sees the silhouettes that Deburr sees") {
     CHECK(mismatch("rounded(0.1, cube() - halfspace({0, 1, 0}, 1) * pit)", {"--min-max"}) < 0.005);
 }
 
+TEST_CASE("POV-Ray's radiosity is as bright as the path tracer") {
+    if (!has_povray()) return;
+    const Folder folder;
+    // A court of white walls under an even sky and a sun: more than half of what is seen came by way of a wall.
+    write_file(folder / "s.lua", R"(
+local court = box({0, 0, 0}, {3, 1.5, 3}) & ~box({0.3, 0.3, 0.3}, {2.7, 2, 2.7})
+return {
+  image = { width = 80, height = 60 },
+  camera = { eye = {4, 5.5, 6}, target = {1.5, 0.6, 1.5}, fov = 30 },
+  lights = { directional_light{ direction = {-2, -3, -1}, power = 1.5 } },
+  background = {0.5, 0.6, 0.7},
+  solids = { sharp(court):material(matte{ color = {0.8, 0.8, 0.8} }) },
+})");
+    REQUIRE(run({"render", folder / "s.lua", "-q", "--spp", "64", "-o", folder / "ours.png"}).code == 0);
+    REQUIRE(run({"export-pov", folder / "s.lua", "--radiosity", "-o", folder / "s.pov"}).code == 0);
+    const std::string povray =
+        "cd '" + (folder / ".") + "' && povray +W80 +H60 -D +A0.1 +WT1 +Otheirs.png s.pov >log 2>&1";
+    const int code = std::system(povray.c_str());
+    INFO(read_file(folder / "log"));
+    REQUIRE(code == 0);
+    // Per cent of light, pixel by pixel, off the silhouettes.
+    const OIIO::ImageBuf ours(folder / "ours.png"), theirs(folder / "theirs.png");
+    const auto light = [](const OIIO::ImageBuf& image, int x, int y) {
+        return std::pow(double(image.getchannel(x, y, 0, 1)), 2.2);
+    };
+    double sum = 0, sum_theirs = 0;
+    for (int y = 20; y < 40; ++y)
+        for (int x = 25; x < 55; ++x) {
+            sum += light(ours, x, y);
+            sum_theirs += light(theirs, x, y);
+        }
+    CHECK(sum > 60);
+    CHECK(sum_theirs == Approx(sum).epsilon(0.04));
+}
+
 TEST_CASE("export-pov --sharp is the scene with every radius 0") {
     if (!has_povray()) return;
     const Folder folder;
