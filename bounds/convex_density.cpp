@@ -76,8 +76,8 @@ private:
 };
 
 template <class Ask>
-[[gnu::always_inline]] inline auto with_ray(const ConvexView& density, const Vec3& origin, const Vec3& direction, std::uint64_t& evaluations,
-              Ask ask) {
+[[gnu::always_inline]] inline auto with_ray(const ConvexView& density, const Vec3& origin, const Vec3& direction,
+                                            std::uint64_t& evaluations, Ask ask) {
     switch (density.soft) {
         case 1: return ask(Ray<1>(density, origin, direction, evaluations));
         case 2: return ask(Ray<2>(density, origin, direction, evaluations));

@@ -7,8 +7,8 @@
 
 #include "bounds/bounding_box.hpp"
 #include "bounds/canonical_solids.hpp"
-#include "bounds/union_find.hpp"
 #include "bounds/in_parallel.hpp"
+#include "bounds/union_find.hpp"
 
 namespace deburr {
 namespace {

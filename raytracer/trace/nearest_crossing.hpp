@@ -46,9 +46,11 @@ public:
     [[gnu::always_inline]] FoundSurface surface(const Ray& ray, double rounding) const {
         if (!found_) return {};
         if (!primitives_) return {{end_, normal_, material_}, solid_, error_};
-        return {{end_, primitives_->normal((*primitives_)[number_], {end_, entering_, plane_}, ray.origin, ray.direction), material_},
-                solid_,
-                rounding};
+        return {
+            {end_, primitives_->normal((*primitives_)[number_], {end_, entering_, plane_}, ray.origin, ray.direction),
+             material_},
+            solid_,
+            rounding};
     }
 
 private:
