@@ -2,6 +2,7 @@
 #pragma once
 #include <tbb/parallel_for.h>
 
+#include <algorithm>
 #include <atomic>
 #include <exception>
 #include <mutex>
@@ -27,6 +28,13 @@ void in_parallel(std::size_t count, Work work) {
         }
     });
     if (error) std::rethrow_exception(error);
+}
+
+/// Calls work(first, last) for ranges of no more than `most` that make up all i < count; they depend on these two
+/// alone.
+template <class Work>
+void in_parallel_ranges(std::size_t count, std::size_t most, Work work) {
+    in_parallel((count + most - 1) / most, [&](std::size_t k) { work(k * most, std::min(count, (k + 1) * most)); });
 }
 
 }  // namespace deburr

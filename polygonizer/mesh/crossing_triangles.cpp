@@ -18,9 +18,9 @@ std::vector<std::pair<int, int>> crossing_triangles(const Mesh& mesh, const Tria
     };
     constexpr std::size_t most = 8192;  // triangles that are looked at by one thread
     std::vector<Found> found((mesh.triangles.size() + most - 1) / most);
-    in_parallel(found.size(), [&](std::size_t k) {
-        Found& own = found[k];
-        for (std::size_t s = k * most; s < std::min(mesh.triangles.size(), (k + 1) * most); ++s) {
+    in_parallel_ranges(mesh.triangles.size(), most, [&](std::size_t begin, std::size_t end) {
+        Found& own = found[begin / most];
+        for (std::size_t s = begin; s < end; ++s) {
             if (s % check_interval == 0) throw_if_cancelled(cancel);
             const std::size_t first = own.pairs.size();
             tree.visit(tree.box(int(s)), [&](int t) {

@@ -1,7 +1,6 @@
 // How the facets of a mesh lie to the solid that they stand for.
 #pragma once
 #include <array>
-
 #include <memory>
 #include <mutex>
 
@@ -34,14 +33,9 @@ public:
     /// What it says does not depend on which of them it is.
     template <class Work>
     void lend(Work work) const {
-        const FacetJudge* judge = take();
-        try {
-            work(*judge);
-        } catch (...) {
-            give_back(judge);
-            throw;
-        }
-        give_back(judge);
+        const auto back = [this](const FacetJudge* judge) { give_back(judge); };
+        const std::unique_ptr<const FacetJudge, decltype(back)> judge(take(), back);
+        work(*judge);
     }
     FacetJudge(const FacetJudge&) = delete;
     FacetJudge& operator=(const FacetJudge&) = delete;
@@ -88,8 +82,8 @@ private:
 template <class Work>
 void judge_in_parallel(const FacetJudge& judge, std::size_t count, Work work) {
     constexpr std::size_t most = 4096;  // of a range
-    in_parallel((count + most - 1) / most, [&](std::size_t k) {
-        judge.lend([&](const FacetJudge& own) { work(own, k * most, std::min(count, (k + 1) * most)); });
+    in_parallel_ranges(count, most, [&](std::size_t first, std::size_t last) {
+        judge.lend([&](const FacetJudge& own) { work(own, first, last); });
     });
 }
 

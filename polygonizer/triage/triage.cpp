@@ -116,10 +116,7 @@ bool is_near(const Mesh& mesh, int t, const FacetJudge& judge, double tolerance)
 std::size_t add_far(const Mesh& mesh, const FacetJudge& judge, double tolerance, std::vector<int>& triangles) {
     std::vector<char> far(mesh.triangles.size());
     judge_in_parallel(judge, far.size(), [&](const FacetJudge& own, std::size_t first, std::size_t last) {
-        for (std::size_t t = first; t < last; ++t) {
-            const auto& v = mesh.triangles[t].vertex;
-            far[t] = !own.is_near({mesh.positions[v[0]], mesh.positions[v[1]], mesh.positions[v[2]]}, tolerance);
-        }
+        for (std::size_t t = first; t < last; ++t) far[t] = !is_near(mesh, int(t), own, tolerance);
     });
     const std::size_t before = triangles.size();
     for (std::size_t t = 0; t < far.size(); ++t)
@@ -208,8 +205,8 @@ Mesh triage(const SolidTree& mixed, const Box& box, const TriageOptions& options
                 continue;
         }
         if (thin_out) {
-            // Facets that lean are mended first: what mends them later knows of no tolerance. Smaller cells for those
-            // that cannot be mended cost less before the rest is thinned out, as long as they help.
+            // Facets that lean are mended first, while there are small ones to do it with. Smaller cells for those that
+            // cannot be mended cost less before the rest is thinned out, as long as they help.
             const std::vector<int> wrong =
                 wrong_before_decimation(mesh, origins, *judge, options.tolerance, left, options.cancel);
             const bool helped = wrong.size() < std::exchange(last_wrong, wrong.size());

@@ -64,7 +64,13 @@ async function open(browser, address, size = {width: 1000, height: 700}) {
   await page.goto(address, {waitUntil: 'domcontentloaded'});
   return {page, wrong};
 }
-const words = page => page.$eval('#words', e => e.textContent);
+// The program with a file of this name, and a tab that shows it.
+async function begin(browser, name, more = [], size = undefined) {
+  const file = join(folder, name);
+  writeFileSync(file, solid(0.1));
+  const {child, address} = await view(file, ...more);
+  return {file, child, address, ...await open(browser, address, size)};
+}
 const until = (page, test, ...more) => page.waitForFunction(test, {timeout: 30000, polling: 20}, ...more);
 const finished = page => until(page, () => document.getElementById('words').textContent.startsWith('Finished'));
 const pixels = page => page.evaluate(() => {
@@ -111,10 +117,7 @@ async function drag(page, seconds) {
 
 const tests = {
   async 'the picture comes, and ends as the bytes of render'(browser) {
-    const file = join(folder, 'block.lua');
-    writeFileSync(file, solid(0.1));
-    const {child, address} = await view(file);
-    const {page, wrong} = await open(browser, address);
+    const {file, child, page, wrong} = await begin(browser, 'block.lua');
     await finished(page);
     execFileSync(program, ['render', file, '-o', join(folder, 'block.png'), '-q']);
     await shows(page, await decoded(browser, join(folder, 'block.png')));
@@ -181,10 +184,7 @@ const tests = {
   },
 
   async 'the file is edited, broken, mended, deleted and written again'(browser) {
-    const file = join(folder, 'edited.lua');
-    writeFileSync(file, solid(0.1));
-    const {child, address} = await view(file);
-    const {page} = await open(browser, address);
+    const {file, child, page} = await begin(browser, 'edited.lua');
     await finished(page);
     const first = await pixels(page);
     const times = [];
@@ -214,10 +214,8 @@ const tests = {
   },
 
   async 'two pages see the same, and one may go'(browser) {
-    const file = join(folder, 'two.lua');
-    writeFileSync(file, solid(0.1));
-    const {child, address} = await view(file);
-    const one = (await open(browser, address)).page, other = (await open(browser, address)).page;
+    const {child, address, page: one} = await begin(browser, 'two.lua');
+    const other = (await open(browser, address)).page;
     await finished(one);
     await finished(other);
     await one.bringToFront();
@@ -235,10 +233,7 @@ const tests = {
   },
 
   async 'a phone, the dark, and a slow line'(browser) {
-    const file = join(folder, 'phone.lua');
-    writeFileSync(file, solid(0.1));
-    const {child, address} = await view(file, '--size', '960x640');
-    const {page} = await open(browser, address, {width: 390, height: 844, hasTouch: true, isMobile: true, deviceScaleFactor: 2});
+    const {child, page} = await begin(browser, 'phone.lua', ['--size', '960x640'], {width: 390, height: 844, hasTouch: true, isMobile: true, deviceScaleFactor: 2});
     await finished(page);
     assert.ok(await page.evaluate(() => document.documentElement.scrollWidth <= window.innerWidth));
     await shot(page, 'phone');
