@@ -1,46 +1,33 @@
 #include "raytracer/accel/embree.hpp"
 
-#include <dlfcn.h>
-
 #include "raytracer/util/module.hpp"
 
 namespace deburr {
 namespace {
 
 EmbreeLibrary load() {
-    const auto fail = [] {
-        const std::string why = dlerror();
-        check_loader_memory(why);
-        throw UnsupportedError("meshes and --accel embree need " DEBURR_EMBREE_LIBRARY ": " + why);
-    };
-    void* library = dlopen(DEBURR_EMBREE_LIBRARY, RTLD_NOW | RTLD_LOCAL);
-    if (!library) fail();
+    const SystemLibrary library(DEBURR_EMBREE_LIBRARY, "meshes and --accel embree need");
     EmbreeLibrary e{};
-    const auto find = [&](auto& function, const char* name) {
-        void* found = dlsym(library, name);
-        if (!found) fail();
-        function = reinterpret_cast<std::remove_reference_t<decltype(function)>>(found);
-    };
-    find(e.new_device, "rtcNewDevice");
-    find(e.release_device, "rtcReleaseDevice");
-    find(e.device_error, "rtcGetDeviceError");
-    find(e.new_scene, "rtcNewScene");
-    find(e.release_scene, "rtcReleaseScene");
-    find(e.set_scene_flags, "rtcSetSceneFlags");
-    find(e.set_scene_build_quality, "rtcSetSceneBuildQuality");
-    find(e.commit_scene, "rtcCommitScene");
-    find(e.new_geometry, "rtcNewGeometry");
-    find(e.commit_geometry, "rtcCommitGeometry");
-    find(e.attach_geometry, "rtcAttachGeometry");
-    find(e.release_geometry, "rtcReleaseGeometry");
-    find(e.set_new_geometry_buffer, "rtcSetNewGeometryBuffer");
-    find(e.set_primitive_count, "rtcSetGeometryUserPrimitiveCount");
-    find(e.set_bounds_function, "rtcSetGeometryBoundsFunction");
-    find(e.set_user_data, "rtcSetGeometryUserData");
-    find(e.set_intersect_function, "rtcSetGeometryIntersectFunction");
-    find(e.set_occluded_function, "rtcSetGeometryOccludedFunction");
-    find(e.intersect, "rtcIntersect1");
-    find(e.occluded, "rtcOccluded1");
+    library.find(e.new_device, "rtcNewDevice");
+    library.find(e.release_device, "rtcReleaseDevice");
+    library.find(e.device_error, "rtcGetDeviceError");
+    library.find(e.new_scene, "rtcNewScene");
+    library.find(e.release_scene, "rtcReleaseScene");
+    library.find(e.set_scene_flags, "rtcSetSceneFlags");
+    library.find(e.set_scene_build_quality, "rtcSetSceneBuildQuality");
+    library.find(e.commit_scene, "rtcCommitScene");
+    library.find(e.new_geometry, "rtcNewGeometry");
+    library.find(e.commit_geometry, "rtcCommitGeometry");
+    library.find(e.attach_geometry, "rtcAttachGeometry");
+    library.find(e.release_geometry, "rtcReleaseGeometry");
+    library.find(e.set_new_geometry_buffer, "rtcSetNewGeometryBuffer");
+    library.find(e.set_primitive_count, "rtcSetGeometryUserPrimitiveCount");
+    library.find(e.set_bounds_function, "rtcSetGeometryBoundsFunction");
+    library.find(e.set_user_data, "rtcSetGeometryUserData");
+    library.find(e.set_intersect_function, "rtcSetGeometryIntersectFunction");
+    library.find(e.set_occluded_function, "rtcSetGeometryOccludedFunction");
+    library.find(e.intersect, "rtcIntersect1");
+    library.find(e.occluded, "rtcOccluded1");
     return e;
 }
 

@@ -10,7 +10,6 @@
 #include "raytracer/cli/options.hpp"
 #include "raytracer/cli/render_pictures.hpp"
 #include "raytracer/cli/sums_file.hpp"
-#include "raytracer/image/denoise.hpp"
 #include "raytracer/util/errors.hpp"
 #include "raytracer/util/whole_file.hpp"
 
@@ -153,13 +152,13 @@ int run_merge(const MergeOptions& o) {
 
     ImageNotes notes;
     ImageFormat format;
-    bool is_denoised = false;
-    read_notes(parts[0].head.at("notes"), notes, format, is_denoised);
+    Denoiser denoiser = Denoiser::none;
+    read_notes(parts[0].head.at("notes"), notes, format, denoiser);
     notes.spp = parts[0].head.at("spp");
     notes.date = picture_date();
     format.threads = default_threads();
     Film film = sum.film();
-    if (is_denoised) denoise(film);
+    denoise(film, denoiser, format.threads);
     write_pictures(o.outputs, film, format, notes, [](double) {});
     return 0;
 }

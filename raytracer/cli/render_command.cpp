@@ -16,6 +16,7 @@
 #include "raytracer/image/denoise.hpp"
 #include "raytracer/image/display_server.hpp"
 #include "raytracer/image/exposure.hpp"
+#include "raytracer/image/oidn.hpp"
 #include "raytracer/image/scene_pictures.hpp"
 #include "raytracer/render/passes.hpp"
 #include "raytracer/scene/vanished_parts.hpp"
@@ -152,7 +153,7 @@ private:
         file.head["finished"] = passes_->finished();
         file.head["layers"] = nlohmann::ordered_json::array();
         for (const ImageLayer layer : o_.layers) file.head["layers"].push_back(layer_name(layer));
-        file.head["notes"] = notes_head(notes_of(o_, *world_, frame_.spp, 0), format_of(o_, exposure_, 1), o_.denoise);
+        file.head["notes"] = notes_head(notes_of(o_, *world_, frame_.spp, 0), format_of(o_, exposure_, 1), o_.denoiser);
         file.bytes = passes_->bytes();
         try {
             write_sums(o_.checkpoint, file);
@@ -262,7 +263,7 @@ private:
     // With all that is done to a film before it is written.
     Film finished(Film film) const {
         draw_strokes(film, world_->strokes, Vec3(0.0), line_width, o_.alpha);
-        if (o_.denoise) denoise(film);
+        denoise(film, o_.denoiser, threads_);
         return film;
     }
 
@@ -360,7 +361,8 @@ int render_frames(const RenderOptions& o, int threads) {
 int run_render(const RenderOptions& given) {
     RenderOptions o = given;
     check_render_options(o);
-    if (o.denoise) {
+    if (o.denoiser == Denoiser::oidn) load_oidn();
+    if (o.denoiser != Denoiser::none) {
         if (!o.wire.empty()) throw UsageError("--denoise: expected a picture with surfaces, got --wire");
         for (const ImageLayer layer : {ImageLayer::guide_normal, ImageLayer::albedo})
             if (std::count(o.layers.begin(), o.layers.end(), layer) == 0) o.layers.push_back(layer);

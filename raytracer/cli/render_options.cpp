@@ -138,9 +138,16 @@ CLI::App* add_render_options(CLI::App& program, const std::shared_ptr<RenderOpti
             "it "
             "go to white softly; default: standard")
         ->type_name("standard|agx");
-    command->add_flag("--denoise", options->denoise,
-                      "smooth the noise that is left, guided by normals and albedo, which an EXR then has, too: for a "
-                      "quick look, not for measurements");
+    command->add_flag("--denoise")
+        ->description(
+            "smooth the noise that is left, guided by normals and albedo, which an EXR then has, too: for a quick "
+            "look, not "
+            "for measurements. --denoise=oidn: by Intel's Open Image Denoise 2, if the system has its library")
+        ->each([options](const std::string& text) {
+            const std::optional<Denoiser> found = text == "true" ? Denoiser::wavelets : find_denoiser(text);
+            if (!found) throw UsageError("--denoise: expected wavelets or oidn, got '" + text + "'");
+            options->denoiser = *found;
+        });
     command
         ->add_option("--tolerance", options->tolerance,
                      "meshes only: the mesh's tolerance, as for mesh; default: 0.03 of each solid's least radius")

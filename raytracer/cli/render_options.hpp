@@ -6,6 +6,7 @@
 
 #include "raytracer/cli/farm_options.hpp"
 #include "raytracer/cli/options.hpp"
+#include "raytracer/image/denoise.hpp"
 #include "raytracer/image/view_transform.hpp"
 #include "raytracer/util/progress.hpp"
 
@@ -23,7 +24,7 @@ struct RenderOptions : Options {
     std::optional<double> exposure;  // of pictures for the screen
     std::optional<double> noise, seconds;
     ViewTransform view = ViewTransform::standard;
-    bool denoise = false;
+    Denoiser denoiser = Denoiser::none;
     std::optional<double> write_every;  // seconds
     std::string display_server;         // "": none
     std::string checkpoint;             // "": none

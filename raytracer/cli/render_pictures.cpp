@@ -47,7 +47,8 @@ ImageNotes notes_of(const RenderOptions& o, const RenderWorld& world, int spp, d
                         {"seed", fmt::format("{}", o.seed)},
                         {"via", o.via},
                         {"criterion", o.criterion == Criterion::lobb ? "lobb" : "exact"}};
-    if (o.denoise) notes.attributes.push_back({"denoised", "a-trous"});
+    if (o.denoiser != Denoiser::none)
+        notes.attributes.push_back({"denoised", o.denoiser == Denoiser::wavelets ? "a-trous" : name(o.denoiser)});
     if (const double exposure = exposure_of(o, scene))
         notes.attributes.push_back({"exposure", fmt::format("{}", exposure)});
     if (o.noise) notes.attributes.push_back({"noise", fmt::format("{}", *o.noise)});

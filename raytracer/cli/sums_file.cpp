@@ -77,7 +77,7 @@ SumsFile read_sums(const std::string& path) {
 Json window_head(const Window& w) { return {w.x, w.y, w.width, w.height}; }
 Window window_of(const Json& j) { return {j.at(0), j.at(1), j.at(2), j.at(3)}; }
 
-Json notes_head(const ImageNotes& notes, const ImageFormat& format, bool denoise) {
+Json notes_head(const ImageNotes& notes, const ImageFormat& format, Denoiser denoiser) {
     const Camera& c = notes.camera;
     Json j;
     j["camera"] = {{"eye", vec_head(c.eye)}, {"target", vec_head(c.target)},   {"up", vec_head(c.up)},
@@ -90,11 +90,11 @@ Json notes_head(const ImageNotes& notes, const ImageFormat& format, bool denoise
                    {"alpha", format.alpha},
                    {"exposure", format.exposure},
                    {"agx", format.view == ViewTransform::agx},
-                   {"denoise", denoise}};
+                   {"denoiser", name(denoiser)}};
     return j;
 }
 
-void read_notes(const Json& j, ImageNotes& notes, ImageFormat& format, bool& denoise) {
+void read_notes(const Json& j, ImageNotes& notes, ImageFormat& format, Denoiser& denoiser) {
     const Json& c = j.at("camera");
     notes.camera = {vec_of(c.at("eye")),  vec_of(c.at("target")), vec_of(c.at("up")), c.at("fov"),
                     c.at("orthographic"), c.at("lens"),           c.at("focus"),      vec_of(c.at("shift"))};
@@ -106,7 +106,7 @@ void read_notes(const Json& j, ImageNotes& notes, ImageFormat& format, bool& den
     format.alpha = f.at("alpha");
     format.exposure = f.at("exposure");
     format.view = f.at("agx").get<bool>() ? ViewTransform::agx : ViewTransform::standard;
-    denoise = f.at("denoise");
+    denoiser = find_denoiser(f.at("denoiser").get<std::string>()).value();
 }
 
 void ContentHash::add(std::string_view text) {

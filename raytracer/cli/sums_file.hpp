@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "raytracer/image/denoise.hpp"
 #include "raytracer/image/image_file.hpp"
 #include "raytracer/render/passes.hpp"
 
@@ -30,8 +31,8 @@ nlohmann::ordered_json window_head(const Window& window);
 Window window_of(const nlohmann::ordered_json& head);
 
 /// What the header of a picture says, and how its file is written.
-nlohmann::ordered_json notes_head(const ImageNotes& notes, const ImageFormat& format, bool denoise);
-void read_notes(const nlohmann::ordered_json& head, ImageNotes& notes, ImageFormat& format, bool& denoise);
+nlohmann::ordered_json notes_head(const ImageNotes& notes, const ImageFormat& format, Denoiser denoiser);
+void read_notes(const nlohmann::ordered_json& head, ImageNotes& notes, ImageFormat& format, Denoiser& denoiser);
 
 /// Hash of texts and of files' contents, in their order [FNV-1a, 64 bits]: it tells changes, and is no protection.
 class ContentHash {

@@ -4,6 +4,8 @@
 
 #include <cmath>
 
+#include "raytracer/image/oidn.hpp"
+
 namespace deburr {
 namespace {
 
@@ -22,7 +24,29 @@ struct Guide {
     Vec3 normal{0.0}, albedo{0.0};
 };
 
+constexpr Denoiser denoisers[] = {Denoiser::none, Denoiser::wavelets, Denoiser::oidn};
+
 }  // namespace
+
+const char* name(Denoiser denoiser) {
+    switch (denoiser) {
+        case Denoiser::none: return "none";
+        case Denoiser::wavelets: return "wavelets";
+        case Denoiser::oidn: return "oidn";
+    }
+    return "";
+}
+
+std::optional<Denoiser> find_denoiser(std::string_view text) {
+    for (const Denoiser denoiser : denoisers)
+        if (name(denoiser) == text) return denoiser;
+    return {};
+}
+
+void denoise(Film& film, Denoiser denoiser, int threads) {
+    if (denoiser == Denoiser::wavelets) denoise(film);
+    if (denoiser == Denoiser::oidn) denoise_by_oidn(film, threads);
+}
 
 void denoise(Film& film) {
     const LayerPlane &normals = film.layer(ImageLayer::guide_normal), &albedos = film.layer(ImageLayer::albedo);

@@ -47,4 +47,21 @@ void* module_function(const std::string& file, const char* name, const std::stri
     return function;
 }
 
+SystemLibrary::SystemLibrary(std::string file, std::string needed)
+    : file_(std::move(file)), needed_(std::move(needed)), library_(dlopen(file_.c_str(), RTLD_NOW | RTLD_LOCAL)) {
+    if (!library_) fail();
+}
+
+void* SystemLibrary::address(const char* name) const {
+    void* found = dlsym(library_, name);
+    if (!found) fail();
+    return found;
+}
+
+void SystemLibrary::fail() const {
+    const std::string why = dlerror();
+    check_loader_memory(why);
+    throw UnsupportedError(fmt::format("{} {}: {}", needed_, file_, why));
+}
+
 }  // namespace deburr
