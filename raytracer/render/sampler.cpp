@@ -52,26 +52,80 @@ std::uint32_t pascal(std::uint32_t x) {
     return x ^ ((x >> 16) & 0x0000ffffu);
 }
 
+// What a pixel's place in its block adds to the digits of its points: of the functions zᶜ/qʲ with q = z² + z + 1 the
+// first 32 coefficients at z = 0, for x, and at z = 1, for y. c and j say which bit of the place: c is 0 for columns, j
+// counts levels from the finest, whose four pixels have j = 1. The first digit is bit 0.
+constexpr int block_levels = Sampler::block_levels;
+using PlaceDigits = std::array<std::array<std::uint32_t, 1 << (2 * block_levels)>, 2>;
+
+// A power series times 1/q, modulo 2: p[l] = s[l] + p[l - 1] + p[l - 2].
+constexpr std::uint32_t divided(std::uint32_t s) {
+    std::uint32_t p = 0;
+    for (int l = 0; l < 32; ++l) {
+        std::uint32_t digit = s >> l & 1;
+        if (l >= 1) digit ^= p >> (l - 1) & 1;
+        if (l >= 2) digit ^= p >> (l - 2) & 1;
+        p |= digit << l;
+    }
+    return p;
+}
+
+constexpr PlaceDigits all_place_digits() {
+    PlaceDigits digits{};
+    for (int around = 0; around < 2; ++around)
+        for (int c = 0; c < 2; ++c) {
+            // 1, or z: which is w + 1 around z = 1, where q = w² + w + 1 again.
+            std::uint32_t series = c == 0 ? 1 : around == 0 ? 2 : 3;
+            for (int j = 1; j <= block_levels; ++j) {
+                series = divided(series);
+                const std::uint32_t bit = 1u << (2 * (block_levels - j) + c);
+                for (std::uint32_t place = 0; place < digits[0].size(); ++place)
+                    if (place & bit) digits[around][place] ^= series;
+            }
+        }
+    return digits;
+}
+
+constexpr PlaceDigits place_digits = all_place_digits();
+
 double unit(std::uint32_t x) { return x * 0x1p-32; }
 
 }  // namespace
 
-Sampler::Sampler(std::uint64_t seed, int x, int y, int sample)
-    : pixel_(mixed(mixed(seed + golden) ^ (std::uint64_t(std::uint32_t(x)) << 32 | std::uint32_t(y)))),
-      sample_(std::uint32_t(sample)) {}
+Sampler::Sampler(std::uint64_t seed, int x, int y, int sample) : sample_(std::uint32_t(sample)) {
+    const std::uint64_t picture = mixed(seed + golden);
+    const auto of_place = [&](int column, int row) {
+        return mixed(picture ^ (std::uint64_t(std::uint32_t(column)) << 32 | std::uint32_t(row)));
+    };
+    block_ = of_place(x >> block_levels, y >> block_levels);
+    pixel_ = of_place(x, y);
+    for (int level = 0; level < block_levels; ++level) {
+        const int bit = block_levels - 1 - level;
+        place_ |= std::uint32_t((x >> bit & 1) | (y >> bit & 1) << 1) << (2 * level);
+    }
+}
+
+Sampler::Point Sampler::point(std::uint32_t dimension, std::uint32_t index) const {
+    Point p;
+    p.key = mixed(block_ + golden * (std::uint64_t(dimension) + 1));
+    // Each pixel takes the samples from 2ᵐ to 2ᵐ⁺¹ in an order of its own, and none earlier: a nested scramble of the
+    // bits below the highest one.
+    const std::uint32_t kept = index ? (2u << __builtin_clz(index)) - 1 : ~0u;
+    const std::uint32_t in_order = reversed(index);
+    p.index = reversed((in_order & kept) | (nested(in_order, mixed(p.key ^ pixel_)) & ~kept));
+    p.place = nested(place_, p.key) & ((1u << (2 * block_levels)) - 1);
+    return p;
+}
 
 double Sampler::line(std::uint32_t dimension) const {
-    const std::uint64_t key = mixed(pixel_ + golden * (std::uint64_t(dimension) + 1));
-    return unit(reversed(nested(reversed(nested(reversed(sample_), key)), mixed(key + golden))));
+    const Point p = point(dimension, sample_);
+    return unit(reversed(nested(p.index ^ place_digits[0][p.place], mixed(p.key + golden))));
 }
 
 Vec2 Sampler::square(std::uint32_t dimension, int part, int parts) const {
-    const std::uint64_t key = mixed(pixel_ + golden * (std::uint64_t(dimension) + 1));
-    // Shuffled in the order of Owen's scramble, the first 2ᵐ samples remain one block of 2ᵐ.
-    const std::uint32_t index = sample_ * std::uint32_t(parts) + std::uint32_t(part);
-    const std::uint32_t shuffled = reversed(nested(reversed(index), key));
-    const std::uint64_t key_x = mixed(key + golden), key_y = mixed(key + 2 * golden);
-    return {unit(reversed(nested(shuffled, key_x))), unit(reversed(nested(pascal(shuffled), key_y)))};
+    const Point p = point(dimension, sample_ * std::uint32_t(parts) + std::uint32_t(part));
+    const std::uint32_t x = p.index ^ place_digits[0][p.place], y = pascal(p.index) ^ place_digits[1][p.place];
+    return {unit(reversed(nested(x, mixed(p.key + golden)))), unit(reversed(nested(y, mixed(p.key + 2 * golden))))};
 }
 
 namespace {

@@ -310,7 +310,7 @@ struct Cornell {
             if (on_light) return throughput * radiance;
             throughput *= scene.materials[hit.material].color.a;
             const Vec3 normal = glm::dot(hit.normal, ray.direction) > 0 ? -hit.normal : hit.normal;
-            const Vec2 u = Sampler(11, path >> 12, depth, path & 4095).square(0);
+            const Vec2 u = Sampler(11, path >> 12, 0, path & 4095).square(depth);
             ray = leave(hit, cosine_direction(normal, u));
         }
         return Vec3(0.0);
@@ -322,7 +322,7 @@ struct Cornell {
 TEST_CASE("A Cornell box has the light of plain paths", "[slow]") {
     const Cornell box;
     const AnalyticTracer tracer(box.walls);
-    const int side = 4, plain_paths = 1 << 18, spp = 1 << 13;
+    const int side = 4, plain_paths = 1 << 18, spp = 1 << 15;
     const PinholeCamera camera(box.scene.camera, side, side);
     RenderSettings settings{side, side, spp, 5};
     const Integrator integrator(box.scene, tracer, settings);
