@@ -88,6 +88,15 @@ constexpr PlaceDigits all_place_digits() {
 
 constexpr PlaceDigits place_digits = all_place_digits();
 
+// The bits of a column or row in its block, the coarsest first, at every other place.
+constexpr std::array<std::uint32_t, 1 << block_levels> place_bits = [] {
+    std::array<std::uint32_t, 1 << block_levels> all{};
+    for (std::uint32_t at = 0; at < all.size(); ++at)
+        for (int level = 0; level < block_levels; ++level)
+            all[at] |= (at >> (block_levels - 1 - level) & 1) << (2 * level);
+    return all;
+}();
+
 double unit(std::uint32_t x) { return x * 0x1p-32; }
 
 }  // namespace
@@ -99,10 +108,7 @@ Sampler::Sampler(std::uint64_t seed, int x, int y, int sample) : sample_(std::ui
     };
     block_ = of_place(x >> block_levels, y >> block_levels);
     pixel_ = of_place(x, y);
-    for (int level = 0; level < block_levels; ++level) {
-        const int bit = block_levels - 1 - level;
-        place_ |= std::uint32_t((x >> bit & 1) | (y >> bit & 1) << 1) << (2 * level);
-    }
+    place_ = place_bits[std::size_t(x) % place_bits.size()] | place_bits[std::size_t(y) % place_bits.size()] << 1;
 }
 
 Sampler::Point Sampler::point(std::uint32_t dimension, std::uint32_t index) const {

@@ -1,18 +1,17 @@
 #include "raytracer/view/view_server.hpp"
 
 #include <fmt/format.h>
-#include <httplib.h>
 #include <sys/random.h>
 #include <zlib.h>
 
 #include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
-#include <thread>
 
 #include "bounds/canonical_solids.hpp"
 #include "raytracer/scene/scene_descriptions.hpp"
 #include "raytracer/util/errors.hpp"
+#include "raytracer/view/http_server.hpp"
 
 namespace deburr {
 namespace {
@@ -21,7 +20,6 @@ using Json = nlohmann::ordered_json;
 
 // Requests that wait for the next frame come back empty after so long, and are sent again.
 constexpr std::chrono::milliseconds longest_wait(5000);
-constexpr std::size_t largest_request = 1 << 16, threads = 16;
 
 std::string random_token() {
     unsigned char bytes[16];
@@ -89,23 +87,28 @@ struct ViewServer::Parts {
     Encode encode;
     std::string token = random_token();
     int port = 0;
-    httplib::Server server;
-    std::thread thread;
+    std::unique_ptr<HttpServer> server = make_http_server();
 
     void add_routes() {
         const std::string root = "/" + token;
-        server.Get(root + "/", [](const httplib::Request&, httplib::Response& response) {
-            const std::string_view page = view_page();
-            response.set_content(page.data(), page.size(), "text/html; charset=utf-8");
+        const auto get = [&](const std::string& name, HttpHandler handler) {
+            server->get(root + name, std::move(handler));
+        };
+        const auto post = [&](const std::string& name, auto take) {
+            server->post(root + name,
+                         [take](const HttpRequest& request, HttpResponse&) { take(Json::parse(request.body())); });
+        };
+        get("/", [](const HttpRequest&, HttpResponse& response) {
+            response.body = view_page();
+            response.type = "text/html; charset=utf-8";
         });
-        server.Get(root + "/frame", [this](const auto& request, auto& response) { frame(request, response); });
-        server.Get(root + "/scene", [this](const auto&, auto& response) { scene(response); });
-        server.Get(root + "/pick", [this](const auto& request, auto& response) { pick(request, response); });
+        get("/frame", [this](const HttpRequest& request, HttpResponse& response) { frame(request, response); });
+        get("/scene", [this](const HttpRequest&, HttpResponse& response) { scene(response); });
+        get("/pick", [this](const HttpRequest& request, HttpResponse& response) { pick(request, response); });
         for (const char* extension : {"exr", "png", "stl"})
-            server.Get(root + "/picture." + extension,
-                       [this, extension](const auto&, auto& response) { download(extension, response); });
-        server.Post(root + "/camera", [this](const auto& request, auto&) {
-            const Json j = Json::parse(request.body);
+            get(std::string("/picture.") + extension,
+                [this, extension](const HttpRequest&, HttpResponse& response) { download(extension, response); });
+        post("/camera", [this](const Json& j) {
             if (j.is_null()) return picture.set_camera(std::nullopt);
             const auto now = picture.scene();
             Camera camera = now ? now->camera : Camera{};
@@ -117,18 +120,15 @@ struct ViewServer::Parts {
                 throw std::invalid_argument("expected a camera that looks somewhere, not along up");
             picture.set_camera(camera);
         });
-        server.Post(root + "/parameters", [this](const auto& request, auto&) {
-            picture.set_parameters(Json::parse(request.body).template get<std::map<std::string, std::string>>());
-        });
-        server.Post(root + "/wires", [this](const auto& request, auto&) {
-            picture.show_wires(Json::parse(request.body).template get<bool>());
-        });
+        post("/parameters",
+             [this](const Json& j) { picture.set_parameters(j.get<std::map<std::string, std::string>>()); });
+        post("/wires", [this](const Json& j) { picture.show_wires(j.get<bool>()); });
     }
 
     // The length of a JSON head (4 bytes, little-endian), the head, and the pixels, compressed where the page asks for
     // that; 204 if there is nothing new.
-    void frame(const httplib::Request& request, httplib::Response& response) {
-        const auto frame = picture.wait_for_frame(std::atoi(request.get_param_value("after").c_str()), longest_wait);
+    void frame(const HttpRequest& request, HttpResponse& response) {
+        const auto frame = picture.wait_for_frame(std::atoi(request.parameter("after").c_str()), longest_wait);
         if (!frame) {
             response.status = 204;
             return;
@@ -146,14 +146,15 @@ struct ViewServer::Parts {
         for (int i = 0; i < 4; ++i) body.push_back(char(head.size() >> 8 * i & 255));
         body += head;
         body += frame->rgba;
-        if (request.get_param_value("packed") == "1") {
+        if (request.parameter("packed") == "1") {
             body = deflated(body);
-            response.set_header("Content-Encoding", "deflate");
+            response.headers.emplace_back("Content-Encoding", "deflate");
         }
-        response.set_content(std::move(body), "application/octet-stream");
+        response.body = std::move(body);
+        response.type = "application/octet-stream";
     }
 
-    void scene(httplib::Response& response) {
+    void scene(HttpResponse& response) {
         const auto scene = picture.scene();
         if (!scene) {
             response.status = 204;
@@ -166,13 +167,14 @@ struct ViewServer::Parts {
                         {"up", vec_json(scene->z_up ? Vec3(0, 0, 1) : Vec3(0, 1, 0))},
                         {"camera", camera_json(scene->camera)},
                         {"parameters", scene->parameters}};
-        response.set_content(dumped(j), "application/json");
+        response.body = dumped(j);
+        response.type = "application/json";
     }
 
-    void pick(const httplib::Request& request, httplib::Response& response) {
+    void pick(const HttpRequest& request, HttpResponse& response) {
         const auto scene = picture.scene();
-        const auto found = picture.pick(std::atof(request.get_param_value("x").c_str()),
-                                        std::atof(request.get_param_value("y").c_str()));
+        const auto found =
+            picture.pick(std::atof(request.parameter("x").c_str()), std::atof(request.parameter("y").c_str()));
         Json j;
         if (scene && found && found->solid >= 0 && std::size_t(found->solid) < scene->solids.size()) {
             const std::size_t i = std::size_t(found->solid);
@@ -187,10 +189,11 @@ struct ViewServer::Parts {
                  {"position", vec_json(found->position)},
                  {"normal", vec_json(found->normal)}};
         }
-        response.set_content(dumped(j), "application/json");
+        response.body = dumped(j);
+        response.type = "application/json";
     }
 
-    void download(const std::string& extension, httplib::Response& response) {
+    void download(const std::string& extension, HttpResponse& response) {
         int samples = 0;
         const auto film = picture.film(samples);
         const auto scene = picture.scene();
@@ -198,64 +201,29 @@ struct ViewServer::Parts {
             response.status = 204;
             return;
         }
-        response.set_header("Content-Disposition", "attachment; filename=\"picture." + extension + "\"");
-        response.set_content(encode("." + extension, *scene, film.get(), samples), "application/octet-stream");
+        response.headers.emplace_back("Content-Disposition", "attachment; filename=\"picture." + extension + "\"");
+        response.body = encode("." + extension, *scene, film.get(), samples);
+        response.type = "application/octet-stream";
     }
 };
 
 ViewServer::ViewServer(LivePicture& picture, std::string file, Encode encode, int port)
     : parts_(new Parts(picture, std::move(file), std::move(encode))) {
     Parts& p = *parts_;
-    httplib::Server& server = p.server;
-    server.new_task_queue = [] { return new httplib::ThreadPool(threads); };
-    server.set_payload_max_length(largest_request);
-    server.set_keep_alive_timeout(10);
-    // The library's own options let two programs share a port.
-    server.set_socket_options([](socket_t socket) {
-        const int yes = 1;
-        setsockopt(socket, SOL_SOCKET, SO_REUSEADDR, &yes, sizeof yes);
-    });
-    server.set_default_headers(
-        {{"Cache-Control", "no-store"},
-         {"Referrer-Policy", "no-referrer"},
-         {"X-Content-Type-Options", "nosniff"},
-         {"X-Frame-Options", "DENY"},
-         {"Cross-Origin-Resource-Policy", "same-origin"},
-         {"Content-Security-Policy",
-          "default-src 'none'; script-src 'unsafe-inline'; style-src 'unsafe-inline'; connect-src "
-          "'self'; img-src data:; base-uri 'none'; form-action 'none'"}});
-    server.set_pre_routing_handler([&p](const httplib::Request& request, httplib::Response& response) {
-        const std::string host = request.get_header_value("Host");
-        if (host == fmt::format("127.0.0.1:{}", p.port) || host == fmt::format("localhost:{}", p.port))
-            return httplib::Server::HandlerResponse::Unhandled;
-        response.status = 403;
-        return httplib::Server::HandlerResponse::Handled;
-    });
-    server.set_exception_handler([](const httplib::Request&, httplib::Response& response, const auto&... error) {
-        response.status = 400;
-        try {
-            if constexpr (requires { std::rethrow_exception(error...); })
-                std::rethrow_exception(error...);
-            else
-                response.set_content((std::string(error.what()) + ...), "text/plain");
-        } catch (const std::exception& e) {
-            response.set_content(e.what(), "text/plain");
-        }
-    });
+    p.server->set_headers({{"Cache-Control", "no-store"},
+                           {"Referrer-Policy", "no-referrer"},
+                           {"X-Content-Type-Options", "nosniff"},
+                           {"X-Frame-Options", "DENY"},
+                           {"Cross-Origin-Resource-Policy", "same-origin"},
+                           {"Content-Security-Policy",
+                            "default-src 'none'; script-src 'unsafe-inline'; style-src 'unsafe-inline'; connect-src "
+                            "'self'; img-src data:; base-uri 'none'; form-action 'none'"}});
     p.add_routes();
-    if (port == 0)
-        p.port = server.bind_to_any_port("127.0.0.1");
-    else
-        p.port = server.bind_to_port("127.0.0.1", port) ? port : -1;
-    if (p.port <= 0) throw WorkError(fmt::format("cannot listen at 127.0.0.1:{}: the port is taken", port));
-    p.thread = std::thread([&server] { server.listen_after_bind(); });
-    while (!server.is_running()) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    p.port = p.server->start(port);
+    if (p.port == 0) throw WorkError(fmt::format("cannot listen at 127.0.0.1:{}: the port is taken", port));
 }
 
-ViewServer::~ViewServer() {
-    parts_->server.stop();
-    parts_->thread.join();
-}
+ViewServer::~ViewServer() { parts_->server->stop(); }
 
 std::string ViewServer::address() const { return fmt::format("http://127.0.0.1:{}/{}/", parts_->port, parts_->token); }
 

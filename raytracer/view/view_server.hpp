@@ -1,4 +1,4 @@
-// The page of `deburr view`, on 127.0.0.1 (cpp-httplib).
+// The page of `deburr view`, on 127.0.0.1.
 //
 // Who does not know the token in the address, or asks by another host's name, gets nothing; a page of another site
 // cannot read what is here. Nothing that the page sends is taken as the name of a file.
