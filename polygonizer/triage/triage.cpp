@@ -75,12 +75,19 @@ Plane middle_plane(const CellComplex& complex, int cell) {
 
 // Halves every cell, through its middle where the cut passes it by: triangles that were split or flipped reach beyond
 // the cell that they came from. Whether any cell was halved.
-bool halve_all(Subdivision& subdivision, const std::vector<Cut>& cuts) {
-    const std::size_t before = subdivision.complex.cells.size();
+// `by_planes`: the halves are cut on, as far as planes of their own go. Sheets that lie in one plane, and part along a
+// curve, cross again in halves, however small, until the curve is a border of cells.
+bool halve_all(Subdivision& subdivision, const std::vector<Cut>& cuts, bool by_planes = false) {
+    const int before = int(subdivision.complex.cells.size());
     for (const Cut& cut : cuts)
         if (!subdivision.halve(cut.cell, cut.plane))
             subdivision.halve(cut.cell, middle_plane(subdivision.complex, cut.cell));
-    return subdivision.complex.cells.size() > before;
+    const int halved = int(subdivision.complex.cells.size());
+    if (by_planes) {
+        for (const Cut& cut : cuts) subdivision.subdivide(cut.cell);
+        for (int c = before; c < halved; ++c) subdivision.subdivide(c);
+    }
+    return int(subdivision.complex.cells.size()) > before;
 }
 
 // Halves the cells of these triangles, and what is farther from the surface than splits of edges could mend: there
@@ -223,6 +230,7 @@ Mesh triage(const SolidTree& mixed, const Box& box, const TriageOptions& options
         begin(0.3);
         ++mending;
         std::vector<Cut> cuts[2];
+        bool crosses = false;
         for (const bool may_split : {true, false}) {
             Mesh mended = mesh;
             std::vector<Origin> mended_origins = origins;
@@ -231,6 +239,7 @@ Mesh triage(const SolidTree& mixed, const Box& box, const TriageOptions& options
             // Facets that lean or face inward are the graver fault.
             std::pair<std::size_t, std::size_t> wrong{repaired.left.size(), 0};
             wrong.second += add_crossing(mended, repaired.left, options.cancel);
+            crosses |= wrong.second > 0;
             if (std::isfinite(options.tolerance))
                 wrong.second += add_far(mended, *judge, options.tolerance, repaired.left);
             sort_once(repaired.left);
@@ -245,7 +254,7 @@ Mesh triage(const SolidTree& mixed, const Box& box, const TriageOptions& options
             if (min_wrong == none) break;
         }
         if (min_wrong == none || !may_halve()) break;
-        if (!halve_all(subdivision, cuts[0]) && !halve_all(subdivision, cuts[1]) && !thin_out) break;
+        if (!halve_all(subdivision, cuts[0], crosses) && !halve_all(subdivision, cuts[1], crosses) && !thin_out) break;
         for (const int t : best_left) add_corners(best, best.triangles[t], dense);
     }
     mesh = std::move(best);

@@ -70,6 +70,14 @@ TEST_CASE("Random parts by triage within a tolerance pass the check of what was 
     CHECK(check_parts(100, false, triage_of_tolerance) > 10'000);
 }
 
+TEST_CASE("Sheets that lie in one plane and part along a curve do not cross by triage") {
+    // The flat bottom of a boss on the floor of a bore, whose edges are rounded.
+    constexpr int seed = 742;
+    const auto coarse = [](const SolidTree& solid, const Box& box, MeshCheckOptions&) { return triage(solid, box); };
+    CHECK(check_part(seed, coarse).faults() == 0);
+    CHECK(check_part(seed, triage_of_tolerance).faults() == 0);
+}
+
 TEST_CASE("Random round parts by triage pass the check of what was made") {
     CHECK(check_parts<RandomRoundPart>(12, false, triage_of_tolerance) > 10'000);
 }
