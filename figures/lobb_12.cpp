@@ -6,8 +6,8 @@ namespace deburr {
 namespace {
 
 void make(FigureContext& context) {
-    const Scene scene = context.scene("csg_examples.lua");
-    context.picture(context.render(scene, {.width = 840, .height = 532, .spp = 48, .noise = 0.01}));
+    const Scene scene = context.scene("csg_examples.lua", {{"light", "studio"}});
+    context.picture(context.render(scene, {.width = 840, .height = 532, .spp = 48, .noise = 0.006}));
     std::string bars;
     for (std::size_t i = 1; i < scene.solids.size(); ++i) {
         const SolidTree tree = flatten(scene.solids[i]);

@@ -7,8 +7,8 @@ namespace deburr {
 namespace {
 
 void make(FigureContext& context) {
-    const Scene scene = context.scene("variable_rounding.lua");
-    context.picture(context.render(scene, {.width = 840, .height = 532, .spp = 48, .noise = 0.01}));
+    const Scene scene = context.scene("variable_rounding.lua", {{"light", "studio"}});
+    context.picture(context.render(scene, {.width = 840, .height = 532, .spp = 48, .noise = 0.006}));
     std::string volumes;
     for (std::size_t i = 1; i < scene.solids.size(); ++i) {
         const SolidTree tree = flatten(scene.solids[i]);

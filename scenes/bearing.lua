@@ -20,19 +20,22 @@ end
 
 -- A quarter of the outer ring is away, so that one sees in.
 local away = box({0, -2, 0}, {9, 2, 9})
-local steel = metal{ color = {0.62, 0.63, 0.65}, roughness = 0.22 }
-local brass = metal{ color = {0.83, 0.58, 0.25}, roughness = 0.25 }
+local steel = metal{ color = {0.62, 0.63, 0.65}, roughness = 0.18 }
+local brass = metal{ color = {0.83, 0.58, 0.25}, roughness = 0.22 }
+local chrome = metal{ color = {0.75, 0.75, 0.77}, roughness = 0.05 }
 local solids = { rounded(r, outer & ~away):material(steel), rounded(r, inner):material(steel),
                  rounded(0.03, cage):material(brass) }
-for _, b in ipairs(balls) do solids[#solids + 1] = rounded(r, b):material(metal{ color = {0.75, 0.75, 0.77}, roughness = 0.08 }) end
-for i, solid in ipairs(solids) do solids[i] = solid:rotate(-62, {1, 0, 0}):rotate(18, {0, 1, 0}):translate(0, 3.36, 0) end
-solids[#solids + 1] = sharp(halfspace({0, 1, 0}, 0)):material(matte{ color = 0.35 })
+for _, b in ipairs(balls) do solids[#solids + 1] = rounded(r, b):material(chrome) end
+for i, solid in ipairs(solids) do solids[i] = solid:rotate(28, {0, 1, 0}):translate(0, 0.75, 0) end
+solids[#solids + 1] = sharp(halfspace({0, 1, 0}, 0)):material(plastic{ color = {0.10,0.105,0.115}, roughness = 0.32 })
 
 return {
   image = { width = 720, height = 456 },
-  camera = { eye = {2.6, 8, 12.5}, target = {0.05, 2.95, 0}, fov = 33 },
-  lights = { area_light{ position = {-6, 11, 6}, u = {0, 3, -4}, v = {5, 0, 0}, power = 1500 },
-             area_light{ position = {9, 6, 4}, u = {-2, 0, 3}, v = {0, 4, 0}, power = 260, color = {1, 0.85, 0.7} } },
-  background = sky{ horizon = {0.92, 0.92, 0.94}, zenith = {0.62, 0.68, 0.8} },
+  camera = { eye = {2.4, 8.4, 12.6}, target = {0.35, 0.35, 0.25}, fov = 26.5, lens = { radius = 0.1, focus = 13.4 } },
+  lights = { area_light{ position = {-8, 9, -2}, u = {5, 5, 0}, v = {0, 0, 7}, power = 900, color = {1, 0.97, 0.93} },
+             area_light{ position = {8, 5, 7}, u = {-4, 0, 4}, v = {-2, 3, -2}, power = 330, color = {1, 0.9, 0.8} },
+             area_light{ position = {0, 7, -11}, u = {9, 0, 0}, v = {0, 3, 3}, power = 700, color = {0.88, 0.94, 1} },
+             area_light{ position = {-6, 3.5, 11}, u = {0, 4, 0}, v = {6, 0, 4}, power = 300 } },
+  background = sky{ horizon = {0.14, 0.145, 0.16}, zenith = {0.26, 0.29, 0.34} },
   solids = solids,
 }

@@ -38,10 +38,22 @@ for i, object in ipairs(objects) do
     :material(plastic{ color = paints[i], roughness = 0.32 })
 end
 
+-- One hard light, or two soft ones as in a photographer's studio, for pictures of paths.
+local lights = {
+  point = { point_light{ position = {-8, 12, 5}, color = {1, 0.96, 0.9}, power = 8500 } },
+  studio = { area_light{ position = {-7.4, 7, -1.5}, u = {3.4, 4, 0}, v = {0, 0, 5}, color = {1, 0.97, 0.93}, power = 1000 },
+             area_light{ position = {7, 4.5, 5}, u = {-3, 0, 3}, v = {-1.5, 2.5, -1.5}, color = {1, 0.9, 0.8}, power = 300 } },
+}
+local skies = {
+  point = sky{ horizon = {0.36, 0.40, 0.46}, zenith = {0.22, 0.28, 0.36} },
+  studio = sky{ horizon = {0.42, 0.44, 0.48}, zenith = {0.34, 0.39, 0.46} },
+}
+local light = param("light", "point")
+
 return {
   image = { width = 600, height = 380, spp = 1 },
   camera = { eye = {1.9, 6.4, 8.8}, target = {0.16, 0.40, 0.10}, up = {0, 1, 0}, fov = 23.5 },
-  lights = { point_light{ position = {-8, 12, 5}, color = {1, 0.96, 0.9}, power = 8500 } },
-  background = sky{ horizon = {0.36, 0.40, 0.46}, zenith = {0.22, 0.28, 0.36} },
+  lights = lights[light] or error("light: expected point or studio, got " .. tostring(light)),
+  background = skies[light],
   solids = solids,
 }

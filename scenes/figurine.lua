@@ -66,6 +66,8 @@ local clay = plastic{ color = {0.42, 0.19, 0.07}, roughness = 0.16 }
 local iris = plastic{ color = {0.80, 0.42, 0.02}, roughness = 0.12 }
 local pupil = plastic{ color = {0.01, 0.01, 0.012}, roughness = 0.1 }
 
+local oak = plastic{ color = wood{ a = {0.30, 0.165, 0.075}, b = {0.20, 0.10, 0.042}, scale = 0.35, axis = {1, 0.02, 0.1} }, roughness = 0.35 }
+
 local eyes = {}
 for _, side in ipairs{1, -1} do
   eyes[#eyes + 1] = ellipsoid{ center = {0.27 * side, 1.90, 0.46}, radius = 0.19 }:material(iris)
@@ -74,17 +76,18 @@ end
 
 local solids = {
   freeform(body, parts):material(clay):name("owl"),
-  sharp(halfspace({0, 1, 0}, 0)):material(matte{ color = {0.52, 0.50, 0.47} }):name("table"),
+  sharp(halfspace({0, 1, 0}, 0)):material(oak):name("table"),
+  sharp(halfspace({0, 0, 1}, -5)):material(matte{ color = {0.20, 0.29, 0.30} }):name("wall"),
 }
 for _, eye in ipairs(eyes) do solids[#solids + 1] = eye end
 
 return {
   image = { width = 480, height = 600, spp = 16 },
-  camera = { eye = {1.9, 2.5, 6.0}, target = {0, 1.18, 0}, fov = 27 },
+  camera = { eye = {1.9, 2.5, 6.0}, target = {0, 1.18, 0}, fov = 27, lens = { radius = 0.06, focus = 5.6 } },
   lights = {
     area_light{ position = {-5, 6, 5}, u = {0, 3.4, -1.7}, v = {3.4, 0, 3.4}, color = {1, 0.95, 0.88}, power = 850, samples = 4 },
     area_light{ position = {5, 4, -2}, u = {0, 3.4, 0}, v = {1.7, 0, 3.4}, color = {0.75, 0.87, 1}, power = 220, samples = 2 },
   },
-  background = sky{ horizon = {0.74, 0.76, 0.78}, zenith = {0.34, 0.42, 0.54} },
+  background = sky{ horizon = {0.60, 0.60, 0.60}, zenith = {0.34, 0.36, 0.40} },
   solids = solids,
 }

@@ -87,9 +87,12 @@ local views = {
 return {
   image = { width = 600, height = 380, spp = 1, exposure = -0.4 },
   camera = views[closeup] or error("closeup: expected none, punch, hinge or pins, got " .. tostring(closeup)),
-  lights = { area_light{ position = {-12, 24, 14}, u = {5.2, 0, 4.5}, v = {-3.4, -4.6, 4.0},
-                         color = {1, 0.96, 0.9}, power = 17000 } },
-  background = sky{ horizon = {0.50, 0.54, 0.60}, zenith = {0.28, 0.35, 0.45} },
+  lights = {
+    area_light{ position = {-16, 22, -4}, u = {11, 10, 0}, v = {0, 0, 15}, color = {1, 0.97, 0.93}, power = 9000 },
+    area_light{ position = {17, 11, 15}, u = {-9, 0, 9}, v = {-4, 7, -4}, color = {1, 0.9, 0.8}, power = 1900 },
+    area_light{ position = {-8, 9, 24}, u = {0, 9, 0}, v = {15, 0, 8}, power = 2200 },
+  },
+  background = sky{ horizon = {0.30, 0.31, 0.33}, zenith = {0.36, 0.39, 0.44} },
   solids = {
     sharp(halfspace({0, 1, 0}, 0)):material(matte{ color = {0.52, 0.50, 0.47} }),
     foot | tray | bed | both_sides(head | punch | collar | lug | hinge_pin) | swung | rule | stop | pins,

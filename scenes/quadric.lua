@@ -31,8 +31,9 @@ return {
   image = { width = 640, height = 440, spp = 16 },
   camera = { eye = {1.4, 4.4, 8.6}, target = {0.12, 0.72, 0.1}, fov = 28 },
   lights = {
-    area_light{ position = {-6, 8, 5}, u = {0, 3.4, -1.7}, v = {3.4, 0, 3.4}, color = {1, 0.96, 0.9}, power = 1290, samples = 4 },
+    area_light{ position = {-7, 7.5, 0}, u = {3.4, 4, 0}, v = {0, 0, 5}, color = {1, 0.97, 0.93}, power = 1000, samples = 4 },
+    area_light{ position = {7, 5, 6}, u = {-3, 0, 3}, v = {-1.5, 2.5, -1.5}, color = {1, 0.9, 0.8}, power = 260 },
   },
-  background = sky{ horizon = {0.70, 0.74, 0.78}, zenith = {0.30, 0.40, 0.54} },
+  background = sky{ horizon = {0.42, 0.44, 0.48}, zenith = {0.34, 0.39, 0.46} },
   solids = solids,
 }

@@ -35,17 +35,19 @@ for i = 0, 3 do
 end
 die = die & ~box({2.3, -2, -0.12}, {3, 2, 0.12})
 
-local tool = metal{ color = {0.56, 0.57, 0.6}, roughness = 0.24 }
+local tool = metal{ color = {0.56, 0.57, 0.6}, roughness = 0.2 }
 return {
   image = { width = 720, height = 456 },
-  camera = { eye = {1.4, 7.6, 13.2}, target = {-0.35, 1.95, 0}, fov = 32 },
-  lights = { area_light{ position = {-6, 11, 6}, u = {0, 3, -4}, v = {5, 0, 0}, power = 1300 },
-             area_light{ position = {9, 6, 4}, u = {-2, 0, 3}, v = {0, 4, 0}, power = 240, color = {1, 0.85, 0.7} } },
-  background = sky{ horizon = {0.92, 0.92, 0.94}, zenith = {0.62, 0.68, 0.8} },
+  camera = { eye = {1.4, 7.6, 13.2}, target = {-0.2, 2.0, 0}, fov = 31, lens = { radius = 0.08, focus = 13.2 } },
+  lights = { area_light{ position = {-8, 9, -2}, u = {5, 5, 0}, v = {0, 0, 7}, power = 900, color = {1, 0.97, 0.93} },
+             area_light{ position = {6, 6, 11}, u = {-6, 0, 4}, v = {0, 4, 0}, power = 700, color = {1, 0.9, 0.8} },
+             area_light{ position = {0, 7, -11}, u = {9, 0, 0}, v = {0, 3, 3}, power = 500, color = {0.88, 0.94, 1} },
+             area_light{ position = {-6, 3.5, 11}, u = {0, 4, 0}, v = {6, 0, 4}, power = 300 } },
+  background = sky{ horizon = {0.14, 0.145, 0.16}, zenith = {0.26, 0.29, 0.34} },
   solids = {
     rounded(r, tap):rotate(-90, {0, 0, 1}):rotate(24, {0, 1, 0}):translate(-3.4, 1, 2.2):material(tool),
-    rounded(r, die):rotate(72, {1, 0, 0}):rotate(-14, {0, 1, 0}):translate(1.6, 2.62, -1.9)
-      :material(metal{ color = {0.45, 0.42, 0.4}, roughness = 0.3 }),
-    sharp(halfspace({0, 1, 0}, 0)):material(matte{ color = 0.4 }),
+    rounded(r, die):rotate(90, {1, 0, 0}):rotate(-14, {0, 1, 0}):translate(1.6, 2.6, -1.9)
+      :material(metal{ color = {0.55, 0.52, 0.49}, roughness = 0.26 }),
+    sharp(halfspace({0, 1, 0}, 0)):material(plastic{ color = {0.10, 0.105, 0.115}, roughness = 0.32 }),
   },
 }
