@@ -6,7 +6,9 @@
 
 local softness = param("softness", 1)
 local closeup = param("closeup", "none")  -- punch, hinge or pins
-local round = param("columns", "octagonal") == "round"  -- the paper's are octagonal
+-- The paper's columns are octagonal; -D columns=round has round ones, in bores, and springs that lift the punches.
+local round = param("columns", "octagonal") == "round"
+local spring = include("parts/spring.lua")
 
 local function part(r, density, material) return rounded(softness * r, density):material(material) end
 
@@ -48,6 +50,7 @@ local bed = part(0.06, slab(5.7, -3.2, 2.6, 0.4, 0.9, 1.32), steel)
 -- A head guides its pin and has a slit for the paper, open to the front.
 local head_block = box({-0.95, 1.2, -1.75}, {0.95, 3.0, 0.75})
 local slit = box({-2, 1.50, -1.1}, {2, 1.68, 2})
+if round then slit = slit | column(0.45):rotate(-90, {1, 0, 0}):translate(0, 0, -0.35) end
 local head = part(0.11, head_block & ~slit, dark_steel):translate(3.9, 0, 0)
 
 -- A rounded column, clipped: the density field is cut before anything is made of it.
@@ -55,6 +58,14 @@ local clip = halfspace({0, 1, 0}, 3.92):radius(0)
 local punch_column = column(0.42):rotate(-90, {1, 0, 0}) * halfspace({0, -1, 0}, -1.35)
 local punch = rounded(softness * 0.16, punch_column * clip):translate(3.9, 0, -0.35):material(steel)
 local collar = pin(0.62, 3.0, 3.22, steel):rotate(-90, {1, 0, 0}):translate(3.9, 0, -0.35)
+if round then
+  -- The punch waits above the slit; its spring stands on the collar and lifts a ring.
+  local function upright(radius, y0, y1) return cylinder{ from = {0, y0, 0}, to = {0, y1, 0}, radius = radius } end
+  local lifted = part(0.02, spring(0.50, 0.042, 3.22, 3.70, 3), steel) | part(0.04, upright(0.57, 3.70, 3.80), dark_steel)
+  punch = rounded(softness * 0.06, upright(0.42, 1.8, 3.92)):material(steel):translate(3.9, 0, -0.35)
+    | lifted:translate(3.9, 0, -0.35)
+  collar = part(0.05, upright(0.62, 2.9, 3.22) & ~upright(0.45, 2, 4), steel):translate(3.9, 0, -0.35)
+end
 
 -- The hinge: lugs on the bed, cheeks on the lever, a pin through both.
 local lug = part(0.06, convex{ {2.30, 1.2, -3.1}, {2.30, 1.2, -1.1}, {2.30, 3.1, -2.75}, {2.30, 3.1, -2.05}, {2.30, 3.35, -2.4},

@@ -4,9 +4,12 @@
 --
 --   -D show=rounded   only the rounded one (Triage, figures 19 and 20); also show=sharp
 --   -D softness=2     all radii times two; 0 makes everything sharp
+--   -D columns=round  round pins in bores, and a spring; the papers' pins are octagonal
 
 local softness = param("softness", 1)
 local show = param("show", "both")
+local round = param("columns", "octagonal") == "round"
+local spring = include("parts/spring.lua")
 
 local red = plastic{ color = {0.46, 0.018, 0.020}, roughness = 0.34 }
 local black = plastic{ color = {0.018, 0.018, 0.020}, roughness = 0.55 }
@@ -33,17 +36,28 @@ local function frustum(outline, y0, y1, inset)
   return convex(points)
 end
 
--- Eight planes around the z axis and two ends: with one radius for the sides and another for the
--- ends it becomes a round pin with flattened ends (Triage, section 4.5.3).
-local function pin(radius, z0, z1, side_rounding, end_rounding)
+-- Eight planes around the z axis, or a cylinder.
+local function column(radius)
+  if round then return cylinder{ from = {0, 0, -50}, to = {0, 0, 50}, radius = radius } end
   local sides
   for i = 0, 7 do
     local a = math.pi * (i + 0.5) / 4
     local plane = halfspace({math.cos(a), math.sin(a), 0}, radius)
     sides = sides and sides * plane or plane
   end
+  return sides
+end
+
+-- A column and two ends: with one radius for the sides and another for the ends it becomes a round
+-- pin with flattened ends (Triage, section 4.5.3).
+local function pin(radius, z0, z1, side_rounding, end_rounding)
   local ends = halfspace({0, 0, 1}, z1) * halfspace({0, 0, -1}, -z0)
-  return sides:radius(side_rounding) * ends:radius(end_rounding)
+  return column(radius):radius(side_rounding) * ends:radius(end_rounding)
+end
+
+-- The density with a hole along z through the point, for a pin to turn in.
+local function bored(density, x, y, radius)
+  return round and density & ~column(radius):translate(x, y, 0) or density
 end
 
 local function mirrored(z_positive) return z_positive | z_positive:mirror({0, 0, 1}) end
@@ -68,12 +82,20 @@ local function stapler(soft)
   -- The hinge: two thin side plates on the base, and a pin through everything.
   local side = profile({{0.25, 1.0}, {3.5, 1.0}, {3.5, 1.35}, {2.35, 3.0}, {2.05, 3.2}, {0.95, 3.2}, {0.65, 3.0}, {0.25, 1.5}},
                        1.00, 1.13)
-  local hinge = part(0.045, side | side:mirror({0, 0, 1}), steel)
+  local hinge = part(0.045, bored(side | side:mirror({0, 0, 1}), 1.5, 2.5, 0.33), steel)
   local hinge_pin = soft_pin(0.30, -1.30, 1.30):translate(1.5, 2.5, 0):material(dark_steel)
 
-  -- The spring housing stands on the plate, its plunger reaches for the magazine.
+  -- The spring housing stands on the plate, its plunger reaches for the magazine. With round columns it is a cup,
+  -- and one sees the spring.
   local housing = soft_pin(0.52, 1.0, 1.75):rotate(-90, {1, 0, 0}):translate(5, 0, 0):material(dark_steel)
   local plunger = soft_pin(0.33, 1.6, 3.0):rotate(-90, {1, 0, 0}):translate(5, 0, 0):material(steel)
+  if round then
+    local function upright(radius, y0, y1) return cylinder{ from = {5, y0, 0}, to = {5, y1, 0}, radius = radius } end
+    local cup = upright(0.60, 1.0, 1.48) & ~upright(0.50, 1.2, 3)
+    housing = part(0.05, cup, dark_steel)
+      | part(0.01, spring(0.41, 0.06, 1.2, 2.52, 7):translate(5, 0, 0), steel)
+    plunger = part(0.05, upright(0.28, 1.1, 3.0), dark_steel)
+  end
 
   -- The upper half, closed: the magazine, a steel channel with a nose, under a cover whose sides
   -- are bent along the middle.
