@@ -5,11 +5,14 @@
 #include <algorithm>
 #include <map>
 #include <numeric>
+#include <set>
+#include <tuple>
 #include <utility>
 
 #include "bounds/union_find.hpp"
 #include "polygonizer/mesh/crossing_triangles.hpp"
 #include "raytracer/model/flat_faces.hpp"
+#include "raytracer/model/united_shells.hpp"
 
 namespace deburr {
 namespace {
@@ -281,9 +284,20 @@ bool holds(const Shell& outer, const Shell& inner) {
     return 2 * in > asked;
 }
 
-// Turns shells so that the solid is where it must be; `trusted`: what the file says of the sides counts.
-void settle_shells(Surface& surface, bool trusted, std::vector<std::string>& mended) {
+// Turns shells so that the solid is where it must be; `trusted`: what the file says of the sides counts. Those that
+// cross lie in each other no more than side by side, and stay.
+void settle_shells(Surface& surface, bool trusted, const std::vector<std::pair<int, int>>& crossing,
+                   std::vector<std::string>& mended) {
     std::vector<Shell> all = shells(surface);
+    std::set<std::pair<int, int>> cross;
+    if (!crossing.empty()) {
+        int count = 0;
+        const std::vector<int> shell = shells_of(surface, count);
+        for (const auto& [a, b] : crossing) cross.insert(std::minmax(shell[a], shell[b]));
+    }
+    std::vector<char> meets(all.size(), false);  // another; one that faces inward may be a hole in that
+    for (const auto& [a, b] : cross)
+        if (a != b) meets[a] = meets[b] = true;
     constexpr std::size_t most = 2'000;  // their pairs are looked at
     if (all.size() > most) return;
     std::size_t turned = 0, dropped = 0;
@@ -296,7 +310,7 @@ void settle_shells(Surface& surface, bool trusted, std::vector<std::string>& men
     for (std::size_t i = 0; i < all.size(); ++i) {
         int outside = 0, depth = 0;
         for (std::size_t j = 0; j < all.size(); ++j)
-            if (j != i && holds(all[j], all[i])) {
+            if (j != i && holds(all[j], all[i]) && !cross.contains(std::minmax(int(i), int(j)))) {
                 ++depth;
                 outside += all[j].sign;
             }
@@ -308,9 +322,9 @@ void settle_shells(Surface& surface, bool trusted, std::vector<std::string>& men
         if (!trusted) {
             const int wanted = depth % 2 == 0 ? 1 : -1;
             if (all[i].sign != wanted) turn();
-        } else if (outside <= 0 && sign < 0) {
+        } else if (outside <= 0 && sign < 0 && !meets[i]) {
             turn();
-        } else if ((outside >= 1) == (outside + sign >= 1)) {
+        } else if (crossing.empty() && (outside >= 1) == (outside + sign >= 1)) {
             ++dropped;
             for (const int t : all[i].triangles) gone[t] = true;
         }
@@ -324,23 +338,68 @@ void settle_shells(Surface& surface, bool trusted, std::vector<std::string>& men
     surface.triangles = std::move(left);
 }
 
-void check_crossing(const Surface& surface) {
+using Pairs = std::vector<std::pair<int, int>>;
+
+Pairs crossing_pairs(const Surface& surface) {
     const Mesh mesh = as_mesh(surface);
-    const auto pairs = crossing_triangles(mesh, TriangleTree(mesh));
-    if (pairs.empty()) return;
-    int count = 0;
-    const std::vector<int> shell_of = shells_of(surface, count);
-    const bool between_shells = std::all_of(
-        pairs.begin(), pairs.end(), [&](const auto& pair) { return shell_of[pair.first] != shell_of[pair.second]; });
-    const Triangle& t = mesh.triangles[pairs[0].first];
-    const Vec3 at = (mesh.positions[t.vertex[0]] + mesh.positions[t.vertex[1]] + mesh.positions[t.vertex[2]]) / 3.0;
+    return crossing_triangles(mesh, TriangleTree(mesh));
+}
+
+Vec3 middle(const Surface& surface, int t) {
+    const Corners& c = surface.triangles[t];
+    return (surface.vertices[c[0]] + surface.vertices[c[1]] + surface.vertices[c[2]]) / 3.0;
+}
+
+[[noreturn]] void throw_not_united(Vec3 at, const Pairs& crossed, const Pairs& left) {
     throw UnsoundSurface(fmt::format(
-        "expected a surface that does not cross itself, got {} of crossing triangles, one near {}; {}",
-        count_of(pairs.size(), "pair"), place(at),
+        "expected bodies that can be united, got {} of facets that cross, one near {}, and {} after that; unite them "
+        "in "
+        "the program that made them, or put each into a file of its own and write model(a) | model(b) in a scene",
+        count_of(crossed.size(), "pair"), place(at), count_of(left.size(), "pair")));
+}
+
+// Replaces a surface that crosses itself at these pairs by the boundary of what it winds around.
+void unite(Surface& surface, const Pairs& pairs, std::vector<std::string>& mended) {
+    int count = 0;
+    const std::vector<int> shell = shells_of(surface, count);
+    std::vector<char> meets(std::size_t(count), false);
+    bool between_shells = false;
+    for (const auto& [a, b] : pairs) {
+        between_shells = between_shells || shell[a] != shell[b];
+        meets[shell[a]] = meets[shell[b]] = true;
+    }
+    const std::string said = fmt::format("{} of facets crossed", count_of(pairs.size(), "pair"));
+    const Vec3 at = middle(surface, pairs[0].first);
+    // Vertices that are made are rounded: what then reaches into another by that is united again.
+    constexpr int passes = 4;
+    Pairs left = pairs;
+    try {
+        for (int pass = 0; pass < passes && !left.empty(); ++pass) {
+            const ClosedMesh whole(surface.vertices, surface.triangles);  // has no triangles without area
+            UnitedShells united = united_shells(whole.vertices(), whole.triangles(), pass == 0);
+            surface = welded({std::move(united.vertices), std::move(united.triangles)});
+            drop_collapsed(surface);
+            drop_doubles(surface);
+            left = crossing_pairs(surface);
+        }
+    } catch (const NotClosed&) {
+    } catch (const InsideOut& error) {
+        throw UnsoundSurface(fmt::format(
+            "expected bodies that face outward where they overlap, got {} of facets that cross and {} beside space "
+            "that "
+            "is inside out, one near {}; {}",
+            count_of(pairs.size(), "pair"), count_of(error.count, "part"), place(error.place),
+            between_shells ? "turn the body that faces inward in the program that made it, or subtract it there if it "
+                             "is a hole"
+                           : "repair it in the program that made it"));
+    }
+    const Openness open = openness(surface);
+    if (!left.empty() || open.open > 0 || open.unturned > 0 || surface.triangles.empty())
+        throw_not_united(at, pairs, left);
+    mended.push_back(
         between_shells
-            ? "unite the overlapping bodies in the program that made them, or put each into a file of its own "
-              "and write model(a) | model(b) in a scene"
-            : "repair it in the program that made it"));
+            ? fmt::format("united {} shells that overlap, where {}", std::count(meets.begin(), meets.end(), true), said)
+            : fmt::format("united what a shell that crosses itself winds around, where {}", said));
 }
 
 }  // namespace
@@ -382,15 +441,26 @@ ClosedSurface closed_surface(const TriangleSoup& soup) {
         result.mended.push_back(fmt::format("turned {} that faced inward", count_of(std::size_t(turned), "facet")));
         trusted = false;
     }
-    check_crossing(surface);
-    settle_shells(surface, trusted, result.mended);
-    flatten_faces(surface.vertices, surface.triangles);
+    const Pairs crossing = crossing_pairs(surface);
+    settle_shells(surface, trusted, crossing, result.mended);
+    if (!crossing.empty()) {
+        unite(surface, crossing, result.mended);
+        Surface flat = surface;
+        flatten_faces(flat.vertices, flat.triangles);
+        if (crossing_pairs(flat).empty()) surface = std::move(flat);
+    } else {
+        flatten_faces(surface.vertices, surface.triangles);
+    }
     try {
         result.mesh = std::make_shared<ClosedMesh>(std::move(surface.vertices), std::move(surface.triangles));
     } catch (const NotClosed& error) {
         throw UnsoundSurface(fmt::format(
             "expected a surface with an inside and an outside, got {} whose triangles do not pair up, one near {}",
             count_of(error.count, "edge"), place(error.place)));
+    }
+    if (!crossing.empty()) {  // what has no area was dropped since
+        const Pairs left = crossing_pairs({result.mesh->vertices(), result.mesh->triangles()});
+        if (!left.empty()) throw_not_united(result.mesh->corner(left[0].first, 0), crossing, left);
     }
     if (!(result.mesh->size() > 0 && result.mesh->volume() > 0))
         throw UnsoundSurface("expected a solid's surface, got one that encloses nothing");

@@ -22,7 +22,8 @@ struct ClosedSurface {
 
 /// Corners that are equal are one vertex; where that leaves the surface open, corners within 10⁻⁵ of its size are.
 /// Equal triangles count once. Shells that face inward are turned, those within others are cavities, or are dropped
-/// where the solid is around them already. Throws UnsoundSurface where the surface is open, crosses itself or is empty.
+/// where the solid is around them already. What overlaps is united. Throws UnsoundSurface where the surface is open or
+/// empty, or crosses itself so that what it bounds is not known.
 ClosedSurface closed_surface(const TriangleSoup& soup);
 
 }  // namespace deburr

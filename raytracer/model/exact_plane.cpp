@@ -1,0 +1,257 @@
+#include "raytracer/model/exact_plane.hpp"
+
+#include <algorithm>
+#include <utility>
+
+namespace deburr {
+namespace {
+
+int sign(double x) { return x > 0 ? 1 : x < 0 ? -1 : 0; }
+
+mpq_class determinant(const mpq_class& a, const mpq_class& b, const mpq_class& c, const mpq_class& d) {
+    return a * d - b * c;
+}
+
+mpq_class volume(const ExactPoint& a, const ExactPoint& b, const ExactPoint& c, const ExactPoint& d) {
+    std::array<mpq_class, 3> p, q, r;
+    for (int k = 0; k < 3; ++k) {
+        p[k] = b.x[k] - a.x[k];
+        q[k] = c.x[k] - a.x[k];
+        r[k] = d.x[k] - a.x[k];
+    }
+    return p[0] * determinant(q[1], q[2], r[1], r[2]) - p[1] * determinant(q[0], q[2], r[0], r[2]) +
+           p[2] * determinant(q[0], q[1], r[0], r[1]);
+}
+
+}  // namespace
+
+ExactPoint::ExactPoint(Vec3 v) : x{mpq_class(v.x), mpq_class(v.y), mpq_class(v.z)}, near(v) {}
+
+ExactPoint::ExactPoint(std::array<mpq_class, 3> at)
+    : x(std::move(at)), near(x[0].get_d(), x[1].get_d(), x[2].get_d()) {}
+
+bool comes_before(const ExactPoint& a, const ExactPoint& b) {
+    for (int k = 0; k < 3; ++k)
+        if (const int c = cmp(a.x[k], b.x[k])) return c < 0;
+    return false;
+}
+
+int orientation(const ExactPoint& a, const ExactPoint& b, const ExactPoint& c, PlaneAxes axes, double scale) {
+    const auto [u, v] = axes;
+    const double det =
+        (b.near[u] - a.near[u]) * (c.near[v] - a.near[v]) - (b.near[v] - a.near[v]) * (c.near[u] - a.near[u]);
+    // Differences are at most 2 scale, and off by 3 ε scale: four products of such pairs, and their own rounding.
+    if (std::abs(det) > 64 * epsilon * scale * scale) return sign(det);
+    return sgn(determinant(b.x[u] - a.x[u], b.x[v] - a.x[v], c.x[u] - a.x[u], c.x[v] - a.x[v]));
+}
+
+int orientation(const ExactPoint& a, const ExactPoint& b, const ExactPoint& c, const ExactPoint& d, double scale) {
+    const double det = glm::dot(b.near - a.near, glm::cross(c.near - a.near, d.near - a.near));
+    // Six products of three differences that are at most 2 scale, and off by 3 ε scale.
+    if (std::abs(det) > 1024 * epsilon * scale * scale * scale) return sign(det);
+    return sgn(volume(a, b, c, d));
+}
+
+ExactPoint on_plane(const ExactPoint& a, const ExactPoint& b, const ExactPoint& p, const ExactPoint& q,
+                    const ExactPoint& r) {
+    const mpq_class above = volume(p, q, r, a), below = volume(p, q, r, b);
+    const mpq_class t = above / (above - below);
+    std::array<mpq_class, 3> x;
+    for (int k = 0; k < 3; ++k) x[k] = a.x[k] + t * (b.x[k] - a.x[k]);
+    return ExactPoint(std::move(x));
+}
+
+PlaneTriangulation::PlaneTriangulation(const std::vector<ExactPoint>& points, NumberOf number_of, PlaneAxes axes,
+                                       double scale, int a, int b, int c)
+    : points_(points), number_of_(std::move(number_of)), axes_(axes), scale_(scale), hint_(a, b) {
+    add(a, b, c);
+}
+
+int PlaneTriangulation::side(int a, int b, int c) const {
+    return orientation(points_[a], points_[b], points_[c], axes_, scale_);
+}
+
+int PlaneTriangulation::apex(int a, int b) const {
+    const auto found = apex_.find({a, b});
+    return found == apex_.end() ? -1 : found->second;
+}
+
+void PlaneTriangulation::add(int a, int b, int c) {
+    apex_[{a, b}] = c;
+    apex_[{b, c}] = a;
+    apex_[{c, a}] = b;
+    next_[a] = b;
+    next_[b] = c;
+    next_[c] = a;
+    hint_ = {a, b};
+}
+
+void PlaneTriangulation::remove(int a, int b, int c) {
+    apex_.erase({a, b});
+    apex_.erase({b, c});
+    apex_.erase({c, a});
+}
+
+void PlaneTriangulation::split(int a, int b, int c, int point) {
+    remove(a, b, c);
+    add(a, b, point);
+    add(b, c, point);
+    add(c, a, point);
+}
+
+void PlaneTriangulation::split_edge(int a, int b, int point) {
+    const int left = apex(a, b), right = apex(b, a);
+    if (is_fixed(a, b)) {
+        fixed_.erase(std::minmax(a, b));
+        fix(a, point);
+        fix(point, b);
+    }
+    if (left >= 0) {
+        remove(a, b, left);
+        add(a, point, left);
+        add(point, b, left);
+    }
+    if (right >= 0) {
+        remove(b, a, right);
+        add(b, point, right);
+        add(point, a, right);
+    }
+}
+
+void PlaneTriangulation::insert(int point) {
+    if (next_.contains(point)) return;
+    // From triangle to triangle across an edge that the point is beyond; then through all, if that goes in circles.
+    const auto look = [&](int a, int b, int c, Edge& beyond) {
+        const std::array<int, 3> v{a, b, c};
+        int on = -1;
+        for (int k = 0; k < 3; ++k) {
+            const int s = side(v[k], v[(k + 1) % 3], point);
+            if (s < 0) {
+                beyond = {v[(k + 1) % 3], v[k]};
+                return false;
+            }
+            if (s == 0) on = k;
+        }
+        if (on < 0)
+            split(a, b, c, point);
+        else
+            split_edge(v[on], v[(on + 1) % 3], point);
+        return true;
+    };
+    Edge at = hint_;
+    for (std::size_t step = 0; step < apex_.size(); ++step) {
+        const int c = apex(at.first, at.second);
+        if (c < 0) break;
+        if (look(at.first, at.second, c, at)) return;
+    }
+    for (const auto& t : triangles())
+        if (look(t[0], t[1], t[2], at)) return;
+}
+
+void PlaneTriangulation::insert_edge(int a, int b) {
+    std::vector<Edge> todo{{a, b}};
+    while (!todo.empty()) {
+        const auto [from, to] = todo.back();
+        todo.pop_back();
+        if (from == to) continue;
+        if (apex(from, to) >= 0 || apex(to, from) >= 0) {
+            fix(from, to);
+            continue;
+        }
+        // The triangle at `from` that the way to `to` begins in: around by the edges, left and then right.
+        int u = next_[from], v = -1, stop = -1;
+        const auto found = [&](int right, int left) {
+            const int r = side(from, to, right), l = side(from, to, left);
+            const auto ahead = [&](int w) {
+                const int k = cmp(points_[to].x[axes_.u], points_[from].x[axes_.u]) != 0 ? axes_.u : axes_.v;
+                return cmp(points_[w].x[k], points_[from].x[k]) * cmp(points_[to].x[k], points_[from].x[k]) > 0;
+            };
+            if (r == 0 && ahead(right)) stop = right;
+            if (l == 0 && ahead(left)) stop = left;
+            return stop >= 0 || (r < 0 && l > 0);
+        };
+        bool is_found = false;
+        for (int right = u, left; !is_found && (left = apex(from, right)) >= 0; right = left) {
+            is_found = found(right, left);
+            u = right, v = left;
+            if (left == next_[from]) break;
+        }
+        for (int left = next_[from], right; !is_found && (right = apex(left, from)) >= 0; left = right) {
+            is_found = found(right, left);
+            u = right, v = left;
+        }
+        if (!is_found) continue;  // not for points within the first triangle
+        if (stop >= 0) {
+            todo.push_back({stop, to});
+            fix(from, stop);
+            continue;
+        }
+        // Across triangles, until a vertex on the way or an edge that is given.
+        std::vector<Edge> crossed{{u, v}};
+        int right = u, left = v, end = -1, cut = -1;
+        while (end < 0 && cut < 0) {
+            if (is_fixed(right, left)) {
+                // (right, left) and (from, to) meet in one point.
+                const ExactPoint &p = points_[right], &q = points_[left], &s = points_[from], &t = points_[to];
+                const auto area = [&](const ExactPoint& x) {
+                    return determinant(t.x[axes_.u] - s.x[axes_.u], t.x[axes_.v] - s.x[axes_.v],
+                                       x.x[axes_.u] - s.x[axes_.u], x.x[axes_.v] - s.x[axes_.v]);
+                };
+                const mpq_class below = area(p), above = area(q), f = below / (below - above);
+                std::array<mpq_class, 3> x;
+                for (int k = 0; k < 3; ++k) x[k] = p.x[k] + f * (q.x[k] - p.x[k]);
+                cut = number_of_(ExactPoint(std::move(x)));
+                break;
+            }
+            const int beyond = apex(left, right);
+            if (beyond == to) {
+                end = to;
+                break;
+            }
+            const int s = side(from, to, beyond);
+            if (s == 0)
+                end = beyond;
+            else if (s > 0)
+                crossed.push_back({right, left = beyond});
+            else
+                crossed.push_back({right = beyond, left});
+        }
+        if (cut >= 0) {
+            split_edge(right, left, cut);
+            todo.push_back({cut, to});
+            todo.push_back({from, cut});
+        } else {
+            if (end != to) todo.push_back({end, to});
+            force(from, end, std::move(crossed));
+            fix(from, end);
+        }
+    }
+}
+
+// Flips edges that cross the way from a to b until none does [Sloan 1993].
+void PlaneTriangulation::force(int a, int b, std::vector<Edge> crossed) {
+    for (std::size_t i = 0; i < crossed.size(); ++i) {
+        const auto [right, left] = crossed[i];
+        const int near = apex(right, left), far = apex(left, right);
+        // Flipped where the four corners are a convex quadrilateral; later elsewhere.
+        if (side(near, right, far) <= 0 || side(far, left, near) <= 0) {
+            crossed.push_back(crossed[i]);
+            continue;
+        }
+        remove(right, left, near);
+        remove(left, right, far);
+        add(near, right, far);
+        add(far, left, near);
+        const int n = near == a || near == b ? 0 : side(a, b, near), f = far == a || far == b ? 0 : side(a, b, far);
+        if (n * f < 0) crossed.push_back(n < 0 ? Edge{near, far} : Edge{far, near});
+    }
+}
+
+std::vector<std::array<int, 3>> PlaneTriangulation::triangles() const {
+    std::vector<std::array<int, 3>> all;
+    for (const auto& [edge, c] : apex_)  // each by its least corner
+        if (edge.first < edge.second && edge.first < c) all.push_back({edge.first, edge.second, c});
+    return all;
+}
+
+}  // namespace deburr
