@@ -275,21 +275,22 @@ private:
         const Sampler& sampler = m_.uses[i].sampler;
         if (depth_ == 0 && count <= max_all_lights) {
             for (std::size_t e = 0; e < count; ++e)
-                take_sample(i, hit, surface, e, 1,
-                            in_.emitters_.single(e)
-                                ? Vec2(0.5)
-                                : sampler.square(dimension(m_.paths[i], light_places) + std::uint32_t(e)));
+                take_sample(i, hit, surface, e, 1, place_on(i, e, light_places + std::uint32_t(e)));
             return 0;
         }
         const double importance = in_.emitters_.importance(hit.position);
         if (!(importance > 0) || !std::isfinite(importance)) return infinity;
-        const double at = sampler.line(dimension(m_.paths[i], chosen_light));
+        const double at = count > 1 ? sampler.line(dimension(m_.paths[i], chosen_light)) : 0.5;
         if (const auto chosen = in_.emitters_.choose(hit.position, importance, at)) {
             const double part = in_.emitters_.importance(*chosen, hit.position);
-            take_sample(i, hit, surface, *chosen, part / importance,
-                        sampler.square(dimension(m_.paths[i], light_places)));
+            take_sample(i, hit, surface, *chosen, part / importance, place_on(i, *chosen, light_places));
         }
         return importance;
+    }
+
+    // Where an emitter is sampled.
+    Vec2 place_on(std::uint32_t i, std::size_t emitter, std::uint32_t draw) const {
+        return in_.emitters_.single(emitter) ? Vec2(0.5) : m_.uses[i].sampler.square(dimension(m_.paths[i], draw));
     }
 
     // `times`: samples of this emitter that are expected.
@@ -361,9 +362,8 @@ private:
     bool go_on(Path& path, const Sampler& sampler, const Hit& hit, const Scattering& surface, double importance,
                double first_choice) {
         Scattering::Sample next;
-        if (!surface.sample(first_choice + sampler.line(dimension(path, lobe)),
-                            sampler.square(dimension(path, lobe_direction)), next))
-            return false;
+        const double choice = surface.is_choice(first_choice) ? sampler.line(dimension(path, lobe)) : 0.5;
+        if (!surface.sample(first_choice + choice, sampler.square(dimension(path, lobe_direction)), next)) return false;
         path.throughput *= next.weight;
         const double left = brightest_of(path.throughput);
         if (!(left > 0) || !std::isfinite(left)) return false;

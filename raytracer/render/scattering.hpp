@@ -80,6 +80,11 @@ public:
     /// False if the light is lost. `choice` and `u` are uniform in [0, 1), but for split().
     bool sample(double choice, Vec2 u, Sample& sample) const;
 
+    /// Whether sample() depends on its choice between `first`, 0 or 1, and first + 1.
+    bool is_choice(double first) const {
+        return p_glass_ > 0 || (first == 0 ? p_base_ < 1 && p_layer_ < 1 && p_coat_ < 1 : p_layer_ < 1 && p_coat_ < 1);
+    }
+
     /// Where there is a base below something else, or glass alone: from now on, both of two are sampled, the one by a
     /// choice from 0 to 1 and the other by one from 1 to 2, and densities count both. They are the base and the rest,
     /// or what glass reflects and what passes. False, and nothing changes, where there is no such pair.
