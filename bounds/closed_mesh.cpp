@@ -239,7 +239,7 @@ int ClosedMesh::build(int begin, int end) {
     }
     nodes_[at] = {box, begin, end, -1, -1};
     const Vec3 size = centers.hi - centers.lo;
-    const int axis = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
+    const int axis = greatest_axis(size);
     if (end - begin <= few || !(size[axis] > 0)) return at;
     const int middle = begin + (end - begin) / 2;
     std::nth_element(order_.begin() + begin, order_.begin() + middle, order_.begin() + end, [&](int a, int b) {

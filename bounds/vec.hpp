@@ -17,6 +17,9 @@ constexpr double epsilon = std::numeric_limits<double>::epsilon();
 /// The largest absolute coordinate.
 inline double largest(Vec3 v) { return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)}); }
 
+/// The axis of the greatest coordinate, 0 to 2; the first of equals.
+inline int greatest_axis(Vec3 v) { return v.x >= v.y && v.x >= v.z ? 0 : v.y >= v.z ? 1 : 2; }
+
 /// Distance from x to the segment ab (a point if a = b).
 template <glm::length_t N>
 double distance_to_segment(const glm::vec<N, double>& x, const glm::vec<N, double>& a, const glm::vec<N, double>& b) {

@@ -17,7 +17,7 @@ void halve(const std::vector<Vec3>& middles, std::span<int> triangles, std::size
     Box box;
     for (const int t : triangles) box = hull(box, Box{middles[t], middles[t]});
     const Vec3 size = box.hi - box.lo;
-    const int axis = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
+    const int axis = greatest_axis(size);
     const auto half = std::ptrdiff_t(triangles.size() / 2);
     std::nth_element(triangles.begin(), triangles.begin() + half, triangles.end(), [&](int s, int t) {
         return middles[s][axis] != middles[t][axis] ? middles[s][axis] < middles[t][axis] : s < t;

@@ -168,7 +168,7 @@ private:
             for (const bool upper : {false, true}) {
                 Cell half{cell.box, cell.solid, cell.depth + 1};
                 const Vec3 size = cell.box.hi - cell.box.lo;
-                const int axis = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
+                const int axis = greatest_axis(size);
                 (upper ? half.box.lo : half.box.hi)[axis] = middle[axis];
                 visit(std::move(half), cells, doubtful);
             }

@@ -19,7 +19,7 @@ class View {
 public:
     explicit View(Vec3 normal) {
         const Vec3 m = glm::abs(normal);
-        const int drop = m.x >= m.y && m.x >= m.z ? 0 : m.y >= m.z ? 1 : 2;
+        const int drop = greatest_axis(m);
         x_ = (drop + 1) % 3;
         y_ = (drop + 2) % 3;
         if (normal[drop] < 0) std::swap(x_, y_);

@@ -239,7 +239,7 @@ const SignedDistance& DistanceField::near(Vec3 x) const {
     std::size_t before[3] = {node->half_spaces, node->half_spaces, node->half_spaces};  // of boxes around, by depth
     while (node->depth < max_depth && node->half_spaces > few) {
         const Vec3 size = node->box.hi - node->box.lo;
-        const int axis = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
+        const int axis = greatest_axis(size);
         double margin = margin_;
         if (size[axis] < 2 * margin_) {
             margin = 0.5 * size[axis];

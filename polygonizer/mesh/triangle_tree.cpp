@@ -48,7 +48,7 @@ void TriangleTree::build(int first, int count) {
     nodes_[at].box = box;
     if (count <= leaf_size) return;
     const Vec3 size = middles.hi - middles.lo;
-    const int axis = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
+    const int axis = greatest_axis(size);
     const auto middle = [&](int t) { return boxes_[t].lo[axis] + boxes_[t].hi[axis]; };
     const int half = count / 2;
     std::nth_element(order_.begin() + first, order_.begin() + first + half, order_.begin() + first + count,
@@ -137,7 +137,7 @@ bool pierces(Vec3 p, Vec3 q, const TrianglePositions& t, double slack) {
 // Of triangles in one plane: no side of either has the other one beyond it.
 bool overlap(const TrianglePositions& s, const TrianglePositions& t, double slack) {
     const Vec3 normal = glm::abs(glm::cross(s[1] - s[0], s[2] - s[0]));
-    const int drop = normal.x >= normal.y && normal.x >= normal.z ? 0 : normal.y >= normal.z ? 1 : 2;
+    const int drop = greatest_axis(normal);
     const auto flat = [&](Vec3 x) { return Vec2(x[(drop + 1) % 3], x[(drop + 2) % 3]); };
     const auto parts = [&](const TrianglePositions& a, const TrianglePositions& b) {
         const int turn = sign(orientation(flat(a[0]), flat(a[1]), flat(a[2])));

@@ -105,7 +105,7 @@ Subdivision::Extents Subdivision::extents(const PartitionNode& node) const {
     if (e.half_spaces > many)
         for (int k = 0; k < 3; ++k)
             weighed[k] *= across[k] > 0 ? std::max(across[k] / largest(across), least_weight) : 0.0;
-    e.axis = weighed.x >= weighed.y && weighed.x >= weighed.z ? 0 : weighed.y >= weighed.z ? 1 : 2;
+    e.axis = greatest_axis(weighed);
     e.size = size[e.axis];
     return e;
 }

@@ -67,7 +67,7 @@ Plane middle_plane(const CellComplex& complex, int cell) {
     Box box;
     for (const int v : complex.vertices_of(cell)) box = hull(box, Box{complex.vertices[v], complex.vertices[v]});
     const Vec3 size = box.hi - box.lo;
-    const int axis = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
+    const int axis = greatest_axis(size);
     Plane plane{Vec3(0.0), 0.5 * (box.lo[axis] + box.hi[axis])};
     plane.normal[axis] = 1;
     return plane;

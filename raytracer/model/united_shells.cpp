@@ -140,7 +140,7 @@ private:
     PlaneAxes axes(int t) const { return PlaneAxes(axis(t)); }
     int axis(int t) const {
         const Vec3 n = glm::abs(normal(t));
-        return n.x >= n.y && n.x >= n.z ? 0 : n.y >= n.z ? 1 : 2;
+        return greatest_axis(n);
     }
     Vec3 normal(int t) const { return glm::cross(corner(t, 1) - corner(t, 0), corner(t, 2) - corner(t, 0)); }
 

@@ -280,7 +280,7 @@ double PovField::greatest_slope(const Box& box) const {
         const Vec3 middle = 0.5 * (b.lo + b.hi);
         met = std::max(met, glm::length(slopes({middle, middle}).greatest()));
         const Vec3 most = slopes(b).greatest(), change = most * (b.hi - b.lo);
-        const int axis = change.x >= change.y && change.x >= change.z ? 0 : change.y >= change.z ? 1 : 2;
+        const int axis = greatest_axis(change);
         open.push({glm::length(most), b, axis});
     };
     examine(box);

@@ -346,7 +346,7 @@ private:
         const Box part = intersection(intersection(item.box, cell), world_);
         if (part.empty()) return {};
         const Vec3 size = part.hi - part.lo;
-        const int axis = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
+        const int axis = greatest_axis(size);
         constexpr double long_side = 8;  // in radii
         if (size[axis] < std::max(2 * smallest_, long_side * item.tree->leaves[0].field->filter_radius())) return {};
         return {0, 0.5 * (part.lo[axis] + part.hi[axis]), axis};
