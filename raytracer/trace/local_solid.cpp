@@ -71,17 +71,16 @@ void LocalSolid::add_leaf(const SolidLeaf& leaf, const Box& box, const Tolerance
                           std::optional<bool>& constant) {
     if (leaf.field) {  // pruned to where it straddles
         leaves_.push_back({Vec3(0.0), 0, int(softs_.size()), leaf.material});
+        const auto keep = [&](auto form) { softs_.push_back({std::move(form), std::size_t(leaf.field->size())}); };
+        const auto* round = dynamic_cast<const RoundDensity*>(leaf.field.get());
+        if (round && round->local() && root_method != RootMethod::always) {
+            if (auto surface = RoundSurface::of(*round->local())) return keep(*std::move(surface));
+            if (auto sum = ProductSum::of(*round->local(), tolerances.clearance())) return keep(*std::move(sum));
+            if (auto product = RoundProduct::of(*round->local())) return keep(*std::move(product));
+        }
         const Box seen = intersection(box, inflated(leaf.field->bounding_box(), tolerances.margin()));
         const double max_noise_scale = !seen.empty() && seen.finite() ? leaf.field->max_noise_scale(seen) : 0;
-        softs_.push_back(
-            {.density = LocalDensity(leaf.density), .field = leaf.field, .max_noise_scale = max_noise_scale});
-        const auto* round = dynamic_cast<const RoundDensity*>(leaf.field.get());
-        if (!round || !round->local() || root_method == RootMethod::always) return;
-        softs_.back().surface = RoundSurface::of(*round->local());
-        if (softs_.back().surface) return;
-        softs_.back().sum = ProductSum::of(*round->local(), tolerances.clearance());
-        if (!softs_.back().sum) softs_.back().product = RoundProduct::of(*round->local());
-        return;
+        return keep(SearchedField{leaf.field, max_noise_scale});
     }
     const auto prepared = [&] {
         try {
@@ -113,32 +112,31 @@ void LocalSolid::add_leaf(const SolidLeaf& leaf, const Box& box, const Tolerance
             to.offset = -p.base / length;
         } else {
             to.soft = int(softs_.size());
-            softs_.push_back({.density = std::move(density), .convex = std::move(convex)});
+            softs_.push_back({*std::move(convex), density.half_spaces().size()});
         }
     } else if (auto sum =
                    root_method == RootMethod::always ? std::nullopt : ProductSum::of(density, tolerances.clearance())) {
         to.soft = int(softs_.size());
-        softs_.push_back({.density = std::move(density), .sum = std::move(sum)});
+        softs_.push_back({*std::move(sum), density.half_spaces().size()});
     } else {
         to.soft = int(softs_.size());
         const double clearance = tolerances.clearance();
         const auto is_sharp = [](const HalfSpace& h) { return h.radius == 0; };
         const bool all_sharp = std::all_of(density.half_spaces().begin(), density.half_spaces().end(), is_sharp);
-        softs_.push_back({.density = std::move(density),
-                          .outer = outer_bound(leaf.density, 0.5, clearance),
-                          .inner = inner_bound(leaf.density, 0.5, clearance),
-                          .bounded = bounds_hold(leaf.density, box),
-                          .all_sharp = all_sharp});
+        const std::size_t half_spaces = density.half_spaces().size();
+        softs_.push_back({SearchedDensity{.density = std::move(density),
+                                          .outer = outer_bound(leaf.density, 0.5, clearance),
+                                          .inner = inner_bound(leaf.density, 0.5, clearance),
+                                          .bounded = bounds_hold(leaf.density, box),
+                                          .all_sharp = all_sharp},
+                          half_spaces});
     }
     leaves_.push_back(to);
 }
 
 std::size_t LocalSolid::half_spaces() const {
     std::size_t sum = 0;
-    for (const Leaf& leaf : leaves_) {
-        const Soft* soft = leaf.soft < 0 ? nullptr : &softs_[leaf.soft];
-        sum += !soft ? 1 : soft->field ? std::size_t(soft->field->size()) : soft->density.half_spaces().size();
-    }
+    for (const Leaf& leaf : leaves_) sum += leaf.soft < 0 ? 1 : softs_[leaf.soft].half_spaces;
     return sum;
 }
 
@@ -178,7 +176,7 @@ std::optional<ConvexDensity> LocalSolid::intersection_of_leaves(unsigned positiv
             sharp.push_back({sign * leaf.normal, -sign * leaf.offset});
             continue;
         }
-        const auto& part = softs_[leaf.soft].convex;
+        const auto* part = std::get_if<ConvexDensity>(&softs_[leaf.soft].form);
         if (!part || part->complement == is_positive) return std::nullopt;
         const auto soft_end = part->planes.end() - part->sharp;
         // {P > ½} of two products is not that of their product.

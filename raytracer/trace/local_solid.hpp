@@ -8,6 +8,7 @@
 // (round_product.hpp).
 #pragma once
 #include <optional>
+#include <variant>
 #include <vector>
 
 #include "bounds/convex_density.hpp"
@@ -91,8 +92,8 @@ public:
     std::optional<Convex> convex() const;
 
     /// The whole of it as a sum of products, or as a round part's surface, if it is one leaf's; else null.
-    const ProductSum* sum() const { return is_one_soft() && softs_[0].sum ? &*softs_[0].sum : nullptr; }
-    const RoundSurface* surface() const { return is_one_soft() && softs_[0].surface ? &*softs_[0].surface : nullptr; }
+    const ProductSum* sum() const { return is_one_soft() ? std::get_if<ProductSum>(&softs_[0].form) : nullptr; }
+    const RoundSurface* surface() const { return is_one_soft() ? std::get_if<RoundSurface>(&softs_[0].form) : nullptr; }
     /// Those of the BSP that it was made for.
     Tolerances tolerances() const { return {scale_}; }
     /// Of the first leaf.
@@ -110,17 +111,21 @@ private:
         int soft = -1;  // index of its density or field; −1: flat
         int material = 0;
     };
-    struct Soft {
+    // A density of which no simpler form is known: its roots are searched between its bounds.
+    struct SearchedDensity {
         LocalDensity density;
-        std::optional<ConvexDensity> convex = {};  // then, and with a sum, the bounds below are empty
-        std::optional<ProductSum> sum = {};
-        BoundCsg outer = {}, inner = {};
-        bool bounded = false;  // the bounds hold
-        bool all_sharp = false;
-        FieldPtr field = {};         // if it is set, only what follows counts
-        double max_noise_scale = 0;  // upper bound of FieldRay::noise_scale over the rays here; 0: not known
-        std::optional<RoundSurface> surface = {};  // the field's, if it is as simple as that
-        std::optional<RoundProduct> product = {};  // likewise
+        BoundCsg outer, inner;
+        bool bounded;  // the bounds hold
+        bool all_sharp;
+    };
+    struct SearchedField {
+        FieldPtr field;
+        double max_noise_scale;  // upper bound of FieldRay::noise_scale over the rays here; 0: not known
+    };
+    // What is not flat, in the simplest form that it has here.
+    struct Soft {
+        std::variant<ConvexDensity, ProductSum, RoundSurface, RoundProduct, SearchedDensity, SearchedField> form;
+        std::size_t half_spaces;  // that it was made of
     };
 
     bool is_one_soft() const { return nodes_.size() == 1 && softs_.size() == 1 && leaves_[0].soft == 0; }
@@ -129,18 +134,42 @@ private:
     /// The intersection of those leaves whose bit is set and of the others' complements.
     std::optional<ConvexDensity> intersection_of_leaves(unsigned positive) const;
     bool evaluate(std::vector<char>& state, const std::vector<char>& inside) const;
+    // What follows calls visit(t, entering, normal or 0: not known yet) → go on?
     template <class Visit>
-    void field_crossings(const Field& field, double max_noise_scale, const Vec3& origin, const Vec3& direction,
-                         double t0, double t1, CrossingScratch& scratch, bool* start_inside, Visit visit) const;
+    void crossings_of(const SearchedField& searched, const Vec3& origin, const Vec3& direction, double t0, double t1,
+                      CrossingScratch& scratch, bool* start_inside, Visit visit) const;
     template <class Visit>
-    void round_crossings(const Soft& soft, const Vec3& origin, const Vec3& direction, double t0, double t1,
-                         CrossingScratch& scratch, bool* start_inside, Visit visit) const;
+    void crossings_of(const RoundSurface& surface, const Vec3& origin, const Vec3& direction, double t0, double t1,
+                      CrossingScratch& scratch, bool* start_inside, Visit visit) const;
+    template <class Visit>
+    void crossings_of(const RoundProduct& product, const Vec3& origin, const Vec3& direction, double t0, double t1,
+                      CrossingScratch& scratch, bool* start_inside, Visit visit) const;
+    template <class Visit>
+    void crossings_of(const ProductSum& sum, const Vec3& origin, const Vec3& direction, double t0, double t1,
+                      CrossingScratch& scratch, bool* start_inside, Visit visit) const {
+        sum_crossings(sum, origin, direction, t0, t1, false, scratch, start_inside, visit);
+    }
+    template <class Visit>
+    void crossings_of(const ConvexDensity& convex, const Vec3& origin, const Vec3& direction, double t0, double t1,
+                      CrossingScratch& scratch, bool* start_inside, Visit visit) const;
+    template <class Visit>
+    void crossings_of(const SearchedDensity& searched, const Vec3& origin, const Vec3& direction, double t0, double t1,
+                      CrossingScratch& scratch, bool* start_inside, Visit visit) const;
+    // `coarse`: t is after the crossing, and the normal 0.
     template <class Visit>
     void sum_crossings(const ProductSum& sum, const Vec3& origin, const Vec3& direction, double t0, double t1,
                        bool coarse, CrossingScratch& scratch, bool* start_inside, Visit visit) const;
+    // Of a round surface or product, which it names `round`.
+    template <class Round, class Visit>
+    void visit_round(const Round& round, const ConvexCrossings& all, const Vec3& origin, const Vec3& direction,
+                     CrossingScratch& scratch, bool* start_inside, Visit visit) const;
     template <class Visit>
     void soft_crossings(const Soft& soft, const Vec3& origin, const Vec3& direction, double t0, double t1,
-                        CrossingScratch& scratch, bool* start_inside, Visit visit) const;
+                        CrossingScratch& scratch, bool* start_inside, Visit visit) const {
+        std::visit(
+            [&](const auto& form) { crossings_of(form, origin, direction, t0, t1, scratch, start_inside, visit); },
+            soft.form);
+    }
 
     int solid_;
     bool has_surface_ = true;

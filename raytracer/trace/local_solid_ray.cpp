@@ -68,11 +68,10 @@ bool clip(const Box& box, const Vec3& origin, const Vec3& direction, double& t0,
 
 }  // namespace
 
-// visit(t, entering, normal) → go on?
 template <class Visit>
-void LocalSolid::field_crossings(const Field& field, double max_noise_scale, const Vec3& origin, const Vec3& direction,
-                                 double t0, double t1, CrossingScratch& scratch, bool* start_inside,
-                                 Visit visit) const {
+void LocalSolid::crossings_of(const SearchedField& searched, const Vec3& origin, const Vec3& direction, double t0,
+                              double t1, CrossingScratch& scratch, bool* start_inside, Visit visit) const {
+    const Field& field = *searched.field;
     // What is passed over as a mere touch; f is in the ray's unit, of which rounding is all the noise.
     constexpr double f_tolerance = 2 * RootFinder::rounding;
     constexpr double farthest = 1e30;  // squares and cubes are far from overflowing there
@@ -88,8 +87,9 @@ void LocalSolid::field_crossings(const Field& field, double max_noise_scale, con
         // Where large terms cancel, f is off by more than its slope makes of a coordinate's rounding; and a ray that
         // leaves from here may run to where they are larger.
         const double slope = glm::length(gradient), most = 0x1p-30 * scale_;
-        scratch.error =
-            slope > 0 ? std::min(4 * epsilon * std::max(ray.noise_scale, max_noise_scale) / slope, most) : most;
+        scratch.error = slope > 0
+                            ? std::min(4 * epsilon * std::max(ray.noise_scale, searched.max_noise_scale) / slope, most)
+                            : most;
         // At a cone's apex there is none: the ray's own will do.
         return visit(t, entering, normal == Vec3(0.0) ? direction : normal);
     };
@@ -115,25 +115,32 @@ void LocalSolid::field_crossings(const Field& field, double max_noise_scale, con
     }
 }
 
-// visit(t, entering, normal) → go on?
-template <class Visit>
-void LocalSolid::round_crossings(const Soft& soft, const Vec3& origin, const Vec3& direction, double t0, double t1,
-                                 CrossingScratch& scratch, bool* start_inside, Visit visit) const {
-    const ConvexCrossings all = soft.surface
-                                    ? soft.surface->crossings(origin, direction, t0, t1)
-                                    : soft.product->crossings(origin, direction, t0, t1, Tolerances{scale_}.along(t0),
-                                                              scratch.counters.roots.evaluations);
+template <class Round, class Visit>
+void LocalSolid::visit_round(const Round& round, const ConvexCrossings& all, const Vec3& origin, const Vec3& direction,
+                             CrossingScratch& scratch, bool* start_inside, Visit visit) const {
     if (start_inside) *start_inside = all.start_inside;
     scratch.error = Tolerances{scale_}.of_round();
     for (int i = 0; i < all.count; ++i) {
-        const Vec3 x = origin + direction * all.at[i].t;
-        const Vec3 normal = soft.surface ? soft.surface->normal(x) : soft.product->normal(x);
+        const Vec3 normal = round.normal(origin + direction * all.at[i].t);
         // At an apex there is none: the ray's own will do.
         if (!visit(all.at[i].t, all.at[i].entering, normal == Vec3(0.0) ? direction : normal)) return;
     }
 }
 
-// visit(t, entering, normal; 0 where t is `coarse`) → go on?
+template <class Visit>
+void LocalSolid::crossings_of(const RoundSurface& surface, const Vec3& origin, const Vec3& direction, double t0,
+                              double t1, CrossingScratch& scratch, bool* start_inside, Visit visit) const {
+    visit_round(surface, surface.crossings(origin, direction, t0, t1), origin, direction, scratch, start_inside, visit);
+}
+
+template <class Visit>
+void LocalSolid::crossings_of(const RoundProduct& product, const Vec3& origin, const Vec3& direction, double t0,
+                              double t1, CrossingScratch& scratch, bool* start_inside, Visit visit) const {
+    const ConvexCrossings all =
+        product.crossings(origin, direction, t0, t1, Tolerances{scale_}.along(t0), scratch.counters.roots.evaluations);
+    visit_round(product, all, origin, direction, scratch, start_inside, visit);
+}
+
 template <class Visit>
 void LocalSolid::sum_crossings(const ProductSum& sum, const Vec3& origin, const Vec3& direction, double t0, double t1,
                                bool coarse, CrossingScratch& scratch, bool* start_inside, Visit visit) const {
@@ -149,42 +156,37 @@ void LocalSolid::sum_crossings(const ProductSum& sum, const Vec3& origin, const 
     });
 }
 
-// visit(t, entering, normal or 0: not known yet) → go on?
 template <class Visit>
-void LocalSolid::soft_crossings(const Soft& soft, const Vec3& origin, const Vec3& direction, double t0, double t1,
-                                CrossingScratch& scratch, bool* start_inside, Visit visit) const {
-    if (soft.surface || soft.product)
-        return round_crossings(soft, origin, direction, t0, t1, scratch, start_inside, visit);
-    if (soft.sum) return sum_crossings(*soft.sum, origin, direction, t0, t1, false, scratch, start_inside, visit);
-    if (soft.field)
-        return field_crossings(*soft.field, soft.max_noise_scale, origin, direction, t0, t1, scratch, start_inside,
-                               visit);
-    if (soft.convex) {
-        const ConvexView view = ConvexView::of(*soft.convex);
-        const ConvexCrossings all = all_crossings(view, origin, direction, t0, t1, Tolerances{scale_}.along(t0),
-                                                  scratch.counters.roots.evaluations);
-        if (start_inside) *start_inside = all.start_inside;
-        for (int i = 0; i < all.count; ++i) {
-            const ConvexCrossing& c = all.at[i];
-            if (!visit(c.t, c.entering, surface_normal(view, c, origin + direction * c.t))) return;
-        }
-        return;
+void LocalSolid::crossings_of(const ConvexDensity& convex, const Vec3& origin, const Vec3& direction, double t0,
+                              double t1, CrossingScratch& scratch, bool* start_inside, Visit visit) const {
+    const ConvexView view = ConvexView::of(convex);
+    const ConvexCrossings all = all_crossings(view, origin, direction, t0, t1, Tolerances{scale_}.along(t0),
+                                              scratch.counters.roots.evaluations);
+    if (start_inside) *start_inside = all.start_inside;
+    for (int i = 0; i < all.count; ++i) {
+        const ConvexCrossing& c = all.at[i];
+        if (!visit(c.t, c.entering, surface_normal(view, c, origin + direction * c.t))) return;
     }
+}
+
+template <class Visit>
+void LocalSolid::crossings_of(const SearchedDensity& searched, const Vec3& origin, const Vec3& direction, double t0,
+                              double t1, CrossingScratch& scratch, bool* start_inside, Visit visit) const {
     const Span whole[1] = {{t0, t1}};
     const Span *first = whole, *last = whole + 1;
-    if (soft.bounded) {
-        const auto& found = scratch.spans.between(soft.outer, soft.inner, origin, direction, t0, t1);
+    if (searched.bounded) {
+        const auto& found = scratch.spans.between(searched.outer, searched.inner, origin, direction, t0, t1);
         first = found.data();
         last = first + found.size();
         if (first == last && !start_inside) return;
     }
     RayDensity& density = scratch.density;
-    density.set(soft.density, origin, direction);
+    density.set(searched.density, origin, direction);
     const auto inside_at = [&](double t) {
         ++scratch.counters.roots.evaluations;
         return density.at(t).value > 0.5;
     };
-    const bool has_sharp = soft.density.has_sharp();
+    const bool has_sharp = searched.density.has_sharp();
     if (start_inside) {
         if (has_sharp) density.fix_sharp(t0);
         *start_inside = inside_at(t0);
@@ -194,7 +196,7 @@ void LocalSolid::soft_crossings(const Soft& soft, const Vec3& origin, const Vec3
         if (hi == infinity) {  // nothing varies beyond the last plane that saturates
             hi = lo;
             for (std::size_t i = 0; i < density.size(); ++i) {
-                const double rate = density.distance_rate(i), reach = soft.density.half_spaces()[i].radius;
+                const double rate = density.distance_rate(i), reach = searched.density.half_spaces()[i].radius;
                 if (rate != 0) hi = std::max(hi, (std::abs(density.distance0(i)) + reach + scale_) / std::abs(rate));
             }
             if (!(hi < 1e300)) hi = 1e300;
@@ -209,7 +211,7 @@ void LocalSolid::soft_crossings(const Soft& soft, const Vec3& origin, const Vec3
         auto& cuts = scratch.sharp;
         cuts.assign(1, lo);
         for (std::size_t i = 0; i < density.size(); ++i) {
-            if (soft.density.half_spaces()[i].radius > 0 || density.distance_rate(i) == 0) continue;
+            if (searched.density.half_spaces()[i].radius > 0 || density.distance_rate(i) == 0) continue;
             const double t = density.plane_crossing(i);
             if (t > lo && t < hi) cuts.push_back(t);
         }
@@ -224,7 +226,7 @@ void LocalSolid::soft_crossings(const Soft& soft, const Vec3& origin, const Vec3
             if (k > 0 && now != inside) {
                 Vec3 normal(0.0);  // of a sharp plane here
                 for (std::size_t i = 0; i < density.size(); ++i) {
-                    const HalfSpace& h = soft.density.half_spaces()[i];
+                    const HalfSpace& h = searched.density.half_spaces()[i];
                     if (h.radius > 0 || density.distance_rate(i) == 0) continue;
                     const double t = density.plane_crossing(i);
                     if (std::abs(t - a) <= t_tolerance) normal = h.normal;
@@ -232,7 +234,7 @@ void LocalSolid::soft_crossings(const Soft& soft, const Vec3& origin, const Vec3
                 if (!visit(a, now, normal)) return;
             }
             inside = now;
-            if (soft.all_sharp) continue;
+            if (searched.all_sharp) continue;
             if (!stretch.crossings(a, b, pass)) return;
             inside = inside_at(b);
         }
@@ -258,8 +260,8 @@ SurfaceCrossing LocalSolid::first_crossing(const Vec3& origin, const Vec3& direc
             return {t, leaf.normal, leaf.material};
         }
         const Soft& soft = softs_[leaf.soft];
-        if (soft.sum) {
-            sum_crossings(*soft.sum, origin, direction, t0, t1, any, scratch, nullptr,
+        if (const auto* sum = std::get_if<ProductSum>(&soft.form)) {
+            sum_crossings(*sum, origin, direction, t0, t1, any, scratch, nullptr,
                           [&](double t, bool entering, Vec3 normal) {
                               found(t, entering, normal, leaf.material, scratch.error);
                               return false;
