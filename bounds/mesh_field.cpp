@@ -17,6 +17,9 @@ constexpr double pi = 3.14159265358979323846;
 
 constexpr double steepest = 0.75;  // what the largest disc changes the share by, for each radius
 
+// Between planes that make a wedge: an error of ε in one moves their edge by ε over the angle.
+constexpr double least_angle = 1e-6;
+
 bool same_plane(const ClosedMesh::Plane& a, const ClosedMesh::Plane& b, double scale) {
     if (a.id == b.id) return true;
     return glm::dot(a.normal, b.normal) > 0 && largest(a.normal - b.normal) <= 4 * epsilon &&
@@ -285,6 +288,9 @@ std::optional<DensityTree> MeshField::as_density(const Box& cell) const {
         if (!reached) return std::nullopt;
         return DensityTree{{half_space(*a)}, {{Op::half_space, 0}}, {}};
     }
+    // Where planes that are all but one plane meet is not known well enough.
+    if (glm::length(glm::cross(a->normal, b->normal)) < least_angle && glm::dot(a->normal, b->normal) > 0)
+        return std::nullopt;
     // They meet in edges of one kind, one of which is surely near.
     bool convex = false, concave = false, meet = false;
     for (const int t : found) {

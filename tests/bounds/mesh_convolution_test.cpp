@@ -311,3 +311,28 @@ TEST_CASE("an open mesh is told with the number of its open edges, and where one
         CHECK(error.count == 3);
     }
 }
+
+TEST_CASE("facets of a face that is bent by rounding make no wedge") {
+    // A cube whose top has a vertex in its middle, which is off by this much.
+    for (const double off : {1e-11, -1e-11}) {
+        std::vector<Vec3> v;
+        for (int i = 0; i < 8; ++i) v.push_back(Vec3(i & 1, i >> 1 & 1, i >> 2));
+        v.push_back({0.4, 0.3, 1 + off});
+        std::vector<ClosedMesh::Corners> t{{0, 2, 1}, {1, 2, 3}, {0, 1, 4}, {1, 5, 4}, {1, 3, 5}, {3, 7, 5}, {3, 2, 7},
+                                           {2, 6, 7}, {2, 0, 6}, {0, 4, 6}, {4, 5, 8}, {5, 7, 8}, {7, 6, 8}, {6, 4, 8}};
+        const MeshField field(std::make_shared<ClosedMesh>(v, t), 0.05);
+        CHECK(field.mesh().planes() == 9);
+        int known = 0;
+        for (auto seed : seeds(500)) {
+            CAPTURE(off, seed);
+            Gen g(seed);
+            const Vec3 x(g.between(0.1, 0.9), g.between(0.1, 0.9), 1);
+            const auto density = field.as_density(inflated({x, x}, 0.01));
+            if (!density) continue;
+            ++known;
+            CHECK(density->half_spaces.size() == 1);
+            CHECK(density->at(x) == Approx(0.5).margin(1e-9));
+        }
+        CHECK(known > 100);
+    }
+}
