@@ -6,6 +6,7 @@
 #include "bounds/density_tree.hpp"
 #include "raytracer/scene/convex_hull.hpp"
 #include "raytracer/scene/polygon.hpp"
+#include "raytracer/scene/round_convolution.hpp"
 #include "raytracer/scene/scene_functions.hpp"
 
 namespace deburr {
@@ -202,13 +203,18 @@ SceneResult convolved(SceneCall& call) {
     if (const auto* model = as<PlacedModel>(as_object(call.argument(1))))
         return call.make(call.builder.solid(*model, radius, call.line));
     const Density& density = need_density(call.argument(1), call.name, "a density or a model");
-    if (density.node().has_round)
-        throw BadValue(call.name,
-                       "expected a density of half-spaces, got one with round parts, whose convolution has no closed "
-                       "form; rounded(r, d) keeps their size");
     if (density.has_radius())
         throw BadValue(call.name,
                        "expected a density without radii, got one with :radius(); one ball rounds all of it");
+    if (density.node().has_round) {
+        try {
+            return call.make(convolved_round(radius, density, call.line));
+        } catch (const BadRoundPart& error) {
+            throw BadValue(call.name, error.what());
+        } catch (const NoRoundConvolution& error) {
+            throw BadValue(call.name, error.what());
+        }
+    }
     return call.make(Solid::convolved(radius, density, call.line));
 }
 

@@ -31,7 +31,8 @@ std::map<std::string, Folders> allowed_includes() {
     may["raytracer/util"] = {};
     may["raytracer/simd"] = {"bounds"};
     may["raytracer/model"] = {"bounds", "polygonizer/mesh", "raytracer/util"};
-    may["raytracer/scene"] = {"bounds", "raytracer/model", "raytracer/util"};
+    // Densities with round parts are convolved by way of their mesh.
+    may["raytracer/scene"] = mesh + Folders{"polygonizer/triage", "raytracer/model", "raytracer/util"};
     may["raytracer/image"] = {"bounds", "raytracer/scene", "raytracer/util"};
     may["raytracer/accel"] = {"bounds", "raytracer/simd", "raytracer/util"};
     may["raytracer/trace"] = {"bounds", "raytracer/accel", "raytracer/simd", "raytracer/util"};

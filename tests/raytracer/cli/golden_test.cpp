@@ -53,5 +53,6 @@ TEST_CASE("every scene in scenes/ renders like its golden picture", "[slow]") {
 
 TEST_CASE("the staplers and the hole punch have round pins, bores and springs on request") {
     for (const std::string name : {"staplers", "hole_punch"})
-        check_picture(fs::path(DEBURR_SOURCE_DIR "/scenes") / (name + ".lua"), name + "_round", {"-D", "columns=round"});
+        check_picture(fs::path(DEBURR_SOURCE_DIR "/scenes") / (name + ".lua"), name + "_round",
+                      {"-D", "columns=round"});
 }

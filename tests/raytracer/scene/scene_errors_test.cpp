@@ -163,9 +163,10 @@ TEST_CASE("quadrics, perturbations and free forms say what they expect") {
         {"rounded(0.6, torus{ radius = 1, tube = 0.5 })",
          "s.lua:1: rounded: expected a torus whose radius is at least its tube and the rounding radius, got 1 < 0.5 + "
          "0.6"},
-        {"convolved(0.1, sphere{})",
-         "s.lua:1: convolved: expected a density of half-spaces, got one with round parts, whose convolution has no "
-         "closed form; rounded(r, d) keeps their size"},
+        {"convolved(0.1, ~sphere{})",
+         "s.lua:1: convolved: expected a bounded density, as this one has round parts; cut it off with box(lo, hi)"},
+        {"convolved(0.1, sphere{}:radius(0.1))",
+         "s.lua:1: convolved: expected a density without radii, got one with :radius(); one ball rounds all of it"},
         {"sphere{}:scale(1, 2, 1)",
          "s.lua:1: scale: expected one factor for a density with round parts, got several; scale the rounded solid, as "
          "in rounded(r, d):scale(x, y, z)"},
