@@ -1,5 +1,6 @@
 // How the cost of a ray grows with the number of objects, and with the half-spaces of one.
 #include <fmt/format.h>
+#include <malloc.h>
 
 #include <numbers>
 
@@ -86,6 +87,23 @@ Solid holed_plate(int k) {
     return Solid::rounded(0.03, plate);
 }
 
+// n half-spaces around a ball, spread evenly.
+Solid ball(int n) {
+    const auto half_space = [n](int i) {
+        const double z = 1 - (2 * i + 1.0) / n, a = i * std::numbers::pi * (3 - std::sqrt(5.0));
+        const double s = std::sqrt(1 - z * z);
+        return Density::half_space({s * std::cos(a), s * std::sin(a), z}, 1);
+    };
+    Density all = half_space(0);
+    for (int i = 1; i < n; ++i) all = all & half_space(i);
+    return Solid::rounded(0.02, all);
+}
+
+double bytes_in_use() {
+    const auto m = mallinfo2();
+    return double(m.uordblks) + double(m.hblkhd);
+}
+
 }  // namespace
 
 void growth_of_tracing(Report& report) {
@@ -112,15 +130,36 @@ void growth_of_tracing(Report& report) {
     Growth forms{10'000};
     for (const int count : {1'000, 10'000, 100'000}) {
         const std::vector<Solid> solids = different_blocks(count);
-        const double build = cpu_seconds_of([&] { ImplicitTracer tracer(solids); });
+        const double before = bytes_in_use();
+        std::optional<ImplicitTracer> tracer;
+        const double build = cpu_seconds_of([&] { tracer.emplace(solids); });
+        const double bytes = bytes_in_use() - before;
         forms.add(count, build / count);
-        report.figure(fmt::format("{} different blocks: build", count), build, "s");
+        const bool many = count == 100'000;
+        report.figure(fmt::format("{} different blocks: build", count), build, "s",
+                      many ? std::optional(at_most(1)) : std::nullopt);
+        report.figure(fmt::format("{} different blocks: memory", count), 1e-6 * bytes, "MB",
+                      many ? std::optional(at_most(150)) : std::nullopt);
+        report.figure(fmt::format("{} different blocks: memory of a block", count), bytes / count, "bytes");
     }
+    report.figure("a ray under way and its hit: memory", double(sizeof(Ray) + sizeof(Hit)), "bytes");
     report.ratio(fmt::format("to build one of {:.0f} different blocks / of 10,000", forms.last_x),
                  {forms.last, forms.reference}, at_most(3));
 
-    report.figure("a plate of 1,024 holes of 12 sides: build",
-                  seconds_of([solid = holed_plate(32)] { ImplicitTracer tracer({solid}); }, 3), "s", at_most(0.4));
+    const auto build = [&](const std::string& what, const std::vector<Solid>& solids, double goal) {
+        report.figure(what + ": build", seconds_of([&] { ImplicitTracer tracer(solids); }, 3), "s", at_most(goal));
+        const double before = bytes_in_use();
+        const ImplicitTracer tracer(solids);
+        report.figure(what + ": memory of a cell", (bytes_in_use() - before) / double(tracer.statistics().cells),
+                      "bytes");
+    };
+    build("a plate of 1,024 holes of 12 sides", {holed_plate(32)}, 0.4);
+    build("an object of 2,000 half-spaces", {ball(2000)}, 0.3);
+    const Solid block = Solid::rounded(0.05, Density::box(Vec3(0.0), Vec3(0.7)));
+    std::vector<Solid> placed;
+    for (int i = 0; i < 1'000'000; ++i) placed.push_back(block.transformed({Mat3(1.0), Vec3(i % 1000, 0, i / 1000)}));
+    report.figure("1,000,000 placements: build", cpu_seconds_of([&] { ImplicitTracer tracer(placed); }), "s",
+                  at_most(1));
 
     Growth half_spaces{12};
     for (const int k : {1, 4, 11, 35}) {
