@@ -34,6 +34,8 @@ public:
     class Builder {
     public:
         static constexpr int nothing = -1;
+        /// For so many items.
+        void reserve(std::size_t items) { parts_.reserve(2 * items); }
         int item(std::uint32_t number, const Box& box);
         int join(int a, int b);  // of any two, also of nothing
         /// All of these, so that few rays meet many: by the surface-area heuristic.

@@ -57,14 +57,18 @@ int Bvh8::Builder::split(std::vector<int>& order, std::size_t first, std::size_t
         const double share = (middle(box(part))[axis] - middles.lo[axis]) / (middles.hi[axis] - middles.lo[axis]);
         return std::clamp(int(share * bins), 0, bins - 1);
     };
-    for (int axis = 0; axis < 3 && depth < max_depth_by_area; ++axis) {
-        if (!(middles.hi[axis] > middles.lo[axis])) continue;
-        Bin all[bins];
-        for (std::size_t i = first; i < end; ++i) {
-            Bin& bin = all[bin_of(order[i], axis)];
-            bin.box = hull(bin.box, box_at(i));
-            ++bin.count;
-        }
+    const auto is_split = [&](int axis) { return depth < max_depth_by_area && middles.hi[axis] > middles.lo[axis]; };
+    Bin bins_of[3][bins];
+    for (std::size_t i = first; i < end; ++i)  // boxes lie apart: each is loaded once
+        for (int axis = 0; axis < 3; ++axis)
+            if (is_split(axis)) {
+                Bin& bin = bins_of[axis][bin_of(order[i], axis)];
+                bin.box = hull(bin.box, box_at(i));
+                ++bin.count;
+            }
+    for (int axis = 0; axis < 3; ++axis) {
+        if (!is_split(axis)) continue;
+        const Bin* all = bins_of[axis];
         double upper_cost[bins];
         Bin sum;
         const auto add = [&](const Bin& bin) {

@@ -262,10 +262,12 @@ private:
             return;
         }
         std::vector<CanonicalPlacement> roots;
+        roots.reserve(solids.size());
         for (const Solid& s : solids) roots.push_back(canonical_.of(s));
         const Counts count = occurrences(roots);
         find_boxes(roots);
         std::vector<Part> parts;
+        parts.reserve(roots.size());
         for (std::size_t i = 0; i < roots.size(); ++i) take_apart(roots[i], int(i), count, parts);
         std::unordered_map<int, int> uses;
         Box around;
@@ -274,6 +276,8 @@ private:
             if (part.box.finite()) around = hull(around, part.box);
         }
         const double whole = largest(around.hi - around.lo);
+        prototypes[prototype].instances.reserve(parts.size() - uses.size());  // at least
+        prototypes[prototype].boxes.reserve(parts.size() - uses.size());
         for (const Part& part : parts) {
             const Mat3& linear = part.placed.map.linear;
             PlannedPrototype& here = prototypes[prototype];

@@ -309,6 +309,7 @@ SurfaceTracer::SurfaceTracer(std::vector<NamedBsp> bsps, const std::vector<Box>&
     primitives = planes = CellPrimitives(tolerances, criterion);
     std::vector<Box> boxes;  // of primitives
     Box world;
+    surfaces_.instance_boxes.reserve(instance_boxes.size());
     for (const Box& box : instance_boxes) {
         world = hull(world, box);
         surfaces_.instance_boxes.push_back(inflated(box, tolerances.margin()));
@@ -335,6 +336,10 @@ SurfaceTracer::SurfaceTracer(std::vector<NamedBsp> bsps, const std::vector<Box>&
     Bvh8::Builder builder;
     std::vector<int> parts;
     std::vector<NumberedBox> items;
+    const std::size_t all = boxes.size() + instance_boxes.size();
+    builder.reserve(all);
+    items.reserve(all);
+    parts.reserve(bsps.size() + instance_boxes.size());
     std::uint32_t first = 0;
     for (NamedBsp& bsp : bsps) {
         parts.push_back(join_like(bsp.tree, builder, [&](std::uint32_t i) {
