@@ -1,8 +1,9 @@
 #include "bounds/decision_diagram.hpp"
 
 #include <algorithm>
-#include <map>
-#include <tuple>
+#include <cstdint>
+#include <unordered_map>
+#include <unordered_set>
 
 namespace deburr {
 namespace {
@@ -86,18 +87,49 @@ private:
         return int(diagram_.families.size()) - 1;
     }
 
-    void combine(int root) {
-        std::vector<int> done(reached_.size(), 0);
+    // Which nodes are operands of one that does the same, and of no other.
+    std::vector<char> merged_nodes() const {
+        std::vector<int> uses(reached_.size(), 0);
+        std::vector<char> merged(reached_.size(), false);
         for (std::size_t i = 0; i < reached_.size(); ++i) {
-            if (!reached_[i]) continue;
             const TreeNode& n = tree_.nodes[i];
-            const auto child = [&](int c) { return done[c]; };
-            switch (n.op) {
-                case Op::constant: done[i] = n.value > 0.5; break;
-                case Op::half_space: done[i] = literal(literals_[n.a]); break;
-                case Op::complement: done[i] = apply(Op::complement, child(n.a), 0); break;
-                default: done[i] = apply(n.op, child(n.a), child(n.b)); break;
+            if (!reached_[i] || n.op == Op::half_space || n.op == Op::constant) continue;
+            for (const int child : {n.a, n.b}) {
+                if (child < 0) continue;
+                ++uses[child];
+                merged[child] = n.op != Op::complement && tree_.nodes[child].op == n.op;
             }
+        }
+        for (std::size_t i = 0; i < merged.size(); ++i) merged[i] = merged[i] && uses[i] == 1;
+        return merged;
+    }
+
+    // A chain a & b & c … is combined from its end: families are numbered as they occur, so that each operand goes on
+    // top of what is there and not below all of it, which took the square of the chain's length.
+    void combine(int root) {
+        std::vector<int> done(reached_.size(), 0), open, operands;
+        const std::vector<char> merged = merged_nodes();
+        for (std::size_t i = 0; i < reached_.size(); ++i) {
+            if (!reached_[i] || merged[i]) continue;
+            const TreeNode& n = tree_.nodes[i];
+            switch (n.op) {
+                case Op::constant: done[i] = n.value > 0.5; continue;
+                case Op::half_space: done[i] = literal(literals_[n.a]); continue;
+                case Op::complement: done[i] = apply(Op::complement, done[n.a], 0); continue;
+                default: break;
+            }
+            operands.clear();
+            open = {n.b, n.a};
+            while (!open.empty()) {
+                const int operand = open.back();
+                open.pop_back();
+                if (merged[operand])
+                    open.insert(open.end(), {tree_.nodes[operand].b, tree_.nodes[operand].a});
+                else
+                    operands.push_back(operand);
+            }
+            done[i] = done[operands.back()];
+            for (std::size_t k = operands.size() - 1; k-- > 0;) done[i] = apply(n.op, done[operands[k]], done[i]);
         }
         diagram_.root = done[root];
     }
@@ -108,20 +140,23 @@ private:
 
     // Merges gaps that lead to the same node; a decision that decides nothing is its child.
     int add(Decision node) {
-        Decision least{node.family, {}, {node.children[0]}};
+        std::size_t kept = 0;  // thresholds
         for (std::size_t j = 0; j < node.thresholds.size(); ++j) {
-            if (node.children[j + 1] == least.children.back()) continue;
-            least.thresholds.push_back(node.thresholds[j]);
-            least.children.push_back(node.children[j + 1]);
+            if (node.children[j + 1] == node.children[kept]) continue;
+            node.thresholds[kept++] = node.thresholds[j];
+            node.children[kept] = node.children[j + 1];
         }
-        if (least.thresholds.empty()) return least.children[0];
-        const auto key = std::make_tuple(least.family, least.thresholds, least.children);
-        const auto [entry, is_new] = unique_.try_emplace(key, int(diagram_.nodes.size()));
-        if (is_new) {
-            if (diagram_.nodes.size() >= max_nodes) throw TooEntangled();
-            diagram_.nodes.push_back(std::move(least));
-        }
-        return entry->second;
+        if (kept == 0) return node.children[0];
+        node.thresholds.resize(kept);
+        node.children.resize(kept + 1);
+        // The set holds numbers of nodes: the new one is put there first.
+        diagram_.nodes.push_back(std::move(node));
+        const auto [entry, is_new] = unique_.insert(int(diagram_.nodes.size()) - 1);
+        if (!is_new)
+            diagram_.nodes.pop_back();
+        else if (diagram_.nodes.size() > max_nodes)
+            throw TooEntangled();
+        return *entry;
     }
 
     int apply(Op op, int a, int b) {
@@ -135,39 +170,54 @@ private:
             if (b < 2) return a;
             if (a > b) std::swap(a, b);
         }
-        const auto key = std::make_tuple(int(op), a, b);
+        static_assert(max_nodes < 1u << 30);
+        const std::uint64_t key = std::uint64_t(op) << 60 | std::uint64_t(a) << 30 | std::uint64_t(b);
         if (const auto known = applied_.find(key); known != applied_.end()) return known->second;
 
-        // Copies: add() may move the nodes.
-        const Decision da = diagram_.nodes[a];
-        const Decision db = b < 2 ? Decision{} : diagram_.nodes[b];
+        // By number, each time: add() moves the nodes. Those of constants have no family.
+        const auto at = [&](int i) -> const Decision& { return diagram_.nodes[i]; };
         Decision node;
-        node.family = db.family < 0 ? da.family : std::min(da.family, db.family);
-        const bool in_a = da.family == node.family, in_b = db.family == node.family;
+        node.family = at(b).family < 0 ? at(a).family : std::min(at(a).family, at(b).family);
+        const bool in_a = at(a).family == node.family, in_b = at(b).family == node.family;
         std::size_t i = 0, j = 0;  // gap of a, of b
         for (;;) {
-            node.children.push_back(apply(op, in_a ? da.children[i] : a, in_b ? db.children[j] : b));
-            const bool more_a = in_a && i < da.thresholds.size();
-            const bool more_b = in_b && j < db.thresholds.size();
+            node.children.push_back(apply(op, in_a ? at(a).children[i] : a, in_b ? at(b).children[j] : b));
+            const bool more_a = in_a && i < at(a).thresholds.size();
+            const bool more_b = in_b && j < at(b).thresholds.size();
             if (!more_a && !more_b) break;
-            const int next = !more_b   ? da.thresholds[i]
-                             : !more_a ? db.thresholds[j]
-                                       : std::min(da.thresholds[i], db.thresholds[j]);
+            const int next = !more_b   ? at(a).thresholds[i]
+                             : !more_a ? at(b).thresholds[j]
+                                       : std::min(at(a).thresholds[i], at(b).thresholds[j]);
             node.thresholds.push_back(next);
-            if (more_a && da.thresholds[i] == next) ++i;
-            if (more_b && db.thresholds[j] == next) ++j;
+            if (more_a && at(a).thresholds[i] == next) ++i;
+            if (more_b && at(b).thresholds[j] == next) ++j;
         }
         const int result = add(std::move(node));
         applied_[key] = result;
         return result;
     }
 
+    struct Hash {
+        const std::vector<Decision>& nodes;
+        std::size_t operator()(int i) const {
+            std::uint64_t h = std::uint64_t(nodes[i].family);
+            const auto mix = [&](int value) { h = (h ^ std::uint64_t(value)) * 0x9e3779b97f4a7c15u, h ^= h >> 29; };
+            for (const int threshold : nodes[i].thresholds) mix(threshold);
+            for (const int child : nodes[i].children) mix(child);
+            return h;
+        }
+    };
+    struct Same {
+        const std::vector<Decision>& nodes;
+        bool operator()(int a, int b) const { return nodes[a] == nodes[b]; }
+    };
+
     const DensityTree& tree_;
     DecisionDiagram diagram_;
     std::vector<char> reached_;
     std::vector<Literal> literals_;
-    std::map<std::tuple<int, std::vector<int>, std::vector<int>>, int> unique_;
-    std::map<std::tuple<int, int, int>, int> applied_;
+    std::unordered_set<int, Hash, Same> unique_{16, Hash{diagram_.nodes}, Same{diagram_.nodes}};
+    std::unordered_map<std::uint64_t, int> applied_;
 };
 
 }  // namespace
