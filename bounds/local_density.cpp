@@ -202,6 +202,11 @@ ValueSlope operator+(ValueSlope a, ValueSlope b) { return {a.value + b.value, a.
 ValueSlope operator-(ValueSlope a, ValueSlope b) { return {a.value - b.value, a.slope - b.slope}; }
 ValueSlope operator*(ValueSlope a, ValueSlope b) { return {a.value * b.value, a.value * b.slope + b.value * a.slope}; }
 
+// Beyond a plane's reach nothing depends on what lies there.
+bool is_zero(double v) { return v == 0; }
+bool is_zero(const ValueGradient& v) { return v.value == 0 && v.gradient == Vec3(0.0); }
+bool is_zero(ValueSlope v) { return v.value == 0 && v.slope == 0; }
+
 }  // namespace
 
 // One pass over the steps in any arithmetic: values alone, with gradients, or with slopes.
@@ -223,8 +228,10 @@ static T run(const std::vector<Node>& nodes, const std::vector<int>& children, L
                 const int* thresholds = &children[n.a];
                 const int* operands = thresholds + n.b;
                 T sum = at(operands[n.b]);
-                for (int j = 0; j < n.b; ++j)
-                    sum = sum + leaf(std::size_t(thresholds[j])) * (at(operands[j]) - at(operands[j + 1]));
+                for (int j = 0; j < n.b; ++j) {
+                    const T share = leaf(std::size_t(thresholds[j]));
+                    if (!is_zero(share)) sum = sum + share * (at(operands[j]) - at(operands[j + 1]));
+                }
                 done[i] = sum;
                 break;
             }
@@ -262,7 +269,7 @@ ValueGradient LocalDensity::gradient_at(Vec3 x) const {
     return run<ValueGradient>(nodes_, children_, [&](std::size_t i) -> ValueGradient {
         const HalfSpace& h = half_spaces_[i];
         const double alpha = h.alpha(x);
-        if (h.radius == 0) return {profile(alpha), Vec3(0.0)};
+        if (h.radius == 0 || std::abs(alpha) >= 1) return {profile(alpha), Vec3(0.0)};
         return {profile(alpha), h.normal_at(x) * (profile_slope(alpha) / h.radius)};
     });
 }
