@@ -58,6 +58,7 @@ FacetJudge::FacetJudge(const SolidTree& solid, const Box& box, double margin)
 FacetShape FacetJudge::shape(const Facets& facets, const Facet& f, double least) const {
     // Below this ratio of height to longest side a facet is without area.
     constexpr double no_area = 1e-6;
+    if (f.origin.leaf == Origin::wall) return {};
     const Triangle& t = f.triangle;
     Vec3 x[3], middle(0.0), normals(0.0);
     double longest = 0;

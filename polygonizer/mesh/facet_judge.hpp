@@ -40,7 +40,8 @@ public:
     FacetJudge(const FacetJudge&) = delete;
     FacetJudge& operator=(const FacetJudge&) = delete;
 
-    /// Shape of facet f. Once its own cosine is found to be below `least`, the rest is not looked at.
+    /// Shape of facet f; walls are as they should be. Once its own cosine is found to be below `least`, the rest is not
+    /// looked at.
     FacetShape shape(const Facets& facets, const Facet& f, double least = -infinity) const;
     /// Whether points all over the triangle are within the tolerance of the solid's surface: its middle, those of
     /// is_near_within, and those of is_near_between on each edge.

@@ -13,6 +13,7 @@ namespace deburr {
 /// isosurface it approximates. Both are −1 if it is part of a plane: its corners have one normal.
 struct Origin {
     int cell = -1, leaf = -1;
+    static constexpr int wall = -2;  // in place of a leaf: the triangle only closes the mesh of a part of a solid
 };
 
 struct Facet {

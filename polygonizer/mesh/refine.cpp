@@ -14,8 +14,9 @@ constexpr int max_generation = 24;
 
 class Refinement {
 public:
-    Refinement(Mesh& mesh, std::vector<Origin>& origins, const FacetJudge& judge, double tolerance, CancelFlag cancel)
-        : facets_(mesh, origins), judge_(judge), tolerance_(tolerance), cancel_(cancel) {
+    Refinement(Mesh& mesh, std::vector<Origin>& origins, const FacetJudge& judge, double tolerance, CancelFlag cancel,
+               const GoodFacets* good = nullptr)
+        : facets_(mesh, origins), judge_(judge), tolerance_(tolerance), cancel_(cancel), mesh_(mesh), good_(good) {
         generation_.resize(facets_.size(), 0);
     }
 
@@ -74,6 +75,7 @@ private:
     // most first.
     bool is_far(const FacetJudge& judge, int f, Edge (&edges)[3]) const {
         const Triangle& t = facets_.at(f).triangle;
+        if (good_ && good_->has(mesh_, t, facets_.at(f).origin)) return false;
         Vec3 x[3], n[3];
         for (std::size_t k = 0; k < 3; ++k) {
             x[k] = facets_.position(t.vertex[k]);
@@ -174,6 +176,8 @@ private:
     const FacetJudge& judge_;
     double tolerance_;
     CancelFlag cancel_;
+    const Mesh& mesh_;
+    const GoodFacets* good_;
     std::deque<int> open_;
     std::vector<int> generation_;  // of facets
     std::vector<int> stuck_;
@@ -183,9 +187,9 @@ private:
 }  // namespace
 
 std::vector<int> refine(Mesh& mesh, std::vector<Origin>& origins, const FacetJudge& judge, double tolerance,
-                        CancelFlag cancel) {
+                        CancelFlag cancel, const GoodFacets* good) {
     if (mesh.triangles.empty()) return {};
-    Refinement refinement(mesh, origins, judge, tolerance, cancel);
+    Refinement refinement(mesh, origins, judge, tolerance, cancel, good);
     refinement.open_far();
     return refinement.run();
 }

@@ -11,13 +11,15 @@
 
 #include "polygonizer/mesh/cancel.hpp"
 #include "polygonizer/mesh/facet_judge.hpp"
+#include "polygonizer/mesh/good_facets.hpp"
 
 namespace deburr {
 
 /// Splits edges of a closed mesh until points all over its curved triangles are within `tolerance` of the surface.
-/// Returns the triangles, in the order of the refined mesh, for which no split or flip led there. Throws Cancelled.
+/// Returns the triangles, in the order of the refined mesh, for which no split or flip led there. `good` are near.
+/// Throws Cancelled.
 std::vector<int> refine(Mesh& mesh, std::vector<Origin>& origins, const FacetJudge& judge, double tolerance,
-                        CancelFlag cancel = nullptr);
+                        CancelFlag cancel = nullptr, const GoodFacets* good = nullptr);
 
 /// The same for some of the triangles, and for what their splits touch; the others stay as they are.
 std::vector<int> refine(Mesh& mesh, std::vector<Origin>& origins, std::span<const int> triangles,

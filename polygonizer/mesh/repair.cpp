@@ -42,6 +42,7 @@ public:
           surfaces_(judge.surfaces()),
           shapes_(facets_.size()),
           changed_(facets_.size(), false),
+          given_(facets_.size()),
           first_made_(facets_.vertices()) {}
 
     FacetShape shape(const Facet& f) const { return judge_.shape(facets_, f); }
@@ -50,7 +51,7 @@ public:
         if (!known) known = shape(facets_.at(f));
         return *known;
     }
-    bool wrong(int f) { return shape(f).cosine < limits_.leaning; }
+    bool wrong(int f) { return !is_good(f) && shape(f).cosine < limits_.leaning; }
 
     void add(Verdict& v, const Facet& f, const FacetShape& s, double limit) const {
         v.wrong += s.cosine < limit;
@@ -258,6 +259,13 @@ public:
         return on_surface(x);
     }
 
+    // Whether no surface meets the vertex, or all that do meet it were found good.
+    bool is_well_known(int v) const {
+        return std::ranges::all_of(facets_.around(v),
+                                   [&](int f) { return facets_.at(f).origin.leaf == Origin::wall || is_good(f); });
+    }
+    bool is_good(int f) const { return std::size_t(f) < good_.size() && good_[f] && !changed_[f]; }
+
     // Vertices beside the surface go to where the surfaces around them meet. Before any facet is judged.
     void mend_vertices(RepairStatistics& statistics) {
         const auto vertices = std::size_t(facets_.vertices());
@@ -265,7 +273,7 @@ public:
         std::vector<char> is_on(vertices);
         judge_in_parallel(judge_, vertices, [&](const FacetJudge& judge, std::size_t first, std::size_t last) {
             for (std::size_t v = first; v < last; ++v)
-                is_on[v] = facets_.around(int(v)).empty() || judge.on_surface(facets_.position(int(v)));
+                is_on[v] = is_well_known(int(v)) || judge.on_surface(facets_.position(int(v)));
         });
         for (int v = 0; v < facets_.vertices(); ++v) {
             if (is_on[v]) continue;
@@ -294,22 +302,33 @@ public:
         }
     }
 
-    // Learns the shapes of all facets; none may have changed yet.
+    void find_good(const GoodFacets& good, const Mesh& mesh) {
+        good_.resize(facets_.size());
+        in_parallel_ranges(facets_.size(), 4096, [&](std::size_t first, std::size_t last) {
+            for (std::size_t f = first; f < last; ++f)
+                good_[f] = good.has(mesh, facets_.at(int(f)).triangle, facets_.at(int(f)).origin);
+        });
+    }
+
+    // Learns the shapes of all facets but good ones; none may have changed but by its vertices.
     void judge_all() {
         judge_in_parallel(judge_, facets_.size(), [&](const FacetJudge& judge, std::size_t first, std::size_t last) {
-            for (std::size_t f = first; f < last; ++f) shapes_[f] = judge.shape(facets_, facets_.at(int(f)));
+            for (std::size_t f = first; f < last; ++f)
+                if (!is_good(int(f))) shapes_[f] = judge.shape(facets_, facets_.at(int(f)));
         });
     }
 
     // Drops what is no longer used, and says what is still wrong or has a vertex beside the surface.
     void finish(RepairStatistics& statistics) {
         int t = 0;
+        statistics.numbers.assign(given_, -1);
         for (std::size_t f = 0; f < facets_.size(); ++f) {
             if (!facets_.alive(int(f))) continue;
+            if (f < given_ && !changed_[f]) statistics.numbers[f] = t;
             const auto& v = facets_.at(int(f)).triangle.vertex;
             if (is_beside(v[0]) || is_beside(v[1]) || is_beside(v[2]) || wrong(int(f))) statistics.left.push_back(t);
             if (changed_[f]) statistics.changed.push_back(t);
-            statistics.farthest = std::max(statistics.farthest, shape(int(f)).distance);
+            if (!is_good(int(f))) statistics.farthest = std::max(statistics.farthest, shape(int(f)).distance);
             ++t;
         }
         facets_.finish();
@@ -346,7 +365,9 @@ private:
     const DistanceField& solid_;
     const LeafSurfaces& surfaces_;
     std::vector<std::optional<FacetShape>> shapes_;  // of the facets, where known
+    std::vector<char> good_;                         // facets that were so before; empty: none
     std::vector<char> changed_;                      // facets that came, or have a vertex that was moved
+    std::size_t given_;                              // facets at first
     std::vector<char> beside_;                       // vertices that nothing brought onto the surface
     int first_made_;
     Limits limits_ = gentle;
@@ -356,10 +377,11 @@ private:
 }  // namespace
 
 RepairStatistics repair(Mesh& mesh, std::vector<Origin>& origins, const FacetJudge& judge, double tolerance,
-                        bool may_split) {
+                        bool may_split, const GoodFacets* good) {
     RepairStatistics statistics;
     if (mesh.triangles.empty()) return statistics;
     Repair work(mesh, origins, judge, tolerance);
+    if (good) work.find_good(*good, mesh);
     if (!may_split) work.forbid_splits();
     work.mend_vertices(statistics);
     work.judge_all();

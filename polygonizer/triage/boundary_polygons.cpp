@@ -35,6 +35,7 @@ void BoundaryPolygons::collect() {
         const bool front = face.front >= 0 && in[face.front];
         if (back == front) continue;
         Polygon p{int(f), back ? face.back : face.front, back ? face.front : face.back, subspace_.leaf_of(int(f)), 0};
+        if (!subspace_.is_polygonized(p.inner) || !subspace_.is_polygonized(p.outer)) p.leaf = Origin::wall;
         p.material = material(int(f), p.inner, p.outer);
         p.first = int(steps_.size());
         p.count = int(face.loop.size());

@@ -3,13 +3,14 @@
 // Around every edge the polygons that bound one wedge of the solid are twins there, and a mesh
 // vertex is a cycle of polygon corners joined that way: a 2-manifold, whatever touches.
 #pragma once
+#include "polygonizer/mesh/facets.hpp"
 #include "polygonizer/triage/subspace.hpp"
 
 namespace deburr {
 
 struct Polygon {
     int face, inner, outer;  // cells on either side
-    int leaf;                // −1: on a plane
+    int leaf;                // −1: on a plane; Origin::wall: beside a cell that was not polygonized
     int material;
     int first = 0, count = 0;  // its half-edges
     Vec3 normal{0.0};          // unit, outward

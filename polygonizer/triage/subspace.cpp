@@ -33,7 +33,8 @@ Vec3 root_between(const LocalDensity& density, Vec3 a, double fa, Vec3 b, double
     return a + (b - a) * (0.5 * (ta + tb));
 }
 
-Subspace::Subspace(const Subdivision& subdivision) : subdivision_(subdivision), complex_(subdivision.complex) {
+Subspace::Subspace(const Subdivision& subdivision)
+    : subdivision_(subdivision), complex_(subdivision.complex), whole_(true) {
     undivided_.resize(complex_.cells.size());
     std::iota(undivided_.begin(), undivided_.end(), 0);
     open_ = undivided_;
@@ -44,7 +45,8 @@ Subspace::Subspace(const Subdivision& subdivision) : subdivision_(subdivision), 
 Subspace::Subspace(const Subdivision& subdivision, std::span<const int> cells)
     : subdivision_(subdivision),
       undivided_(subdivision.complex.with_neighbours(cells)),
-      complex_(subdivision.complex.part(undivided_)) {
+      complex_(subdivision.complex.part(undivided_)),
+      whole_(false) {
     for (const int c : cells)
         open_.push_back(int(std::lower_bound(undivided_.begin(), undivided_.end(), c) - undivided_.begin()));
     begin();
@@ -56,6 +58,9 @@ void Subspace::begin() {
     leaf_of_face_.assign(complex_.faces.size(), -1);
     next_of_root_.assign(complex_.cells.size(), -1);
     resolved_.resize(complex_.cells.size());
+    for (const int c : undivided_)
+        is_cut_.push_back(subdivision_.nodes[subdivision_.node_of[c]].side != Side::straddling);
+    for (const int c : open_) is_cut_[c] = true;
 }
 
 void Subspace::polygonize() {

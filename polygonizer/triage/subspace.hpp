@@ -29,14 +29,16 @@ public:
     /// Keeps a reference to the subdivision, and cuts a copy of its cells.
     explicit Subspace(const Subdivision& subdivision);
     /// Of some cells of the subdivision, in rising order, only: what it costs does not depend on how many there are
-    /// besides. The surface is right in cells whose neighbours are included, too, and it is not closed.
+    /// besides. The surface is right in cells whose neighbours are included, too.
     Subspace(const Subdivision& subdivision, std::span<const int> cells);
     /// Cuts by the isosurfaces of all leaves.
     void polygonize();
 
     const CellComplex& complex() const { return complex_; }
-    /// Whether the cell is inside the solid; right after polygonize().
+    /// Whether the cell is inside the solid; right after polygonize(), but for cells that were not polygonized.
     bool inside(int cell) const;
+    /// Whether all that matters in the cell was cut, or nothing does. What is outside of a part of the cells was not.
+    bool is_polygonized(int cell) const { return cell == CellComplex::outside ? whole_ : is_cut_[root_[cell]]; }
     /// The leaf whose isosurface the face is a part of; -1 for faces on planes.
     int leaf_of(int face) const { return leaf_of_face_[face]; }
     /// Side of the leaf throughout the cell; straddling where it was never asked.
@@ -103,6 +105,8 @@ private:
     const Subdivision& subdivision_;
     std::vector<int> undivided_;  // of a cell that was there first: the subdivision's
     CellComplex complex_;
+    bool whole_;                // all cells are cut
+    std::vector<char> is_cut_;  // a cell that was there first is cut, or decided
     int leaf_ = 0;
     std::vector<int> leaf_of_face_;
     std::vector<int> open_;                         // cells that were there first, and are cut

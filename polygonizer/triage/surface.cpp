@@ -343,7 +343,8 @@ private:
                 }
                 mesh.triangles.push_back(triangle);
                 if (origins)
-                    origins->push_back(plane.leaf < 0 ? Origin{} : Origin{subspace_.origin(plane.inner), plane.leaf});
+                    origins->push_back(plane.leaf < 0 ? Origin{-1, plane.leaf}
+                                                      : Origin{subspace_.origin(plane.inner), plane.leaf});
             }
         }
         return mesh;

@@ -11,7 +11,8 @@
 
 namespace deburr {
 
-/// `origins`, if given, gets one for each triangle.
+/// `origins`, if given, gets one for each triangle. Where only some cells were polygonized, walls close the mesh beside
+/// the others, of triangles whose origin is `Origin::wall`.
 Mesh surface(const Subspace& subspace, const SolidTree& solid, std::vector<Origin>* origins = nullptr);
 
 }  // namespace deburr

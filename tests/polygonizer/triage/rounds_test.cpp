@@ -1,0 +1,95 @@
+// Rounds of refinement: what is done again, and what is not.
+#include "polygonizer/triage/rounds.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "catch.hpp"
+#include "polygonizer/random_part.hpp"
+#include "polygonizer/triage/surface.hpp"
+#include "polygonizer/triage/triage.hpp"
+
+using namespace deburr;
+
+namespace {
+
+// A rod of many sides.
+SolidTree rod(double r) {
+    Density all = Density::half_space({0, 0, -1}, 0) & Density::half_space({0, 0, 1}, 1);
+    constexpr int sides = 40;
+    for (int k = 0; k < sides; ++k) {
+        const double a = 2 * 3.14159265358979323846 * k / sides;
+        all = all & Density::half_space({std::cos(a), std::sin(a), 0}, 1);
+    }
+    return flatten(Solid::rounded(r, all));
+}
+
+}  // namespace
+
+TEST_CASE("Cells that are halved again and again are looked at by themselves, not with all the others") {
+    for (const int seed : {0, 7, 14, 16}) {
+        CAPTURE(seed);
+        RandomPart part(seed);
+        const SolidTree solid = flatten(part.solid());
+        TriageStatistics statistics;
+        const Mesh mesh = triage(solid, polygonization_box(solid), {}, &statistics);
+        CHECK(statistics.rounds == 2);  // or 4 and 5
+        CHECK(topology(mesh).manifold());
+    }
+}
+
+TEST_CASE("Walls close the mesh of some cells, and what touches none of them is where it is in the whole mesh") {
+    const SolidTree solid = rod(0.1);
+    Subdivision subdivision(solid, polygonization_box(solid));
+    const auto polygonized = [&](Subspace subspace, std::vector<Origin>& origins) {
+        origins.clear();
+        subspace.polygonize();
+        return surface(subspace, solid, &origins);
+    };
+    std::vector<Origin> origins;
+    const Mesh whole = polygonized(Subspace(subdivision), origins);
+    CHECK(std::ranges::none_of(origins, [](Origin o) { return o.leaf == Origin::wall; }));
+
+    std::size_t found = 0, walls = 0;
+    const int cells = int(subdivision.complex.cells.size());
+    for (int c = 0; c < cells; c += cells / 20) {
+        const std::vector<int> some = subdivision.complex.with_neighbours(std::array{c});
+        const Mesh part = polygonized(Subspace(subdivision, some), origins);
+        if (part.triangles.empty()) continue;
+        CHECK(topology(part).manifold());
+        std::vector<char> on_wall(part.positions.size(), false);
+        for (std::size_t t = 0; t < origins.size(); ++t)
+            if (origins[t].leaf == Origin::wall) {
+                ++walls;
+                for (const int v : part.triangles[t].vertex) on_wall[v] = true;
+            }
+        for (std::size_t v = 0; v < on_wall.size(); ++v)
+            if (!on_wall[v]) {
+                double nearest = infinity;
+                for (const Vec3& x : whole.positions) nearest = std::min(nearest, glm::length(x - part.positions[v]));
+                // Of two cells beside a face the first tells where its segments bend, and it may be missing.
+                CHECK(nearest < 1e-5);
+                ++found;
+            }
+    }
+    CHECK(found > 20);
+    CHECK(walls > 100);
+}
+
+TEST_CASE("Facets that were found good are known again by their corners, normals and leaves") {
+    const SolidTree solid = rod(0.1);
+    const Subdivision subdivision(solid, polygonization_box(solid));
+    Subspace subspace(subdivision);
+    subspace.polygonize();
+    std::vector<Origin> origins;
+    Mesh mesh = surface(subspace, solid, &origins);
+    GoodFacets good;
+    CHECK(!good.has(mesh, mesh.triangles[0], origins[0]));
+    good.become(mesh, origins, {3, 5});
+    for (std::size_t t = 0; t < origins.size(); ++t)
+        CHECK(good.has(mesh, mesh.triangles[t], origins[t]) == (t != 3 && t != 5));
+    CHECK(!good.has(mesh, mesh.triangles[7], {origins[7].cell, origins[7].leaf + 1}));
+    mesh.positions[mesh.triangles[7].vertex[1]].x += 1e-12;
+    CHECK(!good.has(mesh, mesh.triangles[7], origins[7]));
+}
