@@ -49,8 +49,11 @@ public:
         int t = 0;
         for (std::size_t f = 0; f < facets_.size(); ++f)
             if (facets_.alive(int(f))) order[f] = t++;
+        // Others have come in the place of some.
+        std::sort(stuck_.begin(), stuck_.end());
+        stuck_.erase(std::unique(stuck_.begin(), stuck_.end()), stuck_.end());
         for (const int f : stuck_)
-            if (facets_.alive(f)) left.push_back(order[f]);
+            if (facets_.alive(f) && is_far(judge_, f, edges_)) left.push_back(order[f]);
         facets_.finish();
         return left;
     }

@@ -135,6 +135,20 @@ bool follows(const std::vector<Vec3>& rim, const LocalDensity& density) {
     return glm::dot(area, g) >= along * glm::length(area) * glm::length(g);
 }
 
+// Whether the rim lies near a plane that the surface is near to, and faces like, at the rim's middle.
+bool is_nearly_flat(const std::vector<Vec3>& rim, Vec3 area, const LocalDensity& density, double slack) {
+    const double size = glm::length(area);
+    if (!(size > 0)) return false;
+    constexpr double upright = 0.97;  // cosine
+    const double near = std::min(slack, max_sag * std::sqrt(size));
+    const Vec3 c = std::accumulate(rim.begin(), rim.end(), Vec3(0.0)) / double(rim.size()), normal = area / size;
+    for (const Vec3& x : rim)
+        if (std::abs(glm::dot(x - c, normal)) > near) return false;
+    const ValueGradient here = density.gradient_at(c);
+    const double slope = glm::length(here.gradient);
+    return std::abs(here.value - 0.5) <= near * slope && glm::dot(normal, here.gradient) >= upright * slope;
+}
+
 // The fan about a corner of the rim whose worst triangle leans least.
 void fan_about_corner(const std::vector<Vec3>& rim, const LocalDensity& density, Disc& disc) {
     const int n = int(rim.size());
@@ -159,7 +173,7 @@ void fan_about_corner(const std::vector<Vec3>& rim, const LocalDensity& density,
 }  // namespace
 
 void span_loop(const std::vector<Vec3>& rim, const LocalDensity& density, const std::vector<Wall>& walls,
-               double tolerance, Disc& disc) {
+               double tolerance, double slack, Disc& disc) {
     disc.faces.clear();
     disc.has_center = false;
     const int n = int(rim.size());
@@ -170,6 +184,7 @@ void span_loop(const std::vector<Vec3>& rim, const LocalDensity& density, const 
     if (n == 3 && follows(rim, density)) return whole();
     const Vec3 area = area_vector(rim);
     const bool flat = glm::length(area) > 0 && is_flat(rim, glm::normalize(area), tolerance);
+    if (n > 3 && slack > 0 && is_nearly_flat(rim, area, density, slack)) return whole();
     Vec3 sweep;
     if (n > 3 && !(flat && !follows(rim, density)) && is_swept(density, sweep) && strips(rim, sweep, tolerance, disc))
         return;

@@ -123,7 +123,7 @@ void LocalRounds::give_up(std::vector<char>& given_up, const std::vector<int>& c
 LocalRounds::Part LocalRounds::part_around(const std::vector<int>& cells) const {
     throw_if_cancelled(cancel_);
     Part part;
-    Subspace subspace(subdivision_, subdivision_.complex.with_neighbours(cells));
+    Subspace subspace(subdivision_, subdivision_.complex.with_neighbours(cells), slack_);
     subspace.polygonize();
     part.mesh = surface(subspace, solid_, &part.origins);
     return part;
@@ -138,7 +138,7 @@ std::vector<int> LocalRounds::halve_coarse(const std::vector<Cut>& cuts, double 
     std::vector<int> halves = halve(subdivision_, cuts), all = halves;
     for (std::size_t k = 0; k < max_rounds && !halves.empty() && may_halve(); ++k) {
         throw_if_cancelled(cancel_);
-        Subspace part(subdivision_, subdivision_.complex.with_neighbours(halves));
+        Subspace part(subdivision_, subdivision_.complex.with_neighbours(halves), slack_);
         part.polygonize();
         halves = halve(subdivision_, cells_to_halve(part, coarse * tolerance));
         all.insert(all.end(), halves.begin(), halves.end());

@@ -38,9 +38,11 @@ std::vector<Cut> without_neighbours(std::vector<Cut> cuts, const std::vector<Cut
 
 class LocalRounds {
 public:
-    /// No more cells are halved where there are `max_cells`. Keeps references to all that is given.
-    LocalRounds(Subdivision& subdivision, const SolidTree& solid, std::size_t max_cells, CancelFlag cancel)
-        : subdivision_(subdivision), solid_(solid), max_cells_(max_cells), cancel_(cancel) {}
+    /// No more cells are halved where there are `max_cells`. `slack` is that of a Subspace. Keeps references to all
+    /// that is given.
+    LocalRounds(Subdivision& subdivision, const SolidTree& solid, double slack, std::size_t max_cells,
+                CancelFlag cancel)
+        : subdivision_(subdivision), solid_(solid), slack_(slack), max_cells_(max_cells), cancel_(cancel) {}
 
     bool may_halve() const { return subdivision_.complex.cells.size() < max_cells_; }
 
@@ -75,6 +77,7 @@ private:
 
     Subdivision& subdivision_;
     const SolidTree& solid_;
+    double slack_;
     std::size_t max_cells_;
     CancelFlag cancel_;
     const GoodFacets* good_ = nullptr;

@@ -33,8 +33,8 @@ Vec3 root_between(const LocalDensity& density, Vec3 a, double fa, Vec3 b, double
     return a + (b - a) * (0.5 * (ta + tb));
 }
 
-Subspace::Subspace(const Subdivision& subdivision)
-    : subdivision_(subdivision), complex_(subdivision.complex), whole_(true) {
+Subspace::Subspace(const Subdivision& subdivision, double slack)
+    : subdivision_(subdivision), complex_(subdivision.complex), slack_(slack), whole_(true) {
     undivided_.resize(complex_.cells.size());
     std::iota(undivided_.begin(), undivided_.end(), 0);
     open_ = undivided_;
@@ -42,10 +42,11 @@ Subspace::Subspace(const Subdivision& subdivision)
 }
 
 // What lies beside the cells tells them on which side of a leaf their rims are.
-Subspace::Subspace(const Subdivision& subdivision, std::span<const int> cells)
+Subspace::Subspace(const Subdivision& subdivision, std::span<const int> cells, double slack)
     : subdivision_(subdivision),
       undivided_(subdivision.complex.with_neighbours(cells)),
       complex_(subdivision.complex.part(undivided_)),
+      slack_(slack),
       whole_(false) {
     for (const int c : cells)
         open_.push_back(int(std::lower_bound(undivided_.begin(), undivided_.end(), c) - undivided_.begin()));
@@ -61,6 +62,11 @@ void Subspace::begin() {
     for (const int c : undivided_)
         is_cut_.push_back(subdivision_.nodes[subdivision_.node_of[c]].side != Side::straddling);
     for (const int c : open_) is_cut_[c] = true;
+}
+
+double Subspace::slack_in(int cell) const {
+    if (cell == CellComplex::outside || slack_ == 0) return slack_;
+    return subdivision_.nodes[subdivision_.node_of[origin(cell)]].open.size() > 1 ? 0 : slack_;
 }
 
 void Subspace::polygonize() {
@@ -274,7 +280,7 @@ void Subspace::span(int cell, const LocalDensity& density) {
             rim_.push_back(complex_.start(s));
             points_.push_back(complex_.vertices[rim_.back()]);
         }
-        span_loop(points_, density, walls_, complex_.tolerance, disc_);
+        span_loop(points_, density, walls_, complex_.tolerance, slack_in(cell), disc_);
         if (disc_.has_center) rim_.push_back(complex_.add_vertex(disc_.center));
         for (auto& face : disc_.faces)
             for (int& corner : face) corner = rim_[corner];

@@ -27,10 +27,12 @@ constexpr double on_level = 1e-10;
 class Subspace {
 public:
     /// Keeps a reference to the subdivision, and cuts a copy of its cells.
-    explicit Subspace(const Subdivision& subdivision);
+    /// Segments and discs that are nearer to the surface than `slack` at their middles, and lean little, stay flat,
+    /// where only one leaf is undecided: surfaces of several may touch.
+    explicit Subspace(const Subdivision& subdivision, double slack = 0);
     /// Of some cells of the subdivision, in rising order, only: what it costs does not depend on how many there are
     /// besides. The surface is right in cells whose neighbours are included, too.
-    Subspace(const Subdivision& subdivision, std::span<const int> cells);
+    Subspace(const Subdivision& subdivision, std::span<const int> cells, double slack = 0);
     /// Cuts by the isosurfaces of all leaves.
     void polygonize();
 
@@ -87,6 +89,7 @@ private:
     };
 
     void begin();
+    double slack_in(int cell) const;
     void cut_by(int leaf, const std::vector<int>& open);
     Side side_now(int cell);
     Sign vertex_sign(int vertex, const LocalDensity& density);
@@ -105,6 +108,7 @@ private:
     const Subdivision& subdivision_;
     std::vector<int> undivided_;  // of a cell that was there first: the subdivision's
     CellComplex complex_;
+    double slack_;
     bool whole_;                // all cells are cut
     std::vector<char> is_cut_;  // a cell that was there first is cut, or decided
     int leaf_ = 0;

@@ -82,7 +82,10 @@ std::optional<Vec3> Subspace::refine(int face, int a, int b, const LocalDensity&
     const double length = glm::length(xb - xa);
     const ValueGradient here = density.gradient_at(middle);
     const double f = here.value - 0.5;
-    if (std::abs(f) <= on_level + 1e-7 * length * glm::length(here.gradient)) return {};
+    const double slope = glm::length(here.gradient);
+    if (std::abs(f) <= on_level + 1e-7 * length * slope) return {};
+    const double slack = std::min(slack_in(complex_.faces[face].back), slack_in(complex_.faces[face].front));
+    if (std::abs(f) <= std::min(slack, max_sag * length) * slope) return {};
     const Vec3 area = complex_.area_vector(face);
     if (glm::length(area) <= 0) return {};
     const Vec3 normal = glm::normalize(area);
@@ -94,7 +97,7 @@ std::optional<Vec3> Subspace::refine(int face, int a, int b, const LocalDensity&
     // Where the segment runs along the rim the gradient may lead out of the face: then across it.
     const Vec3 across = glm::cross(normal, xb - xa);
     for (const Vec3 direction : {line, across}) {
-        if (glm::length(direction) <= 1e-9 * (direction == line ? glm::length(here.gradient) : length)) continue;
+        if (glm::length(direction) <= 1e-9 * (direction == line ? slope : length)) continue;
         Vec3 root;
         if (!search(face, middle, glm::normalize(direction) * (f > 0 ? -1.0 : 1.0), normal, length, density, root))
             continue;

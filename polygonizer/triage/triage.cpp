@@ -46,6 +46,9 @@ Box polygonization_box(const SolidTree& solid) {
 
 namespace {
 
+// Of a tolerance, what is polygonized in cells that thinning out would make flat again.
+constexpr double of_slack = 0.4;
+
 // Instead of `at_points` for a mesh that is to be looked at, whose normals have to be right between its vertices.
 constexpr double at_points_of_picture = 0.2;
 
@@ -72,6 +75,7 @@ Mesh triage(const SolidTree& mixed, const Box& box, const TriageOptions& options
     const auto begin = [&](double share) {
         if (options.progress) options.progress->begin(share);
     };
+    const double slack = thin_out ? of_slack * options.tolerance : 0;
     begin(0.25);
     Subdivision subdivision(solid, box, {options.max_half_spaces, options.cancel, options.progress});
     Mesh mesh, best;
@@ -88,12 +92,12 @@ Mesh triage(const SolidTree& mixed, const Box& box, const TriageOptions& options
     std::vector<int> best_left;  // triangles of it that are wrong
     std::vector<Box> dense;      // where a mesh that was thinned out was wrong
     // Where surfaces nearly touch, halves of what is too far may be too far for ever.
-    LocalRounds local(subdivision, solid, 8 * subdivision.complex.cells.size() + 20'000, options.cancel);
+    LocalRounds local(subdivision, solid, slack, 8 * subdivision.complex.cells.size() + 20'000, options.cancel);
     GoodFacets good;  // of the last round's mesh
     while (mending < max_mending_rounds) {
         throw_if_cancelled(options.cancel);
         begin(0.15);
-        Subspace subspace(subdivision);
+        Subspace subspace(subdivision, slack);
         subspace.polygonize();
         origins.clear();
         mesh = surface(subspace, solid, &origins);

@@ -6,6 +6,9 @@
 #include <cmath>
 
 #include "catch.hpp"
+#include "polygonizer/mesh/crossing_triangles.hpp"
+#include "polygonizer/mesh/metrics.hpp"
+#include "polygonizer/mesh/refine.hpp"
 #include "polygonizer/random_part.hpp"
 #include "polygonizer/triage/surface.hpp"
 #include "polygonizer/triage/triage.hpp"
@@ -77,6 +80,23 @@ TEST_CASE("Walls close the mesh of some cells, and what touches none of them is 
     CHECK(walls > 100);
 }
 
+TEST_CASE("What is nearly flat in a cell stays flat within a slack") {
+    const double r = 0.2, slack = 0.02 * r;
+    const SolidTree solid = rod(r);
+    const Subdivision subdivision(solid, polygonization_box(solid));
+    Mesh fine, coarse;
+    for (Mesh* mesh : {&fine, &coarse}) {
+        Subspace subspace(subdivision, mesh == &fine ? 0 : slack);
+        subspace.polygonize();
+        *mesh = surface(subspace, solid);
+        CHECK(topology(*mesh).manifold());
+        CHECK(crossing_triangles(*mesh, TriangleTree(*mesh)).empty());
+    }
+    CHECK(10 * coarse.triangles.size() < 7 * fine.triangles.size());
+    CHECK(100 * measure(coarse, solid).inverted < coarse.triangles.size());  // is mended later
+    CHECK(measure(coarse, solid).distance.max < measure(fine, solid).distance.max + 2 * slack);
+}
+
 TEST_CASE("Facets that were found good are known again by their corners, normals and leaves") {
     const SolidTree solid = rod(0.1);
     const Subdivision subdivision(solid, polygonization_box(solid));
@@ -92,4 +112,25 @@ TEST_CASE("Facets that were found good are known again by their corners, normals
     CHECK(!good.has(mesh, mesh.triangles[7], {origins[7].cell, origins[7].leaf + 1}));
     mesh.positions[mesh.triangles[7].vertex[1]].x += 1e-12;
     CHECK(!good.has(mesh, mesh.triangles[7], origins[7]));
+}
+
+TEST_CASE("Triangles that took the place of such as nothing helped are not told of unless they are far") {
+    for (const int seed : {1, 2, 3, 5, 8}) {
+        CAPTURE(seed);
+        RandomPart part(seed);
+        const SolidTree solid = flatten(part.solid());
+        if (part.radius() == 0) continue;
+        const Subdivision subdivision(solid, polygonization_box(solid));
+        Subspace subspace(subdivision);
+        subspace.polygonize();
+        std::vector<Origin> origins;
+        Mesh mesh = surface(subspace, solid, &origins);
+        const FacetJudge judge(solid, mesh);
+        const double tolerance = 0.003 * part.radius();
+        for (const int t : refine(mesh, origins, judge, tolerance)) {
+            std::array<Vec3, 3> x{};
+            for (std::size_t k = 0; k < 3; ++k) x[k] = mesh.positions[mesh.triangles[t].vertex[k]];
+            CHECK(!judge.is_near(x, tolerance));
+        }
+    }
 }
