@@ -16,6 +16,9 @@ constexpr double same = 1e-6;
 constexpr double least_bulge = 0.02;
 // Points along a line or a circle of contact that are looked at.
 constexpr int along = 64;
+// Places of a torus's circle between which the other's coordinate is stationary once at the most, but for tori that
+// nearly touch twice: a multiple of `along`.
+constexpr int around_tube = 256;
 
 enum class Shape { plane, sphere, cylinder, cone, torus };
 
@@ -40,6 +43,10 @@ public:
         const HalfSpace *a = &first, *b = &second;
         if (shape_of(*a) > shape_of(*b)) std::swap(a, b);
         near_ = same * std::min(a->radius, b->radius);
+        if (shape_of(*b) == Shape::torus) {
+            tube(*b, *a);
+            return points_;
+        }
         switch (shape_of(*a)) {
             case Shape::plane: plane(*a, *b); break;
             case Shape::sphere: sphere(*a, *b); break;
@@ -81,11 +88,7 @@ private:
                 line(apex, glm::normalize(c.axis - p.normal * tilt));
                 break;
             }
-            default:
-                if (std::abs(tilt) > 1 - same && equal(std::abs(d), R))
-                    circle(c.center - d * p.normal, c.axis, c.ring);
-                else if (std::abs(tilt) < same && equal(std::abs(d), c.ring + R))
-                    points_.push_back(c.center - d * p.normal);
+            default: break;
         }
     }
 
@@ -117,12 +120,7 @@ private:
                 circle(b.center + c.axis * (c.along * ball.offset), c.axis, c.across * ball.offset);
                 break;
             }
-            default: {
-                const double t = glm::dot(c.axis, away);
-                const Vec3 out = away - c.axis * t;
-                if (std::abs(t) <= near_ && equal(glm::length(out), c.ring) && equal(ball.offset, other.offset))
-                    circle(b.center, glm::normalize(glm::cross(c.axis, out)), ball.offset);
-            }
+            default: break;
         }
     }
 
@@ -131,19 +129,99 @@ private:
         const double tilt = std::abs(glm::dot(r.axis, c.axis));
         const Vec3 away = r.center - c.center, out = away - c.axis * glm::dot(c.axis, away);
         const double distance = glm::length(out);
-        if (shape_of(other) == Shape::cylinder) {
-            if (tilt < 1 - same || distance <= near_ || !equal(distance, std::abs(rod.offset - other.offset))) return;
-            line(r.center + out * ((rod.offset < other.offset ? 1 : -1) * rod.offset / distance), r.axis);
-        } else if (shape_of(other) == Shape::torus && tilt > 1 - same) {
-            if (distance <= near_ &&
-                (equal(rod.offset, c.ring + other.offset) || equal(rod.offset, c.ring - other.offset)))
-                circle(c.center, c.axis, rod.offset);
-        } else if (shape_of(other) == Shape::torus && tilt < same && equal(rod.offset, other.offset)) {
-            // A pipe that runs on from a bend.
-            const Vec3 foot = away - r.axis * glm::dot(r.axis, away);
-            if (equal(glm::length(foot), c.ring) && std::abs(glm::dot(foot, c.axis)) <= near_)
-                circle(c.center + foot, r.axis, rod.offset);
+        if (shape_of(other) != Shape::cylinder) return;
+        if (tilt >= 1 - same) {
+            if (distance > near_ && equal(distance, std::abs(rod.offset - other.offset)))
+                line(r.center + out * ((rod.offset < other.offset ? 1 : -1) * rod.offset / distance), r.axis);
+            return;
         }
+        // Both have the normal n, along which the axes are apart, where they touch.
+        const Vec3 n = glm::normalize(glm::cross(r.axis, c.axis)), nearest = nearest_to(r, c);
+        for (const double side : {1.0, -1.0})
+            if (equal(glm::dot(n, c.center - r.center), side * (rod.offset - other.offset)))
+                points_.push_back(nearest + side * rod.offset * n);
+    }
+
+    // The point of the first axis that is nearest to the second.
+    static Vec3 nearest_to(const RoundCoordinate& first, const RoundCoordinate& second) {
+        const Vec3 across = first.axis - second.axis * glm::dot(first.axis, second.axis);
+        return first.center +
+               first.axis * (glm::dot(second.center - first.center, across) / glm::dot(first.axis, across));
+    }
+
+    // A surface touches a tube of radius a with the same normal where, on the tube's circle, its coordinate is
+    // stationary and a less than on the surface; where it is inside the tube, the coordinate counts from its other
+    // side.
+    void tube(const HalfSpace& torus, const HalfSpace& other) {
+        const RoundCoordinate& c = *torus.round;
+        const Vec3 u = any_across(c.axis), v = glm::cross(c.axis, u);
+        const auto tangent = [&](double angle) { return std::cos(angle) * v - std::sin(angle) * u; };
+        const auto on_circle = [&](double angle) {
+            return c.center + c.ring * (std::cos(angle) * u + std::sin(angle) * v);
+        };
+        const auto coordinate = [&](Vec3 x) { return other.round ? other.round->at(x) : glm::dot(other.normal, x); };
+        const auto slope = [&](double angle) {
+            const Vec3 x = on_circle(angle);
+            return glm::dot(other.round ? other.round->gradient(x) : other.normal, tangent(angle));
+        };
+        const auto add = [&](double angle) { touch(torus, other, on_circle(angle), tangent(angle)); };
+        const auto angle_of = [](int k) { return 2 * 3.14159265358979323846 * (k + 0.5) / around_tube; };
+        Range values{infinity, -infinity};
+        for (int k = 0; k < around_tube; ++k) {
+            const double value = coordinate(on_circle(angle_of(k)));
+            values = {std::min(values.lo, value), std::max(values.hi, value)};
+        }
+        if (values.hi - values.lo <= near_) {
+            for (int k = 0; k < along; ++k) add(angle_of(k * (around_tube / along)));
+            return;
+        }
+        double at_start = slope(angle_of(0));
+        for (int k = 0; k < around_tube; ++k) {
+            double low = angle_of(k), high = angle_of(k + 1);
+            const double at_end = slope(high);
+            if ((at_start < 0) != (at_end < 0)) {
+                constexpr int halvings = 48;
+                for (int i = 0; i < halvings; ++i) {
+                    const double middle = 0.5 * (low + high);
+                    ((slope(middle) < 0) == (at_start < 0) ? low : high) = middle;
+                }
+                add(0.5 * (low + high));
+            }
+            at_start = at_end;
+        }
+    }
+
+    // Where they touch beside x, a point of the torus's circle with this tangent, at which the other's coordinate is
+    // stationary.
+    void touch(const HalfSpace& torus, const HalfSpace& other, Vec3 x, Vec3 tangent) {
+        const double a = torus.offset, apart = other.offset - a;
+        const Shape shape = shape_of(other);
+        if (shape == Shape::plane || shape == Shape::cone) {
+            const double value = other.round ? other.round->at(x) : glm::dot(other.normal, x);
+            const Vec3 normal = other.round ? other.round->gradient(x) : other.normal;
+            if (equal(value, apart)) points_.push_back(x + a * normal);
+            return;
+        }
+        const RoundCoordinate& c = *other.round;
+        if (!equal(c.at(x), std::abs(apart))) return;
+        if (std::abs(apart) > near_) {
+            points_.push_back(x + (apart > 0 ? a : -a) * c.gradient(x));
+            return;
+        }
+        // Tubes of one radius whose circles or axes meet: across both, or all around where they run on.
+        Vec3 across(0.0);
+        if (shape == Shape::cylinder) across = glm::cross(tangent, c.axis);
+        if (shape == Shape::torus) {
+            const Vec3 y = x - c.center;
+            across = glm::cross(tangent, glm::normalize(glm::cross(c.axis, y)));
+        }
+        const double length = glm::length(across);
+        if (length < same) {
+            circle(x, tangent, a);
+            return;
+        }
+        points_.push_back(x + across * (a / length));
+        points_.push_back(x - across * (a / length));
     }
 
     Vec3 middle_;

@@ -17,8 +17,8 @@ struct TangentSeam {
 };
 
 /// Of each pair of parts that touch along their surfaces and on the solid's, one place. Looked for are planes, spheres,
-/// cylinders and cones along each other, and tori along planes, coaxial cylinders and cylinders and spheres of the
-/// tube's radius. At most `max_pairs` pairs are looked at.
+/// cylinders and tori however they lie, and cones along planes, about balls and tori. At most `max_pairs` pairs are
+/// looked at.
 std::vector<TangentSeam> tangent_seams(const DensityTree& tree, int max_pairs = 20'000);
 
 }  // namespace deburr

@@ -61,3 +61,64 @@ TEST_CASE("where surfaces meet in edges, share a draw or touch from outside ther
     CHECK(seams((cube | rod({0, 0.5, -0.5}, {0, 0.5, 0.5}, 0.5)) & Density::half_space({0, 1, 0}, 0.5)).empty());
     CHECK(seams(cube).empty());
 }
+
+namespace {
+
+// A part whose surface touches that of another at x with this outward normal.
+Density touching(Gen& g, int shape, Vec3 x, Vec3 n) {
+    const Vec3 along = glm::normalize(glm::cross(n, g.point(1))), other = glm::cross(n, along);
+    const double R = g.between(0.3, 0.6);
+    const Vec3 inside = x - R * n;
+    if (shape == 0) return Density::half_space(n, glm::dot(n, x));
+    if (shape == 1) return Density::sphere(inside, R);
+    if (shape == 2) return rod(inside - 4.0 * along, inside + 4.0 * along, R);
+    const double ring = R + g.between(0.3, 1), angle = g.between(0, 6.28);
+    const Vec3 away = std::cos(angle) * n + std::sin(angle) * other;
+    return Density::torus(inside - ring * away, glm::cross(away, along), ring, R);
+}
+
+}  // namespace
+
+TEST_CASE(
+    "planes, balls, rods and rings that touch however they lie are found, and nothing a hundredth of a radius off") {
+    const double r = 0.1;
+    int found[4][4] = {}, wrong = 0;
+    for (auto seed : seeds(400)) {
+        Gen g(seed);
+        const int a = 1 + g.below(3), b = a == 3 ? g.below(4) : a == 2 ? 2 : 0;
+        CAPTURE(seed, a, b);
+        const Vec3 x = g.point(1), n = glm::normalize(g.point(1));
+        const Density first = touching(g, a, x, n), second = touching(g, b, x, n);
+        const auto at_x = [&](const Density& of, Vec3 place) {
+            for (const TangentSeam& seam : seams(b == 0 ? first & of : first | of, r))
+                if (glm::distance(seam.at, place) < 1e-4) return true;
+            return false;
+        };
+        CHECK(at_x(second, x));
+        found[a][b] += at_x(second, x);
+        const Vec3 off = 0.01 * r * n;
+        wrong += at_x(second.transformed({Mat3(1.0), off}), x);
+    }
+    for (const auto& [a, b] : {std::pair{1, 0}, {2, 2}, {3, 0}, {3, 1}, {3, 2}, {3, 3}}) CHECK(found[a][b] > 15);
+    CHECK(wrong == 0);
+}
+
+TEST_CASE("rods of one radius that cross touch above and below, rings that run on do so all around") {
+    const auto cross = seams(rod({-2, 0, 0}, {2, 0, 0}, 0.5) | rod({0, 0, -2}, {0, 0, 2}, 0.5));
+    REQUIRE(cross.size() == 1);
+    CHECK(largest(glm::abs(cross[0].at) - Vec3(0, 0.5, 0)) < 1e-6);
+    const Density ring = Density::torus(Vec3(0.0), {0, 1, 0}, 1, 0.3);
+    const auto leaned =
+        Density::torus({2, 0, 0}, glm::normalize(Vec3(0, 1, 1)), 1, 0.3);  // in one point of both circles
+    CHECK(seams(ring | leaned).size() == 1);
+    CHECK(seams(ring | Density::sphere(Vec3(0.0), 1.3)).size() == 1);      // all around the ball
+    CHECK(seams(ring & rod({0.5, -1, 0}, {0.5, 1, 0}, 1.8)).size() == 1);  // at (-1.3, 0, 0)
+    CHECK(seams(ring & rod({0.5, -1, 0}, {0.5, 1, 0}, 1.7)).empty());
+    // Halves of rings that share the plane between them do not bulge: a spring.
+    const Density plane = Density::half_space({1, 0, 0}, 0);
+    const auto half = [&](double y, double lean) {
+        return Density::torus({0, y, 0}, glm::normalize(Vec3(0, 1, lean)), 1, 0.3);
+    };
+    const double lean = 0.2, rise = 2 * lean / std::sqrt(1 + lean * lean);
+    CHECK(seams((half(0, lean) & plane) | (half(rise, -lean) & ~plane), 0.02).empty());
+}
