@@ -156,15 +156,15 @@ Mesh triage(const SolidTree& mixed, const Box& box, const TriageOptions& options
             RepairStatistics repaired = repair(mended, mended_origins, *judge, options.tolerance, may_split);
             drop_wrong_shells(mended, mended_origins, repaired.left);
             // Facets that lean or face inward are the graver fault.
-            std::pair<std::size_t, std::size_t> wrong{repaired.left.size(), 0};
-            wrong.second += add_crossing(mended, repaired.left, options.cancel);
-            crosses |= wrong.second > 0;
+            std::pair<std::size_t, std::size_t> faults{repaired.left.size(), 0};
+            faults.second += add_crossing(mended, repaired.left, options.cancel);
+            crosses |= faults.second > 0;
             if (std::isfinite(options.tolerance))
-                wrong.second += add_far(mended, *judge, options.tolerance, repaired.left);
+                faults.second += add_far(mended, *judge, options.tolerance, repaired.left);
             sort_once(repaired.left);
             cuts[may_split] = cells_around(mended, mended_origins, repaired.left, subdivision);
-            if (wrong < min_wrong) {
-                min_wrong = wrong;
+            if (faults < min_wrong) {
+                min_wrong = faults;
                 farthest = repaired.farthest;
                 best = std::move(mended);
                 best_left = repaired.left;

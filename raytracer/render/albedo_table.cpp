@@ -40,6 +40,7 @@ AlbedoTable::AlbedoTable(Kind kind, double alpha, double ior) {
             const double t = (i + nodes[k]) / steps;
             mean_ += weights[k] / steps * 4 * t * t * t * glm::mix(albedo_[i], albedo_[i + 1], nodes[k]);
         }
+    if (mean_ < 1) base_share_ = std::numbers::inv_pi / (1 - mean_);
 }
 
 // The mean weight of what visible facets reflect and refract.

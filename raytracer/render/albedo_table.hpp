@@ -22,12 +22,14 @@ public:
     double at(double cosine) const;
     /// The mean over a hemisphere, weighted by the cosine: 2 ∫ at(c) c dc, of the table as it interpolates.
     double mean() const { return mean_; }
+    /// 1 / (π (1 − mean())), where the mean is below 1.
+    double base_share() const { return base_share_; }
 
 private:
     double integral(Kind kind, double alpha, double ior, double cosine) const;
     static constexpr int steps = 64;
     std::array<double, steps + 1> albedo_{};  // at cosine (i / steps)²
-    double mean_ = 0.0;
+    double mean_ = 0.0, base_share_ = 0.0;
 };
 
 }  // namespace deburr

@@ -99,7 +99,6 @@ Scattering::Scattering(const ScatteringMaterial& material, Vec3 color, Vec3 outw
     }
     if (m_.glass > 0) glass_scale_ = 1 / (inside_ ? m_.leaving : m_.entering)->at(cos_eye_);
     const Vec3 base = base_albedo();
-    albedo_ = base + below_coat_ * (Vec3(layer) + m_.glass * glm::max(color, Vec3(0.04))) + Vec3(1 - below_coat_);
 
     const auto share = [](double part) { return part > 0 ? std::max(part, min_part) : 0.0; };
     p_base_ = share(largest_component(base));
@@ -133,11 +132,10 @@ Vec3 Scattering::base(double cosine) const {
     using std::numbers::inv_pi;
     Vec3 sum(0.0);
     if (m_.dielectric > 0)
-        sum += m_.boundary
-                   ? dielectric_base_ * (inv_pi * kept_ * (1 - m_.boundary->at(cosine)) / (1 - m_.boundary->mean()))
-                   : dielectric_base_ * inv_pi;
+        sum += m_.boundary ? dielectric_base_ * (m_.boundary->base_share() * kept_ * (1 - m_.boundary->at(cosine)))
+                           : dielectric_base_ * inv_pi;
     if (m_.metal > 0 && m_.white->mean() < 1)
-        sum += metal_base_ * (inv_pi * metal_kept_ * (1 - m_.white->at(cosine)) / (1 - m_.white->mean()));
+        sum += metal_base_ * (m_.white->base_share() * metal_kept_ * (1 - m_.white->at(cosine)));
     return sum;
 }
 

@@ -94,8 +94,6 @@ public:
     bool diffuses() const { return diffuses_; }
     /// What the base returns of a uniformly white world.
     Vec3 base_albedo() const { return below_coat_ * (dielectric_base_ * kept_ + metal_base_ * metal_kept_); }
-    /// What the whole returns, by approximation.
-    Vec3 albedo() const { return albedo_; }
     Vec3 normal() const { return normal_; }
 
 private:
@@ -122,10 +120,9 @@ private:
     double ior_;  // of the far side over that of the near one
     double cos_eye_;
     double below_coat_ = 1.0, coat_ = 0.0;
-    double kept_ = 1.0, metal_kept_ = 0.0;         // 1 − albedo of the layer, towards the eye
-    Vec3 dielectric_base_{0.0}, metal_base_{0.0};  // colours of the bases
-    double glass_scale_ = 1.0;                     // 1 / albedo
-    Vec3 albedo_{0.0};
+    double kept_ = 1.0, metal_kept_ = 0.0;                                // 1 − albedo of the layer, towards the eye
+    Vec3 dielectric_base_{0.0}, metal_base_{0.0};                         // colours of the bases
+    double glass_scale_ = 1.0;                                            // 1 / albedo
     double p_base_ = 0.0, p_layer_ = 0.0, p_glass_ = 0.0, p_coat_ = 0.0;  // of being sampled
     bool diffuses_ = false;
     bool both_ways_ = false;  // glass is split

@@ -100,7 +100,7 @@ TEST_CASE("In a penumbra the visible part of the light counts") {
     scene.camera.eye = {4, 4, 0};
     scene.camera.up = {0, 1, 0};
     const AnalyticTracer tracer({ground(), tilted});
-    CHECK(pixel_of(scene, tracer, 1024).color.x * pi == Approx(10.0 / 4 * part).epsilon(0.004));
+    CHECK(pixel_of(scene, tracer, 1 << 15).color.x * pi == Approx(10.0 / 4 * part).epsilon(0.004));
 }
 
 TEST_CASE("A polished floor and a rough one reflect an area light alike by light and by layer") {

@@ -74,6 +74,23 @@ double white_of(const Scattering& surface, bool split) {
 
 }  // namespace
 
+TEST_CASE("Directions around a normal are at right angles to it and turn evenly") {
+    int cases = 0;
+    for (int i = 0; i <= 10'000; ++i) {
+        const double u = i / 10'000.0, phi = 2 * pi * u;
+        const Vec3 around_z = cosine_direction({0, 0, 1}, {1, u});
+        REQUIRE(close(around_z, {std::cos(phi), std::sin(phi), 0}, 1e-15));
+        // A cosine of 0, about normals everywhere, the south pole too.
+        const double tilt = pi * (i % 101) / 100;
+        const Vec3 normal(std::sin(tilt) * std::cos(i), std::sin(tilt) * std::sin(i), std::cos(tilt));
+        const Vec3 around = cosine_direction(normal, {1, u});
+        REQUIRE(std::abs(glm::dot(around, normal)) < 1e-15);
+        REQUIRE(glm::length(around) == Approx(1).epsilon(1e-15));
+        ++cases;
+    }
+    CHECK(cases == 10'001);
+}
+
 TEST_CASE("A white material returns all light of a white furnace, from both sides, to 1e-3", "[slow]") {
     int cases = 0;
     for (const Material& material : all_materials(Vec3(1.0))) {
