@@ -209,7 +209,7 @@ std::size_t SignedDistance::half_spaces() const {
 
 // A surface in the wall between two boxes must be seen from both.
 DistanceField::DistanceField(const SolidTree& solid, const Box& box, double margin)
-    : root_(std::make_unique<Node>(box, std::make_shared<const SignedDistance>(solid), 0)),
+    : root_(std::make_unique<Node>(box, std::make_shared<const SignedDistance>(solid), nullptr)),
       margin_(std::max(margin, 1e-6 * glm::length(box.hi - box.lo))) {}
 
 double DistanceField::distance_along_normal(Vec3 x, double reach) const { return search_along_normal(*this, x, reach); }
@@ -225,18 +225,19 @@ const SignedDistance& DistanceField::near(Vec3 x) const {
     constexpr double most_left = 0.6;
     // Of the half-spaces of the box that is split: where more are left, the half is told of all of them.
     constexpr double nearly_all = 0.9;
-    Node* node = root_.get();
+    const Box& all = root_->box;
     // What is in the wall between two boxes belongs to the lower one, whichever was asked for last.
     const auto belongs_to = [&](const Box& box) {
         for (int k = 0; k < 3; ++k)
-            if (x[k] > box.hi[k] || x[k] < box.lo[k] || (x[k] == box.lo[k] && box.lo[k] > node->box.lo[k]))
-                return false;
+            if (x[k] > box.hi[k] || x[k] < box.lo[k] || (x[k] == box.lo[k] && box.lo[k] > all.lo[k])) return false;
         return true;
     };
     if (last_ && belongs_to(last_->box)) return *last_->solid;
+    // Points that are asked for one after the other lie near each other: the way leads by the box around both.
+    Node* node = last_ ? last_ : root_.get();
+    while (node->parent && !belongs_to(node->box)) node = node->parent;
     // What is beyond the box sees what is nearest in it: the whole solid at once may be too much to evaluate.
-    const Vec3 y = glm::clamp(x, node->box.lo, node->box.hi);
-    std::size_t before[3] = {node->half_spaces, node->half_spaces, node->half_spaces};  // of boxes around, by depth
+    const Vec3 y = glm::clamp(x, all.lo, all.hi);
     while (node->depth < max_depth && node->half_spaces > few) {
         const Vec3 size = node->box.hi - node->box.lo;
         const int axis = greatest_axis(size);
@@ -244,8 +245,8 @@ const SignedDistance& DistanceField::near(Vec3 x) const {
         if (size[axis] < 2 * margin_) {
             margin = 0.5 * size[axis];
             if (node->half_spaces <= many || margin < min_margin * margin_) break;
-            const std::size_t was = before[node->depth % 3];
-            if (double(node->half_spaces) > most_left * double(was)) break;
+            const Node& was = node->depth < 3 ? *root_ : *node->parent->parent->parent;
+            if (double(node->half_spaces) > most_left * double(was.half_spaces)) break;
         }
         const double middle = 0.5 * (node->box.lo[axis] + node->box.hi[axis]);
         std::unique_ptr<Node>& child = node->children[y[axis] > middle];
@@ -257,9 +258,8 @@ const SignedDistance& DistanceField::near(Vec3 x) const {
             if ((left > large && 4 * left > 3 * node->half_spaces) ||
                 double(left) > nearly_all * double(node->half_spaces))
                 part = node->solid;
-            child = std::make_unique<Node>(half, std::move(part), node->depth + 1);
+            child = std::make_unique<Node>(half, std::move(part), node);
         }
-        before[node->depth % 3] = node->half_spaces;
         node = child.get();
     }
     last_ = node;

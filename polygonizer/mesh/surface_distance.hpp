@@ -80,16 +80,21 @@ public:
 
 private:
     struct Node {
-        Node(const Box& around, std::shared_ptr<const SignedDistance> of_it, int below_root)
-            : box(around), solid(std::move(of_it)), half_spaces(solid->half_spaces()), depth(below_root) {}
+        Node(const Box& around, std::shared_ptr<const SignedDistance> of_it, Node* within)
+            : box(around),
+              solid(std::move(of_it)),
+              half_spaces(solid->half_spaces()),
+              parent(within),
+              depth(within ? within->depth + 1 : 0) {}
         Box box;
         std::shared_ptr<const SignedDistance> solid;  // of this box, or of one around it
         std::size_t half_spaces;
+        Node* parent;  // null: the root
         int depth;
         std::unique_ptr<Node> children[2];
     };
     std::unique_ptr<Node> root_;
-    mutable const Node* last_ = nullptr;  // that a point asked for: the next is often in its box as well
+    mutable Node* last_ = nullptr;  // that a point asked for: the next is often in its box as well
     double margin_;
 };
 
