@@ -6,15 +6,34 @@
 
 namespace deburr {
 
-std::optional<RoundSurface> RoundSurface::of(const LocalDensity& density) {
-    if (density.half_spaces().size() != 1) return std::nullopt;
+namespace {
+
+// The surface ρ = ½ of a density of one round part.
+std::optional<RoundSurface> surface_of(const LocalDensity& density) {
+    if (density.half_spaces().size() != 1 || !density.half_spaces()[0].round) return std::nullopt;
     const HalfSpace& h = density.half_spaces()[0];
-    if (!h.round || h.round->kind == RoundCoordinate::Kind::circle) return std::nullopt;
     // ρ = v₀ + (v₁ − v₀)·F.
     const Range one[] = {{1, 1}}, zero[] = {{0, 0}};
     const double v1 = density.range(one).lo, v0 = density.range(zero).lo;
     if ((v0 > 0.5) == (v1 > 0.5)) return std::nullopt;
     return RoundSurface{*h.round, h.offset + h.radius * displacement((0.5 - v0) / (v1 - v0)), v0 > 0.5};
+}
+
+bool is_torus(const RoundSurface& surface) { return surface.coordinate.kind == RoundCoordinate::Kind::circle; }
+
+}  // namespace
+
+std::optional<RoundSurface> RoundSurface::of(const LocalDensity& density) {
+    const std::optional<RoundSurface> surface = surface_of(density);
+    return surface && is_torus(*surface) ? std::nullopt : surface;
+}
+
+std::shared_ptr<const Torus> torus_of(const LocalDensity& density) {
+    const std::optional<RoundSurface> surface = surface_of(density);
+    if (!surface || !is_torus(*surface) || surface->complement) return nullptr;
+    const RoundCoordinate& c = surface->coordinate;
+    if (!(surface->offset > 0 && surface->offset <= c.ring)) return nullptr;
+    return std::make_shared<Torus>(c.center, c.axis, c.ring, surface->offset);
 }
 
 ConvexCrossings RoundSurface::crossings(const Vec3& origin, const Vec3& direction, double t0, double t1) const {

@@ -8,6 +8,7 @@
 
 #include "bounds/convex_density.hpp"
 #include "bounds/round_coordinate.hpp"
+#include "bounds/torus.hpp"
 
 namespace deburr {
 
@@ -23,6 +24,9 @@ struct RoundSurface {
     /// Out of the solid.
     Vec3 normal(const Vec3& x) const;
 };
+
+/// The set ρ > ½ of a density of one torus, which a polynomial of degree four describes; null of all others.
+std::shared_ptr<const Torus> torus_of(const LocalDensity& density);
 
 class RoundProduct {
 public:

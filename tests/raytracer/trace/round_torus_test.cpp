@@ -1,0 +1,111 @@
+// Rays against a rounded torus alone, which is a polynomial of degree four, and against its distance.
+#include "catch.hpp"
+#include "random_case.hpp"
+#include "raytracer/trace/implicit_tracer.hpp"
+
+using namespace deburr;
+
+namespace {
+
+struct Ring {
+    Vec3 center, axis, u, v;
+    double radius, tube;
+
+    double distance(Vec3 x) const {
+        const Vec3 y = x - center;
+        return std::hypot(glm::length(glm::cross(axis, y)) - radius, glm::dot(axis, y)) - tube;
+    }
+    // The first place where the distance is 0, by steps that cannot pass it; NaN where it only comes near.
+    double first(Vec3 o, Vec3 d, double end) const {
+        const double side = distance(o) > 0 ? 1 : -1;
+        constexpr double near = 1e-11;
+        constexpr int steps = 100'000;
+        double t = 0;
+        for (int i = 0; i < steps && t < end; ++i) {
+            const double away = side * distance(o + t * d);
+            if (away < near) return side * distance(o + (t + 1e-5) * d) < 0 ? t : std::nan("");
+            t += away;
+        }
+        return t < end ? std::nan("") : infinity;
+    }
+};
+
+Ring random_ring(Gen& g) {
+    Ring ring{g.point(0.5), g.direction(), {}, {}, g.between(0.5, 1.2), 0};
+    ring.tube = ring.radius * (g.chance(0.3) ? g.between(0.02, 0.1) : g.between(0.1, 0.9));
+    ring.u = glm::normalize(glm::cross(ring.axis, g.direction()));
+    ring.v = glm::cross(ring.axis, ring.u);
+    return ring;
+}
+
+}  // namespace
+
+TEST_CASE(
+    "a rounded ring is hit where its distance is 0: along the axis, in its plane, tangent, from within and afar") {
+    int hits[6] = {}, misses[6] = {}, unclear = 0;
+    for (auto seed : seeds(2'000)) {
+        Gen g(seed);
+        const Ring ring = random_ring(g);
+        // As wide as the filter may be, and so narrow that it hardly shows.
+        const double r = g.chance(0.3) ? ring.radius - ring.tube : std::pow(10, g.between(-4, -1)) * ring.tube;
+        if (r > ring.tube) continue;  // which is another shape
+        const ImplicitTracer tracer(
+            {Solid::rounded(r, Density::torus(ring.center, ring.axis, ring.radius, ring.tube))});
+        const double angle = g.between(0, 6.28), s = g.between(0, 1.5) * (ring.radius + ring.tube);
+        const Vec3 out = std::cos(angle) * ring.u + std::sin(angle) * ring.v, around = glm::cross(ring.axis, out);
+        const int kind = g.below(6);
+        Vec3 o, d;
+        switch (kind) {
+            case 0:  // along the axis, and on it
+                o = ring.center + (g.chance(0.2) ? 0 : s) * out + 4.0 * ring.axis;
+                d = -ring.axis;
+                break;
+            case 1:  // in the plane, through the center or beside it
+                o = ring.center + 4.0 * out + (g.chance(0.3) ? 0 : s) * around;
+                d = -out;
+                break;
+            case 2: {  // touches the top's circle, or the inner equator, within a ten-millionth
+                const double off = 1e-7 * (g.chance(0.5) ? 1 : -1);
+                o = ring.center + ring.radius * out + (ring.tube + off) * ring.axis;
+                d = g.chance(0.5) ? out : around;
+                if (g.chance(0.4)) {
+                    o = ring.center + (ring.radius - ring.tube - off) * out;
+                    d = ring.axis;
+                }
+                o -= 4.0 * d;
+                break;
+            }
+            case 3:  // from within the tube
+                o = ring.center + ring.radius * out + 0.9 * g.number() * ring.tube * g.direction();
+                d = g.direction();
+                break;
+            case 4:  // from afar
+                o = ring.center + std::pow(10, g.between(1, 4)) * g.direction();
+                d = glm::normalize(ring.center + g.point(0.7) - o);
+                break;
+            default: o = g.point(3); d = glm::normalize(ring.center + g.point(1.2) - o);
+        }
+        CAPTURE(seed, kind);
+        const double end = 3 * glm::distance(o, ring.center) + 5, want = ring.first(o, d, end);
+        TraceCounters counters;
+        const Hit hit = tracer.closest_hit({o, d}, end, counters);
+        if (std::isnan(want)) {  // touches it
+            ++unclear;
+            continue;
+        }
+        ++(want < infinity ? hits : misses)[kind];
+        if (want == infinity) {
+            CHECK(hit.t == infinity);
+            continue;
+        }
+        REQUIRE(hit.t < infinity);
+        // A ray that runs along the surface meets it somewhere in a long stretch.
+        CHECK(std::abs(ring.distance(o + hit.t * d)) < 1e-9 * (1 + glm::distance(o, ring.center)));
+        CHECK(hit.t == Approx(want).margin(2e-4));
+        CHECK(glm::distance(hit.normal, glm::normalize(hit.normal)) < 1e-9);
+    }
+    for (int kind = 0; kind < 6; ++kind) CHECK(hits[kind] > 50);
+    CHECK(misses[0] > 20);
+    CHECK(misses[2] > 20);
+    CHECK(unclear < 100);
+}
