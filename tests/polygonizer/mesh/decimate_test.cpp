@@ -52,6 +52,29 @@ TEST_CASE("A mesh within a tolerance is thinned out: closed, outward, near, and 
     CHECK(flat < 1 - std::numbers::pi * 0.29 * 0.29);
 }
 
+TEST_CASE("A plate with round bores takes hardly more facets than chords of its circles and profiles do") {
+    const double r = 0.05, R = 0.4, tolerance = 0.05 * r;
+    constexpr int bores = 4;
+    Density plate = Density::box({0, 0, 0}, {4, 0.5, 3});
+    for (int k = 0; k < bores; ++k) {
+        const Vec3 at(1 + 2 * (k % 2), 0, 0.8 + 1.4 * (k / 2));
+        plate = plate & ~Density::cylinder(at - Vec3(0, 1, 0), at + Vec3(0, 2, 0), R);
+    }
+    const SolidTree tree = flatten(Solid::rounded(r, plate));
+    const Mesh mesh = triage(tree, polygonization_box(tree), {.tolerance = tolerance});
+    // The profile of an edge takes three chords at a twentieth of r.
+    const int profile = 3, around = int(std::ceil(std::numbers::pi / std::acos(1 - tolerance / R)));
+    const int walls = bores * 2 * around, rims = bores * 2 * profile * 2 * around,
+              faces = 2 * (bores * around + 4 + 2 * bores - 2) + 4 * 2, edges = 12 * profile * 2,
+              corners = 8 * profile * profile;
+    const int chordal = walls + rims + faces + edges + corners;
+    CAPTURE(chordal, mesh.triangles.size());
+    CHECK(mesh.triangles.size() <= 1.5 * chordal);
+    CHECK(topology(mesh).manifold());
+    CHECK(topology(mesh).euler == 2 - 2 * bores);
+    CHECK(measure(mesh, tree).distance.max <= tolerance);
+}
+
 TEST_CASE("Creases between solids stay lines of edges when a mesh is thinned out") {
     const Solid a = Solid::rounded(0.1, Density::box(Vec3(0.0), Vec3(1.0))),
                 b = Solid::rounded(0.1, Density::box({0.4, 0.4, 0.4}, {1.6, 1.6, 1.6}));
