@@ -220,11 +220,11 @@ private:
 };
 
 // Sets `v`; false, and something near it, if some triangles that the sphere cuts are not among these.
-bool sum_up(const ClosedMesh& mesh, std::span<const int> triangles, Vec3 x, double r, ValueGradient& v) {
+bool sum_up(const ClosedMesh& mesh, std::span<const int> triangles, Vec3 x, double r, ShareRates& v) {
     thread_local Scratch scratch;
     scratch.arcs.clear();
     scratch.turn = {};
-    double share = 0;
+    double share = 0, heights = 0;  // Σ h |D|
     int loops = 0;
     Vec3 areas(0.0);
     // What is farther beyond the sphere, or within, than this is not cut by it whatever rounding does.
@@ -242,12 +242,14 @@ bool sum_up(const ClosedMesh& mesh, std::span<const int> triangles, Vec3 x, doub
             const double area = mesh.area(t) / (r * r);
             areas += area * plane.normal;
             share += h / r * area;
+            heights += h / r * area;
             continue;
         }
         Sector sector(mesh, t, x, r);
         if (!sector.find(scratch)) continue;
         areas += sector.area() * plane.normal;
         share += sector.h() * (sector.area() + sector.arcs());
+        heights += sector.h() * sector.area();
         loops += sector.loops();
     }
     const int curves = scratch.arcs.empty() ? 0 : count_loops(scratch);
@@ -260,7 +262,7 @@ bool sum_up(const ClosedMesh& mesh, std::span<const int> triangles, Vec3 x, doub
         const double off = share < 0.5 ? share : share - 1;
         share = in ? std::min(1.0, 1 + off) : std::max(0.0, off);
     }
-    v = {share, areas * (-3 / (4 * pi * r))};
+    v = {share, areas * (-3 / (4 * pi * r)), heights * (-3 / (4 * pi * r))};
     return curves >= 0;
 }
 
@@ -270,14 +272,25 @@ ValueGradient ball_share(const ClosedMesh& mesh, Vec3 x, double r) {
     thread_local std::vector<int> near;
     near.clear();
     mesh.near({x, x}, r, near);
-    ValueGradient v;
+    ShareRates v;
     sum_up(mesh, near, x, r, v);
-    return v;
+    return {v.value, v.gradient};
 }
 
 ValueGradient ball_share(const ClosedMesh& mesh, std::span<const int> triangles, Vec3 x, double r) {
-    ValueGradient v;
-    return sum_up(mesh, triangles, x, r, v) ? v : ball_share(mesh, x, r);
+    ShareRates v;
+    if (!sum_up(mesh, triangles, x, r, v)) return ball_share(mesh, x, r);
+    return {v.value, v.gradient};
+}
+
+ShareRates ball_share_rates(const ClosedMesh& mesh, std::span<const int> triangles, Vec3 x, double r) {
+    ShareRates v;
+    if (sum_up(mesh, triangles, x, r, v)) return v;
+    thread_local std::vector<int> near;
+    near.clear();
+    mesh.near({x, x}, r, near);
+    sum_up(mesh, near, x, r, v);
+    return v;
 }
 
 double area_in_ball(const ClosedMesh& mesh, int triangle, Vec3 x, double r) {

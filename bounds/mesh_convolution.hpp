@@ -23,6 +23,13 @@ namespace deburr {
 ValueGradient ball_share(const ClosedMesh& mesh, std::span<const int> triangles, Vec3 x, double r);
 /// The same with all triangles.
 ValueGradient ball_share(const ClosedMesh& mesh, Vec3 x, double r);
+/// The same and the share's rate of change with r, which is −3/(4πr⁴) Σ h |D|.
+struct ShareRates {
+    double value = 0;
+    Vec3 gradient{0.0};
+    double by_radius = 0;
+};
+ShareRates ball_share_rates(const ClosedMesh& mesh, std::span<const int> triangles, Vec3 x, double r);
 /// The area of the triangle's part that lies in the ball of radius r around x; 0 where r ≤ 0.
 double area_in_ball(const ClosedMesh& mesh, int triangle, Vec3 x, double r);
 

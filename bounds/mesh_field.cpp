@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "bounds/mesh_convolution.hpp"
+#include "bounds/mesh_steepness.hpp"
 
 namespace deburr {
 namespace {
@@ -13,7 +14,7 @@ constexpr double noise_scale = 64;
 
 constexpr double sharp_radius = 0x1p-26;  // of the mesh's size
 
-constexpr double pi = 3.14159265358979323846;
+constexpr double pi = mesh_pi;
 
 constexpr double steepest = 0.75;  // what the largest disc changes the share by, for each radius
 
@@ -45,26 +46,6 @@ double distance_bound(Vec3 a, Vec3 b, const Box& box) {
         const Vec3 d = b - a;
         return a + std::clamp(glm::dot(x - a, d) / glm::dot(d, d), 0.0, 1.0) * d;
     });
-}
-
-// What one triangle adds to bounds on the share's derivatives, in radii: where |h| is between these, and the sphere
-// may cut it.
-struct Steepness {
-    double area = 0;    // |D|
-    double across = 0;  // |h| φ: φ, the angle of the arcs that bound D
-    double along = 0;   // length of the sum of the unit vectors along them
-};
-
-Steepness steepness(double area, double perimeter, double least_h, double greatest_h, bool may_be_cut) {
-    if (least_h >= 1) return {};
-    const double widest = 1 - least_h * least_h, h = std::min(greatest_h, 1.0), narrowest = std::sqrt(1 - h * h);
-    Steepness s;
-    s.area = std::min(area, pi * widest);
-    if (!may_be_cut) return s;
-    // Arcs in a triangle are no longer than its border.
-    s.across = h * (perimeter < 2 * pi * narrowest ? perimeter / narrowest : 2 * pi);
-    s.along = std::min(2 * std::sqrt(widest), perimeter);
-    return s;
 }
 
 // Calls visit(triangle, steepness) with what holds for balls whose centres are within `half` of the center, and within

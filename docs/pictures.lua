@@ -56,6 +56,7 @@ local bump = ellipsoid{ center = {0.85, 0.75, 0.7}, radius = 0.4 }
 
 local ball = ellipsoid{ center = {0.5, 0.5, 0.5}, radius = 0.5 }
 local die = rounded(0.2, cube())
+local angle = model("angle.obj")
 
 local pictures = {
   densities = { sharp(cube()), sharp(box({0, 0, 0.2}, {1, 0.5, 0.8})),
@@ -82,6 +83,9 @@ local pictures = {
                ball:material(metal{ color = {0.85, 0.6, 0.25}, roughness = 0.15,
                                     bump = brushed{ scale = 0.02, axis = {0, 1, 0}, around = true, origin = {1.6, 0, 0} }, bump_height = 0.003 }),
                die:material(plastic{ color = image_map{ file = "tile.png", scale = 0.5, origin = {2.7, 0, 0.5} }, roughness = 0.1 }) },
+  keep_sharp = { sharp(angle), convolved(0.12, angle), convolved(0.12, angle, { edges = "convex" }),
+                 convolved(0.12, angle, { edges = "concave" }),
+                 convolved(0.12, angle, { keep_sharp = { below = 0.45 } }) },
   point_light = { die }, directional_light = { die }, area_light = { die },
 }
 

@@ -100,6 +100,34 @@ Vec3 parse_color(std::string_view option, std::string_view text) {
     expected(option, "R,G,B, each from 0 to 1, for example 0.8,0.4,0.1", text);
 }
 
+void parse_keep_sharp(std::string_view option, std::string_view text, KeepSharp& keep) {
+    const auto after = [&](std::string_view sign) {
+        return text.starts_with(sign) ? std::optional(text.substr(sign.size())) : std::nullopt;
+    };
+    if (text == "convex" || text == "concave") {
+        keep.edges = text == "convex" ? KeptEdges::Kind::convex : KeptEdges::Kind::concave;
+        return;
+    }
+    if (const auto height = after("below=")) {
+        const double h = number_of(*height);
+        if (std::isfinite(h)) return void(keep.below = std::max(h, keep.below.value_or(h)));
+    }
+    if (const auto height = after("above=")) {
+        const double h = number_of(*height);
+        if (std::isfinite(h)) return void(keep.above = std::min(h, keep.above.value_or(h)));
+    }
+    if (const auto corners = after("box=")) {
+        std::size_t comma = 0;
+        for (int k = 0; k < 3 && comma != std::string_view::npos; ++k) comma = corners->find(',', comma + (k > 0));
+        if (comma != std::string_view::npos) {
+            const auto a = three_numbers(corners->substr(0, comma)), b = three_numbers(corners->substr(comma + 1));
+            if (a && b && std::isfinite(a->x + a->y + a->z + b->x + b->y + b->z))
+                return keep.boxes.push_back({glm::min(*a, *b), glm::max(*a, *b)});
+        }
+    }
+    expected(option, "convex, concave, below=H, above=H or box=X,Y,Z,X,Y,Z", text);
+}
+
 char parse_axis(std::string_view option, std::string_view text) {
     if (text == "y" || text == "z") return text[0];
     expected(option, "y or z", text);

@@ -12,6 +12,7 @@
 #include "raytracer/image/image_format.hpp"
 #include "raytracer/mesh/mesh_settings.hpp"
 #include "raytracer/render/integrator.hpp"
+#include "raytracer/scene/keep_sharp.hpp"
 #include "raytracer/trace/trace_settings.hpp"
 
 namespace deburr {
@@ -31,6 +32,8 @@ double parse_exposure(std::string_view option, std::string_view text);
 Vec3 parse_direction(std::string_view option, std::string_view text);
 /// Three numbers from 0 to 1.
 Vec3 parse_color(std::string_view option, std::string_view text);
+/// convex, concave, below=H, above=H or box=X,Y,Z,X,Y,Z, added to `keep`.
+void parse_keep_sharp(std::string_view option, std::string_view text, KeepSharp& keep);
 /// 'y' or 'z'.
 char parse_axis(std::string_view option, std::string_view text);
 /// One of these.

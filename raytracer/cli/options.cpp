@@ -53,6 +53,19 @@ void add_scene_options(CLI::App& command, Options& o) {
     };
     add_of_model("--round", "R", "round all edges by this radius, in the file's units; default: 0",
                  [&o](const std::string& text) { o.model.round = parse_limit("--round", text); });
+    command
+        .add_option_function<std::vector<std::string>>(
+            "--keep-sharp",
+            [&o](const std::vector<std::string>& all) {
+                o.is_model_option_given = true;
+                for (const std::string& text : all) parse_keep_sharp("--keep-sharp", text, o.model.keep);
+            },
+            "of a model: do not round its convex or its concave edges, or what is below or above a height or in a box; "
+            "repeatable")
+        ->type_name("convex|concave|below=H|above=H|box=X,Y,Z,X,Y,Z")
+        ->allow_extra_args(false);
+    add_of_model("--fade", "W", "the width over which --keep-sharp's rounding fades; default: three radii",
+                 [&o](const std::string& text) { o.model.keep.fade = parse_positive("--fade", text); });
     if (command.get_name() != "mesh")  // where it is the files' axis, too
         add_of_model("--up", "y|z", "the axis that is up; default: z, of GLB y",
                      [&o](const std::string& text) { o.model.z_up = parse_axis("--up", text) == 'z'; });
@@ -159,9 +172,10 @@ Scene load_scene(const Options& o) {
     if (is_model && !o.defines.empty())
         throw UsageError(fmt::format("-D {}: expected a scene with parameters, got a model", o.defines.begin()->first));
     if (!is_model && o.is_model_option_given)
-        throw UsageError(fmt::format(
-            "{}: expected a model file with --round, --up, --color or --material, got a scene, which says these itself",
-            o.scene));
+        throw UsageError(
+            fmt::format("{}: expected a model file with --round, --keep-sharp, --fade, --up, --color or --material, "
+                        "got a scene, which says these itself",
+                        o.scene));
     ModelSettings model = o.model;
     model.ground = !o.model_only;
     Scene scene = is_model ? model_scene(o.scene, model) : read_scene(o.scene, o.defines, {}, o.model_folders);

@@ -105,6 +105,7 @@ private:
         const auto add_vector = [&](const std::optional<Vec3>& v) {
             hash.add(v ? fmt::format("{} {} {}", v->x, v->y, v->z) : "");
         };
+        hash.add(m.keep.text());
         add_vector(m.color);
         add_vector(o_.from);
         hash.add(fmt::format("{} {} {} {} {}", frame_.size.width, frame_.size.height, o_.frame, o_.seed, o_.alpha));

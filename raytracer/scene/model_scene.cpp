@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <filesystem>
 
-#include "bounds/mesh_field.hpp"
 #include "raytracer/model/model_file.hpp"
 #include "raytracer/scene/default_light.hpp"
 #include "raytracer/scene/frame_camera.hpp"
@@ -46,7 +45,8 @@ Scene model_scene(const std::string& path, const ModelSettings& settings) {
     for (const std::string& mended : model.mended) scene.notes.push_back(fmt::format("{}: {}", path, mended));
     scene.materials.emplace_back();
     scene.materials.push_back(material_of(settings));
-    scene.solids.push_back(Solid::of_field(std::make_shared<MeshField>(model.mesh, settings.round)).material(1));
+    scene.solids.push_back(
+        Solid::of_field(rounded_mesh(model.mesh, settings.round, settings.keep, scene.z_up)).material(1));
     scene.names.push_back(std::filesystem::path(path).stem().string());
     const Vec3 up = up_axis(scene.z_up);
     if (settings.ground) {

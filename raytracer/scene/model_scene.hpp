@@ -4,12 +4,14 @@
 #include <string>
 #include <vector>
 
+#include "raytracer/scene/keep_sharp.hpp"
 #include "raytracer/scene/scene.hpp"
 
 namespace deburr {
 
 struct ModelSettings {
     double round = 0;           // the rounding radius, in the file's units; 0: as it stands
+    KeepSharp keep;             // what is not rounded
     std::optional<bool> z_up;   // none: GLB and glTF have y up, all others z
     std::optional<Vec3> color;  // of its material
     std::string material;       // "plastic", …; empty: plastic

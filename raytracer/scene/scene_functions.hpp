@@ -13,6 +13,7 @@
 
 #include "bounds/closed_mesh.hpp"
 #include "bounds/free_form.hpp"
+#include "raytracer/scene/keep_sharp.hpp"
 #include "raytracer/scene/lua_values.hpp"
 #include "raytracer/scene/memory_meter.hpp"
 #include "raytracer/scene/scene.hpp"
@@ -87,8 +88,8 @@ public:
     Solid solid(const SceneObject& object);
     /// The model of a file, which is read once. Throws std::runtime_error, SceneError and UnsupportedError.
     const ClosedMeshPtr& model(const std::string& file);
-    /// The model rounded by a ball of this radius; 0: as it stands.
-    Solid solid(const PlacedModel& model, double radius, int line);
+    /// The model rounded by a ball of this radius, but for what is kept; 0: as it stands.
+    Solid solid(const PlacedModel& model, double radius, int line, const KeepSharp& keep = {});
     /// Files that were read, and what was mended in them: "part.stl: turned 12 facets that faced inward".
     const std::vector<std::string>& notes() const { return notes_; }
     const std::vector<std::string>& files() const { return files_read_; }
@@ -186,6 +187,9 @@ const std::vector<SceneFunction>& shape_functions();
 const std::vector<SceneFunction>& round_functions();
 const std::vector<SceneFunction>& free_form_functions();
 const std::vector<SceneFunction>& material_functions();
+
+/// What convolved(r, model, { … }) keeps sharp.
+KeepSharp keep_sharp(const LuaValue& value, const std::string& location);
 
 /// cylinder{ from =, to =, radius = } and cone{ from =, to =, radius = }, which other fields make quadrics.
 SceneResult round_cylinder(SceneCall& call);

@@ -1,7 +1,6 @@
 // Models in a scene: closed meshes from files.
 #include <fmt/format.h>
 
-#include "bounds/mesh_field.hpp"
 #include "raytracer/model/model_file.hpp"
 #include "raytracer/scene/scene_functions.hpp"
 #include "raytracer/util/errors.hpp"
@@ -25,10 +24,11 @@ const ClosedMeshPtr& SceneBuilder::model(const std::string& file) {
     return at->second;
 }
 
-Solid SceneBuilder::solid(const PlacedModel& model, double radius, int line) {
+Solid SceneBuilder::solid(const PlacedModel& model, double radius, int line, const KeepSharp& keep) {
     ClosedMeshPtr mesh = model.mesh;
     if (model.map.linear != Mat3(1.0) || model.map.shift != Vec3(0.0)) mesh = transformed(*mesh, model.map);
-    return Solid::of_field(std::make_shared<MeshField>(std::move(mesh), radius), line);
+    if (keep.below || keep.above) up_mattered = true;
+    return Solid::of_field(rounded_mesh(std::move(mesh), radius, keep, z_up), line);
 }
 
 namespace {
@@ -49,6 +49,36 @@ SceneResult model(SceneCall& call) {
 }
 
 }  // namespace
+
+KeepSharp keep_sharp(const LuaValue& value, const std::string& location) {
+    KeepSharp keep;
+    const Fields fields(value, location, {"edges", "keep_sharp", "fade"});
+    if (const LuaValue* edges = fields.find("edges")) {
+        const std::string& which = text(*edges, fields.location("edges"));
+        if (which == "convex")
+            keep.edges = KeptEdges::Kind::concave;
+        else if (which == "concave")
+            keep.edges = KeptEdges::Kind::convex;
+        else if (which != "all")
+            expected(fields.location("edges"), "'convex', 'concave' or 'all'", *edges);
+    }
+    if (const LuaValue* regions = fields.find("keep_sharp")) {
+        const std::string at = fields.location("keep_sharp");
+        const Fields region(*regions, at, {"below", "above", "box"});
+        if (const LuaValue* height = region.find("below")) keep.below = number(*height, region.location("below"));
+        if (const LuaValue* height = region.find("above")) keep.above = number(*height, region.location("above"));
+        if (const LuaValue* box = region.find("box")) {
+            const std::string place = region.location("box");
+            const LuaTable* corners = as_table(*box);
+            if (!corners || corners->list.size() != 2 || !corners->fields.empty())
+                expected(place, "two corners, as in {{0, 0, 0}, {1, 1, 1}}", *box);
+            const Vec3 a = vector(corners->list[0], place), b = vector(corners->list[1], place);
+            keep.boxes.push_back({glm::min(a, b), glm::max(a, b)});
+        }
+    }
+    if (const LuaValue* fade = fields.find("fade")) keep.fade = number_above(*fade, fields.location("fade"), 0);
+    return keep;
+}
 
 const std::vector<SceneFunction>& model_functions() {
     static const std::vector<SceneFunction> functions = {{SceneFunction::Kind::global, "model", "", model}};

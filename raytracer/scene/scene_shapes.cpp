@@ -198,10 +198,14 @@ SceneResult rounded(SceneCall& call) {
 }
 
 SceneResult convolved(SceneCall& call) {
-    call.at_most(2);
+    call.at_most(3);
     const double radius = number_above(call.argument(0), call.location("radius"), 0);
+    const LuaValue& options = call.argument(2);
+    const KeepSharp keep = is_nil(options) ? KeepSharp{} : keep_sharp(options, call.location("options"));
     if (const auto* model = as<PlacedModel>(as_object(call.argument(1))))
-        return call.make(call.builder.solid(*model, radius, call.line));
+        return call.make(call.builder.solid(*model, radius, call.line, keep));
+    const bool keeps = keep.edges != KeptEdges::Kind::none || keep.below || keep.above || !keep.boxes.empty();
+    if (keeps) expected(call.name, "a model where something is kept sharp", call.argument(1));
     const Density& density = need_density(call.argument(1), call.name, "a density or a model");
     if (density.has_radius())
         throw BadValue(call.name,

@@ -6,8 +6,8 @@
 
 #include "bounds/bounding_box.hpp"
 #include "bounds/free_form.hpp"
-#include "bounds/mesh_field.hpp"
 #include "bounds/round_density.hpp"
+#include "bounds/selective_mesh_field.hpp"
 #include "bounds/torus.hpp"
 
 namespace deburr {
@@ -40,7 +40,7 @@ void add_models(const Solid& solid, SolidFacts& facts) {
     for_each_leaf(
         {solid}, [](const SolidNode&) { return true; },
         [&](const Solid& leaf, const Affine& map) {
-            const auto* model = dynamic_cast<const MeshField*>(leaf.node().field().get());
+            const MeshField* model = mesh_field_of(leaf.node().field().get());
             if (!model) return;
             const double scale = scale_of(map);
             facts.triangles += double(model->mesh().size());

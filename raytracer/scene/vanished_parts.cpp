@@ -11,6 +11,7 @@
 #include "bounds/decision_diagram.hpp"
 #include "bounds/density_part.hpp"
 #include "bounds/emptiness.hpp"
+#include "bounds/selective_mesh_field.hpp"
 #include "raytracer/scene/box_text.hpp"
 #include "raytracer/scene/thin_walls.hpp"
 
@@ -215,7 +216,7 @@ VanishedParts vanished_parts(const Scene& scene, std::int64_t nodes) {
         const auto look = [&](const Solid& leaf, const Affine& map) {
             const SolidNode& node = leaf.node();
             if (first_line == 0) first_line = node.line;
-            const auto* model = dynamic_cast<const MeshField*>(node.field().get());
+            const MeshField* model = mesh_field_of(node.field().get());
             if (model && seen.insert(canonical.of(leaf).canonical).second) {
                 const std::string what = thin_walls_text(*model, map);
                 if (what.empty()) return;

@@ -1,0 +1,94 @@
+// --keep-sharp, and convolved(r, model, { … }): what a model is rounded in, and what is said of wrong values.
+#include <fmt/format.h>
+
+#include "catch.hpp"
+#include "closed_shapes.hpp"
+#include "raytracer/cli/option_values.hpp"
+#include "raytracer/folder.hpp"
+#include "raytracer/program.hpp"
+#include "raytracer/util/errors.hpp"
+
+using namespace deburr;
+using test::Outcome;
+using test::run;
+using test::Shape;
+
+namespace {
+
+double volume_of(const std::string& said) {
+    const std::string key = "mesh volume";
+    const std::size_t at = said.find(key);
+    return at == std::string::npos ? 0 : std::stod(said.substr(at + key.size()));
+}
+
+bool has(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
+
+}  // namespace
+
+TEST_CASE("--keep-sharp takes kinds of edges, heights and boxes, and refuses all else") {
+    KeepSharp keep;
+    parse_keep_sharp("--keep-sharp", "concave", keep);
+    parse_keep_sharp("--keep-sharp", "below=2.5", keep);
+    parse_keep_sharp("--keep-sharp", "above=9", keep);
+    parse_keep_sharp("--keep-sharp", "box=3,2,1,0,-1,5", keep);
+    CHECK(keep.edges == KeptEdges::Kind::concave);
+    CHECK(keep.below == 2.5);
+    CHECK(keep.above == 9);
+    REQUIRE(keep.boxes.size() == 1);
+    CHECK(keep.boxes[0].lo == Vec3(0, -1, 1));
+    CHECK(keep.boxes[0].hi == Vec3(3, 2, 5));
+    for (const char* wrong : {"", "all", "below", "below=", "below=nan", "above=x", "box=1,2,3", "box=1,2,3,4,5,inf"}) {
+        CAPTURE(wrong);
+        CHECK_THROWS_AS(parse_keep_sharp("--keep-sharp", wrong, keep), UsageError);
+    }
+}
+
+TEST_CASE("meshes of a box that is rounded in part lose what is rounded there", "[slow]") {
+    const test::Folder folder;
+    const std::string part = folder / "part.stl", mesh = folder / "mesh.stl";
+    test::write_file(part, Shape::box({0, 0, 0}, {10, 10, 10}).stl());
+    const auto volume = [&](const std::vector<std::string>& more) {
+        std::vector<std::string> call = {"mesh", part, "-o", mesh, "--stats", "-q"};
+        call.insert(call.end(), more.begin(), more.end());
+        const Outcome o = run(call);
+        CAPTURE(o.err);
+        CHECK(o.code == 0);
+        return volume_of(o.out + o.err);
+    };
+    const double sharp = volume({}), round = volume({"--round", "1"});
+    const double upper = volume({"--round", "1", "--keep-sharp", "below=5", "--fade", "2"});
+    const double none = volume({"--round", "1", "--keep-sharp", "convex"});
+    const double all = volume({"--round", "1", "--keep-sharp", "concave"});
+    CHECK(sharp == Approx(1000));
+    CHECK(none == Approx(1000).epsilon(1e-4));
+    CHECK(all == Approx(round).epsilon(6e-3));  // by the octree, whose cells round an edge less finely
+    // Of twelve edges four are rounded, and less than half of four.
+    const double lost = 1000 - round, of_upper = 1000 - upper;
+    CHECK(of_upper > lost * (4 + 0.5) / 12);
+    CHECK(of_upper < lost * (4 + 2) / 12);
+}
+
+TEST_CASE("a scene says what stays sharp, and wrong fields are told") {
+    const test::Folder folder;
+    test::write_file(folder / "part.stl", Shape::l_prism().stl());
+    const auto info = [&](const std::string& options) {
+        test::write_file(folder / "s.lua",
+                         "return { solids = { convolved(0.1, model(\"part.stl\"), " + options + ") } }");
+        return run({"info", folder / "s.lua"});
+    };
+    CHECK(info("{ edges = \"convex\" }").code == 0);
+    CHECK(info("{ keep_sharp = { below = 0.5, above = 3, box = {{0, 0, 0}, {1, 1, 1}} }, fade = 0.2 }").code == 0);
+    const std::pair<const char*, const char*> wrong[] = {
+        {"{ edges = \"sharp\" }", "edges: expected 'convex', 'concave' or 'all'"},
+        {"{ keep_sharp = { under = 1 } }", "under"},
+        {"{ keep_sharp = { box = {1, 2, 3} } }", "expected two corners"},
+        {"{ fade = 0 }", "fade: expected a number > 0"}};
+    for (const auto& [options, said] : wrong) {
+        const Outcome o = info(options);
+        CAPTURE(o.err);
+        CHECK(o.code == 2);
+        CHECK(has(o.err, said));
+    }
+    test::write_file(folder / "s.lua", "return { solids = { convolved(0.1, cube(), { edges = \"convex\" }) } }");
+    CHECK(has(run({"info", folder / "s.lua"}).err, "expected a model where something is kept sharp"));
+}
