@@ -151,7 +151,7 @@ void PlaneTriangulation::insert(int point) {
 void PlaneTriangulation::insert_edge(int a, int b) {
     std::vector<Edge> todo{{a, b}};
     while (!todo.empty()) {
-        const auto [from, to] = todo.back();
+        const int from = todo.back().first, to = todo.back().second;
         todo.pop_back();
         if (from == to) continue;
         if (apex(from, to) >= 0 || apex(to, from) >= 0) {
