@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cctype>
 #include <cstdint>
+#include <cstdlib>
 #include <cstring>
 #include <filesystem>
 
@@ -33,6 +34,20 @@ std::size_t stl_count(const std::string& bytes) {
     return count;
 }
 
+// Its reader takes memory and time for as many elements as the header claims.
+void check_ply_counts(const std::string& bytes, const std::string& path) {
+    const std::size_t end = std::min(bytes.find("end_header"), bytes.size());
+    const std::string sign = "element ";
+    for (std::size_t at = bytes.find(sign); at < end; at = bytes.find(sign, at + 1)) {
+        const std::size_t number = bytes.find(' ', at + sign.size());
+        if (number >= end) return;
+        const double count = std::strtod(bytes.c_str() + number, nullptr);
+        if (!(count <= double(bytes.size())))
+            fail(path, fmt::format("{}: expected at most an element a byte, got a claim of {:.0f} in {} bytes",
+                                   file_mark, count, bytes.size()));
+    }
+}
+
 }  // namespace
 
 bool is_model_path(const std::string& path) {
@@ -50,7 +65,10 @@ std::string model_format(const std::string& bytes, const std::string& path) {
     if (bytes.empty()) fail(path, fmt::format("{}: expected a model, got an empty file", file_mark));
     if (starts("glTF")) return "glb";
     if (starts("PK\x03\x04")) return "3mf";
-    if (starts("ply")) return "ply";
+    if (starts("ply")) {
+        check_ply_counts(bytes, path);
+        return "ply";
+    }
     const std::string end = extension(path);
     if (starts("OFF") || starts("COFF") || starts("NOFF") || starts("CNOFF")) return "off";
     if (end == ".obj") return "obj";

@@ -200,6 +200,9 @@ TEST_CASE("files that are not what they seem are one line") {
         CHECK((has(said, "2 ") || has(said, "3 ")));
         CHECK(said.find('\n') == std::string::npos);
     }
+    std::string claims = ply(box());
+    claims.replace(claims.find("vertex 8"), 8, "vertex 4000000000");
+    CHECK(has(error_of("a.ply", claims), "expected at most an element a byte, got a claim of 4000000000 in "));
     CHECK_THROWS_AS(read_model("/nowhere/a.stl"), SceneError);
 }
 
