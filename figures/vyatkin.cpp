@@ -64,7 +64,8 @@ Film cloud(const FigureContext& context, const Scene& scene, const Mesh& mesh, i
 
 void quadrics(FigureContext& context) {
     const Scene scene = context.scene("quadric.lua");
-    context.picture(context.render(scene, {.width = 720, .height = 720 * scene.height / scene.width, .spp = 48, .noise = 0.006}));
+    context.picture(
+        context.render(scene, {.width = 720, .height = 720 * scene.height / scene.width, .spp = 48, .noise = 0.006}));
     context.measured(fmt::format("{} solids, rendered exactly from their equations.", scene.solids.size()));
 }
 
@@ -114,7 +115,8 @@ void cone(FigureContext& context, bool keep) {
 void figurine(FigureContext& context) {
     const Scene scene = context.scene("figurine.lua");
     context.columns(2);
-    const FigurePictureSettings size{.width = 400, .height = 400 * scene.height / scene.width, .spp = 48, .noise = 0.006};
+    const FigurePictureSettings size{
+        .width = 400, .height = 400 * scene.height / scene.width, .spp = 48, .noise = 0.006};
     const Mesh mesh = mesh_of(scene, 136306);
     context.picture(context.render(scene, size), "figure 14: the function, traced exactly");
     context.picture(shaded(context, scene, mesh, size), "figure 15: its polygons");
@@ -124,7 +126,8 @@ void figurine(FigureContext& context) {
 void teapot(FigureContext& context) {
     const Scene scene = context.scene("teapot.lua");
     context.columns(2);
-    const FigurePictureSettings size{.width = 480, .height = 480 * scene.height / scene.width, .spp = 48, .noise = 0.008};
+    const FigurePictureSettings size{
+        .width = 480, .height = 480 * scene.height / scene.width, .spp = 48, .noise = 0.008};
     const Mesh mesh = mesh_of(scene, 317188);
     context.picture(shaded(context, scene, mesh, size), "the polygons");
     context.picture(
