@@ -412,9 +412,15 @@ ClosedSurface closed_surface(const TriangleSoup& soup) {
     if (soup.triangles.empty()) throw UnsoundSurface("expected a solid's surface, got no triangles");
     Surface surface = welded(soup);
     drop_collapsed(surface);
-    if (const std::size_t doubles = drop_doubles(surface))
-        result.mended.push_back(
-            fmt::format("dropped {} that {} there twice", count_of(doubles, "facet"), doubles == 1 ? "is" : "are"));
+    // Two bodies may have a facet in common, which each of them needs.
+    Surface with_doubles = surface;
+    if (const std::size_t doubles = drop_doubles(surface)) {
+        if (openness(surface).open > openness(with_doubles).open)
+            surface = std::move(with_doubles);
+        else
+            result.mended.push_back(
+                fmt::format("dropped {} that {} there twice", count_of(doubles, "facet"), doubles == 1 ? "is" : "are"));
+    }
     Openness open = openness(surface);
     const double size = size_of(surface.vertices);
     for (const double tolerance : {1e-7, 1e-6, 1e-5}) {

@@ -30,10 +30,11 @@ constexpr std::size_t max_triangles = 400;  // of a surface that is looked at
 // Assimp's own faults end the process that the program gives it; here they end its call.
 sigjmp_buf before_library;
 volatile std::sig_atomic_t in_library = 0;
+struct sigaction fuzzers_own[NSIG];  // what is done elsewhere
 
 void leave_library(int signal) {
     if (in_library != 0) siglongjmp(before_library, signal);
-    std::signal(signal, SIG_DFL);
+    sigaction(signal, &fuzzers_own[signal], nullptr);
     std::raise(signal);
 }
 
@@ -135,7 +136,11 @@ void unite_boxes(const std::uint8_t* data, std::size_t size) {
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     using namespace deburr;
     static const bool is_ready = [] {
-        for (const int signal : {SIGABRT, SIGSEGV, SIGFPE}) std::signal(signal, leave_library);
+        for (const int signal : {SIGABRT, SIGSEGV, SIGFPE}) {
+            struct sigaction own = {};
+            own.sa_handler = leave_library;
+            sigaction(signal, &own, &fuzzers_own[signal]);
+        }
         return true;
     }();
     if (!is_ready || size < 1) return 0;

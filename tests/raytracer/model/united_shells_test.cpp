@@ -76,6 +76,7 @@ TEST_CASE("two boxes that overlap, or touch in a part of a face, are one solid")
         {{0, 0, 5}, {10, 10, 15}, 1500, 6},          // four faces flush
         {{10, 2, 2}, {12, 8, 8}, 1072, 11},          // face on face
         {{10, 0, 0}, {12, 10, 10}, 1200, 6},         // whole faces
+        {{0, 0, 0}, {10, 10, 15}, 1500, 6},          // a face in common, which faces the same way
         {{-2, 4, 4}, {12, 6, 6}, 1016, 16},          // a bar right through
         {{4, 4, -1}, {14, 14, 11}, 1000 + 840, 12},  // an edge through two faces
     };
