@@ -308,6 +308,7 @@ void settle_shells(Surface& surface, bool trusted, const std::vector<std::pair<i
     }
     std::vector<char> gone(surface.triangles.size(), false);
     for (std::size_t i = 0; i < all.size(); ++i) {
+        if (!all[i].mesh) continue;  // part of a body whose facets are another's, too: it has no side of its own
         int outside = 0, depth = 0;
         for (std::size_t j = 0; j < all.size(); ++j)
             if (j != i && holds(all[j], all[i]) && !cross.contains(std::minmax(int(i), int(j)))) {
