@@ -416,7 +416,8 @@ ClosedSurface closed_surface(const TriangleSoup& soup) {
     // Two bodies may have a facet in common, which each of them needs.
     Surface with_doubles = surface;
     if (const std::size_t doubles = drop_doubles(surface)) {
-        if (openness(surface).open > openness(with_doubles).open)
+        const Openness now = openness(surface), before = openness(with_doubles);
+        if (now.open + now.unturned > before.open + before.unturned)
             surface = std::move(with_doubles);
         else
             result.mended.push_back(
