@@ -147,7 +147,7 @@ TEST_CASE("A glowing solid is sampled through the ball around it, and met by ref
     CHECK(path_pixel(scene, tracer, 4).color.x == 4);  // its top
 }
 
-TEST_CASE("The mean does not depend on the number of samples") {
+TEST_CASE("The mean does not depend on the number of samples", "[slow]") {
     using Kind = Material::Kind;
     Scene scene = probe(material_of(Kind::plastic, {0.7, 0.5, 0.3}, 0.3));
     scene.materials.push_back(material_of(Kind::glass, Vec3(1.0), 0.3));
@@ -158,7 +158,7 @@ TEST_CASE("The mean does not depend on the number of samples") {
     scene.camera.eye = {3, 3, 2};
     const AnalyticTracer tracer(
         {floor_at_0, {Shape::Kind::sphere, {-1.5, 1, 0}, {}, 1, 1}, {Shape::Kind::sphere, {0.5, 1, -1.6}, {}, 1, 2}});
-    const int total = 1 << 17;
+    const int total = 1 << 19;
     const Vec3 all = path_pixel(scene, tracer, total).color;
     int cases = 0;
     for (int spp = 1; spp <= 256; spp *= 4) {

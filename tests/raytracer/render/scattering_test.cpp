@@ -136,7 +136,7 @@ TEST_CASE("No colour returns more light than white") {
     }
 }
 
-TEST_CASE("Samples of every material have the density and the value that are claimed") {
+TEST_CASE("Samples of every material have the density and the value that are claimed", "[slow]") {
     int cases = 0;
     for (const Material& material : all_materials(Vec3(0.8, 0.5, 0.3))) {
         if (material.roughness < 0.5 || material.kind == Material::Kind::mirror) continue;  // a grid misses them
@@ -156,7 +156,7 @@ TEST_CASE("Samples of every material have the density and the value that are cla
                     const double light_exact =
                         over_sphere(500, 300, [&](Vec3 w) { return surface.value(w).value.y * observable(w); });
                     double hits = 0, light = 0;
-                    const int n = 1 << 16;
+                    const int n = 1 << 18;
                     for (int s = 0; s < n; ++s)
                         for (int half = 0; half < (split ? 2 : 1); ++half) {
                             const Vec3 u = place(s);
