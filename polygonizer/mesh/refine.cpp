@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <deque>
 
+#include "bounds/sort_once.hpp"
 #include "polygonizer/mesh/split_on_surface.hpp"
 
 namespace deburr {
@@ -50,8 +51,7 @@ public:
         for (std::size_t f = 0; f < facets_.size(); ++f)
             if (facets_.alive(int(f))) order[f] = t++;
         // Others have come in the place of some.
-        std::sort(stuck_.begin(), stuck_.end());
-        stuck_.erase(std::unique(stuck_.begin(), stuck_.end()), stuck_.end());
+        sort_once(stuck_);
         for (const int f : stuck_)
             if (facets_.alive(f) && is_far(judge_, f, edges_)) left.push_back(order[f]);
         facets_.finish();

@@ -8,6 +8,7 @@
 #include <set>
 
 #include "bounds/bounding_box.hpp"
+#include "bounds/sort_once.hpp"
 #include "polygonizer/mesh/crossing_triangles.hpp"
 #include "polygonizer/mesh/repair.hpp"
 #include "polygonizer/mesh/sharp_parts.hpp"
@@ -121,8 +122,7 @@ public:
 
 private:
     bool split(std::vector<int>& leaves) {
-        std::sort(leaves.begin(), leaves.end());
-        leaves.erase(std::unique(leaves.begin(), leaves.end()), leaves.end());
+        sort_once(leaves);
         bool changed = false;
         for (const int leaf : leaves)
             if (tree_.cell(leaf).open) changed |= tree_.split(leaf);

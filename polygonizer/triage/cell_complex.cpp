@@ -4,6 +4,8 @@
 #include <cassert>
 #include <map>
 
+#include "bounds/sort_once.hpp"
+
 namespace deburr {
 
 CellComplex::CellComplex(const Box& box, double least_distance) : tolerance(least_distance) {
@@ -99,8 +101,7 @@ std::vector<int> CellComplex::with_neighbours(std::span<const int> of) const {
                 for (const int around : edges[s >> 1].faces)
                     for (const int beside : {faces[around].back, faces[around].front})
                         if (beside != outside) all.push_back(beside);
-    std::sort(all.begin(), all.end());
-    all.erase(std::unique(all.begin(), all.end()), all.end());
+    sort_once(all);
     return all;
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "bounds/sort_once.hpp"
 #include "polygonizer/mesh/refine.hpp"
 #include "polygonizer/mesh/repair.hpp"
 #include "polygonizer/triage/surface.hpp"
@@ -10,14 +11,7 @@
 namespace deburr {
 namespace {
 
-// Makes the cuts; the cells on both sides of those that could be made.
-std::vector<int> halve(Subdivision& subdivision, const std::vector<Cut>& cuts) {
-    std::vector<int> halves;
-    for (const Cut& cut : cuts)
-        if (subdivision.halve(cut.cell, cut.plane))
-            halves.insert(halves.end(), {cut.cell, int(subdivision.complex.cells.size()) - 1});
-    return halves;
-}
+constexpr std::size_t max_local_rounds = 5;
 
 // Across the longest side of the cell's box.
 Plane middle_plane(const CellComplex& complex, int cell) {
@@ -30,25 +24,27 @@ Plane middle_plane(const CellComplex& complex, int cell) {
     return plane;
 }
 
+// Makes the cuts, `or_middle`: through a cell's middle where its cut passes it by. The cells on both sides of those
+// that could be made.
+std::vector<int> halve(Subdivision& subdivision, const std::vector<Cut>& cuts, bool or_middle = false) {
+    std::vector<int> halves;
+    for (const Cut& cut : cuts)
+        if (subdivision.halve(cut.cell, cut.plane) ||
+            (or_middle && subdivision.halve(cut.cell, middle_plane(subdivision.complex, cut.cell))))
+            halves.insert(halves.end(), {cut.cell, int(subdivision.complex.cells.size()) - 1});
+    return halves;
+}
+
 bool is_near(const Mesh& mesh, int t, const FacetJudge& judge, double tolerance) {
     std::array<Vec3, 3> x;
     for (std::size_t k = 0; k < 3; ++k) x[k] = mesh.positions[mesh.triangles[t].vertex[k]];
     return judge.is_near(x, tolerance);
 }
 
-void sort_once(std::vector<int>& numbers) {
-    std::sort(numbers.begin(), numbers.end());
-    numbers.erase(std::unique(numbers.begin(), numbers.end()), numbers.end());
-}
-
 }  // namespace
 
 std::vector<int> halve_all(Subdivision& subdivision, const std::vector<Cut>& cuts, bool by_planes) {
-    std::vector<int> halves;
-    for (const Cut& cut : cuts)
-        if (subdivision.halve(cut.cell, cut.plane) ||
-            subdivision.halve(cut.cell, middle_plane(subdivision.complex, cut.cell)))
-            halves.insert(halves.end(), {cut.cell, int(subdivision.complex.cells.size()) - 1});
+    std::vector<int> halves = halve(subdivision, cuts, true);
     if (!by_planes) return halves;
     const int halved = int(subdivision.complex.cells.size());
     const std::size_t count = halves.size();
@@ -145,12 +141,6 @@ std::vector<int> LocalRounds::halve_coarse(const std::vector<Cut>& cuts, double 
     }
     return all;
 }
-
-namespace {
-
-constexpr std::size_t max_local_rounds = 5;
-
-}  // namespace
 
 std::size_t LocalRounds::cut_leaning(const std::vector<Cut>& cuts, std::size_t most) const {
     std::vector<int> halves = halve(subdivision_, cuts);

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "bounds/bounding_box.hpp"
+#include "bounds/sort_once.hpp"
 #include "polygonizer/mesh/crossing_triangles.hpp"
 #include "polygonizer/mesh/decimate.hpp"
 #include "polygonizer/mesh/degenerate_shells.hpp"
@@ -51,11 +52,6 @@ constexpr double of_slack = 0.4;
 
 // Instead of `at_points` for a mesh that is to be looked at, whose normals have to be right between its vertices.
 constexpr double at_points_of_picture = 0.2;
-
-void sort_once(std::vector<int>& numbers) {
-    std::sort(numbers.begin(), numbers.end());
-    numbers.erase(std::unique(numbers.begin(), numbers.end()), numbers.end());
-}
 
 // Adds boxes around the triangle's corners, as large as its shortest edge.
 void add_corners(const Mesh& mesh, const Triangle& triangle, std::vector<Box>& boxes) {

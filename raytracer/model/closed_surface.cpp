@@ -9,6 +9,7 @@
 #include <tuple>
 #include <utility>
 
+#include "bounds/sort_once.hpp"
 #include "bounds/union_find.hpp"
 #include "polygonizer/mesh/crossing_triangles.hpp"
 #include "raytracer/model/flat_faces.hpp"
@@ -142,8 +143,7 @@ Openness openness(const Surface& surface) {
             o.unturned += std::count_if(first, last, [](const HalfEdge& e) { return e.up; }) * 2 != count;
         }
     });
-    std::sort(o.rim.begin(), o.rim.end());
-    o.rim.erase(std::unique(o.rim.begin(), o.rim.end()), o.rim.end());
+    sort_once(o.rim);
     return o;
 }
 

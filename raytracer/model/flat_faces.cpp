@@ -4,6 +4,8 @@
 #include <numeric>
 #include <tuple>
 
+#include "bounds/sort_once.hpp"
+
 namespace deburr {
 namespace {
 
@@ -124,8 +126,7 @@ void flatten_faces(std::vector<Vec3>& vertices, const std::vector<Corners>& tria
         if (face.size() == 1) continue;
         points.clear();
         for (const int t : face) points.insert(points.end(), triangles[t].begin(), triangles[t].end());
-        std::sort(points.begin(), points.end());
-        points.erase(std::unique(points.begin(), points.end()), points.end());
+        sort_once(points);
         const Plane plane = fitted(vertices, points, normal);
         for (const int v : points) planes_at[v].push_back(plane);
     }
