@@ -306,35 +306,11 @@ const PacketFunctions functions{load,
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
-#if HWY_ARCH_ARM_A64
-#include <asm/hwcap.h>
-#include <sys/auxv.h>
-#endif
+#include "raytracer/simd/instruction_sets-inl.hpp"
 
 namespace deburr {
 
-// Highway's own choice would need its library, which measures the processor's clock before main(): 3 ms.
-std::vector<PacketInstructions> packet_instructions() {
-    std::vector<PacketInstructions> there;
-#if HWY_TARGETS & HWY_AVX3
-    if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512vl") && __builtin_cpu_supports("avx512dq") &&
-        __builtin_cpu_supports("avx512bw") && __builtin_cpu_supports("fma") && __builtin_cpu_supports("bmi2"))
-        there.push_back({"AVX-512", &N_AVX3::functions});
-#endif
-#if HWY_TARGETS & HWY_AVX2
-    if (__builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma") && __builtin_cpu_supports("bmi2"))
-        there.push_back({"AVX2", &N_AVX2::functions});
-#endif
-#if HWY_TARGETS & HWY_SSE4
-    if (__builtin_cpu_supports("sse4.2") && __builtin_cpu_supports("pclmul"))
-        there.push_back({"SSE4", &N_SSE4::functions});
-#endif
-#if HWY_ARCH_ARM_A64 && (HWY_TARGETS & HWY_NEON) && HWY_STATIC_TARGET != HWY_NEON
-    if (getauxval(AT_HWCAP) & HWCAP_AES) there.push_back({"NEON", &N_NEON::functions});  // AES is part of that set
-#endif
-    there.push_back({"baseline", &HWY_STATIC_DISPATCH(functions)});
-    return there;
-}
+std::vector<Instructions<PacketFunctions>> packet_instructions() { DEBURR_INSTRUCTION_SETS(PacketFunctions, functions) }
 
 const PacketFunctions& packet_functions = *packet_instructions()[0].functions;
 

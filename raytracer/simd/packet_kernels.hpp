@@ -10,6 +10,7 @@
 #include "bounds/product_sum.hpp"
 #include "bounds/round_product.hpp"
 #include "raytracer/simd/box_tree.hpp"
+#include "raytracer/simd/instructions.hpp"
 #include "raytracer/simd/ray_packet.hpp"
 
 namespace deburr {
@@ -108,12 +109,8 @@ struct PacketFunctions {
     void (*walk_beam)(const BoxTree& tree, const BoxBeam& beam, BoxVisitor visitor);
 };
 
-struct PacketInstructions {
-    const char* name;
-    const PacketFunctions* functions;
-};
-/// Sets of instructions that this machine has, the widest first.
-std::vector<PacketInstructions> packet_instructions();
+/// Of the sets of instructions that this machine has, the widest first.
+std::vector<Instructions<PacketFunctions>> packet_instructions();
 
 /// The kernels of the widest set of instructions that this machine has.
 extern const PacketFunctions& packet_functions;
