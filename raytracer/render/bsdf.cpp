@@ -85,12 +85,6 @@ double Ggx::distribution(double cos_half) const {
     return alpha * alpha / (pi * d * d);
 }
 
-double Ggx::visibility(double cos_in, double cos_out) const {
-    const double a2 = alpha * alpha;
-    return 0.5 / (cos_out * std::sqrt(a2 + (1 - a2) * cos_in * cos_in) +
-                  cos_in * std::sqrt(a2 + (1 - a2) * cos_out * cos_out));
-}
-
 double Ggx::shadowing(double cos_in, double cos_out) const {
     const double a2 = alpha * alpha;
     const double root_in = std::sqrt(a2 + (1 - a2) * cos_in * cos_in);
@@ -140,7 +134,7 @@ SurfaceLayer::SurfaceLayer(const Material& material)
 double SurfaceLayer::integrate(double cosine) const {
     if (kind_ == Material::Kind::matte) return 0.0;
     const double c = std::max(cosine, min_cosine);
-    if (smooth_) return fresnel(Vec3(1.0), c).x;
+    if (smooth_) return kind_ == Material::Kind::plastic ? fresnel_dielectric(c, ior_) : 1.0;
     constexpr int points = 1024;
     static const std::vector<Vec2> turns = [] {
         std::vector<Vec2> all;
@@ -161,58 +155,17 @@ double SurfaceLayer::integrate(double cosine) const {
     return sum / points;
 }
 
+bool SurfaceLayer::polished() const {
+    // Roughness 0.3; blurrier, the missing blur would be more wrong than a missing object.
+    constexpr double polished_alpha = 0.09;
+    if (kind_ == Material::Kind::matte) return false;
+    return smooth_ || (kind_ == Material::Kind::metal && ggx_.alpha <= polished_alpha);
+}
+
 double SurfaceLayer::albedo(double cosine) const {
     const double at = std::sqrt(glm::clamp(cosine, 0.0, 1.0)) * steps;
     const auto i = at < steps ? std::size_t(at) : std::size_t(steps - 1);  // the last for no number, too
     return glm::mix(albedo_[i], albedo_[i + 1], at - double(i));
-}
-
-Vec3 SurfaceLayer::fresnel(Vec3 color, double cosine) const {
-    switch (kind_) {
-        case Material::Kind::mirror: return color;
-        case Material::Kind::metal: return fresnel_schlick(color, cosine);
-        case Material::Kind::matte: return Vec3(0.0);
-        default: return Vec3(fresnel_dielectric(cosine, ior_));
-    }
-}
-
-Bsdf::Bsdf(const SurfaceLayer& layer, Vec3 color, Vec3 normal, Vec3 to_eye)
-    : layer_(layer),
-      color_(color),
-      base_(color),
-      normal_(normal),
-      to_eye_(to_eye),
-      cos_eye_(std::max(glm::dot(normal, to_eye), min_cosine)),
-      albedo_eye_(layer.kind() == Material::Kind::matte ? 0.0 : layer.albedo(cos_eye_)) {
-    if (layer.kind() == Material::Kind::mirror) base_ = Vec3(0.0);
-    if (layer.kind() == Material::Kind::metal && layer.smooth()) base_ = Vec3(0.0);
-    if (layer.kind() == Material::Kind::metal && !layer.smooth()) {
-        // Light that leaves after one, two … more reflections, each of mean Fresnel reflectance.
-        const Vec3 f = color + (1.0 - color) / 21.0;
-        const double e = layer.mean_albedo();
-        base_ = f * f * e / (1.0 - f * (1 - e));
-    }
-}
-
-Vec3 Bsdf::base_albedo() const { return base_ * (1 - albedo_eye_); }
-
-Vec3 Bsdf::layer_albedo() const {
-    if (layer_.kind() == Material::Kind::plastic) return Vec3(albedo_eye_);
-    return layer_.fresnel(color_, cos_eye_) * albedo_eye_;
-}
-
-Bsdf::Value Bsdf::value(Vec3 to_light) const {
-    const double cos_light = glm::dot(normal_, to_light);
-    if (!(cos_light > 0)) return {};
-    if (layer_.kind() == Material::Kind::matte) return {base_ * (cos_light * std::numbers::inv_pi), Vec3(0.0)};
-    Value v;
-    v.base = base_ * (cos_light * (1 - albedo_eye_) * (1 - layer_.albedo(cos_light)) * layer_.base_share());
-    if (layer_.smooth()) return v;
-    const Vec3 half = glm::normalize(to_eye_ + to_light);
-    v.layer =
-        layer_.fresnel(color_, glm::dot(half, to_light)) *
-        (layer_.ggx().distribution(glm::dot(half, normal_)) * layer_.ggx().visibility(cos_light, cos_eye_) * cos_light);
-    return v;
 }
 
 }  // namespace deburr

@@ -1,6 +1,6 @@
-// How surfaces scatter light in previews: matte, plastic, metal and mirror, as a layer over a base; glass is
-// Fresnel's and Snell's laws, used by the integrator. And what the path integrator's materials (scattering.hpp) share
-// with them.
+// How surfaces scatter light in previews: matte, plastic, metal and mirror, as a layer over a base, by the kernels of
+// shading_kernels.hpp; glass is Fresnel's and Snell's laws, used by the integrator. And what the path integrator's
+// materials (scattering.hpp) share with them.
 //
 // The layer is a GGX microfacet surface [Walter et al. 2007] with Smith's height-correlated
 // masking [Heitz 2014], sampled (by paths) by its visible normals [Dupuy & Benyoub 2023]; a plastic's reflects
@@ -16,6 +16,7 @@
 // colour.
 #pragma once
 #include <array>
+#include <span>
 
 #include "raytracer/render/sampler.hpp"
 #include "raytracer/scene/scene.hpp"
@@ -44,8 +45,6 @@ struct Ggx {
     double alpha = 0.04;
 
     double distribution(double cos_half) const;
-    /// G2 / (4 cos_in cos_out).
-    double visibility(double cos_in, double cos_out) const;
     /// G2 / G1(out), the weight of a sampled reflection beside Fresnel's.
     double shadowing(double cos_in, double cos_out) const;
     /// Density per solid angle of the reflections about sampled facets.
@@ -85,7 +84,13 @@ public:
     double mean_albedo() const { return mean_; }
     /// 1/(π (1 − E_mean)), of what the layer lets through; 0 if that is nothing.
     double base_share() const { return base_share_; }
-    Vec3 fresnel(Vec3 color, double cosine) const;
+    /// Whether its reflection is traced as a mirror's.
+    bool polished() const;
+    /// α of what it mirrors, up to 1.
+    double blur() const { return smooth_ ? 0.0 : std::min(1.0, ggx_.alpha); }
+
+    /// albedo() at cosines (i / n)², i from 0 to n.
+    std::span<const double> albedo_table() const { return albedo_; }
 
 private:
     double integrate(double cosine) const;
@@ -96,31 +101,6 @@ private:
     double ior_;
     double mean_ = 0.0, base_share_ = 0.0;
     std::array<double, steps + 1> albedo_{};  // at cosine (i / steps)²
-};
-
-/// An opaque material at one point, as seen from one direction. Directions are unit and lead away
-/// from the surface.
-class Bsdf {
-public:
-    Bsdf(const SurfaceLayer& layer, Vec3 color, Vec3 normal, Vec3 to_eye);
-
-    struct Value {
-        Vec3 base{0.0}, layer{0.0};
-    };
-    /// Times the cosine of `to_light`; without the layer if that is smooth.
-    Value value(Vec3 to_light) const;
-    /// What they return of a uniformly white world; the layer of a metal by approximation.
-    Vec3 base_albedo() const;
-    Vec3 layer_albedo() const;
-
-    const SurfaceLayer& layer() const { return layer_; }
-    Vec3 normal() const { return normal_; }
-    Vec3 to_eye() const { return to_eye_; }
-
-private:
-    const SurfaceLayer& layer_;
-    Vec3 color_, base_, normal_, to_eye_;
-    double cos_eye_, albedo_eye_;
 };
 
 }  // namespace deburr

@@ -19,6 +19,7 @@
 // A preview has one sample a pixel, through its centre, or several through its filter, each of them as said.
 #pragma once
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <vector>
 
@@ -27,6 +28,7 @@
 #include "raytracer/render/camera.hpp"
 #include "raytracer/render/lights.hpp"
 #include "raytracer/render/pixel_sums.hpp"
+#include "raytracer/render/surface_batch.hpp"
 #include "raytracer/scene/scene.hpp"
 #include "raytracer/trace/ray_tracer.hpp"
 
@@ -66,20 +68,30 @@ public:
 
 private:
     struct Path;
-    struct Surface;
+    struct Surfaces;
+    template <std::size_t capacity>
+    struct SurfaceRoom;
     class CameraRays;
+    using PathOf = std::function<Path(std::size_t)>;  // that meets surface i
+    // block() of one sample a pixel.
+    void take_centers(const Window& block, Pixel* pixels, TraceCounters& counters) const;
     Vec3 color_along(const Ray& ray, const Path& path) const;
     Vec3 lights_seen(const Ray& ray, double t_max) const;
     // `color_here`, `tint`: the material's at the hit.
     Vec3 color_from(const Hit& hit, Vec3 color_here, Vec3 direction, const Path& path) const;
     Vec3 color_of_glass(const Hit& hit, Vec3 tint, Vec3 direction, const Path& path) const;
-    Vec3 color_of(const Surface& surface, Vec3 lit, const Path& path) const;
-    Vec3 lit(const Surface& surface, const Path& path) const;
-    static Incident incident(const LightSource& source, const Hit& hit, const Sampler& sampler, std::uint32_t dimension,
-                             int k, int samples);
-    Vec3 scattered(const Surface& surface, const Incident& light) const;
-    Vec3 reflected_light(const Bsdf& bsdf, const Hit& hit, const Path& path) const;
-    Vec3 transmittance(const Hit& hit, const Incident& light, const Path& path) const;
+    // One more surface, which `direction` meets; keeps a pointer to the hit.
+    template <std::size_t capacity>
+    void add(SurfaceRoom<capacity>& room, const Hit& hit, Vec3 color_here, Vec3 direction) const;
+    // Sets `shaded` of all.
+    void shade(const Surfaces& surfaces, const PathOf& path) const;
+    void light(const Surfaces& surfaces, const LightSource& source, std::uint32_t purpose, const PathOf& path) const;
+    void find_incident(const Surfaces& surfaces, const LightSource& source, std::uint32_t purpose, int k,
+                       const PathOf& path) const;
+    void hide(const Surfaces& surfaces, const PathOf& path) const;
+    void find_sky(const SurfaceBatch& batch) const;
+    void trace_mirrors(const Surfaces& surfaces, const PathOf& path) const;
+    Vec3 transmittance(Ray ray, double left, const Path& path) const;
     const Material& material(const Hit& hit) const;
     Vec3 texture_color(const Hit& hit) const;
 
@@ -90,7 +102,8 @@ private:
     std::vector<SurfaceLayer> layers_;  // of the materials
     std::vector<LightSource> lights_;
     SkyLight seen_, sky_;                          // by the camera; by all else
-    bool glass_ = false;                           // is there any
+    bool glass_ = false, emits_ = false;           // is there any
+    bool polished_ = false;                        // may mirrors be traced
     std::shared_ptr<const PathIntegrator> paths_;  // null: a preview
 };
 

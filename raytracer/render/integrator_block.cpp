@@ -1,7 +1,6 @@
 // The camera's rays and the shadow rays of what they hit, traced together.
 #include <memory>
 
-#include "raytracer/render/bump.hpp"
 #include "raytracer/render/integrator_path.hpp"
 #include "raytracer/render/noise_bound.hpp"
 #include "raytracer/render/path_integrator.hpp"
@@ -14,41 +13,51 @@ constexpr int patch = 4;
 // Camera rays at a time: many packets, whose hits fit into the processor's cache.
 constexpr std::size_t max_rays = 128;
 
+// Calls pixel(x, y, i) for all of a block, i its number row by row, by patches.
+template <class Each>
+void for_patches(const Window& block, Each pixel) {
+    for (int top = 0; top < block.height; top += patch)
+        for (int left = 0; left < block.width; left += patch)
+            for (int y = top; y < std::min(top + patch, block.height); ++y)
+                for (int x = left; x < std::min(left + patch, block.width); ++x)
+                    pixel(block.x + x, block.y + y, std::uint32_t(y * block.width + x));
+}
+
 }  // namespace
 
 class Integrator::CameraRays {
 public:
     struct Use {
-        Sampler sampler;
-        std::uint32_t pixel;
-        bool center, sample;  // for the layers; for the colour
+        int x, y, sample;     // of which the random numbers are
+        std::uint32_t pixel;  // of the block
+        bool center, counts;  // for the layers; for the colour
     };
-    struct Unhidden {
-        Vec3 light;  // if nothing is in between
-        std::uint32_t surface;
-    };
-    // Lists that a thread uses again for every block.
+    // Lists.
     struct Memory {
         std::size_t count = 0;  // of rays and their uses
         std::vector<Ray> rays = std::vector<Ray>(max_rays);
-        std::vector<Use> uses = std::vector<Use>(max_rays, Use{Sampler(0, 0, 0, 0), 0, false, false});
+        std::vector<Use> uses = std::vector<Use>(max_rays);
         std::vector<Hit> hits = std::vector<Hit>(max_rays);
         std::vector<Vec3> colors = std::vector<Vec3>(max_rays);
-        // Of those that hit something opaque; they keep references to the hits.
-        std::vector<Surface> surfaces;
-        std::vector<std::uint32_t> seen_by;
-        std::vector<Vec3> lit = std::vector<Vec3>(max_rays), here = lit;
-        // To one light.
-        std::size_t asked = 0;  // shadow rays
-        std::vector<Ray> shadows = std::vector<Ray>(max_rays);
-        std::vector<double> t_max = std::vector<double>(max_rays);
-        std::vector<Unhidden> unhidden = std::vector<Unhidden>(max_rays);
-        std::unique_ptr<bool[]> hidden{new bool[max_rays]};
+        // Of those that hit something opaque.
+        SurfaceRoom<max_rays> surfaces;
+        std::array<std::uint32_t, max_rays> seen_by;
     };
 
-    CameraRays(const Integrator& integrator, PixelSums* sums, LayerSums* layers, TraceCounters& counters,
-               Memory& memory)
-        : in_(integrator), sums_(sums), layers_(layers), counters_(counters), m_(memory) {
+    // The thread's, which it uses again for every block.
+    static Memory& memory() {
+        thread_local Memory of_thread;
+        return of_thread;
+    }
+    // Where samples go: to sums, or pixels of one sample each. `layers` may be null.
+    struct Film {
+        PixelSums* sums = nullptr;
+        Pixel* pixels = nullptr;
+        LayerSums* layers = nullptr;
+    };
+
+    CameraRays(const Integrator& integrator, const Film& film, TraceCounters& counters, Memory& memory)
+        : in_(integrator), film_(film), counters_(counters), m_(memory) {
         clear();
     }
 
@@ -63,37 +72,50 @@ public:
     void finish() {
         in_.tracer_.closest_hits({m_.rays.data(), m_.count}, m_.hits.data(), counters_);
         for (std::uint32_t i = 0; i < m_.count; ++i) take(i);
-        std::fill_n(m_.lit.begin(), m_.surfaces.size(), Vec3(0.0));
-        light();
-        for (std::size_t j = 0; j < m_.surfaces.size(); ++j)
-            m_.colors[m_.seen_by[j]] = in_.color_of(m_.surfaces[j], m_.lit[j], path(m_.seen_by[j]));
+        if (m_.surfaces.count > 0) {
+            const Surfaces surfaces = m_.surfaces.surfaces();
+            in_.shade(surfaces, [this](std::size_t j) { return path(m_.seen_by[j]); });
+            for (std::size_t j = 0; j < m_.surfaces.count; ++j)
+                m_.colors[m_.seen_by[j]] = surfaces.batch.vec(SurfaceField::shaded, j);
+        }
         for (std::size_t i = 0; i < m_.count; ++i)
-            if (m_.uses[i].sample) sums_[m_.uses[i].pixel].color += finite_or_zero(m_.colors[i]);
+            if (m_.uses[i].counts) add_to_film(m_.uses[i].pixel, bool(m_.hits[i]), finite_or_zero(m_.colors[i]));
         clear();
     }
 
 private:
     void clear() {
         m_.count = 0;
-        m_.surfaces.clear();
-        m_.seen_by.clear();
+        m_.surfaces.count = 0;
     }
 
-    Path path(std::uint32_t i) const { return {.sampler = m_.uses[i].sampler, .counters = counters_}; }
+    void add_to_film(std::uint32_t pixel, bool hit, Vec3 color) {
+        if (film_.pixels) {
+            for (int k = 0; k < 3; ++k) film_.pixels[pixel].color[k] = ExactSum::rounded(color[k]);
+            film_.pixels[pixel].alpha = hit;
+            return;
+        }
+        film_.sums[pixel].color += color;
+        film_.sums[pixel].hits += hit;
+    }
+
+    Path path(std::uint32_t i) const {
+        const Use& use = m_.uses[i];
+        return {.sampler = Sampler(in_.settings_.seed, use.x, use.y, use.sample), .counters = counters_};
+    }
 
     void take(std::uint32_t i) {
         const Hit& hit = m_.hits[i];
         const Vec3 direction = m_.rays[i].direction;
         const Use& use = m_.uses[i];
-        LayerSums* layers = layers_ ? layers_ + use.pixel : nullptr;
+        LayerSums* layers = film_.layers ? film_.layers + use.pixel : nullptr;
         if (use.center && layers && hit) layers->set_center(hit, direction, in_.camera_.forward());
-        if (!use.sample) return;
+        if (!use.counts) return;
         if (!hit) {
             m_.colors[i] = in_.settings_.background ? in_.seen_.towards(direction) : Vec3(0.0);
             return;
         }
         const Vec3 albedo = in_.texture_color(hit);
-        ++sums_[use.pixel].hits;
         if (layers) {
             layers->albedo += finite_or_zero(albedo);
             const Vec3 normal = shading_normal(in_.material(hit), hit.position, hit.normal, -direction);
@@ -104,48 +126,12 @@ private:
             m_.colors[i] = in_.color_of_glass(hit, albedo, direction, path(i));
             return;
         }
-        m_.surfaces.emplace_back(in_, hit, albedo, direction);
-        m_.seen_by.push_back(i);
-    }
-
-    // What lit() says of each surface, light by light.
-    void light() {
-        if (in_.glass_) {  // shadow rays go on through it
-            for (std::size_t j = 0; j < m_.surfaces.size(); ++j)
-                m_.lit[j] = in_.lit(m_.surfaces[j], path(m_.seen_by[j]));
-            return;
-        }
-        std::uint32_t number = first_light;
-        for (const LightSource& source : in_.lights_) {
-            std::fill_n(m_.here.begin(), m_.surfaces.size(), Vec3(0.0));
-            for (int k = 0; k < source.samples(); ++k) light(source, number, k);
-            const double share = double(source.samples());
-            for (std::size_t j = 0; j < m_.surfaces.size(); ++j)
-                m_.lit[j] += share == 1 ? m_.here[j] : m_.here[j] / share;
-            ++number;
-        }
-    }
-
-    void light(const LightSource& source, std::uint32_t number, int k) {
-        m_.asked = 0;
-        for (std::uint32_t j = 0; j < m_.surfaces.size(); ++j) {
-            const Surface& surface = m_.surfaces[j];
-            const Incident light =
-                incident(source, surface.hit, m_.uses[m_.seen_by[j]].sampler, number, k, source.samples());
-            const Vec3 scattered = in_.scattered(surface, light);
-            if (!(brightest(scattered) > 0)) continue;
-            m_.shadows[m_.asked] = leave(surface.hit, light.direction);
-            m_.t_max[m_.asked] = light.distance;
-            m_.unhidden[m_.asked++] = {scattered, j};
-        }
-        in_.tracer_.any_hits({m_.shadows.data(), m_.asked}, {m_.t_max.data(), m_.asked}, m_.hidden.get(), counters_);
-        for (std::size_t s = 0; s < m_.asked; ++s)
-            if (!m_.hidden[s]) m_.here[m_.unhidden[s].surface] += m_.unhidden[s].light;
+        m_.seen_by[m_.surfaces.count] = i;
+        in_.add(m_.surfaces, hit, albedo, direction);
     }
 
     const Integrator& in_;
-    PixelSums* sums_;
-    LayerSums* layers_;
+    const Film film_;
     TraceCounters& counters_;
     Memory& m_;
 };
@@ -155,34 +141,36 @@ void Integrator::take(SampleRange range, const Window& block, PixelSums* sums, L
     if (paths_) return paths_->take(range, block, sums, layers, counters);
     const bool is_centered = settings_.spp <= 1;
     const bool apart = layers && settings_.cost;
-    thread_local CameraRays::Memory memory;
-    CameraRays rays(*this, sums, layers, counters, memory);
+    CameraRays rays(*this, {.sums = sums, .layers = layers}, counters, CameraRays::memory());
     std::uint64_t evaluations = counters.evaluations;
-    const auto pixel = [&](int x, int y) {
-        const auto i = std::uint32_t(y * block.width + x);
-        x += block.x;
-        y += block.y;
+    for_patches(block, [&](int x, int y, std::uint32_t i) {
         if (range.first == 0 && (is_centered || layers))
-            rays.add(camera_.ray(x + 0.5, y + 0.5), {Sampler(settings_.seed, x, y, 0), i, true, is_centered});
+            rays.add(camera_.ray(x + 0.5, y + 0.5), {x, y, 0, i, true, is_centered});
         for (int s = range.first; !is_centered && s < range.end; ++s) {
             const Sampler sampler(settings_.seed, x, y, s);
             const Vec2 offset = filter_offset(sampler.square(lens));
-            rays.add(camera_.ray(x + 0.5 + offset.x, y + 0.5 + offset.y), {sampler, i, false, true});
+            rays.add(camera_.ray(x + 0.5 + offset.x, y + 0.5 + offset.y), {x, y, s, i, false, true});
         }
         sums[i].samples += std::uint32_t(range.end - range.first);
         if (!apart) return;
         rays.finish();
         layers[i].rest.cost += double(counters.evaluations - evaluations);
         evaluations = counters.evaluations;
-    };
-    for (int top = 0; top < block.height; top += patch)
-        for (int left = 0; left < block.width; left += patch)
-            for (int y = top; y < std::min(top + patch, block.height); ++y)
-                for (int x = left; x < std::min(left + patch, block.width); ++x) pixel(x, y);
+    });
+    rays.finish();
+}
+
+void Integrator::take_centers(const Window& block, Pixel* pixels, TraceCounters& counters) const {
+    CameraRays rays(*this, {.pixels = pixels}, counters, CameraRays::memory());
+    for_patches(block, [&](int x, int y, std::uint32_t i) {
+        rays.add(camera_.ray(x + 0.5, y + 0.5), {x, y, 0, i, true, true});
+    });
     rays.finish();
 }
 
 void Integrator::block(const Window& block, Pixel* pixels, PixelLayers* layers, TraceCounters& counters) const {
+    if (!paths_ && !layers && settings_.spp <= 1 && !(settings_.noise > 0))
+        return take_centers(block, pixels, counters);
     const Window window = settings_.noise > 0 ? grown_to_cells(block, settings_.width, settings_.height) : block;
     thread_local std::vector<PixelSums> sums;
     thread_local std::vector<LayerSums> layer_sums;

@@ -4,6 +4,7 @@
 #pragma once
 #include <array>
 #include <numbers>
+#include <span>
 
 #include "raytracer/render/light_tree.hpp"
 #include "raytracer/render/sampler.hpp"
@@ -32,6 +33,17 @@ public:
 
     /// Incidents per shading point: 1 where there is only one.
     int samples() const { return samples_; }
+    Light::Kind kind() const { return kind_; }
+    /// Its middle; of a directional one nothing.
+    Vec3 position() const { return position_; }
+    /// In which a directional one shines, or the normal of an area.
+    Vec3 direction() const { return direction_; }
+    /// An area's sides.
+    Vec3 u() const { return u_; }
+    Vec3 v() const { return v_; }
+    double area() const { return area_; }
+    /// Radiant intensity of a point, irradiance by a directional one, radiance of an extended one.
+    Vec3 emitted() const { return emitted_; }
     bool extended() const { return kind_ == Light::Kind::area || kind_ == Light::Kind::sphere; }
     /// Whether the camera sees it and it hides what is behind it: extended ones alone.
     bool visible() const { return visible_; }
@@ -93,6 +105,9 @@ public:
     };
     const Sun& sun() const { return sun_; }
 
+    /// A gradient or a single colour, unless directions are sampled.
+    const Background& background() const { return background_; }
+
     /// Whether directions are sampled by brightness: of pictures and by day.
     bool sampled() const { return picture_ != nullptr; }
     Vec3 sample(Vec2 u) const;
@@ -100,6 +115,9 @@ public:
     double density(Vec3 direction) const;
     /// Over all directions.
     Vec3 average() const { return harmonics_[0]; }
+
+    /// The zenith's share of a gradient's mean, at normals of height 2 i / n − 1, i from 0 to n.
+    std::span<const double> zenith_shares() const { return zenith_share_; }
 
 private:
     Vec3 picture_towards(Vec3 direction) const;
@@ -109,7 +127,7 @@ private:
 
     static constexpr int steps = 64;
     Background background_;
-    std::array<double, steps + 1> zenith_share_{};  // by normal.y, from -1 to 1
+    std::array<double, steps + 1> zenith_share_{};  // by the normal's height, from -1 to 1
     std::shared_ptr<const PictureData> picture_;
     double cos_rotate_ = 1, sin_rotate_ = 0;
     std::vector<double> rows_, columns_;  // shares of all rows above; in each row, of all columns before

@@ -45,6 +45,11 @@ public:
         value_ += other.value_;
         return *this;
     }
+    /// The sum of one number, x finite.
+    static double rounded(double x) {
+        // Nothing is lost on the way back: a double's whole part is a double.
+        return std::abs(x) < 8 ? double(std::int64_t(x * unit)) / unit : (ExactSum() += x).value();
+    }
     ExactSum operator-(ExactSum other) const { return ExactSum(value_ - other.value_); }
     double value() const {
         const auto low = std::int64_t(value_);  // the same, where it is enough
