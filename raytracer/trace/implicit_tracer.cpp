@@ -125,8 +125,8 @@ Lanes PrototypeInstances::any_hit_packet(std::uint32_t number, const RayPacket& 
 }  // namespace
 
 ImplicitTracer::ImplicitTracer(const std::vector<Solid>& solids, Criterion criterion, RootMethod root_method,
-                               Accel accel)
-    : prototypes_(new Prototypes(solids, criterion, root_method, accel)) {}
+                               Accel accel, BspStore* store)
+    : prototypes_(new Prototypes(solids, criterion, root_method, accel, store)) {}
 
 ImplicitTracer::~ImplicitTracer() = default;
 

@@ -12,6 +12,7 @@
 
 namespace deburr {
 
+class BspStore;
 class Prototypes;
 
 /// Figures of the BSPs that have been built so far (instances.hpp); `prototypes` counts all.
@@ -26,9 +27,11 @@ struct BspStatistics {
 
 class ImplicitTracer final : public RayTracer {
 public:
-    /// The criterion matters where roots are searched for.
+    /// The criterion matters where roots are searched for. Where `store` has BSPs of an earlier scene that this one
+    /// has, too, they are not built again.
     explicit ImplicitTracer(const std::vector<Solid>& solids, Criterion criterion = Criterion::exact,
-                            RootMethod root_method = RootMethod::where_needed, Accel accel = Accel::bvh);
+                            RootMethod root_method = RootMethod::where_needed, Accel accel = Accel::bvh,
+                            BspStore* store = nullptr);
     ~ImplicitTracer() override;
     Hit closest_hit(const Ray& ray, double t_max, TraceCounters& counters) const override;
     bool any_hit(const Ray& ray, double t_max, TraceCounters& counters) const override;

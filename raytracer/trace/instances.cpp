@@ -334,9 +334,11 @@ private:
 
 }  // namespace
 
-Prototypes::Prototypes(const std::vector<Solid>& solids, Criterion criterion, RootMethod root_method, Accel accel)
+Prototypes::Prototypes(const std::vector<Solid>& solids, Criterion criterion, RootMethod root_method, Accel accel,
+                       BspStore* store)
     : criterion_(criterion), root_method_(root_method), accel_(accel) {
     Plan plan(solids);
+    if (store) store->begin_scene();
     later_ = std::move(plan.later);
     prototypes_ = std::vector<std::atomic<const Prototype*>>(plan.prototypes.size() + later_.size());
     std::vector<std::unique_ptr<const Prototype>> all(plan.prototypes.size());
@@ -345,7 +347,8 @@ Prototypes::Prototypes(const std::vector<Solid>& solids, Criterion criterion, Ro
         for (Instance& p : planned.instances) p.prototype = plan.number_of(p.prototype);
         std::vector<NamedBsp> bsps(planned.groups.size());
         const auto build = [&](std::size_t k, double min_scale) {
-            bsps[k] = {build_bsp(planned.groups[k].solids, root_method, min_scale),
+            const std::vector<Solid>& of = planned.groups[k].solids;
+            bsps[k] = {store ? store->bsp(of, root_method, min_scale) : build_bsp(of, root_method, min_scale),
                        std::move(planned.groups[k].numbers)};
         };
         build(0, 0);

@@ -9,6 +9,7 @@
 #include <atomic>
 #include <vector>
 
+#include "raytracer/trace/bsp_store.hpp"
 #include "raytracer/trace/surface_tracer.hpp"
 #include "raytracer/util/large_pages.hpp"
 
@@ -38,7 +39,9 @@ struct Prototype {
 /// for most are seldom seen. Whoever builds it, a prototype is the same: no result depends on the number of threads.
 class Prototypes {
 public:
-    Prototypes(const std::vector<Solid>& solids, Criterion criterion, RootMethod root_method, Accel accel = Accel::bvh);
+    /// Of an earlier scene, `store` has its BSPs, and gets this one's; null: there is none.
+    Prototypes(const std::vector<Solid>& solids, Criterion criterion, RootMethod root_method, Accel accel = Accel::bvh,
+               BspStore* store = nullptr);
     ~Prototypes();
     Prototypes(const Prototypes&) = delete;
     Prototypes& operator=(const Prototypes&) = delete;

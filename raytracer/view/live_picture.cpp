@@ -193,7 +193,7 @@ bool LivePicture::read_scene() {
     try {
         world->scene = load_(parameters);
         world->tracer = std::make_shared<ImplicitTracer>(world->scene.solids, Criterion::exact,
-                                                         RootMethod::where_needed, Accel::bvh);
+                                                         RootMethod::where_needed, Accel::bvh, &bsps_);
         if (wires) {
             MeshSettings settings = picture_mesh_settings();
             settings.leave_out_unbounded = true;

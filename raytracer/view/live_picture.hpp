@@ -20,6 +20,7 @@
 #include "raytracer/image/view_transform.hpp"
 #include "raytracer/mesh/wire_frame.hpp"
 #include "raytracer/scene/scene.hpp"
+#include "raytracer/trace/bsp_store.hpp"
 #include "raytracer/trace/ray_tracer.hpp"
 
 namespace deburr {
@@ -95,6 +96,7 @@ private:
     std::shared_ptr<const Film> film_;
     int film_samples_ = 0, scenes_ = 0;
     std::atomic<bool> cancel_{false};
+    BspStore bsps_;                 // of the last scene
     double seconds_per_pixel_ = 0;  // of a preview; 0: not known yet
     std::thread thread_;
 };
