@@ -7,6 +7,7 @@
 #include "bench/blocks.hpp"
 #include "bench/picture.hpp"
 #include "bench/sections.hpp"
+#include "raytracer/trace/bsp_store.hpp"
 #include "raytracer/trace/implicit_tracer.hpp"
 
 namespace deburr::bench {
@@ -72,7 +73,7 @@ struct Growth {
 };
 
 // A plate with k x k holes of 12 sides, in one Boolean density.
-Solid holed_plate(int k) {
+Solid holed_plate(int k, double radius = 0.03) {
     Density plate = Density::box({0, 0, 0}, {double(k), 0.3, double(k)});
     for (int i = 0; i < k * k; ++i) {
         const Vec3 middle(i % k + 0.5, 0, i / k + 0.5);
@@ -84,7 +85,7 @@ Solid holed_plate(int k) {
         }
         plate = plate & ~hole;
     }
-    return Solid::rounded(0.03, plate);
+    return Solid::rounded(radius, plate);
 }
 
 // n half-spaces around a ball, spread evenly.
@@ -155,6 +156,21 @@ void growth_of_tracing(Report& report) {
     };
     build("a plate of 1,024 holes of 12 sides", {holed_plate(32)}, 0.4);
     build("an object of 2,000 half-spaces", {ball(2000)}, 0.3);
+    const auto plates = [](int edited) {
+        std::vector<Solid> all;
+        for (int i = 0; i < 20; ++i)
+            all.push_back(
+                holed_plate(i == edited ? 7 : 8, 0.02 + 0.001 * i).transformed({Mat3(1.0), Vec3(0, 0, 10.0 * i)}));
+        return all;
+    };
+    BspStore store;
+    const std::vector<Solid> before_edit = plates(-1), after_edit = plates(4);
+    const auto build_with_store = [&store](const std::vector<Solid>& solids) {
+        return cpu_seconds_of(
+            [&] { ImplicitTracer(solids, Criterion::exact, RootMethod::where_needed, Accel::bvh, &store); });
+    };
+    const double first = build_with_store(before_edit), again = build_with_store(after_edit);
+    report.ratio("20 plates of 64 holes, one of them edited: to build again / to build", {again, first}, at_most(0.25));
     const Solid block = Solid::rounded(0.05, Density::box(Vec3(0.0), Vec3(0.7)));
     std::vector<Solid> placed;
     for (int i = 0; i < 1'000'000; ++i) placed.push_back(block.transformed({Mat3(1.0), Vec3(i % 1000, 0, i / 1000)}));
