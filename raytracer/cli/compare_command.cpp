@@ -63,6 +63,60 @@ std::vector<double> radii(const SceneMesh& mesh) {
     return all;
 }
 
+// Two pictures of one scene, and what the figures say of them.
+struct Compared {
+    Film a, b;
+    std::vector<double> units;  // lengths in which distances are told, of each solid; none: the scene's
+    Json j;
+};
+
+Compared read_two(const CompareOptions& o) {
+    Compared c;
+    c.a = read_picture(o.scene);
+    c.b = read_picture(o.second);
+    if (c.a.window != c.b.window)
+        throw UsageError(fmt::format("compare: expected pictures of one size, got {}x{} and {}x{}", c.a.window.width,
+                                     c.a.window.height, c.b.window.width, c.b.window.height));
+    c.j["first"] = o.scene;
+    c.j["second"] = o.second;
+    return c;
+}
+
+Compared render_both(const CompareOptions& o) {
+    const MeshSettings settings = picture_mesh_settings(o.via, o.tolerance);
+    Scene scene = load_scene(o);
+    load_pictures(scene);
+    const Size size = picture_size(o, scene);
+    const Window window = picture_window(o, scene, 2 * Film::bytes_per_pixel(compared_layers()));
+    const int spp = o.spp.value_or(1);
+    const SceneMesh mesh = mesh_scene(scene, settings);
+    Compared c;
+    c.units = radii(mesh);
+    c.a = trace(scene, ImplicitTracer(scene.solids), size, window, spp, o.seed);
+    c.b = trace(scene, MeshTracer(mesh.mesh, mesh.near), size, window, spp, o.seed);
+    c.j["scene"] = scene.file;
+    c.j["first"] = "implicit";
+    c.j["second"] = mesh.method_names();
+    c.j["triangles"] = mesh.mesh.triangles.size();
+    return c;
+}
+
+void print_difference(const Json& j) {
+    for (const auto& [name, value] : j.items()) {
+        if (value.is_object())
+            fmt::print("{:<20}mean {:.6g}, 99 % {:.6g}, max {:.6g}\n", name, value["mean"].get<double>(),
+                       value["p99"].get<double>(), value["max"].get<double>());
+        else if (value.is_number_float())
+            fmt::print("{:<20}{:.6g}\n", name, value.get<double>());
+        else if (value.is_string())
+            fmt::print("{:<20}{}\n", name, printable(value.get<std::string>()));
+        else if (name == "within_limits" && value.is_null())
+            fmt::print("{:<20}no limit was given\n", name);
+        else
+            fmt::print("{:<20}{}\n", name, value.is_null() ? "infinite" : value.dump());
+    }
+}
+
 int run_compare(const CompareOptions& o) {
     if (o.scene.empty()) throw UsageError("compare: expected a scene file, or two pictures");
     check_image_names("-o", o.outputs);
@@ -76,56 +130,17 @@ int run_compare(const CompareOptions& o) {
     const int threads = o.threads.value_or(default_threads());
     const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, std::size_t(threads));
 
-    Film a, b;
-    std::vector<double> units;
-    Json j;
-    if (!o.second.empty()) {
-        a = read_picture(o.scene);
-        b = read_picture(o.second);
-        if (a.window != b.window)
-            throw UsageError(fmt::format("compare: expected pictures of one size, got {}x{} and {}x{}", a.window.width,
-                                         a.window.height, b.window.width, b.window.height));
-        j["first"] = o.scene;
-        j["second"] = o.second;
-    } else {
-        const MeshSettings settings = picture_mesh_settings(o.via, o.tolerance);
-        Scene scene = load_scene(o);
-        load_pictures(scene);
-        const Size size = picture_size(o, scene);
-        const Window window = picture_window(o, scene, 2 * Film::bytes_per_pixel(compared_layers()));
-        const int spp = o.spp.value_or(1);
-        const SceneMesh mesh = mesh_scene(scene, settings);
-        units = radii(mesh);
-        a = trace(scene, ImplicitTracer(scene.solids), size, window, spp, o.seed);
-        b = trace(scene, MeshTracer(mesh.mesh, mesh.near), size, window, spp, o.seed);
-        j["scene"] = scene.file;
-        j["first"] = "implicit";
-        j["second"] = mesh.method_names();
-        j["triangles"] = mesh.mesh.triangles.size();
-    }
-    const PictureDifference d = difference(a, b, units);
-    j.update(json_of(d));
-    const double missed = j["missed_percent"].get<double>();
+    Compared c = o.second.empty() ? render_both(o) : read_two(o);
+    const PictureDifference d = difference(c.a, c.b, c.units);
+    c.j.update(json_of(d));
+    const double missed = c.j["missed_percent"].get<double>();
     const double distance = d.distance ? d.distance->p99 : 0;
     const bool within = missed <= max_missed && distance <= max_distance && d.rmse <= max_rmse;
     const bool limited = max_missed < infinity || max_distance < infinity || max_rmse < infinity;
-    j["within_limits"] = limited ? Json(within) : Json(nullptr);
-    for (const std::string& path : o.outputs) write_difference(path, a, b);
-    if (!o.json.empty()) write_whole_file(o.json, j.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
-    if (!o.quiet)
-        for (const auto& [name, value] : j.items()) {
-            if (value.is_object())
-                fmt::print("{:<20}mean {:.6g}, 99 % {:.6g}, max {:.6g}\n", name, value["mean"].get<double>(),
-                           value["p99"].get<double>(), value["max"].get<double>());
-            else if (value.is_number_float())
-                fmt::print("{:<20}{:.6g}\n", name, value.get<double>());
-            else if (value.is_string())
-                fmt::print("{:<20}{}\n", name, printable(value.get<std::string>()));
-            else if (name == "within_limits" && value.is_null())
-                fmt::print("{:<20}no limit was given\n", name);
-            else
-                fmt::print("{:<20}{}\n", name, value.is_null() ? "infinite" : value.dump());
-        }
+    c.j["within_limits"] = limited ? Json(within) : Json(nullptr);
+    for (const std::string& path : o.outputs) write_difference(path, c.a, c.b);
+    if (!o.json.empty()) write_whole_file(o.json, c.j.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
+    if (!o.quiet) print_difference(c.j);
     return within ? 0 : 1;
 }
 

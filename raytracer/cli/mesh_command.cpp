@@ -248,30 +248,16 @@ void warn_of_single_precision(const MeshCommandOptions& o, const SceneMesh& mesh
     }
 }
 
-int run_mesh(const MeshCommandOptions& o) {
-    if (o.scene.empty()) throw UsageError("mesh: expected a scene file");
-    if (o.outputs.empty() && !o.stats && o.stats_json.empty())
-        throw UsageError("mesh: expected an output file, -o FILE");
-    check_mesh_names(o.outputs);
-    MeshSettings method = settings(o);
-    MeshNotes notes;
-    notes.unit = unit(o);
-    parse_up(o.up, false);  // before the work
-    const auto faces = o.faces.empty() ? 0 : std::size_t(parse_whole("--faces", o.faces, 4, 100'000'000));
-    const int threads = o.threads.value_or(default_threads());
-    const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, std::size_t(threads));
-
-    PhaseClock clock;
-    clock.begin("read");
+// A model's file goes out the way it came in.
+Scene load_to_mesh(const MeshCommandOptions& o) {
     Options load = o;
     load.model_only = true;
-    // A model's file goes out the way it came in.
     if (is_model_path(o.scene) && !o.up.empty()) load.model.z_up = o.up == "z";
-    Scene scene = load_scene(load);
-    method.only = chosen_solids(scene, o.only);
-    method.leave_out_unbounded = o.only.empty();
-    const std::vector<MeshOutput> outputs = mesh_outputs(o.outputs, scene, method.only);
-    std::vector<std::string> files = files_of(outputs);
+    return load_scene(load);
+}
+
+// The files are such that they can be written, as far as can be told before the work. Reads what they show of textures.
+void prepare_files(const MeshCommandOptions& o, Scene& scene, std::vector<std::string> files) {
     std::vector<std::string> inputs = scene.model_files;
     inputs.push_back(o.scene);
     check_outputs(files, {o.stats_json}, inputs);
@@ -280,9 +266,11 @@ int run_mesh(const MeshCommandOptions& o) {
         load_textures(scene);
     if (!o.stats_json.empty()) files.push_back(o.stats_json);
     for (const std::string& path : files) check_writable(path);
-    if (o.recenter)
-        if (const Vec3 shift = recenter(scene, method.only); shift != Vec3(0.0) && !o.quiet)
-            fmt::print(stderr, "deburr: --recentre: moved by ({:.17g}, {:.17g}, {:.17g})\n", shift.x, shift.y, shift.z);
+}
+
+// The scene's mesh, with a progress bar unless that would be gone at once. `faces` > 0: at most so many.
+SceneMesh mesh_of(const MeshCommandOptions& o, const Scene& scene, const MeshSettings& method, std::size_t faces,
+                  PhaseClock& clock) {
     clock.begin("polygonize");
     // How many meshes --faces takes is not known before.
     Progress progress(1, Progress::standard_error(o.quiet || faces));
@@ -300,35 +288,74 @@ int run_mesh(const MeshCommandOptions& o) {
         progress.stop();
     else
         progress.finish();
-    if (!o.quiet)
-        for (const std::vector<std::string>& lines : {vanished_parts(scene).rounded_away, mesh.warnings})
-            for (const std::string& line : lines) message(line);
-    if (mesh.mesh.triangles.empty()) throw WorkError(scene.file + ": the mesh is empty, and is not written");
-    if (o.verbose && !o.quiet)
-        fmt::print(stderr, "deburr: {} triangles, {} vertices in {:.3f} s\n", mesh.mesh.triangles.size(),
-                   mesh.mesh.positions.size(), clock.wall("polygonize"));
+    return mesh;
+}
 
-    const bool written = passes(o, scene, mesh);
-    if (written && !o.quiet) warn_of_single_precision(o, mesh);
-    clock.begin("write");
+void say_what_was_made(const MeshCommandOptions& o, const Scene& scene, const SceneMesh& mesh, double seconds) {
+    if (o.quiet) return;
+    for (const std::vector<std::string>& lines : {vanished_parts(scene).rounded_away, mesh.warnings})
+        for (const std::string& line : lines) message(line);
+    if (o.verbose && !mesh.mesh.triangles.empty())
+        fmt::print(stderr, "deburr: {} triangles, {} vertices in {:.3f} s\n", mesh.mesh.triangles.size(),
+                   mesh.mesh.positions.size(), seconds);
+}
+
+MeshNotes notes_of(const MeshCommandOptions& o, const Scene& scene) {
+    MeshNotes notes;
+    notes.unit = unit(o);
     notes.names = scene.names;
     for (const Material& m : scene.materials) {
         notes.colors.push_back(m.color.a);
         notes.surfaces.push_back(surface_notes(m));
     }
-    for (const MeshOutput& output : outputs)
-        if (written) write_mesh(output, mesh, notes, scene.z_up, parse_up(o.up, scene.z_up));
-    clock.end();
+    return notes;
+}
 
-    if (o.stats || !o.stats_json.empty()) {
-        clock.begin("measure");
-        Json j = statistics(scene, mesh);
-        clock.end();
-        for (const PhaseTime& t : clock.times()) j["seconds"][t.name] = t.wall;
-        if (o.stats) print_table(j);
-        if (!o.stats_json.empty())
-            write_whole_file(o.stats_json, j.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
-    }
+void say_statistics(const MeshCommandOptions& o, const Scene& scene, const SceneMesh& mesh, PhaseClock& clock) {
+    if (!o.stats && o.stats_json.empty()) return;
+    clock.begin("measure");
+    Json j = statistics(scene, mesh);
+    clock.end();
+    for (const PhaseTime& t : clock.times()) j["seconds"][t.name] = t.wall;
+    if (o.stats) print_table(j);
+    if (!o.stats_json.empty())
+        write_whole_file(o.stats_json, j.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
+}
+
+int run_mesh(const MeshCommandOptions& o) {
+    if (o.scene.empty()) throw UsageError("mesh: expected a scene file");
+    if (o.outputs.empty() && !o.stats && o.stats_json.empty())
+        throw UsageError("mesh: expected an output file, -o FILE");
+    check_mesh_names(o.outputs);
+    MeshSettings method = settings(o);
+    unit(o);  // before the work, as the next two
+    parse_up(o.up, false);
+    const auto faces = o.faces.empty() ? 0 : std::size_t(parse_whole("--faces", o.faces, 4, 100'000'000));
+    const int threads = o.threads.value_or(default_threads());
+    const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, std::size_t(threads));
+
+    PhaseClock clock;
+    clock.begin("read");
+    Scene scene = load_to_mesh(o);
+    method.only = chosen_solids(scene, o.only);
+    method.leave_out_unbounded = o.only.empty();
+    const std::vector<MeshOutput> outputs = mesh_outputs(o.outputs, scene, method.only);
+    prepare_files(o, scene, files_of(outputs));
+    if (o.recenter)
+        if (const Vec3 shift = recenter(scene, method.only); shift != Vec3(0.0) && !o.quiet)
+            fmt::print(stderr, "deburr: --recentre: moved by ({:.17g}, {:.17g}, {:.17g})\n", shift.x, shift.y, shift.z);
+    const SceneMesh mesh = mesh_of(o, scene, method, faces, clock);
+    say_what_was_made(o, scene, mesh, clock.wall("polygonize"));
+    if (mesh.mesh.triangles.empty()) throw WorkError(scene.file + ": the mesh is empty, and is not written");
+
+    const bool written = passes(o, scene, mesh);
+    if (written && !o.quiet) warn_of_single_precision(o, mesh);
+    clock.begin("write");
+    if (written)
+        for (const MeshOutput& output : outputs)
+            write_mesh(output, mesh, notes_of(o, scene), scene.z_up, parse_up(o.up, scene.z_up));
+    clock.end();
+    say_statistics(o, scene, mesh, clock);
     return written ? 0 : 1;
 }
 

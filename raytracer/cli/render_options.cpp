@@ -92,148 +92,147 @@ void check_render_options(const RenderOptions& o) {
     check_outputs(o.outputs, {o.stats_json, o.checkpoint}, {o.scene});
 }
 
-CLI::App* add_render_options(CLI::App& program, const std::shared_ptr<RenderOptions>& options) {
-    CLI::App* command = program.add_subcommand("render", "render a scene to image files");
-    add_scene_options(*command, *options);
-    add_output_option(*command, *options, known_extensions());
-    add_picture_options(*command, *options, "the scene's, or as many as leave hardly any noise, 16 to 256");
-    command->add_flag("--draft", options->draft, "one sample per pixel, whatever the scene says: quick, without noise");
+namespace {
+
+using SharedOptions = std::shared_ptr<RenderOptions>;
+
+// An option whose text parse(name, text) reads into a member.
+template <class Member, class Parse>
+void add_parsed(CLI::App& command, const SharedOptions& options, const std::string& name, const std::string& type,
+                Member RenderOptions::*member, Parse parse, const std::string& description) {
     command
-        ->add_option("--via", options->via,
-                     "how surfaces are found: implicit (exact, the default), or as a mesh by " + mesh_method_names())
+        .add_option_function<std::string>(
+            name, [=](const std::string& text) { (*options).*member = parse(name, text); }, description)
+        ->type_name(type);
+}
+
+ViewTransform parse_view(const std::string& name, const std::string& text) {
+    return parse_word(name, text, {"standard", "agx"}) == "agx" ? ViewTransform::agx : ViewTransform::standard;
+}
+
+int parse_bits(const std::string& name, const std::string& text) {
+    return parse_word(name, text, {"8", "16"}) == "8" ? 8 : 16;
+}
+
+Progress::Style parse_progress(const std::string& name, const std::string& text) {
+    const std::string word = parse_word(name, text, {"bar", "lines", "json", "none"});
+    if (word == "bar") return Progress::Style::bar;
+    if (word == "lines") return Progress::Style::farm;
+    return word == "json" ? Progress::Style::json : Progress::Style::none;
+}
+
+// How light and surfaces are found, and in how many samples.
+void add_tracing_options(CLI::App& command, const SharedOptions& options) {
+    command.add_flag("--draft", options->draft, "one sample per pixel, whatever the scene says: quick, without noise");
+    command
+        .add_option("--via", options->via,
+                    "how surfaces are found: implicit (exact, the default), or as a mesh by " + mesh_method_names())
         ->type_name("NAME");
-    command
-        ->add_option_function<std::string>(
-            "--accel", [options](const std::string& text) { options->accel = parse_accel("--accel", text); },
-            "implicit only: find surfaces by our own BVH over BSP cells or by Embree's, with the same picture; "
-            "default: bvh")
-        ->type_name("bvh|embree");
-    command
-        ->add_option_function<std::string>(
-            "--integrator",
-            [options](const std::string& text) { options->integrator = parse_integrator("--integrator", text); },
-            "path finds all light; preview has no noise, shadows and polished reflections; default: path from two "
-            "samples per pixel on, preview with one")
-        ->type_name("path|preview");
-    command
-        ->add_option_function<std::string>(
-            "--noise", [options](const std::string& text) { options->noise = parse_positive("--noise", text); },
-            "paths only: take samples until this much noise is left in each part of the picture, as a share of white "
-            "on a display, 0.01: hardly seen; --spp is their limit, 4096 by default")
-        ->type_name("X");
-    command
-        ->add_option_function<std::string>(
-            "--time", [options](const std::string& text) { options->seconds = parse_positive("--time", text); },
-            "paths only: as many samples as take about so many seconds")
-        ->type_name("SECONDS");
-    command
-        ->add_option_function<std::string>(
-            "--view",
-            [options](const std::string& text) {
-                if (text != "standard" && text != "agx")
-                    throw UsageError("--view: expected standard or agx, got '" + text + "'");
-                options->view = text == "agx" ? ViewTransform::agx : ViewTransform::standard;
-            },
-            "tone curve of files for the screen, not of an EXR: standard clips what is brighter than white, agx lets "
-            "it "
-            "go to white softly; default: standard")
-        ->type_name("standard|agx");
-    command->add_flag("--denoise")
+    add_parsed(command, options, "--accel", "bvh|embree", &RenderOptions::accel, parse_accel,
+               "implicit only: find surfaces by our own BVH over BSP cells or by Embree's, with the same picture; "
+               "default: bvh");
+    add_parsed(command, options, "--integrator", "path|preview", &RenderOptions::integrator, parse_integrator,
+               "path finds all light; preview has no noise, shadows and polished reflections; default: path from two "
+               "samples per pixel on, preview with one");
+    add_parsed(
+        command, options, "--noise", "X", &RenderOptions::noise, parse_positive,
+        "paths only: take samples until this much noise is left in each part of the picture, as a share of white "
+        "on a display, 0.01: hardly seen; --spp is their limit, 4096 by default");
+    add_parsed(command, options, "--time", "SECONDS", &RenderOptions::seconds, parse_positive,
+               "paths only: as many samples as take about so many seconds");
+}
+
+// What becomes of the light in a file for the screen.
+void add_screen_options(CLI::App& command, const SharedOptions& options) {
+    add_parsed(
+        command, options, "--view", "standard|agx", &RenderOptions::view, parse_view,
+        "tone curve of files for the screen, not of an EXR: standard clips what is brighter than white, agx lets "
+        "it go to white softly; default: standard");
+    command.add_flag("--denoise")
         ->description(
-            "smooth the noise that is left, guided by normals and albedo, which an EXR then has, too: for a quick "
-            "look, not "
-            "for measurements. --denoise=oidn: by Intel's Open Image Denoise 2, if the system has its library")
+            "smooth the noise that is left, guided by normals and albedo, which an EXR then has, too: for a "
+            "quick look, not for measurements. --denoise=oidn: by Intel's Open Image Denoise 2, if the system "
+            "has its library")
         ->each([options](const std::string& text) {
             const std::optional<Denoiser> found = text == "true" ? Denoiser::wavelets : find_denoiser(text);
             if (!found) throw UsageError("--denoise: expected wavelets or oidn, got '" + text + "'");
             options->denoiser = *found;
         });
+}
+
+// Of pictures by way of a mesh.
+void add_facet_options(CLI::App& command, const SharedOptions& options) {
     command
-        ->add_option("--tolerance", options->tolerance,
-                     "meshes only: the mesh's tolerance, as for mesh; default: 0.03 of each solid's least radius")
+        .add_option("--tolerance", options->tolerance,
+                    "meshes only: the mesh's tolerance, as for mesh; default: 0.03 of each solid's least radius")
         ->type_name("D");
-    command->add_flag("--flat", options->flat, "meshes only: shade each facet with one normal");
-    command->add_flag("--edges", options->edges, "meshes only: draw the polygons' edges as black lines");
+    command.add_flag("--flat", options->flat, "meshes only: shade each facet with one normal");
+    command.add_flag("--edges", options->edges, "meshes only: draw the polygons' edges as black lines");
     command
-        ->add_option(
+        .add_option(
             "--wire", options->wire,
             "meshes only: draw edges alone, with hidden lines removed (visible), or all of faces towards the camera "
             "(front)")
         ->type_name("visible|front");
+}
+
+void add_pixel_options(CLI::App& command, const SharedOptions& options) {
+    add_parsed(command, options, "--bits", "8|16", &RenderOptions::bits, parse_bits,
+               "of each number in a PNG; default: 8");
+    add_parsed(command, options, "--exposure", "E", &RenderOptions::exposure, parse_exposure,
+               "of pictures for the screen, in stops: 1 shows the light twice as bright, -1 half as bright; .exr and "
+               ".hdr keep the light as it is; default: the scene's");
+    command.add_flag("--alpha", options->alpha,
+                     "without the background that the camera sees: a PNG is transparent there, and an EXR black");
+}
+
+// What a run says and writes before its end.
+void add_progress_options(CLI::App& command, const SharedOptions& options) {
+    add_parsed(command, options, "--write-every", "SECONDS", &RenderOptions::write_every, parse_positive,
+               "write the outputs every so many seconds, too, with the samples that all pixels have by then");
+    add_parsed(command, options, "--progress", "bar|lines|json|none", &RenderOptions::progress, parse_progress,
+               "how stderr tells how far the work is: lines of 'Progress: 42%' and json, an object a line, are for "
+               "other programs; default: a bar on a terminal, else a line now and then");
     command
-        ->add_option_function<std::string>(
-            "--bits",
-            [options](const std::string& text) {
-                if (text != "8" && text != "16") throw UsageError("--bits: expected 8 or 16, got '" + text + "'");
-                options->bits = text == "8" ? 8 : 16;
-            },
-            "of each number in a PNG; default: 8")
-        ->type_name("8|16");
-    command
-        ->add_option_function<std::string>(
-            "--exposure",
-            [options](const std::string& text) { options->exposure = parse_exposure("--exposure", text); },
-            "of pictures for the screen, in stops: 1 shows the light twice as bright, -1 half as bright; .exr and .hdr "
-            "keep the light as it is; default: the scene's")
-        ->type_name("E");
-    command->add_flag("--alpha", options->alpha,
-                      "without the background that the camera sees: a PNG is transparent there, and an EXR black");
-    command
-        ->add_option_function<std::string>(
-            "--write-every",
-            [options](const std::string& text) { options->write_every = parse_positive("--write-every", text); },
-            "write the outputs every so many seconds, too, with the samples that all pixels have by then")
-        ->type_name("SECONDS");
-    command
-        ->add_option_function<std::string>(
-            "--progress",
-            [options](const std::string& text) {
-                const std::string word = parse_word("--progress", text, {"bar", "lines", "json", "none"});
-                options->progress = word == "bar"     ? Progress::Style::bar
-                                    : word == "lines" ? Progress::Style::farm
-                                    : word == "json"  ? Progress::Style::json
-                                                      : Progress::Style::none;
-            },
-            "how stderr tells how far the work is: lines of 'Progress: 42%' and json, an object a line, are for other "
-            "programs; default: a bar on a terminal, else a line now and then")
-        ->type_name("bar|lines|json|none");
-    command
-        ->add_option("--display-server", options->display_server,
-                     "show the picture, as its samples come, in a viewer that listens there and speaks tev's protocol")
+        .add_option("--display-server", options->display_server,
+                    "show the picture, as its samples come, in a viewer that listens there and speaks tev's protocol")
         ->type_name("HOST:PORT");
+}
+
+// Shares of the work, in time and among machines.
+void add_share_options(CLI::App& command, const SharedOptions& options) {
     command
-        ->add_option("--checkpoint", options->checkpoint,
-                     "keep the sums of all samples in this file, every minute and at the end; after SIGTERM the exit "
-                     "code is then 75")
+        .add_option("--checkpoint", options->checkpoint,
+                    "keep the sums of all samples in this file, every minute and at the end; after SIGTERM the exit "
+                    "code is then 75")
         ->type_name("FILE");
-    command
-        ->add_option_function<std::string>(
-            "--checkpoint-every",
-            [options](const std::string& text) {
-                options->checkpoint_every = parse_positive("--checkpoint-every", text);
-            },
-            "seconds from one checkpoint to the next; default: 60. SIGUSR1 asks for one at once")
-        ->type_name("SECONDS");
-    command->add_flag("--resume", options->resume,
-                      "go on from the checkpoint, if there is one, to the same picture as without a break");
-    command
-        ->add_option_function<std::string>(
-            "--frames", [options](const std::string& text) { options->frames = parse_frames("--frames", text); },
-            "frames a to b of N, or of b, of an animation: the scene's param(\"frame\", 1) and param(\"t\", 0), which "
-            "is "
-            "(frame - 1) / N; names have #### for the number. auto/N: the frame of a job's array")
-        ->type_name("a-b[/N]|auto/N");
-    command
-        ->add_option_function<std::string>(
-            "--tile", [options](const std::string& text) { options->tile = parse_tile("--tile", text); },
-            "of N shares of the picture's rows only the one with the number i, 0 to N-1; auto: number and N of a job's "
-            "array, auto/N: the number")
-        ->type_name("i/N|auto");
-    command
-        ->add_option_function<std::string>(
-            "--samples", [options](const std::string& text) { options->samples = parse_samples("--samples", text); },
-            "of the samples that --spp says only a to b-1, the first is 0, into the checkpoint: a part for merge")
-        ->type_name("a-b");
+    add_parsed(command, options, "--checkpoint-every", "SECONDS", &RenderOptions::checkpoint_every, parse_positive,
+               "seconds from one checkpoint to the next; default: 60. SIGUSR1 asks for one at once");
+    command.add_flag("--resume", options->resume,
+                     "go on from the checkpoint, if there is one, to the same picture as without a break");
+    add_parsed(command, options, "--frames", "a-b[/N]|auto/N", &RenderOptions::frames, parse_frames,
+               "frames a to b of N, or of b, of an animation: the scene's param(\"frame\", 1) and param(\"t\", 0), "
+               "which is (frame - 1) / N; names have #### for the number. auto/N: the frame of a job's array");
+    add_parsed(command, options, "--tile", "i/N|auto", &RenderOptions::tile, parse_tile,
+               "of N shares of the picture's rows only the one with the number i, 0 to N-1; auto: number and N of a "
+               "job's array, auto/N: the number");
+    add_parsed(command, options, "--samples", "a-b", &RenderOptions::samples, parse_samples,
+               "of the samples that --spp says only a to b-1, the first is 0, into the checkpoint: a part for merge");
+}
+
+}  // namespace
+
+CLI::App* add_render_options(CLI::App& program, const std::shared_ptr<RenderOptions>& options) {
+    CLI::App* command = program.add_subcommand("render", "render a scene to image files");
+    add_scene_options(*command, *options);
+    add_output_option(*command, *options, known_extensions());
+    add_picture_options(*command, *options, "the scene's, or as many as leave hardly any noise, 16 to 256");
+    add_tracing_options(*command, options);
+    add_screen_options(*command, options);
+    add_facet_options(*command, options);
+    add_pixel_options(*command, options);
+    add_progress_options(*command, options);
+    add_share_options(*command, options);
     add_run_options(*command, *options);
     add_statistics_options(*command, *options);
     return command;
