@@ -1,6 +1,8 @@
 #include "polygonizer/marching_cubes/marching_cubes.hpp"
 
 #include <algorithm>
+#include <array>
+#include <optional>
 #include <unordered_map>
 
 #include "polygonizer/mesh/separate_touching.hpp"
@@ -147,8 +149,7 @@ private:
             if (t <= t0 || t >= t1) break;
             Vec3 p = lo;
             p[axis] += side_ * t;
-            const bool in = box_.contains(p) && field_.inside(p);
-            (in == low_in ? t0 : t1) = t;
+            (inside(p) == low_in ? t0 : t1) = t;
         }
         // Off the corners by so little that it does not matter, so that no triangle vanishes.
         constexpr double nudge = 1e-7;
@@ -211,11 +212,13 @@ private:
                 at = s->second;
                 segments.erase(s);
             } while (at != begin);
-            fill(loop, on_faces);
+            fill(loop, on_faces, {x, y, z}, v);
         }
     }
 
-    void fill(const std::vector<int>& loop, const std::vector<std::pair<int, int>>& on_faces) {
+    // `values`: of the corners of the cube at this place.
+    void fill(const std::vector<int>& loop, const std::vector<std::pair<int, int>>& on_faces,
+              const std::array<int, 3>& at, const double* values) {
         // No diagonal may lie in a face of the cube, where the neighbour may have it too.
         const auto share_face = [&](int a, int b) {
             for (const auto& [va, fa] : on_faces)
@@ -243,17 +246,41 @@ private:
                 triangle(loop[best], loop[(best + k) % n], loop[(best + k + 1) % n]);
             return;
         }
-        Vec3 center(0.0);
-        for (const int v : loop) center += mesh_.positions[v] / double(n);
-        const double reach = side_;
-        const double distance = field_.distance_along_normal(center, reach);
+        const Vec3 center = middle_of(loop, at, values);
         const SurfaceSample o = field_.at(center);
-        if (distance < reach) center += o.normal * (o.distance > 0 ? distance : -distance);
         const int middle = int(mesh_.positions.size());
         mesh_.positions.push_back(center);
         mesh_.normals.push_back(o.normal == Vec3(0.0) ? mesh_.normals[loop[0]] : o.normal);
         materials_.push_back(materials_[loop[0]]);
         for (std::size_t k = 0; k < n; ++k) triangle(middle, loop[k], loop[(k + 1) % n]);
+    }
+
+    bool inside(Vec3 x) const { return box_.contains(x) && field_.inside(x); }
+
+    // A point of the surface in the cube, near the middle of the loop: on the normal there, or where that leads out of
+    // the cube, to facets that are not to be crossed, on the way to the nearest corner on the other side.
+    Vec3 middle_of(const std::vector<int>& loop, const std::array<int, 3>& at, const double* values) const {
+        Vec3 center(0.0);
+        for (const int v : loop) center += mesh_.positions[v] / double(loop.size());
+        const Box cube{grid_.corner(at[0], at[1], at[2]), grid_.corner(at[0] + 1, at[1] + 1, at[2] + 1)};
+        const double distance = field_.distance_along_normal(center, side_);
+        const SurfaceSample o = field_.at(center);
+        const Vec3 along = center + o.normal * (o.distance > 0 ? distance : -distance);
+        if (distance < side_ && cube.contains(along)) return along;
+        const bool in = inside(center);
+        std::optional<Vec3> nearest;
+        for (int k = 0; k < 8; ++k) {
+            const Vec3 corner = grid_.corner(at[0] + (k & 1), at[1] + (k >> 1 & 1), at[2] + (k >> 2));
+            if ((values[k] > 0) != in && (!nearest || glm::distance(corner, center) < glm::distance(*nearest, center)))
+                nearest = corner;
+        }
+        double t0 = 0, t1 = 1;
+        while (t1 - t0 > 1e-15) {
+            const double t = 0.5 * (t0 + t1);
+            if (t <= t0 || t >= t1) break;
+            (inside(center + t * (*nearest - center)) == in ? t0 : t1) = t;
+        }
+        return center + t0 * (*nearest - center);
     }
 
     // Cosine between a triangle and its corners' normals, times how long these are together; 0 without area.

@@ -10,11 +10,13 @@
 #include "bounds/bounding_box.hpp"
 #include "bounds/sort_once.hpp"
 #include "polygonizer/mesh/crossing_triangles.hpp"
+#include "polygonizer/mesh/decimate.hpp"
 #include "polygonizer/mesh/repair.hpp"
 #include "polygonizer/mesh/sharp_parts.hpp"
 #include "polygonizer/octree/octree_hard_edges.hpp"
 #include "polygonizer/octree/octree_linking.hpp"
 #include "polygonizer/octree/thin_features.hpp"
+#include "polygonizer/octree/unfold.hpp"
 
 namespace deburr {
 namespace {
@@ -272,8 +274,22 @@ private:
         const double size = glm::length(area);
         if (size > 0 && o.normal != Vec3(0.0)) s.cosine = glm::dot(area, o.normal) / size;
         s.distance = std::abs(o.distance);
-        if (!std::isfinite(o.distance)) s.cosine = 0;  // so far off that the density is saturated
+        if (std::isfinite(o.distance)) return s;
+        if (passes_near(middle, area))
+            s.distance = options_.tolerance;
+        else
+            s.cosine = 0;  // so far off that the density is saturated
         return s;
+    }
+
+    // Whether the surface passes within the tolerance, on the normal of a triangle, where a density of a smaller radius
+    // is saturated.
+    bool passes_near(Vec3 middle, Vec3 area) const {
+        const double size = glm::length(area);
+        if (!std::isfinite(options_.tolerance) || !(size > 0)) return false;
+        const bool in = tree_.solid(middle).inside(middle);
+        const Vec3 beyond = middle + area * ((in ? options_.tolerance : -options_.tolerance) / size);
+        return tree_.solid(beyond).inside(beyond) != in;
     }
 
     // Whether the points of a triangle say all there is to say about how it stands: smooth, and
@@ -339,6 +355,52 @@ private:
     std::set<std::pair<int, int>> diagonals_;  // taken, where they may be asked for twice
 };
 
+// A mesh with what is wrong with it.
+struct Mended {
+    Mesh mesh;
+    std::vector<Origin> origins;
+    std::vector<int> wrong;                            // triangles that lean or cross
+    std::pair<std::size_t, std::size_t> faults{0, 0};  // how many lean, and how many pairs cross
+};
+
+Mended mended(Mesh mesh, std::vector<Origin> origins, const FacetJudge& judge, double tolerance, CancelFlag cancel) {
+    Mended m{std::move(mesh), std::move(origins), {}, {}};
+    std::vector<std::pair<int, int>> pairs;  // that cross
+    constexpr int max_unfoldings = 3;        // what is unfolded may lie on the next
+    for (int round = 0; round < max_unfoldings; ++round) {
+        m.wrong = repair(m.mesh, m.origins, judge, tolerance).left;
+        // Where a wall is thinner than the cells, facets on its two sides face as they should and cross.
+        pairs = crossing_triangles(m.mesh, TriangleTree(m.mesh), cancel);
+        if (pairs.empty() || unfold(m.mesh, m.origins, judge, pairs) == 0) break;
+    }
+    m.faults = {m.wrong.size(), pairs.size()};
+    for (const auto& [s, t] : pairs) m.wrong.insert(m.wrong.end(), {s, t});
+    return m;
+}
+
+// The mesh with fewer triangles, within the tolerance; around what that makes wrong it stays as it was.
+Mended thinned_out(const Mended& fine, const SolidTree& solid, const OctreeOptions& options) {
+    constexpr int max_thinnings = 4;
+    constexpr double at_points = 0.85;  // of the tolerance, at the points that collapses look at
+    const FacetJudge judge(solid, fine.mesh);
+    std::vector<Box> dense;
+    for (int round = 0; round < max_thinnings; ++round) {
+        Mesh mesh = fine.mesh;
+        std::vector<Origin> origins = fine.origins;
+        decimate(mesh, origins, judge, at_points * options.tolerance,
+                 {.dense = dense, .cancel = options.cancel, .progress = options.progress});
+        Mended thin = mended(std::move(mesh), std::move(origins), judge, options.tolerance, options.cancel);
+        if (thin.faults <= fine.faults) return thin;
+        for (const int t : thin.wrong) {
+            Box box;
+            for (const int v : thin.mesh.triangles[t].vertex)
+                box = hull(box, {thin.mesh.positions[v], thin.mesh.positions[v]});
+            dense.push_back(box);
+        }
+    }
+    return fine;
+}
+
 // An edge that is not between two triangles that run through it in turn, for the message.
 std::optional<Vec3> first_fault(const Mesh& mesh) {
     std::vector<std::array<int, 3>> edges;  // ends in order, and direction
@@ -392,30 +454,28 @@ Mesh octree(const SolidTree& mixed, const Box& box, const OctreeOptions& options
     if (!statistics) statistics = &own;
     *statistics = {};
     Polygonization polygonization(numbered, box, options, edge);
-    Mesh best;
+    Mended best;
     constexpr std::size_t most = std::numeric_limits<std::size_t>::max();
-    std::pair<std::size_t, std::size_t> min_wrong{most, most};  // facets that lean, pairs that cross
-    // What repair cannot help needs smaller cells around it.
-    constexpr int max_mending_rounds = 4;
+    best.faults = {most, most};
+    // What repair cannot help needs smaller cells around it. Sharp walls part in the end, however thin; where rounded
+    // surfaces taper to where they touch, smaller cells find as many that cross.
+    const int max_mending_rounds = solid.min_radius() > 0 || solid.has_free_form() ? 4 : 8;
     constexpr double worth_another = 0.8;
     for (int round = 0; round < max_mending_rounds; ++round) {
         std::vector<Origin> origins;
         Mesh mesh = polygonization.run(*statistics, origins);
-        RepairStatistics repaired = repair(mesh, origins, FacetJudge(solid, mesh));
-        std::pair<std::size_t, std::size_t> wrong{repaired.left.size(), 0};
-        // Where a wall is thinner than the cells, facets on its two sides face as they should and cross.
-        wrong.second = add_crossing(mesh, repaired.left, options.cancel);
+        const FacetJudge judge(solid, mesh);
+        Mended now = mended(std::move(mesh), std::move(origins), judge, infinity, options.cancel);
         // Where surfaces touch, smaller cells leave as many.
-        const bool helped = wrong.second > 0 || double(wrong.first) < worth_another * double(min_wrong.first);
-        const bool more = helped && !repaired.left.empty() && polygonization.cut_around(mesh, repaired.left);
-        if (wrong < min_wrong) {
-            min_wrong = wrong;
-            best = std::move(mesh);
-        }
+        const bool helped =
+            now.faults.second > 0 || double(now.faults.first) < worth_another * double(best.faults.first);
+        const bool more = helped && !now.wrong.empty() && polygonization.cut_around(now.mesh, now.wrong);
+        if (now.faults < best.faults) best = std::move(now);
         if (!more) break;
     }
-    check(best);
-    return best;
+    if (options.decimate && std::isfinite(options.tolerance)) best = thinned_out(best, solid, options);
+    check(best.mesh);
+    return best.mesh;
 }
 
 }  // namespace deburr

@@ -28,6 +28,7 @@ struct OctreeOptions {
     /// edges of an octagon are lost; it costs nothing to keep them.
     double hard_angle = 15;
     double tolerance = infinity;               // largest distance of a triangle's middle from the surface
+    bool decimate = false;                     // a mesh with a tolerance is thinned out within it
     std::size_t max_open_cells = 100'000'000;  // that the surface may pass
     CancelFlag cancel = nullptr;
     WorkProgress* progress = nullptr;  // told how far the work is; it is never finished here

@@ -29,8 +29,8 @@ struct MeshSettings {
     std::optional<MeshMethod> method = {};
     double tolerance = infinity;                     // triage, octree
     double tolerance_in_radii = infinity;            // the same, of each solid's least radius, if less
-    double triage_tolerance_in_radii = infinity;     // the same, of triage only
-    bool decimate = true;                            // triage: thin meshes out within their tolerance
+    double triage_tolerance_in_radii = infinity;     // the same, of triage, and of models whose radius varies
+    bool decimate = true;                            // of these: thin meshes out within their tolerance
     double tolerance_in_sizes = infinity;            // octree, without a radius: of each solid's size, if less
     double grid = 0;                                 // marching cubes; 0: half the least radius
     double edge = 0;                                 // octree: side of a cell; 0: by the solid's size and radius

@@ -47,18 +47,28 @@ Box finite_part(const Scene& scene, const std::vector<Box>& boxes) {
     return all;
 }
 
-// Triage follows half-spaces: what has none it cannot see.
+// A model whose radius varies has a radius and is no density of one.
+bool varies_in_radius(const SolidTree& tree) {
+    return std::any_of(tree.leaves.begin(), tree.leaves.end(), [](const SolidLeaf& leaf) {
+        return leaf.field && !leaf.field->is_density() && leaf.field->filter_radius() > 0;
+    });
+}
+
+// Triage follows half-spaces, and radii that are the same everywhere: what has none it cannot see.
 void need_densities(const SolidTree& solid, std::size_t id) {
-    if (solid.has_free_form())
-        throw UnsupportedError(fmt::format(
-            "--method triage: expected rounded polyhedra, got a free form in solid {}; use octree or marching-cubes",
-            id));
+    if (!solid.has_free_form()) return;
+    const char* found = varies_in_radius(solid) ? "a model with a radius that varies (keep_sharp)" : "a free form";
+    throw UnsupportedError(fmt::format(
+        "--method triage: expected rounded polyhedra, got {} in solid {}; use octree or marching-cubes", found, id));
 }
 
 double octree_tolerance(const SolidTree& tree, const Box& box, const MeshSettings& settings) {
     const double radius = tree.min_radius();
-    const double relative =
-        radius > 0 ? settings.tolerance_in_radii * radius : settings.tolerance_in_sizes * largest(box.hi - box.lo);
+    // Such a model is what triage would mesh if it could.
+    const double in_radii = varies_in_radius(tree)
+                                ? std::min(settings.tolerance_in_radii, settings.triage_tolerance_in_radii)
+                                : settings.tolerance_in_radii;
+    const double relative = radius > 0 ? in_radii * radius : settings.tolerance_in_sizes * largest(box.hi - box.lo);
     return std::min(settings.tolerance, tree.has_free_form() || radius > 0 ? relative : infinity);
 }
 
@@ -79,6 +89,7 @@ OctreeOptions octree_options(const SolidTree& tree, const Box& box, bool cut_off
     options.cancel = cancel;
     options.progress = progress;
     options.tolerance = octree_tolerance(tree, box, settings);
+    options.decimate = settings.decimate && varies_in_radius(tree);
     return options;
 }
 

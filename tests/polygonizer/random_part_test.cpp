@@ -8,6 +8,7 @@
 #include "polygonizer/octree/octree.hpp"
 #include "polygonizer/random_part.hpp"
 #include "polygonizer/random_round_part.hpp"
+#include "polygonizer/random_slanted_part.hpp"
 #include "polygonizer/triage/triage.hpp"
 
 using namespace deburr;
@@ -89,12 +90,25 @@ TEST_CASE("Four chords of one sheet of a round part are no part of the mesh") {
     }
 }
 
+namespace {
+
+Mesh marching_cubes_of_50(const SolidTree& solid, const Box& box, MeshCheckOptions& options) {
+    options.min_tolerance = largest(box.hi - box.lo) / 50;
+    options.may_lean = true;
+    return marching_cubes(solid, box, options.min_tolerance);
+}
+
+}  // namespace
+
 TEST_CASE("Random parts by marching cubes pass the check of what was made") {
-    CHECK(check_parts(20, true, [](const SolidTree& solid, const Box& box, MeshCheckOptions& options) {
-              options.min_tolerance = largest(box.hi - box.lo) / 50;
-              options.may_lean = true;
-              return marching_cubes(solid, box, options.min_tolerance);
-          }) > 10'000);
+    CHECK(check_parts(20, true, marching_cubes_of_50) > 10'000);
+}
+
+TEST_CASE("Marching cubes: a point in the middle of a loop stays in its cube, so that facets do not cross") {
+    for (const int seed : {256, 260}) {
+        CAPTURE(seed);
+        CHECK(check_part(seed, marching_cubes_of_50).faults() == 0);
+    }
 }
 
 namespace {
@@ -116,5 +130,23 @@ TEST_CASE("The octree cuts cells further where the sides of a thin wall cross ea
     for (const int seed : {1015, 1027, 1041, 1058, 127}) {
         CAPTURE(seed);
         CHECK(check_part(seed, octree_of_40).crossing.count == 0);
+    }
+}
+
+TEST_CASE("The octree cuts cells further until sharp walls part, however thin") {
+    for (const int seed : {66, 341}) {
+        CAPTURE(seed);
+        CHECK(check_part(seed, octree_of_40).crossing.count == 0);
+    }
+}
+
+TEST_CASE("Random parts with sharp round tools by the octree pass the check of what was made") {
+    CHECK(check_parts<RandomSlantedPart>(10, true, octree_of_40) > 10'000);
+}
+
+TEST_CASE("The octree's facets of three points of a seam in a plane go to the plane") {
+    for (const int seed : {12, 14, 18, 25, 37}) {
+        CAPTURE(seed);
+        CHECK(check_part<RandomSlantedPart>(seed, octree_of_40).faults() == 0);
     }
 }

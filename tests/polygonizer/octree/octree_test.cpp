@@ -3,7 +3,9 @@
 #include <cstdlib>
 
 #include "bounds/free_form.hpp"
+#include "bounds/selective_mesh_field.hpp"
 #include "catch.hpp"
+#include "closed_shapes.hpp"
 #include "polygonizer/mesh/metrics.hpp"
 #include "polygonizer/random_solid.hpp"
 #include "polygonizer/triage/triage.hpp"
@@ -122,6 +124,25 @@ TEST_CASE("A tolerance cuts cells further where it is not met") {
     check_sound(m);
     CHECK(m.metrics.first_order.max <= 1.1 * options.tolerance);
     CHECK(m.metrics.topology.triangles < measured(solid, {0.025}).metrics.topology.triangles);
+}
+
+TEST_CASE("A model whose radius varies is thinned out within the tolerance") {
+    constexpr double radius = 0.2, tolerance = 0.05 * radius;
+    const test::Shape shape = test::Shape::l_prism();
+    const auto mesh = std::make_shared<const ClosedMesh>(shape.vertices, shape.triangles);
+    KeptEdges kept;
+    kept.edges = KeptEdges::Kind::convex;
+    kept.fade = 3 * radius;
+    const Solid solid = Solid::of_field(std::make_shared<SelectiveMeshField>(mesh, radius, kept));
+    OctreeOptions options{0.05};
+    options.tolerance = tolerance;
+    const Measured fine = measured(solid, options);
+    options.decimate = true;
+    const Measured thin = measured(solid, options);
+    check_sound(thin);
+    CHECK(thin.metrics.distance.max <= tolerance);
+    CHECK(thin.metrics.topology.triangles < fine.metrics.topology.triangles / 20);
+    CHECK(thin.metrics.volume == Approx(fine.metrics.volume).epsilon(0.005));
 }
 
 TEST_CASE("Sheets that pass one cell are told apart: boxes that touch, a checkerboard") {

@@ -1,5 +1,6 @@
 // --keep-sharp, and convolved(r, model, { … }): what a model is rounded in, and what is said of wrong values.
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include "catch.hpp"
 #include "closed_shapes.hpp"
@@ -57,7 +58,7 @@ TEST_CASE("meshes of a box that is rounded in part lose what is rounded there", 
     };
     const double sharp = volume({}), round = volume({"--round", "1"});
     const double upper = volume({"--round", "1", "--keep-sharp", "below=5", "--fade", "2"});
-    const double none = volume({"--round", "1", "--keep-sharp", "convex"});
+    const double none = volume({"--round", "1", "--keep-sharp", "convex", "--tolerance", "inf"});
     const double all = volume({"--round", "1", "--keep-sharp", "concave"});
     CHECK(sharp == Approx(1000));
     CHECK(none == Approx(1000).epsilon(1e-4));
@@ -66,6 +67,29 @@ TEST_CASE("meshes of a box that is rounded in part lose what is rounded there", 
     const double lost = 1000 - round, of_upper = 1000 - upper;
     CHECK(of_upper > lost * (4 + 0.5) / 12);
     CHECK(of_upper < lost * (4 + 2) / 12);
+}
+
+TEST_CASE("a model whose radius varies is thinned out within the tolerance, and triage says why it cannot take it") {
+    const test::Folder folder;
+    const std::string part = folder / "part.stl", mesh = folder / "mesh.stl";
+    test::write_file(part, Shape::box({0, 0, 0}, {10, 10, 10}).stl());
+    const std::vector<std::string> call = {"mesh", part, "--round", "1", "--keep-sharp", "convex", "-o", mesh, "-q"};
+    const auto with = [&](const std::vector<std::string>& more) {
+        std::vector<std::string> all = call;
+        all.insert(all.end(), more.begin(), more.end());
+        return run(all);
+    };
+    const Outcome usual = with({"--stats-json", folder / "a.json"}),
+                  fine = with({"--tolerance", "inf", "--stats-json", folder / "b.json"});
+    REQUIRE(usual.code == 0);
+    REQUIRE(fine.code == 0);
+    const auto of = [&](const char* file) { return nlohmann::json::parse(test::read_file(folder / file))["mesh"]; };
+    CHECK(of("a.json")["triangles"] < 100);
+    CHECK(of("b.json")["triangles"] > 10'000);
+    CHECK(double(of("a.json")["volume"]) == Approx(1000).epsilon(1e-3));
+    const Outcome refused = with({"--method", "triage"});
+    CHECK(refused.code == 3);
+    CHECK(has(refused.err, "got a model with a radius that varies (keep_sharp) in solid 1"));
 }
 
 TEST_CASE("a scene says what stays sharp, and wrong fields are told") {
