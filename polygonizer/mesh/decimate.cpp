@@ -1,368 +1,17 @@
 #include "polygonizer/mesh/decimate.hpp"
 
-#include <algorithm>
 #include <numeric>
 
 #include "bounds/in_parallel.hpp"
+#include "polygonizer/mesh/edge_collapses.hpp"
 #include "polygonizer/mesh/mesh_blocks.hpp"
-#include "polygonizer/mesh/split_on_surface.hpp"
 
 namespace deburr {
 namespace {
 
-constexpr double same_normal = 1e-6;
-// Cosine between two facets' normals at a vertex below which their common edge is a crease.
-constexpr double crease = 0.9;
-// Cosine between a facet and its surface that a collapse must leave.
-constexpr double upright = 0.8;
-// Height over longest side: facets that are curved get no thinner than this, unless they were.
-constexpr double slender = 0.02;
-// Facets around one vertex, beyond which a collapse makes it no better to work with.
-constexpr std::size_t max_fan = 20;
-
-// A facet around a vertex, by the edge opposite.
-struct Opposite {
-    int va, vb;       // its ends
-    Vec3 a, b, area;  // their positions, and the facet's area vector
-};
-
-// The distance from x to the triangle, whose area vector is given, or `enough` if it is no less.
-double distance_to_triangle(Vec3 x, Vec3 a, Vec3 b, Vec3 c, Vec3 area, double enough) {
-    const double size = glm::length(area);
-    if (size > 0) {
-        const double from_plane = std::abs(glm::dot(area, x - a)) / size;
-        if (from_plane >= enough) return enough;
-        if (glm::dot(glm::cross(b - a, x - a), area) >= 0 && glm::dot(glm::cross(c - b, x - b), area) >= 0 &&
-            glm::dot(glm::cross(a - c, x - c), area) >= 0)
-            return from_plane;
-    }
-    return std::min({enough, distance_to_segment(x, a, b), distance_to_segment(x, b, c), distance_to_segment(x, c, a)});
-}
-
-class Decimation {
-public:
-    Decimation(Mesh& mesh, std::vector<Origin>& origins, const FacetJudge& judge, double tolerance,
-               const DecimationOptions& options)
-        : facets_(mesh, origins),
-          judge_(judge),
-          tolerance_(tolerance),
-          options_(options),
-          left_(mesh.triangles.size()),
-          border_(mesh.positions.size(), false),
-          first_(mesh.positions.size(), true) {
-        for (std::size_t f = 0; f < facets_.size(); ++f) flat_normals_.push_back(flat_normal(facets_.at(int(f))));
-    }
-
-    /// These vertices, which have facets that are not in the mesh, stay, and nothing moves onto them.
-    void keep_border(std::vector<char> vertices) { border_ = std::move(vertices); }
-    /// Only vertices around these are looked at, until something has changed.
-    void look_around(const std::vector<char>& vertices) {
-        first_.assign(first_.size(), false);
-        for (std::size_t f = 0; f < facets_.size(); ++f) {
-            const auto& t = facets_.at(int(f)).triangle.vertex;
-            if (vertices[t[0]] || vertices[t[1]] || vertices[t[2]])
-                for (const int v : t) first_[v] = true;
-        }
-    }
-
-    /// `share` of the phase is told, by and by.
-    std::size_t run(double share_of_phase = 0) {
-        // What costs little goes first, so that what is left can bear more.
-        std::size_t gone = 0;
-        for (const double share : {0.1, 1.0}) {
-            changed_ = first_;
-            changed_.resize(std::size_t(facets_.vertices()), true);
-            constexpr int max_rounds = 6;
-            for (int round = 0; round < max_rounds; ++round) {
-                const std::size_t now = pass(share * tolerance_, round == 0 ? 0.5 * share_of_phase : 0);
-                gone += now;
-                if (100 * now < std::size_t(facets_.vertices())) break;
-            }
-        }
-        return gone;
-    }
-    void finish(std::vector<int>* vertices = nullptr, std::vector<int>* normals = nullptr) {
-        facets_.finish(vertices, normals);
-    }
-
-private:
-    struct Candidate {
-        double error;
-        int to;
-        bool half_way = false;  // both ends of the edge go to the surface at its middle
-        Vec3 x{0.0};            // where that is
-    };
-    // What a vertex must stay on.
-    struct Kind {
-        ShortList<Vec3, 4> planes;    // normals of the flat facets around
-        ShortList<int, 4> line_ends;  // other ends of edges that must stay lines
-        bool fixed = false;
-    };
-
-    std::size_t pass(double tolerance, double share_of_phase) {
-        constexpr int at_once = 1024;
-        std::size_t gone = 0;
-        for (int v = 0; v < facets_.vertices(); ++v) {
-            if (v % at_once == 0) {
-                throw_if_cancelled(options_.cancel);
-                if (options_.progress && share_of_phase > 0)
-                    options_.progress->advance(share_of_phase * at_once / facets_.vertices());
-            }
-            if (left_ <= options_.enough) break;
-            if (!changed_[v] || facets_.around(v).empty()) continue;
-            changed_[v] = false;
-            if (find_candidates(v, tolerance)) gone += collapse(v, tolerance);
-        }
-        return gone;
-    }
-
-    // What was put in since is not.
-    bool is_on_border(int v) const { return std::size_t(v) < border_.size() && border_[v]; }
-
-    // The normal of a facet that is part of a plane, or 0.
-    Vec3 flat_normal(const Facet& f) const {
-        const auto& n = f.triangle.normal;
-        const Vec3 a = facets_.normal(n[0]);
-        for (const std::size_t k : {1, 2})
-            if (n[k] != n[0] && glm::length(facets_.normal(n[k]) - a) >= same_normal) return Vec3(0.0);
-        return a;
-    }
-
-    Vec3 normal_at(int f, int v) const {
-        return facets_.normal(facets_.at(f).triangle.normal[facets_.corner_index(f, v)]);
-    }
-
-    // Whether the edge from v to u, of facets f and g, must stay a line of edges: a crease, a border of materials, the
-    // rim of a flat face. Curved facets would spread over a flat face else, tilted by less than the tolerance.
-    bool is_line(int f, int g, int v) const {
-        if ((flat_normals_[f] == Vec3(0.0)) != (flat_normals_[g] == Vec3(0.0))) return true;
-        return facets_.at(f).triangle.material != facets_.at(g).triangle.material ||
-               glm::dot(normal_at(f, v), normal_at(g, v)) < crease;
-    }
-
-    Kind kind_of(int v) const {
-        Kind kind;
-        const Vec3 x = facets_.position(v);
-        kind.fixed = is_on_border(v) || std::any_of(options_.dense.begin(), options_.dense.end(),
-                                                    [&](const Box& box) { return box.contains(x); });
-        if (kind.fixed) return kind;
-        const auto& fan = facets_.around(v);
-        for (const int f : fan) {
-            const Vec3 n = flat_normals_[f];
-            if (n != Vec3(0.0) && std::none_of(kind.planes.begin(), kind.planes.end(),
-                                               [&](Vec3 p) { return glm::length(p - n) < same_normal; }))
-                kind.planes.push_back(n);
-        }
-        for (const int f : fan) {
-            const int u = facets_.at(f).triangle.vertex[(facets_.corner_index(f, v) + 1) % 3];
-            const int g = facets_.across(v, u) == f ? facets_.across(u, v) : facets_.across(v, u);
-            if (g < 0)
-                kind.fixed = true;
-            else if (is_line(f, g, v))
-                kind.line_ends.push_back(u);
-        }
-        kind.fixed |= kind.planes.size() > 2 || (!kind.line_ends.empty() && kind.line_ends.size() != 2);
-        return kind;
-    }
-
-    // Where v may go, the nearest to its facets first; false if it must stay.
-    bool find_candidates(int v, double tolerance) {
-        candidates_.clear();
-        const Kind kind = kind_of(v);
-        if (kind.fixed) return false;
-        planes_ = kind.planes.size();
-        find_opposite(v, opposite_);
-        const Vec3 x = facets_.position(v);
-        for (const int f : facets_.around(v)) {
-            const int to = facets_.at(f).triangle.vertex[(facets_.corner_index(f, v) + 1) % 3];
-            if (is_on_border(to)) continue;
-            if (!kind.line_ends.empty() && to != kind.line_ends[0] && to != kind.line_ends[1]) continue;
-            const Vec3 d = facets_.position(to) - x;
-            const auto leaves = [&](Vec3 plane) { return std::abs(glm::dot(plane, d)) > 1e-9 * judge_.size(); };
-            if (std::any_of(kind.planes.begin(), kind.planes.end(), leaves)) continue;
-            const double error = this->error(opposite_, to, x, facets_.position(to));
-            if (error <= tolerance) candidates_.push_back({error, to});
-            offer_half_way(v, to, kind, tolerance);
-        }
-        std::sort(candidates_.begin(), candidates_.end(), [](const Candidate& a, const Candidate& b) {
-            return a.error != b.error ? a.error < b.error : a.to != b.to ? a.to < b.to : a.half_way < b.half_way;
-        });
-        return !candidates_.empty();
-    }
-
-    // The middle of the edge from v to `to`, if both vertices are equally free.
-    void offer_half_way(int v, int to, const Kind& kind, double tolerance) {
-        if (to < v) return;  // it is the same from there
-        const Vec3 a = facets_.position(v), b = facets_.position(to);
-        Candidate c{0, to, true, 0.5 * (a + b)};
-        // Beside the surface as it still is, the error is not much more than that on it.
-        c.error = error(opposite_, to, a, c.x);
-        if (c.error > 2 * tolerance) return;
-        const Kind other = kind_of(to);
-        if (other.fixed || other.planes.size() != kind.planes.size() || other.line_ends.size() != kind.line_ends.size())
-            return;
-        if (!other.line_ends.empty() && other.line_ends[0] != v && other.line_ends[1] != v) return;
-        find_opposite(to, opposite_of_other_);
-        c.error = std::max(c.error, error(opposite_of_other_, v, b, c.x));
-        if (c.error <= 2 * tolerance) candidates_.push_back(c);
-    }
-
-    // Moves c.x, the middle of the edge from v to c.to, to the surface; false if the edge's ends would be too far from
-    // what is there then.
-    bool put_on_surface(int v, Candidate& c, double tolerance) {
-        const Vec3 a = facets_.position(v), b = facets_.position(c.to);
-        find_opposite(c.to, opposite_of_other_);
-        pieces_.clear();
-        const int f = facets_.across(v, c.to), g = facets_.across(c.to, v);
-        add_surface(pieces_, surface_of(facets_, facets_.at(f)));
-        add_surface(pieces_, surface_of(facets_, facets_.at(g)));
-        return judge_.surfaces().project(c.x, pieces_, glm::length(b - a)) && judge_.on_surface(c.x) &&
-               error(opposite_, c.to, a, c.x) <= tolerance && error(opposite_of_other_, v, b, c.x) <= tolerance;
-    }
-
-    void find_opposite(int v, std::vector<Opposite>& edges) const {
-        edges.clear();
-        for (const int f : facets_.around(v)) {
-            const auto& vertex = facets_.at(f).triangle.vertex;
-            const std::size_t k = std::size_t(facets_.corner_index(f, v));
-            const int va = vertex[(k + 1) % 3], vb = vertex[(k + 2) % 3];
-            const Vec3 x = facets_.position(v), a = facets_.position(va), b = facets_.position(vb);
-            edges.push_back({va, vb, a, b, glm::cross(a - x, b - x)});
-        }
-    }
-
-    // How far x, where a vertex is, is from what its facets, by the edges opposite, would be with it at y, but for
-    // those at the vertex `to`; infinity where they turn over.
-    static double error(const std::vector<Opposite>& edges, int to, Vec3 x, Vec3 y) {
-        double least = infinity;
-        for (const Opposite& e : edges) {
-            if (e.va == to || e.vb == to) continue;
-            const Vec3 area = glm::cross(e.a - y, e.b - y);
-            const double cosine = glm::dot(e.area, area);  // times the lengths of both
-            if (cosine <= 0 || cosine * cosine <= 0.04 * glm::dot(e.area, e.area) * glm::dot(area, area))
-                return infinity;
-            least = distance_to_triangle(x, y, e.a, e.b, area, least);
-        }
-        return least;
-    }
-
-    // Both ends of an edge become a vertex of its own.
-    std::optional<Change> merge(int v, int to, int middle) {
-        auto change = facets_.collapse(v, to);
-        if (!change) return {};
-        for (const int f : facets_.around(to))
-            if (std::find(change->out.begin(), change->out.end(), f) == change->out.end()) {
-                change->out.push_back(f);
-                change->in.push_back(facets_.at(f));
-            }
-        const Vec3 x = facets_.position(middle);
-        struct OfLeaf {
-            int leaf, normal;
-        };
-        ShortList<OfLeaf, 4> normals;
-        for (Facet& f : change->in) {
-            const Vec3 flat = flat_normal(f);
-            for (std::size_t k = 0; k < 3; ++k) {
-                if (f.triangle.vertex[k] != to) continue;
-                f.triangle.vertex[k] = middle;
-                if (flat != Vec3(0.0) || f.origin.leaf < 0) continue;
-                int& n = f.triangle.normal[k];
-                const auto known = std::find_if(normals.begin(), normals.end(),
-                                                [&](const OfLeaf& o) { return o.leaf == f.origin.leaf; });
-                if (known != normals.end()) {
-                    n = known->normal;
-                    continue;
-                }
-                const Vec3 outward = judge_.surfaces().at({f.origin.leaf}, x).normal;
-                n = facets_.add_normal(glm::dot(outward, facets_.normal(n)) < 0 ? -outward : outward);
-                normals.push_back({f.origin.leaf, n});
-            }
-        }
-        return change;
-    }
-
-    bool collapse(int v, double tolerance) {
-        constexpr std::size_t max_tries = 30;
-        for (std::size_t k = 0; k < std::min(max_tries, candidates_.size()); ++k) {
-            Candidate& c = candidates_[k];
-            int to = c.to;
-            std::optional<Change> change;
-            if (c.half_way) {
-                if (!put_on_surface(v, c, tolerance)) continue;
-                if (spare_ < 0) {
-                    spare_ = facets_.add_vertex(c.x);
-                    changed_.resize(std::size_t(facets_.vertices()), true);
-                }
-                facets_.move(spare_, c.x);
-                change = merge(v, to, spare_);
-                to = spare_;
-            } else {
-                change = facets_.collapse(v, to);
-            }
-            if (!change || facets_.around(c.to).size() + change->in.size() > 2 + max_fan + 2 * planes_ * max_fan)
-                continue;
-            if (!accept(*change, v, to, tolerance)) continue;
-            if (c.half_way) spare_ = -1;
-            left_ -= change->out.size() - change->in.size();
-            for (const int f : facets_.apply(*change)) {
-                flat_normals_.resize(std::max(flat_normals_.size(), std::size_t(f) + 1));
-                flat_normals_[f] = flat_normal(facets_.at(f));
-                changed_.resize(std::size_t(facets_.vertices()), true);
-                for (const int u : facets_.at(f).triangle.vertex) changed_[u] = true;
-            }
-            return true;
-        }
-        return false;
-    }
-
-    double slenderness(const Triangle& t) const {
-        double longest2 = 0;
-        for (std::size_t k = 0; k < 3; ++k) {
-            const Vec3 d = facets_.position(t.vertex[k]) - facets_.position(t.vertex[(k + 1) % 3]);
-            longest2 = std::max(longest2, glm::dot(d, d));
-        }
-        return longest2 > 0 ? glm::length(facets_.area_vector(t)) / longest2 : 0;
-    }
-
-    // Whether the facets that come, around `to`, are shaped and near enough. What costs least is asked of all first.
-    bool accept(const Change& change, int v, int to, double tolerance) const {
-        if (v == to) return false;
-        double thinnest = slender;
-        for (const int f : change.out)
-            if (flat_normals_[f] == Vec3(0.0)) thinnest = std::min(thinnest, slenderness(facets_.at(f).triangle));
-        for (const Facet& f : change.in)
-            if (flat_normal(f) == Vec3(0.0) && slenderness(f.triangle) < thinnest) return false;
-        for (const Facet& f : change.in) {
-            const FacetShape s = judge_.shape(facets_, f, upright);
-            if (s.cosine < upright || s.saturated || s.distance > tolerance) return false;
-        }
-        for (const Facet& f : change.in) {
-            const auto& t = f.triangle.vertex;
-            // The edge opposite did not change, and the one before is the next of another facet that comes, or old.
-            const std::size_t k = std::size_t(std::find(t.begin(), t.end(), to) - t.begin());
-            const Vec3 x = facets_.position(to), a = facets_.position(t[(k + 1) % 3]),
-                       b = facets_.position(t[(k + 2) % 3]);
-            if (!judge_.is_near_within({x, a, b}, tolerance)) return false;
-            if (!facets_.joined(to, t[(k + 1) % 3]) && !judge_.is_near_between(x, a, tolerance)) return false;
-        }
-        return true;
-    }
-
-    Facets facets_;
-    const FacetJudge& judge_;
-    double tolerance_;
-    const DecimationOptions options_;
-    std::size_t left_;  // triangles
-    std::vector<char> border_, first_;
-    std::vector<Vec3> flat_normals_;  // of facets; 0: curved
-    // Of the vertex that is looked at.
-    std::vector<Candidate> candidates_;
-    std::vector<Opposite> opposite_, opposite_of_other_;
-    std::vector<LeafSurface> pieces_;
-    std::size_t planes_ = 0;
-    std::vector<char> changed_;  // vertices whose facets have changed since they were looked at
-    int spare_ = -1;             // a vertex of no facet
-};
+// Triangles of a block: of one that is smaller too much is border.
+constexpr std::size_t most_of_block = 10'000;
+constexpr double share_of_blocks = 0.85;  // of all the work, the rest being where they meet
 
 // What is known of those that were kept, by their numbers before; `since` for what was put in since.
 template <class T>
@@ -374,29 +23,28 @@ std::vector<T> kept(const std::vector<int>& numbers, const std::vector<T>& known
 }
 
 // Returns how many vertices went.
-std::size_t decimate_block(MeshBlock& block, const FacetJudge& judge, double tolerance,
-                           const DecimationOptions& options) {
-    Decimation decimation(block.mesh, block.origins, judge, tolerance, options);
-    decimation.keep_border(block.on_border);
-    const std::size_t gone = decimation.run();
+std::size_t decimate_block(MeshBlock& block, const FacetJudge& judge, double tolerance, std::span<const Box> dense,
+                           CancelFlag cancel) {
     std::vector<int> vertices, normals;
-    decimation.finish(&vertices, &normals);
+    const std::size_t gone =
+        collapse_edges(block.mesh, block.origins, judge, tolerance,
+                       {.dense = dense, .border = block.on_border, .cancel = cancel}, &vertices, &normals);
     block.vertices = kept(vertices, block.vertices, -1);
     block.normals = kept(normals, block.normals, -1);
     block.on_border = kept(vertices, block.on_border, char(false));
     return gone;
 }
 
-constexpr double share_of_blocks = 0.85;  // of all the work, the rest being where they meet
-
 // Blocks of a large mesh by themselves, side by side; returns how many vertices went. `border` gets the vertices where
 // blocks meet.
 std::size_t decimate_blocks(Mesh& mesh, std::vector<Origin>& origins, const FacetJudge& judge, double tolerance,
-                            const DecimationOptions& options, std::size_t most, std::vector<char>& border) {
-    std::vector<MeshBlock> blocks = cut_into_blocks(mesh, origins, most);
+                            const DecimationOptions& options, std::vector<char>& border) {
+    std::vector<MeshBlock> blocks = cut_into_blocks(mesh, origins, most_of_block);
     std::vector<std::size_t> gone(blocks.size(), 0);
     in_parallel(blocks.size(), [&](std::size_t k) {
-        judge.lend([&](const FacetJudge& own) { gone[k] = decimate_block(blocks[k], own, tolerance, options); });
+        judge.lend([&](const FacetJudge& own) {
+            gone[k] = decimate_block(blocks[k], own, tolerance, options.dense, options.cancel);
+        });
         if (options.progress) options.progress->advance(share_of_blocks / double(blocks.size()));
     });
     border = join_blocks(blocks, mesh, origins);
@@ -408,17 +56,17 @@ std::size_t decimate_blocks(Mesh& mesh, std::vector<Origin>& origins, const Face
 std::size_t decimate(Mesh& mesh, std::vector<Origin>& origins, const FacetJudge& judge, double tolerance,
                      const DecimationOptions& options) {
     if (mesh.triangles.empty()) return 0;
-    // Triangles of a block: of one that is smaller too much is border.
-    constexpr std::size_t most = 10'000;
     std::size_t gone = 0;
     std::vector<char> border;
-    const bool in_blocks = options.enough == 0 && mesh.triangles.size() > 2 * most;
-    if (in_blocks) gone = decimate_blocks(mesh, origins, judge, tolerance, options, most, border);
-    Decimation decimation(mesh, origins, judge, tolerance, options);
-    if (in_blocks) decimation.look_around(border);
-    gone += decimation.run(in_blocks ? 1 - share_of_blocks : 1);
-    if (gone > 0) decimation.finish();
-    return gone;
+    const bool in_blocks = options.enough == 0 && mesh.triangles.size() > 2 * most_of_block;
+    if (in_blocks) gone = decimate_blocks(mesh, origins, judge, tolerance, options, border);
+    return gone + collapse_edges(mesh, origins, judge, tolerance,
+                                 {.dense = options.dense,
+                                  .around = border,
+                                  .enough = options.enough,
+                                  .cancel = options.cancel,
+                                  .progress = options.progress,
+                                  .share_of_phase = in_blocks ? 1 - share_of_blocks : 1});
 }
 
 }  // namespace deburr

@@ -1,9 +1,4 @@
-// Vertices that a mesh does not need to stay within a tolerance of the surface go by edge collapses: onto one of the
-// edge's own vertices, or both onto the surface at its middle. So all vertices stay on the surface.
-//
-// Flat faces stay exactly flat, creases and borders of materials stay lines of edges, and the mesh stays closed and
-// outward. What is held against the tolerance: thirteen points of every triangle that a collapse changes, spread over
-// its inside and its edges, and the vertices that go.
+// A mesh within a tolerance of the surface, with as few triangles as edge collapses (edge_collapses.hpp) leave.
 //
 // A large mesh is thinned out in blocks, side by side, and then where they meet. The blocks depend on the mesh alone,
 // so that the result does not depend on the number of threads.
