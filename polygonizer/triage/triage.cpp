@@ -1,20 +1,18 @@
 #include "polygonizer/triage/triage.hpp"
 
 #include <algorithm>
-#include <limits>
 #include <optional>
 #include <utility>
 
 #include "bounds/bounding_box.hpp"
 #include "bounds/sort_once.hpp"
-#include "polygonizer/mesh/crossing_triangles.hpp"
 #include "polygonizer/mesh/decimate.hpp"
 #include "polygonizer/mesh/degenerate_shells.hpp"
 #include "polygonizer/mesh/refine.hpp"
-#include "polygonizer/mesh/repair.hpp"
 #include "polygonizer/mesh/separate_touching.hpp"
 #include "polygonizer/mesh/sharp_parts.hpp"
 #include "polygonizer/mesh/simplify_borders.hpp"
+#include "polygonizer/triage/mended_mesh.hpp"
 #include "polygonizer/triage/rounds.hpp"
 #include "polygonizer/triage/surface.hpp"
 
@@ -61,130 +59,163 @@ void add_corners(const Mesh& mesh, const Triangle& triangle, std::vector<Box>& b
     for (const Vec3& corner : x) boxes.push_back(inflated(Box{corner, corner}, 0.5 * shortest));
 }
 
+constexpr std::size_t max_mending_rounds = 8, max_fine_rounds = 6;
+
+// One solid's way to a mesh, round by round. Each whole round polygonizes all cells, after some were halved.
+class Triage {
+public:
+    /// `solid` has its sharp leaves apart.
+    Triage(const SolidTree& solid, const Box& box, const TriageOptions& options)
+        : options_(options),
+          solid_(solid),
+          thin_out_(options.decimate && std::isfinite(options.tolerance)),
+          near_((options.decimate ? at_points : at_points_of_picture) * options.tolerance),
+          slack_(thin_out_ ? of_slack * options.tolerance : 0),
+          subdivision_(solid, box, subdivision_options()),
+          // Where surfaces nearly touch, halves of what is too far may be too far for ever.
+          local_(subdivision_, solid, slack_, 8 * subdivision_.complex.cells.size() + 20'000, options.cancel) {}
+
+    Mesh run() {
+        while (mending_ < max_mending_rounds) {
+            throw_if_cancelled(options_.cancel);
+            polygonize();
+            if (!cut_leaning() && !refine() && finish()) break;
+        }
+        simplify_borders(best_.mesh, best_.origins, *judge_, best_.farthest);
+        merge_close(best_.mesh);
+        return std::move(best_.mesh);
+    }
+
+    TriageStatistics statistics() const {
+        TriageStatistics s{subdivision_.complex.cells.size(), 0, whole_rounds_};
+        for (const int node : subdivision_.node_of) s.open_cells += subdivision_.nodes[node].side == Side::straddling;
+        return s;
+    }
+
+private:
+    // Shares of what is left, as they are with most models.
+    void begin(double share) const {
+        if (options_.progress) options_.progress->begin(share);
+    }
+
+    SubdivisionOptions subdivision_options() const {
+        begin(0.25);
+        return {options_.max_half_spaces, options_.cancel, options_.progress};
+    }
+
+    void polygonize() {
+        begin(0.15);
+        Subspace subspace(subdivision_, slack_);
+        subspace.polygonize();
+        origins_.clear();
+        mesh_ = surface(subspace, solid_, &origins_);
+        ++whole_rounds_;
+        ++rounds_;
+    }
+
+    // Of rounds in which cells are halved.
+    std::size_t rounds_left() const {
+        const std::size_t max_rounds = std::isfinite(options_.tolerance) ? 6 : 5;
+        return max_rounds > rounds_ && local_.may_halve() ? max_rounds - rounds_ : 0;
+    }
+
+    // Without a tolerance: cuts cells whose triangles lean. Whether any were.
+    bool cut_leaning() {
+        if (rounds_left() == 0 || std::isfinite(options_.tolerance)) return false;
+        const std::size_t times = local_.cut_leaning(cells_to_halve(mesh_, origins_, subdivision_), rounds_left());
+        if (times > 0) rounds_ += times - 1;
+        return times > 0;
+    }
+
+    // Refines the mesh within its cells, and cuts those where that does not help. Whether any were cut.
+    bool refine() {
+        if (!judge_) judge_.emplace(solid_, mesh_);
+        drop_flat_shells(mesh_, origins_, 10 * subdivision_.complex.tolerance, judge_->solid());
+        std::vector<int> left, wrong;
+        std::vector<Cut> far, around_wrong;
+        if (std::isfinite(options_.tolerance)) {
+            begin(0.2);
+            left = deburr::refine(mesh_, origins_, *judge_, near_, options_.cancel, &good_);
+            // What halves do not help is looked at again when all is done, by the tolerance itself.
+            if (rounds_left() > 0) far = local_.hopeful_far(cells_to_halve(mesh_, origins_, left, subdivision_));
+        }
+        if (thin_out_) {
+            // Facets that lean are mended first, while there are small ones to do it with. Smaller cells for those that
+            // cannot be mended cost less before the rest is thinned out, as long as they help.
+            wrong =
+                wrong_before_decimation(mesh_, origins_, *judge_, options_.tolerance, left, options_.cancel, &good_);
+            if (mending_ < max_fine_rounds && local_.may_halve())
+                around_wrong =
+                    without_neighbours(local_.hopeful_wrong(cells_around(mesh_, origins_, wrong, subdivision_)), far,
+                                       subdivision_.complex);
+        }
+        const bool cut =
+            !far.empty() && local_.cut_far(far, *judge_, near_, left.size(), thin_out_ ? options_.tolerance : infinity);
+        const bool mended =
+            !around_wrong.empty() && local_.mend(std::move(around_wrong), *judge_, options_.tolerance, wrong.size());
+        mending_ += mended;
+        if (!cut && !mended) return false;
+        good_.become(mesh_, origins_, thin_out_ ? wrong : left);
+        local_.know(good_);
+        return true;
+    }
+
+    // Thins the mesh out and repairs it. What that cannot help needs smaller cells around it; false if such were made.
+    bool finish() {
+        if (thin_out_) {
+            begin(0.8);
+            decimate(mesh_, origins_, *judge_, at_points * options_.tolerance,
+                     {.dense = dense_, .cancel = options_.cancel, .progress = options_.progress});
+        }
+        ++mending_;
+        std::vector<Cut> cuts[2];
+        const bool crosses = mend_both_ways(cuts);
+        if (best_.is_right() || !local_.may_halve()) return true;
+        const bool any =
+            !halve_all(subdivision_, cuts[0], crosses).empty() || !halve_all(subdivision_, cuts[1], crosses).empty();
+        if (!any && !thin_out_) return true;
+        for (const int t : best_.wrong) add_corners(best_.mesh, best_.mesh.triangles[t], dense_);
+        return false;
+    }
+
+    // Repairs the mesh with and, if that is not enough, without splits; cuts are what would help each. Whether facets
+    // cross in either.
+    bool mend_both_ways(std::vector<Cut> (&cuts)[2]) {
+        begin(0.3);
+        bool crosses = false;
+        for (const bool may_split : {true, false}) {
+            MendedMesh mended = mend(mesh_, origins_, *judge_, options_.tolerance, may_split, options_.cancel);
+            cuts[may_split] = cells_around(mended.mesh, mended.origins, mended.wrong, subdivision_);
+            crosses |= mended.crosses;
+            if (mended.is_better_than(best_)) best_ = std::move(mended);
+            if (best_.is_right()) break;
+        }
+        return crosses;
+    }
+
+    const TriageOptions& options_;
+    const SolidTree& solid_;
+    const bool thin_out_;
+    const double near_, slack_;  // for refine; of a Subspace
+    Subdivision subdivision_;
+    LocalRounds local_;
+    Mesh mesh_;  // of the round
+    std::vector<Origin> origins_;
+    MendedMesh best_;
+    std::optional<FacetJudge> judge_;
+    GoodFacets good_;  // of the last round's mesh
+    std::size_t rounds_ = 0, whole_rounds_ = 0, mending_ = 0;
+    std::vector<Box> dense_;  // where a mesh that was thinned out was wrong
+};
+
 }  // namespace
 
 Mesh triage(const SolidTree& mixed, const Box& box, const TriageOptions& options, TriageStatistics* statistics) {
     if (box.empty()) return {};
     const SolidTree solid = separate_sharp(mixed);
-    const bool thin_out = options.decimate && std::isfinite(options.tolerance);
-    // Shares of what is left, as they are with most models.
-    const auto begin = [&](double share) {
-        if (options.progress) options.progress->begin(share);
-    };
-    const double slack = thin_out ? of_slack * options.tolerance : 0;
-    begin(0.25);
-    Subdivision subdivision(solid, box, {options.max_half_spaces, options.cancel, options.progress});
-    Mesh mesh, best;
-    std::vector<Origin> origins, best_origins;
-    constexpr std::size_t most = std::numeric_limits<std::size_t>::max();
-    constexpr std::pair<std::size_t, std::size_t> none{0, 0};
-    std::pair<std::size_t, std::size_t> min_wrong{most, most};
-    double farthest = 0;
-    std::optional<FacetJudge> judge;
-    // Each round halves the cells that need it.
-    const std::size_t max_rounds = std::isfinite(options.tolerance) ? 6 : 5;
-    constexpr std::size_t max_mending_rounds = 8, max_fine_rounds = 6;
-    std::size_t rounds = 0, whole_rounds = 0, mending = 0;
-    std::vector<int> best_left;  // triangles of it that are wrong
-    std::vector<Box> dense;      // where a mesh that was thinned out was wrong
-    // Where surfaces nearly touch, halves of what is too far may be too far for ever.
-    LocalRounds local(subdivision, solid, slack, 8 * subdivision.complex.cells.size() + 20'000, options.cancel);
-    GoodFacets good;  // of the last round's mesh
-    while (mending < max_mending_rounds) {
-        throw_if_cancelled(options.cancel);
-        begin(0.15);
-        Subspace subspace(subdivision, slack);
-        subspace.polygonize();
-        origins.clear();
-        mesh = surface(subspace, solid, &origins);
-        ++whole_rounds;
-        ++rounds;
-        const bool may_cut = rounds < max_rounds && local.may_halve();
-        if (may_cut && !std::isfinite(options.tolerance))
-            if (const std::size_t times =
-                    local.cut_leaning(cells_to_halve(mesh, origins, subdivision), max_rounds - rounds)) {
-                rounds += times - 1;
-                continue;
-            }
-        if (!judge) judge.emplace(solid, mesh);
-        drop_flat_shells(mesh, origins, 10 * subdivision.complex.tolerance, judge->solid());
-        std::vector<int> left;
-        std::vector<Cut> far, around_wrong;
-        const double near = (options.decimate ? at_points : at_points_of_picture) * options.tolerance;
-        if (std::isfinite(options.tolerance)) {
-            begin(0.2);
-            left = refine(mesh, origins, *judge, near, options.cancel, &good);
-            // What halves do not help is looked at again when all is done, by the tolerance itself.
-            if (may_cut) far = local.hopeful_far(cells_to_halve(mesh, origins, left, subdivision));
-        }
-        std::vector<int> wrong;
-        if (thin_out) {
-            // Facets that lean are mended first, while there are small ones to do it with. Smaller cells for those that
-            // cannot be mended cost less before the rest is thinned out, as long as they help.
-            wrong = wrong_before_decimation(mesh, origins, *judge, options.tolerance, left, options.cancel, &good);
-            if (mending < max_fine_rounds && local.may_halve())
-                around_wrong = without_neighbours(local.hopeful_wrong(cells_around(mesh, origins, wrong, subdivision)),
-                                                  far, subdivision.complex);
-        }
-        const bool cut =
-            !far.empty() && local.cut_far(far, *judge, near, left.size(), thin_out ? options.tolerance : infinity);
-        const bool mended_some =
-            !around_wrong.empty() && local.mend(std::move(around_wrong), *judge, options.tolerance, wrong.size());
-        mending += mended_some;
-        if (cut || mended_some) {
-            good.become(mesh, origins, thin_out ? wrong : left);
-            local.know(good);
-            continue;
-        }
-        if (thin_out) {
-            begin(0.8);
-            decimate(mesh, origins, *judge, at_points * options.tolerance,
-                     {.dense = dense, .cancel = options.cancel, .progress = options.progress});
-        }
-        // What repair cannot help needs smaller cells around it.
-        begin(0.3);
-        ++mending;
-        std::vector<Cut> cuts[2];
-        bool crosses = false;
-        for (const bool may_split : {true, false}) {
-            Mesh mended = mesh;
-            std::vector<Origin> mended_origins = origins;
-            RepairStatistics repaired = repair(mended, mended_origins, *judge, options.tolerance, may_split);
-            drop_wrong_shells(mended, mended_origins, repaired.left);
-            // Facets that lean or face inward are the graver fault.
-            std::pair<std::size_t, std::size_t> faults{repaired.left.size(), 0};
-            faults.second += add_crossing(mended, repaired.left, options.cancel);
-            crosses |= faults.second > 0;
-            if (std::isfinite(options.tolerance))
-                faults.second += add_far(mended, *judge, options.tolerance, repaired.left);
-            sort_once(repaired.left);
-            cuts[may_split] = cells_around(mended, mended_origins, repaired.left, subdivision);
-            if (faults < min_wrong) {
-                min_wrong = faults;
-                farthest = repaired.farthest;
-                best = std::move(mended);
-                best_left = repaired.left;
-                best_origins = std::move(mended_origins);
-            }
-            if (min_wrong == none) break;
-        }
-        if (min_wrong == none || !local.may_halve()) break;
-        if (halve_all(subdivision, cuts[0], crosses).empty() && halve_all(subdivision, cuts[1], crosses).empty() &&
-            !thin_out)
-            break;
-        for (const int t : best_left) add_corners(best, best.triangles[t], dense);
-    }
-    mesh = std::move(best);
-    origins = std::move(best_origins);
-    simplify_borders(mesh, origins, *judge, farthest);
-    merge_close(mesh);
-    if (statistics) {
-        statistics->cells = subdivision.complex.cells.size();
-        statistics->rounds = whole_rounds;
-        statistics->open_cells = 0;
-        for (const int node : subdivision.node_of)
-            statistics->open_cells += subdivision.nodes[node].side == Side::straddling;
-    }
+    Triage work(solid, box, options);
+    Mesh mesh = work.run();
+    if (statistics) *statistics = work.statistics();
     return mesh;
 }
 
