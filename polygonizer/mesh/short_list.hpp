@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cstdint>
 #include <initializer_list>
-#include <memory>
 #include <type_traits>
 #include <utility>
 
@@ -15,11 +14,11 @@ class ShortList {
     static_assert(std::is_trivially_copyable_v<T>);
 
 public:
-    ShortList() = default;
-    ShortList(std::initializer_list<T> values) { append(values.begin(), values.end()); }
-    ShortList(const T* first, const T* last) { append(first, last); }
-    ShortList(const ShortList& other) { append(other.begin(), other.end()); }
-    ShortList(ShortList&& other) noexcept { take(other); }
+    ShortList() : more_(nullptr) {}
+    ShortList(std::initializer_list<T> values) : ShortList() { append(values.begin(), values.end()); }
+    ShortList(const T* first, const T* last) : ShortList() { append(first, last); }
+    ShortList(const ShortList& other) : ShortList() { append(other.begin(), other.end()); }
+    ShortList(ShortList&& other) noexcept : ShortList() { take(other); }
     ShortList& operator=(const ShortList& other) {
         if (this == &other) return *this;
         clear();
@@ -31,9 +30,13 @@ public:
         return *this;
     }
 
-    T* begin() { return more_ ? more_.get() : few_; }
+    ~ShortList() {
+        if (is_long()) delete[] more_;
+    }
+
+    T* begin() { return is_long() ? more_ : few_; }
     T* end() { return begin() + size_; }
-    const T* begin() const { return more_ ? more_.get() : few_; }
+    const T* begin() const { return is_long() ? more_ : few_; }
     const T* end() const { return begin() + size_; }
     T* data() { return begin(); }
     const T* data() const { return begin(); }
@@ -68,23 +71,32 @@ public:
     }
 
 private:
+    bool is_long() const { return room_ > usual; }
+
     void reserve(std::uint32_t wanted) {
         if (wanted <= room_) return;
-        room_ = std::max(2 * room_, wanted);
-        auto more = std::make_unique<T[]>(room_);
-        std::copy(begin(), end(), more.get());
-        more_ = std::move(more);
+        const std::uint32_t room = std::max(2 * room_, wanted);
+        T* more = new T[room];
+        std::copy(begin(), end(), more);
+        if (is_long()) delete[] more_;
+        more_ = more;
+        room_ = room;
     }
     void take(ShortList& other) {
-        more_ = std::move(other.more_);
-        if (!more_) std::copy(other.few_, other.few_ + other.size_, few_);
+        if (is_long()) delete[] more_;
+        if (other.is_long())
+            more_ = other.more_;
+        else
+            std::copy(other.few_, other.few_ + other.size_, few_);
         size_ = std::exchange(other.size_, 0);
         room_ = std::exchange(other.room_, usual);
     }
 
-    std::unique_ptr<T[]> more_;
     std::uint32_t size_ = 0, room_ = usual;
-    T few_[usual];
+    union {
+        T few_[usual];  // while room_ is `usual`
+        T* more_;       // when it is more
+    };
 };
 
 }  // namespace deburr

@@ -28,12 +28,22 @@ int BoundaryPolygons::material(int face, int inner, int outer) const {
 void BoundaryPolygons::collect() {
     std::vector<char> in;
     for (std::size_t c = 0; c < complex_.cells.size(); ++c) in.push_back(subspace_.inside(int(c)));
+    const auto is_in = [&](int cell) { return cell >= 0 && in[cell]; };
+    std::size_t polygons = 0, steps = 0;
+    for (std::size_t f = 0; f < complex_.faces.size(); ++f) {
+        const auto& face = complex_.faces[f];
+        if (is_in(face.back) == is_in(face.front)) continue;
+        ++polygons;
+        steps += face.loop.size();
+    }
+    polygons_.reserve(polygons);
+    steps_.reserve(steps);
+    owner_.reserve(steps);
     polygon_of_.assign(complex_.faces.size(), -1);
     for (std::size_t f = 0; f < complex_.faces.size(); ++f) {
         const auto& face = complex_.faces[f];
-        const bool back = face.back >= 0 && in[face.back];
-        const bool front = face.front >= 0 && in[face.front];
-        if (back == front) continue;
+        const bool back = is_in(face.back);
+        if (back == is_in(face.front)) continue;
         Polygon p{int(f), back ? face.back : face.front, back ? face.front : face.back, subspace_.leaf_of(int(f)), 0};
         if (!subspace_.is_polygonized(p.inner) || !subspace_.is_polygonized(p.outer)) p.leaf = Origin::wall;
         p.material = material(int(f), p.inner, p.outer);

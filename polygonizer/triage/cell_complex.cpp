@@ -124,13 +124,13 @@ CellComplex CellComplex::part(std::span<const int> cells_of_part) const {
     CellComplex to(tolerance);
     for (const int v : of_vertices.all()) to.vertices.push_back(vertices[v]);
     for (const int e : of_edges.all()) {
-        Edge& edge = to.edges.emplace_back(Edge{of_vertices[edges[e].tail], of_vertices[edges[e].head], {}});
+        Edge& edge = to.edges.push_back({of_vertices[edges[e].tail], of_vertices[edges[e].head], {}});
         for (const int f : edges[e].faces)
             if (const int face = of_faces[f]; face >= 0) edge.faces.push_back(face);
     }
     for (const int f : of_faces.all()) {
         const auto cell = [&](int c) { return c == outside ? outside : of_cells[c]; };
-        Face& face = to.faces.emplace_back(Face{{}, cell(faces[f].back), cell(faces[f].front)});
+        Face& face = to.faces.push_back({{}, cell(faces[f].back), cell(faces[f].front)});
         for (const Step s : faces[f].loop) face.loop.push_back(2 * of_edges[s >> 1] + (s & 1));
     }
     for (const int c : of_cells.all()) {

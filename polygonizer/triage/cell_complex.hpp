@@ -19,6 +19,7 @@
 #include <vector>
 
 #include "bounds/vec.hpp"
+#include "polygonizer/mesh/chunked_list.hpp"
 #include "polygonizer/mesh/short_list.hpp"
 
 namespace deburr {
@@ -51,9 +52,9 @@ public:
     CellComplex(const Box& box, double tolerance);
 
     std::vector<Vec3> vertices;
-    std::vector<Edge> edges;
-    std::vector<Face> faces;
-    std::vector<List<12>> cells;  // faces of each
+    ChunkedList<Edge> edges;
+    ChunkedList<Face> faces;
+    ChunkedList<List<12>> cells;  // faces of each
     double tolerance;
 
     int start(Step s) const { return (s & 1) ? edges[s >> 1].head : edges[s >> 1].tail; }

@@ -59,7 +59,7 @@ public:
     Subdivision(const SolidTree& solid, const Box& box, const SubdivisionOptions& options = {});
 
     CellComplex complex;
-    std::vector<PartitionNode> nodes;
+    ChunkedList<PartitionNode> nodes;
     std::vector<int> node_of;  // of each cell
 
     /// Side of the leaf throughout the cell; straddling also where nobody asked.

@@ -84,6 +84,7 @@ void Subspace::polygonize() {
         std::sort(cells.begin(), cells.end());
         cut_by(leaf, cells);
     }
+    for (Signs* signs : {&vertex_signs_, &edge_signs_, &face_labels_, &sides_}) *signs = {};
 }
 
 Side Subspace::side(int cell, int leaf) const {

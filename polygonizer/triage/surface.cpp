@@ -305,6 +305,12 @@ private:
         }
         std::sort(rings.begin(), rings.end());
         Mesh mesh;
+        // A polygon of n corners is n − 2 triangles.
+        const auto corners = std::size_t(std::ranges::count_if(next_, [](int n) { return n >= 0; }));
+        const std::size_t triangles_expected = corners - std::min(corners, 2 * rings.size());
+        mesh.triangles.reserve(triangles_expected);
+        if (origins) origins->reserve(triangles_expected);
+        mesh.positions.reserve(positions_.size());
         std::vector<std::vector<int>> loops, spare;
         for (auto ring = rings.begin(); ring != rings.end();) {
             building_ = ring->first;
