@@ -310,6 +310,21 @@ private:
         return longest2 > 0 ? glm::length(facets_.area_vector(t)) / longest2 : 0;
     }
 
+    // The other end of the longest edge at `to` that is not there yet; −1 if there is none.
+    int longest_new_edge(const Change& change, int to) const {
+        int other = -1;
+        double longest2 = 0;
+        for (const Facet& f : change.in) {
+            const auto& t = f.triangle.vertex;
+            const int next = t[(std::size_t(std::find(t.begin(), t.end(), to) - t.begin()) + 1) % 3];
+            const Vec3 d = facets_.position(next) - facets_.position(to);
+            if (glm::dot(d, d) <= longest2 || facets_.joined(to, next)) continue;
+            longest2 = glm::dot(d, d);
+            other = next;
+        }
+        return other;
+    }
+
     // Whether the facets that come, around `to`, are shaped and near enough. What costs least is asked of all first.
     bool accept(const Change& change, int v, int to, double tolerance) const {
         if (v == to) return false;
@@ -318,6 +333,10 @@ private:
             if (flat_normals_[f] == Vec3(0.0)) thinnest = std::min(thinnest, slenderness(facets_.at(f).triangle));
         for (const Facet& f : change.in)
             if (flat_normal(f) == Vec3(0.0) && slenderness(f.triangle) < thinnest) return false;
+        // Its middle is the place that is most often too far.
+        const int longest = longest_new_edge(change, to);
+        const Vec3 x = facets_.position(to);
+        if (longest >= 0 && !judge_.is_near_between(x, facets_.position(longest), tolerance)) return false;
         for (const Facet& f : change.in) {
             const FacetShape s = judge_.shape(facets_, f, upright);
             if (s.cosine < upright || s.saturated || s.distance > tolerance) return false;
@@ -326,10 +345,10 @@ private:
             const auto& t = f.triangle.vertex;
             // The edge opposite did not change, and the one before is the next of another facet that comes, or old.
             const std::size_t k = std::size_t(std::find(t.begin(), t.end(), to) - t.begin());
-            const Vec3 x = facets_.position(to), a = facets_.position(t[(k + 1) % 3]),
-                       b = facets_.position(t[(k + 2) % 3]);
+            const int next = t[(k + 1) % 3];
+            const Vec3 a = facets_.position(next), b = facets_.position(t[(k + 2) % 3]);
             if (!judge_.is_near_within({x, a, b}, tolerance)) return false;
-            if (!facets_.joined(to, t[(k + 1) % 3]) && !judge_.is_near_between(x, a, tolerance)) return false;
+            if (next != longest && !facets_.joined(to, next) && !judge_.is_near_between(x, a, tolerance)) return false;
         }
         return true;
     }
