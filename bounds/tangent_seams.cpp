@@ -33,7 +33,46 @@ Vec3 any_across(Vec3 axis) {
     return glm::normalize(glm::cross(axis, std::abs(axis.x) < 0.5 ? Vec3(1, 0, 0) : Vec3(0, 1, 0)));
 }
 
-// Where the surfaces of two parts have a point and their normal in common.
+Vec3 apex_of(const HalfSpace& cone) {
+    return cone.round->center + cone.round->axis * (cone.offset / cone.round->along);
+}
+
+// A line on a cylinder, or the half of one that begins in a cone's apex: there the surface has one normal.
+struct Ruling {
+    Vec3 from, along;
+    bool is_half;
+    bool reaches(Vec3 x, double near) const { return !is_half || glm::dot(x - from, along) >= -near; }
+};
+
+// Where a cylinder or cone has this normal, which is at the angle to its axis that its normals have.
+Ruling ruling(const HalfSpace& h, Vec3 normal) {
+    const RoundCoordinate& c = *h.round;
+    if (!c.is_cone()) return {c.center + h.offset * normal, c.axis, false};
+    const Vec3 along = glm::normalize(c.axis - normal * c.along);
+    return {apex_of(h), c.along > 0 ? -along : along, true};
+}
+
+// Unit vectors n with n·a = p and n·b = q, where a and b are unit vectors that are not parallel: none, two, or also the
+// one in their plane, if the two are as near to it as rounding may have moved them.
+struct UnitVectors {
+    int count = 0;
+    Vec3 all[3];
+    const Vec3* begin() const { return all; }
+    const Vec3* end() const { return all + count; }
+};
+UnitVectors common_normals(Vec3 a, double p, Vec3 b, double q) {
+    const double tilt = glm::dot(a, b), square = 1 - tilt * tilt;
+    const Vec3 flat = (a * (p - q * tilt) + b * (q - p * tilt)) / square, out = glm::cross(a, b);
+    const double rest = 1 - glm::dot(flat, flat);
+    UnitVectors found;
+    if (std::abs(rest) < same) found.all[found.count++] = glm::normalize(flat);
+    if (rest > 0)
+        for (const double sign : {1.0, -1.0}) found.all[found.count++] = flat + out * (sign * std::sqrt(rest / square));
+    return found;
+}
+
+// Where the surfaces of two parts touch: their normals are the same there, or opposite, as those of a wall and of the
+// rod that a fillet is left by.
 class Contact {
 public:
     Contact(const Box& box) : middle_(0.5 * (box.lo + box.hi)), reach_(0.5 * glm::distance(box.lo, box.hi)) {}
@@ -47,124 +86,151 @@ public:
             tube(*b, *a);
             return points_;
         }
-        switch (shape_of(*a)) {
-            case Shape::plane: plane(*a, *b); break;
-            case Shape::sphere: sphere(*a, *b); break;
-            case Shape::cylinder: cylinder(*a, *b); break;
-            default: break;
-        }
+        for (const double side : {1.0, -1.0}) switch (shape_of(*a)) {
+                case Shape::plane: plane(*a, *b, side); break;
+                case Shape::sphere: sphere(*a, *b, side); break;
+                default: ruled(*a, *b, side);
+            }
         return points_;
     }
 
 private:
     bool equal(double x, double y) const { return std::abs(x - y) <= near_; }
+    bool is_parallel(Vec3 a, Vec3 b) const { return std::abs(glm::dot(a, b)) >= 1 - same; }
 
-    // Through x, along the unit direction, as far as the box is.
-    void line(Vec3 x, Vec3 direction) {
+    void add(Vec3 x) { points_.push_back(x); }
+    // Along the line, as far as the box is.
+    template <class Reaches>
+    void line(Vec3 x, Vec3 direction, Reaches reaches) {
         const Vec3 nearest = x + direction * glm::dot(direction, middle_ - x);
-        for (int k = 0; k <= along; ++k) points_.push_back(nearest + direction * (reach_ * (2.0 * k / along - 1)));
+        for (int k = 0; k <= along; ++k) {
+            const Vec3 y = nearest + direction * (reach_ * (2.0 * k / along - 1));
+            if (reaches(y)) add(y);
+        }
     }
     void circle(Vec3 center, Vec3 axis, double radius) {
         const Vec3 u = any_across(axis), v = glm::cross(axis, u);
         for (int k = 0; k < along; ++k) {
             const double angle = 2 * 3.14159265358979323846 * (k + 0.5) / along;
-            points_.push_back(center + radius * (std::cos(angle) * u + std::sin(angle) * v));
+            add(center + radius * (std::cos(angle) * u + std::sin(angle) * v));
         }
     }
 
-    void plane(const HalfSpace& p, const HalfSpace& other) {
+    // In what follows the second part's normal is `side` times the first one's.
+
+    void plane(const HalfSpace& p, const HalfSpace& other, double side) {
         const RoundCoordinate& c = *other.round;
-        const double d = p.distance(c.center), R = other.offset, tilt = glm::dot(p.normal, c.axis);
-        switch (shape_of(other)) {
-            case Shape::sphere:
-                if (equal(std::abs(d), R)) points_.push_back(c.center - d * p.normal);
-                break;
-            case Shape::cylinder:
-                if (std::abs(tilt) < same && equal(std::abs(d), R)) line(c.center - d * p.normal, c.axis);
-                break;
-            case Shape::cone: {
-                const Vec3 apex = c.center + c.axis * (R / c.along);
-                if (!equal(p.distance(apex), 0) || std::abs(std::abs(tilt) - std::abs(c.along)) > same) break;
-                line(apex, glm::normalize(c.axis - p.normal * tilt));
-                break;
-            }
-            default: break;
-        }
-    }
-
-    void sphere(const HalfSpace& ball, const HalfSpace& other) {
-        const RoundCoordinate &c = *other.round, &b = *ball.round;
-        const Vec3 away = b.center - c.center;
-        switch (shape_of(other)) {
-            case Shape::sphere: {
-                const double distance = glm::length(away);
-                if (distance > near_ && equal(distance, std::abs(ball.offset - other.offset)))
-                    points_.push_back(b.center +
-                                      away * ((ball.offset < other.offset ? 1 : -1) * ball.offset / distance));
-                break;
-            }
-            case Shape::cylinder: {
-                const Vec3 out = away - c.axis * glm::dot(c.axis, away);
-                const double distance = glm::length(out);
-                if (distance <= near_ && equal(ball.offset, other.offset))
-                    circle(b.center, c.axis, ball.offset);
-                else if (distance > near_ && equal(distance, std::abs(ball.offset - other.offset)))
-                    points_.push_back(b.center +
-                                      out * ((ball.offset < other.offset ? 1 : -1) * ball.offset / distance));
-                break;
-            }
-            case Shape::cone: {
-                // A ball within: it touches along a circle where its center has the distance R from the cone's side.
-                const double t = glm::dot(c.axis, away);
-                if (glm::length(away - c.axis * t) > near_ || !equal(other.offset - c.along * t, ball.offset)) break;
-                circle(b.center + c.axis * (c.along * ball.offset), c.axis, c.across * ball.offset);
-                break;
-            }
-            default: break;
-        }
-    }
-
-    void cylinder(const HalfSpace& rod, const HalfSpace& other) {
-        const RoundCoordinate &r = *rod.round, &c = *other.round;
-        const double tilt = std::abs(glm::dot(r.axis, c.axis));
-        const Vec3 away = r.center - c.center, out = away - c.axis * glm::dot(c.axis, away);
-        const double distance = glm::length(out);
-        if (shape_of(other) != Shape::cylinder) return;
-        if (tilt >= 1 - same) {
-            if (distance > near_ && equal(distance, std::abs(rod.offset - other.offset)))
-                line(r.center + out * ((rod.offset < other.offset ? 1 : -1) * rod.offset / distance), r.axis);
+        const Vec3 normal = side * p.normal;
+        if (shape_of(other) == Shape::sphere) {
+            const Vec3 x = c.center + other.offset * normal;
+            if (equal(p.distance(x), 0)) add(x);
             return;
         }
-        // Both have the normal n, along which the axes are apart, where they touch.
-        const Vec3 n = glm::normalize(glm::cross(r.axis, c.axis)), nearest = nearest_to(r, c);
-        for (const double side : {1.0, -1.0})
-            if (equal(glm::dot(n, c.center - r.center), side * (rod.offset - other.offset)))
-                points_.push_back(nearest + side * rod.offset * n);
+        if (std::abs(glm::dot(normal, c.axis) - c.along) > same) return;
+        const Ruling at = ruling(other, normal);
+        if (equal(p.distance(at.from), 0)) line(at.from, at.along, [&](Vec3 x) { return at.reaches(x, near_); });
     }
 
-    // The point of the first axis that is nearest to the second.
-    static Vec3 nearest_to(const RoundCoordinate& first, const RoundCoordinate& second) {
-        const Vec3 across = first.axis - second.axis * glm::dot(first.axis, second.axis);
-        return first.center +
-               first.axis * (glm::dot(second.center - first.center, across) / glm::dot(first.axis, across));
+    void sphere(const HalfSpace& ball, const HalfSpace& other, double side) {
+        const RoundCoordinate &c = *other.round, &b = *ball.round;
+        const Vec3 away = b.center - c.center;
+        const double t = glm::dot(c.axis, away);
+        const Vec3 out = shape_of(other) == Shape::sphere ? away : away - c.axis * t;
+        const double distance = glm::length(out), moved = side * ball.offset;
+        if (shape_of(other) == Shape::cone) {
+            if (distance <= near_) {
+                if (side > 0 && equal(c.along * t + moved, other.offset))
+                    circle(b.center + c.axis * (c.along * moved), c.axis, c.across * moved);
+                return;
+            }
+            for (const double beyond : {1.0, -1.0}) {  // the axis
+                const double across = beyond * c.across;
+                const Vec3 normal = across / distance * out + c.along * c.axis;
+                if (equal(across * distance + c.along * t + moved, other.offset) &&
+                    beyond * distance + moved * c.across >= 0)
+                    add(b.center + moved * normal);
+            }
+            return;
+        }
+        const double apart = other.offset - moved;
+        if (distance > near_ && equal(distance, std::abs(apart)))
+            add(b.center + out * (moved / apart));
+        else if (shape_of(other) == Shape::cylinder && distance <= near_ && equal(apart, 0))
+            circle(b.center, c.axis, ball.offset);
     }
 
-    // A surface touches a tube of radius a with the same normal where, on the tube's circle, its coordinate is
-    // stationary and a less than on the surface; where it is inside the tube, the coordinate counts from its other
-    // side.
+    // Cylinders and cones. They touch where they have rulings in one tangent plane, where these cross, or all along.
+    void ruled(const HalfSpace& a, const HalfSpace& b, double side) {
+        const RoundCoordinate &p = *a.round, &q = *b.round;
+        if (!is_parallel(p.axis, q.axis)) {
+            for (const Vec3& n : common_normals(p.axis, p.along, q.axis, side * q.along))
+                rulings(ruling(a, n), ruling(b, side * n), n);
+            return;
+        }
+        const double turned = glm::dot(p.axis, q.axis) < 0 ? -1 : 1;
+        if (std::abs(p.along - turned * side * q.along) > same) return;
+        if (!p.is_cone()) {
+            const Vec3 away = p.center - q.center, out = away - q.axis * glm::dot(q.axis, away);
+            const double distance = glm::length(out), apart = side * b.offset - a.offset;
+            if (distance > near_ && equal(distance, std::abs(apart)))
+                rulings(ruling(a, out / apart), ruling(b, side * out / apart), out / apart);
+            return;
+        }
+        // Cones of one angle: the apex of one is on the other.
+        Vec3 n(0.0);
+        if (equal(p.at(apex_of(b)), a.offset))
+            n = p.gradient(apex_of(b));
+        else if (equal(q.at(apex_of(a)), b.offset))
+            n = side * q.gradient(apex_of(a));
+        if (glm::distance(apex_of(a), apex_of(b)) > near_ && n != Vec3(0.0))
+            rulings(ruling(a, n), ruling(b, side * n), n);
+    }
+
+    void rulings(const Ruling& p, const Ruling& q, Vec3 normal) {
+        const Vec3 between = q.from - p.from;
+        if (!equal(glm::dot(normal, between), 0)) return;
+        const auto reach = [&](Vec3 x) { return p.reaches(x, near_) && q.reaches(x, near_); };
+        const double turn = glm::dot(normal, glm::cross(p.along, q.along));
+        if (std::abs(turn) < same) {
+            if (equal(glm::length(between - p.along * glm::dot(between, p.along)), 0)) line(p.from, p.along, reach);
+            return;
+        }
+        const Vec3 x = p.from + p.along * (glm::dot(normal, glm::cross(between, q.along)) / turn);
+        if (reach(x)) add(x);
+    }
+
+    // A surface touches a tube of radius a where, on the tube's circle, its coordinate is stationary and a less than on
+    // the surface, or a more; where it is inside the tube, the coordinate counts from its other side.
     void tube(const HalfSpace& torus, const HalfSpace& other) {
+        if (!other.round) {
+            stationary(
+                torus, [&](Vec3 x) { return glm::dot(other.normal, x); }, [&](Vec3) { return other.normal; }, other);
+            return;
+        }
+        const auto search = [&](const RoundCoordinate& c) {
+            stationary(
+                torus, [&](Vec3 x) { return c.at(x); }, [&](Vec3 x) { return c.gradient(x); }, other);
+        };
+        search(*other.round);
+        // Points beyond the other's axis.
+        RoundCoordinate beyond = other.round->mirrored();
+        beyond.ring = -beyond.ring;
+        if (shape_of(other) == Shape::cone || shape_of(other) == Shape::torus) search(beyond);
+    }
+
+    template <class Coordinate, class Gradient>
+    void stationary(const HalfSpace& torus, Coordinate coordinate, Gradient gradient, const HalfSpace& other) {
         const RoundCoordinate& c = *torus.round;
         const Vec3 u = any_across(c.axis), v = glm::cross(c.axis, u);
         const auto tangent = [&](double angle) { return std::cos(angle) * v - std::sin(angle) * u; };
         const auto on_circle = [&](double angle) {
             return c.center + c.ring * (std::cos(angle) * u + std::sin(angle) * v);
         };
-        const auto coordinate = [&](Vec3 x) { return other.round ? other.round->at(x) : glm::dot(other.normal, x); };
-        const auto slope = [&](double angle) {
+        const auto slope = [&](double angle) { return glm::dot(gradient(on_circle(angle)), tangent(angle)); };
+        const auto touches = [&](double angle) {
             const Vec3 x = on_circle(angle);
-            return glm::dot(other.round ? other.round->gradient(x) : other.normal, tangent(angle));
+            touch(torus, other, x, tangent(angle), coordinate(x), gradient(x));
         };
-        const auto add = [&](double angle) { touch(torus, other, on_circle(angle), tangent(angle)); };
         const auto angle_of = [](int k) { return 2 * 3.14159265358979323846 * (k + 0.5) / around_tube; };
         Range values{infinity, -infinity};
         for (int k = 0; k < around_tube; ++k) {
@@ -172,7 +238,7 @@ private:
             values = {std::min(values.lo, value), std::max(values.hi, value)};
         }
         if (values.hi - values.lo <= near_) {
-            for (int k = 0; k < along; ++k) add(angle_of(k * (around_tube / along)));
+            for (int k = 0; k < along; ++k) touches(angle_of(k * (around_tube / along)));
             return;
         }
         double at_start = slope(angle_of(0));
@@ -185,43 +251,45 @@ private:
                     const double middle = 0.5 * (low + high);
                     ((slope(middle) < 0) == (at_start < 0) ? low : high) = middle;
                 }
-                add(0.5 * (low + high));
+                touches(0.5 * (low + high));
             }
             at_start = at_end;
         }
     }
 
     // Where they touch beside x, a point of the torus's circle with this tangent, at which the other's coordinate is
-    // stationary.
-    void touch(const HalfSpace& torus, const HalfSpace& other, Vec3 x, Vec3 tangent) {
-        const double a = torus.offset, apart = other.offset - a;
+    // stationary, with this value and gradient.
+    void touch(const HalfSpace& torus, const HalfSpace& other, Vec3 x, Vec3 tangent, double value, Vec3 gradient) {
         const Shape shape = shape_of(other);
-        if (shape == Shape::plane || shape == Shape::cone) {
-            const double value = other.round ? other.round->at(x) : glm::dot(other.normal, x);
-            const Vec3 normal = other.round ? other.round->gradient(x) : other.normal;
-            if (equal(value, apart)) points_.push_back(x + a * normal);
-            return;
-        }
-        const RoundCoordinate& c = *other.round;
-        if (!equal(c.at(x), std::abs(apart))) return;
-        if (std::abs(apart) > near_) {
-            points_.push_back(x + (apart > 0 ? a : -a) * c.gradient(x));
-            return;
-        }
-        // Tubes of one radius whose circles or axes meet: across both, or all around where they run on.
-        Vec3 across(0.0);
-        if (shape == Shape::cylinder) across = glm::cross(tangent, c.axis);
-        if (shape == Shape::torus) {
+        const auto try_normal = [&](Vec3 normal, double moved) {  // of the other
+            const Vec3 y = x + moved * normal;
+            if (!other.round || std::abs(other.round->at(y) - other.offset) <= 4 * near_) add(y);
+        };
+        for (const double side : {1.0, -1.0}) {
+            const double moved = side * torus.offset, apart = other.offset - moved;
+            if (shape == Shape::plane) {
+                if (equal(value, apart)) try_normal(gradient, moved);
+                continue;
+            }
+            const RoundCoordinate& c = *other.round;
+            const bool is_cone = shape == Shape::cone;
+            if (!equal(value, is_cone ? apart : std::abs(apart))) continue;
             const Vec3 y = x - c.center;
-            across = glm::cross(tangent, glm::normalize(glm::cross(c.axis, y)));
+            const bool has_normal = is_cone ? glm::length(glm::cross(c.axis, y)) > near_ : std::abs(apart) > near_;
+            if (has_normal) {
+                try_normal(is_cone || apart > 0 ? gradient : -gradient, moved);
+                continue;
+            }
+            // On the other's axis or circle: across both, or all around where they run on.
+            const Vec3 direction = shape == Shape::torus    ? glm::normalize(glm::cross(c.axis, y))
+                                   : shape == Shape::sphere ? tangent
+                                                            : c.axis;
+            if (is_parallel(tangent, direction)) {
+                if (!is_cone) circle(x, tangent, torus.offset);
+                continue;
+            }
+            for (const Vec3& n : common_normals(tangent, 0, direction, is_cone ? c.along : 0)) try_normal(n, moved);
         }
-        const double length = glm::length(across);
-        if (length < same) {
-            circle(x, tangent, a);
-            return;
-        }
-        points_.push_back(x + across * (a / length));
-        points_.push_back(x - across * (a / length));
     }
 
     Vec3 middle_;
@@ -275,7 +343,6 @@ std::vector<TangentSeam> tangent_seams(const DensityTree& tree, int max_pairs) {
             for (const Vec3& x : contact.of(a, b)) {
                 if (!inflated(box, radius).contains(x)) continue;
                 const Vec3 normal = b.normal_at(x);
-                if (!(glm::dot(normal, a.normal_at(x)) > 0)) continue;  // they touch from either side
                 // Both have to bound the solid here.
                 const DensityTree here = prune(tree, inflated({x, x}, 1e-3 * radius)).tree;
                 if (!is_in(here.half_spaces, a) || !is_in(here.half_spaces, b)) continue;

@@ -1,5 +1,5 @@
 // Places where a round part runs on smoothly into another surface: a box into a half-cylinder, a rod into its
-// hemisphere.
+// hemisphere, a wall into a fillet that a rod's outside leaves.
 //
 // Each of the two draws for itself, so the surface bulges there by up to 0.28 r, as Lobb's products of equal planes do
 // [docs/design.md, Round primitives].
@@ -16,9 +16,8 @@ struct TangentSeam {
     double radius = 0;
 };
 
-/// Of each pair of parts that touch along their surfaces and on the solid's, one place. Looked for are planes, spheres,
-/// cylinders and tori however they lie, and cones along planes, about balls and tori. At most `max_pairs` pairs are
-/// looked at.
+/// Of each pair of parts that touch along their surfaces and on the solid's, one place: planes, spheres, cylinders,
+/// cones and tori, however they lie. At most `max_pairs` pairs are looked at.
 std::vector<TangentSeam> tangent_seams(const DensityTree& tree, int max_pairs = 20'000);
 
 }  // namespace deburr

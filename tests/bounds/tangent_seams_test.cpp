@@ -64,14 +64,19 @@ TEST_CASE("where surfaces meet in edges, share a draw or touch from outside ther
 
 namespace {
 
-// A part whose surface touches that of another at x with this outward normal.
-Density touching(Gen& g, int shape, Vec3 x, Vec3 n) {
-    const Vec3 along = glm::normalize(glm::cross(n, g.point(1))), other = glm::cross(n, along);
+// A part whose surface touches that of another at x with this outward normal; rods and cones have the line `along`.
+Density touching(Gen& g, int shape, Vec3 x, Vec3 n, Vec3 along) {
+    const Vec3 other = glm::cross(n, along);
     const double R = g.between(0.3, 0.6);
     const Vec3 inside = x - R * n;
     if (shape == 0) return Density::half_space(n, glm::dot(n, x));
     if (shape == 1) return Density::sphere(inside, R);
     if (shape == 2) return rod(inside - 4.0 * along, inside + 4.0 * along, R);
+    if (shape == 4) {  // from its apex along a line that is turned out of the tangent plane
+        const double angle = g.between(0.1, 1.4), length = g.between(0.4, 1.5);
+        const Vec3 apex = x + length * along, axis = -std::cos(angle) * along - std::sin(angle) * n;
+        return Density::cone(apex, apex + 4.0 * axis, 0, 4 * std::tan(angle));
+    }
     const double ring = R + g.between(0.3, 1), angle = g.between(0, 6.28);
     const Vec3 away = std::cos(angle) * n + std::sin(angle) * other;
     return Density::torus(inside - ring * away, glm::cross(away, along), ring, R);
@@ -79,28 +84,76 @@ Density touching(Gen& g, int shape, Vec3 x, Vec3 n) {
 
 }  // namespace
 
-TEST_CASE(
-    "planes, balls, rods and rings that touch however they lie are found, and nothing a hundredth of a radius off") {
+TEST_CASE("parts that touch however they lie are found, and nothing a hundredth of a radius off") {
     const double r = 0.1;
-    int found[4][4] = {}, wrong = 0;
-    for (auto seed : seeds(400)) {
+    constexpr const char* names[] = {"plane", "ball", "rod", "ring", "cone"};
+    int tried[5][5][2] = {}, wrong = 0;
+    for (auto seed : seeds(2'000)) {
         Gen g(seed);
-        const int a = 1 + g.below(3), b = a == 3 ? g.below(4) : a == 2 ? 2 : 0;
-        CAPTURE(seed, a, b);
+        const int a = 1 + g.below(4), b = g.below(a + 1);
+        const bool opposite = g.chance(0.3);  // a fillet runs on into a wall: from without the second part
+        CAPTURE(seed, names[a], names[b], opposite);
         const Vec3 x = g.point(1), n = glm::normalize(g.point(1));
-        const Density first = touching(g, a, x, n), second = touching(g, b, x, n);
-        const auto at_x = [&](const Density& of, Vec3 place) {
-            for (const TangentSeam& seam : seams(b == 0 ? first & of : first | of, r))
-                if (glm::distance(seam.at, place) < 1e-4) return true;
+        const Vec3 along = glm::normalize(glm::cross(n, g.point(1))),
+                   across = glm::normalize(glm::cross(n, g.point(1)));
+        const Density first = touching(g, a, x, n, along), second = touching(g, b, x, opposite ? -n : n, across);
+        const bool in_line = b == 0 && (a == 2 || a == 4);
+        const auto at_x = [&](const Density& of) {
+            const Density all = opposite ? (first | ~of) & Density::box(x - 8.0, x + 8.0)
+                                : b == 0 ? first & of
+                                         : first | of;
+            for (const TangentSeam& seam : seams(all, r))
+                if (glm::length(seam.at - x - (in_line ? along * glm::dot(along, seam.at - x) : Vec3(0.0))) < 1e-4)
+                    return true;
             return false;
         };
-        CHECK(at_x(second, x));
-        found[a][b] += at_x(second, x);
-        const Vec3 off = 0.01 * r * n;
-        wrong += at_x(second.transformed({Mat3(1.0), off}), x);
+        CHECK(at_x(second));
+        ++tried[a][b][opposite];
+        wrong += at_x(second.transformed({Mat3(1.0), 0.01 * r * (g.chance(0.5) ? n : -n)}));
     }
-    for (const auto& [a, b] : {std::pair{1, 0}, {2, 2}, {3, 0}, {3, 1}, {3, 2}, {3, 3}}) CHECK(found[a][b] > 15);
+    for (int a = 1; a < 5; ++a)
+        for (int b = 0; b <= a; ++b)
+            for (const int opposite : {0, 1}) CHECK(tried[a][b][opposite] > 15);
     CHECK(wrong == 0);
+}
+
+TEST_CASE("cones that touch along a line are found, and cones and rods about one ball") {
+    const auto cone = [](Vec3 apex, Vec3 axis, double tangent) {
+        return Density::cone(apex, apex + 4.0 * axis, 0, 4 * tangent);
+    };
+    const Density wide = cone({0, 0, 0}, {0, 0, 1}, 1);
+    // Its generator through (1, 0, 1), with the normal (1, 0, −1).
+    const double R = 0.3;
+    const Vec3 n = Vec3(1, 0, -1) / std::sqrt(2.0), generator = Vec3(1, 0, 1) / std::sqrt(2.0);
+    CHECK(seams(wide | rod(0.5 * generator - R * n, 3.0 * generator - R * n, R)).size() == 1);
+    CHECK(seams(wide | cone(0.5 * generator, {0, 0, 1}, 1)).size() == 1);
+    const double narrow = 0.3, lean = 0.25 * 3.14159265358979323846 - narrow;
+    CHECK(seams(wide | cone(0.5 * generator, {std::sin(lean), 0, std::cos(lean)}, std::tan(narrow))).size() == 1);
+    CHECK(seams(wide | cone({0, 0, 0}, {std::sin(lean), 0, std::cos(lean)}, std::tan(narrow))).size() == 1);
+    CHECK(seams(wide | cone({0, 0, 0}, {0, 0, 1}, 0.5)).empty());
+    CHECK(seams(wide | cone(0.49 * generator + 0.01 * n, {0, 0, 1}, 1)).empty());
+    // The ball of radius √2 about (0, 0, 2) touches the cone; rods of its radius cross it as pipes do.
+    for (const Vec3 across : {Vec3(1, 0, 0), glm::normalize(Vec3(1, 2, 0.5)), glm::normalize(Vec3(1, 0, -0.9))}) {
+        const Vec3 middle(0, 0, 2);
+        CHECK(seams(wide | rod(middle, middle + 6.0 * across, std::sqrt(2.0))).size() == 1);
+        CHECK(seams(wide | rod(middle, middle + 6.0 * across, std::sqrt(2.0) - 1e-3)).empty());
+    }
+    // A ring, too.
+    const Density ring = Density::torus({3, 0, 2}, {0, 0, 1}, 3, std::sqrt(2.0));
+    CHECK(seams(wide | ring).size() == 1);
+}
+
+TEST_CASE("a fillet in the corner of two walls, or about a pin's foot, runs on into them") {
+    const double r = 0.05, R = 0.5;
+    const Density floor = Density::box({-3, -3, -1}, {3, 3, 0}), wall = Density::box({-1, -3, -1}, {0, 3, 3});
+    const Density corner = Density::box({-0.5, -2, -0.5}, {R, 2, R}) & ~rod({R, -4, R}, {R, 4, R}, R);
+    const auto in_corner = seams(floor | wall | corner, r);
+    CHECK(in_corner.size() == 2);
+    for (const TangentSeam& seam : in_corner) CHECK(std::min(std::abs(seam.at.x), std::abs(seam.at.z)) < 1e-9);
+    const Density pin = rod({0, 0, 0}, {0, 0, 3}, 0.6), ring = Density::torus({0, 0, R}, {0, 0, 1}, 0.6 + R, R - 1e-12);
+    CHECK(seams(floor | pin | (rod({0, 0, -0.5}, {0, 0, R}, 0.6 + R) & ~ring), r).size() == 2);
+    // A groove beside a face, with nothing between, is no seam.
+    CHECK(seams(floor & ~rod({0, -4, R}, {0, 4, R}, R - 0.01), r).empty());
 }
 
 TEST_CASE("rods of one radius that cross touch above and below, rings that run on do so all around") {
