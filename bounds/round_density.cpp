@@ -11,6 +11,10 @@ namespace {
 // Densities of more parts are evaluated by what is left of them at a point, or beside a ray.
 constexpr std::size_t max_ready = 24;
 
+// A torus is intersected at once where it is alone, and makes no product with others: a ray takes as long there as with
+// this many half-spaces more. Measured on a groove in a block.
+constexpr int torus_beside_others = 6;
+
 // A radius, in sizes of the object, that no picture and no mesh tells from 0.
 constexpr double sharp_radius = 0x1p-26;
 
@@ -208,7 +212,14 @@ std::vector<HalfSpace> RoundDensity::planes() const {
 
 LocalSize RoundDensity::local_size(const Box& box) const {
     const LocalSize size = deburr::local_size(tree_, box);
-    return {{size.range.lo - 0.5, size.range.hi - 0.5}, size.half_spaces};
+    const auto is_torus = [&](const HalfSpace& h) {
+        if (!h.round || h.round->kind != RoundCoordinate::Kind::circle) return false;
+        const Range r = density_range(h, box);
+        return r.hi > 0 && r.lo < 1;
+    };
+    const auto tori =
+        size.half_spaces > 1 ? std::count_if(tree_.half_spaces.begin(), tree_.half_spaces.end(), is_torus) : 0;
+    return {{size.range.lo - 0.5, size.range.hi - 0.5}, size.half_spaces + torus_beside_others * int(tori)};
 }
 
 FieldPtr RoundDensity::transformed_by(const Affine& map) const {

@@ -3,43 +3,40 @@
 #include <algorithm>
 
 #include "bounds/convex_search.hpp"
+#include "bounds/torus.hpp"
 
 namespace deburr {
 
 namespace {
 
-// The surface ρ = ½ of a density of one round part.
-std::optional<RoundSurface> surface_of(const LocalDensity& density) {
+std::optional<RoundSurface> if_crossed_safely(const RoundSurface& surface) {
+    const double ring = surface.coordinate.ring, tube = surface.offset;
+    if (surface.is_torus() && !(tube >= TorusOnRay::least_tube * ring && tube <= ring)) return std::nullopt;
+    return surface;
+}
+
+}  // namespace
+
+std::optional<RoundSurface> RoundSurface::of(const LocalDensity& density) {
     if (density.half_spaces().size() != 1 || !density.half_spaces()[0].round) return std::nullopt;
     const HalfSpace& h = density.half_spaces()[0];
     // ρ = v₀ + (v₁ − v₀)·F.
     const Range one[] = {{1, 1}}, zero[] = {{0, 0}};
     const double v1 = density.range(one).lo, v0 = density.range(zero).lo;
     if ((v0 > 0.5) == (v1 > 0.5)) return std::nullopt;
-    return RoundSurface{*h.round, h.offset + h.radius * displacement((0.5 - v0) / (v1 - v0)), v0 > 0.5};
+    return if_crossed_safely({*h.round, h.offset + h.radius * displacement((0.5 - v0) / (v1 - v0)), v0 > 0.5});
 }
 
-bool is_torus(const RoundSurface& surface) { return surface.coordinate.kind == RoundCoordinate::Kind::circle; }
-
-}  // namespace
-
-std::optional<RoundSurface> RoundSurface::of(const LocalDensity& density) {
-    const std::optional<RoundSurface> surface = surface_of(density);
-    return surface && is_torus(*surface) ? std::nullopt : surface;
+std::optional<RoundSurface> RoundSurface::of(const Torus& torus) {
+    return if_crossed_safely(
+        {RoundCoordinate::distance_from_circle(torus.center(), torus.axis(), torus.radius()), torus.tube(), false});
 }
 
-std::shared_ptr<const Torus> torus_of(const LocalDensity& density) {
-    const std::optional<RoundSurface> surface = surface_of(density);
-    if (!surface || !is_torus(*surface) || surface->complement) return nullptr;
-    const RoundCoordinate& c = surface->coordinate;
-    if (!(surface->offset > 0 && surface->offset <= c.ring)) return nullptr;
-    return std::make_shared<Torus>(c.center, c.axis, c.ring, surface->offset);
-}
-
-ConvexCrossings RoundSurface::crossings(const Vec3& origin, const Vec3& direction, double t0, double t1) const {
+RoundCrossings RoundSurface::crossings(const Vec3& origin, const Vec3& direction, double t0, double t1) const {
+    if (is_torus()) return TorusOnRay(coordinate, offset, complement, origin, direction, t0, t1).crossings();
     RoundOnRay ray;
     ray.set(coordinate, origin, direction);
-    ConvexCrossings all;
+    RoundCrossings all;
     bool inside = (ray.at(t0) <= offset) != complement;
     all.start_inside = inside;
     const RoundOnRay::Crossings on_ray = ray.crossings(offset);

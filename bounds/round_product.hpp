@@ -8,25 +8,29 @@
 
 #include "bounds/convex_density.hpp"
 #include "bounds/round_coordinate.hpp"
-#include "bounds/torus.hpp"
+#include "bounds/torus_on_ray.hpp"
 
 namespace deburr {
 
-/// The surface u = offset of a sphere, cylinder or cone; the solid is on the side where u is less, or on the other.
+class Torus;
+
+/// The surface u = offset of a sphere, cylinder, cone or torus; the solid is on the side where u is less, or on the
+/// other.
 struct RoundSurface {
     RoundCoordinate coordinate;
     double offset = 0;
     bool complement = false;
 
-    /// The surface ρ = ½ of a density of one round part; none of a torus, or where ρ does not cross ½.
+    /// The surface ρ = ½ of a density of one round part; none where ρ does not cross ½, or of tori that TorusOnRay is
+    /// not for.
     static std::optional<RoundSurface> of(const LocalDensity& density);
-    ConvexCrossings crossings(const Vec3& origin, const Vec3& direction, double t0, double t1) const;
+    /// Of a sharp torus.
+    static std::optional<RoundSurface> of(const Torus& torus);
+    bool is_torus() const { return coordinate.kind == RoundCoordinate::Kind::circle; }
+    RoundCrossings crossings(const Vec3& origin, const Vec3& direction, double t0, double t1) const;
     /// Out of the solid.
     Vec3 normal(const Vec3& x) const;
 };
-
-/// The set ρ > ½ of a density of one torus, which a polynomial of degree four describes; null of all others.
-std::shared_ptr<const Torus> torus_of(const LocalDensity& density);
 
 class RoundProduct {
 public:

@@ -12,15 +12,13 @@
 #include "bounds/round_product.hpp"
 #include "raytracer/simd/lanes-inl.hpp"
 #include "raytracer/simd/packet_kernels.hpp"
+#include "raytracer/simd/torus_packet-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace deburr {
 namespace HWY_NAMESPACE {
 
-HWY_INLINE V dot(const V* a, const V* b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
-HWY_INLINE V dot(const Vec3& a, const V* b) { return number(a.x) * b[0] + number(a.y) * b[1] + number(a.z) * b[2]; }
-
-// Not of circles.
+// Not of circles, but for their gradient.
 class RoundOnRays {
 public:
     HWY_INLINE RoundOnRays() {}  // one that the compiler makes is not for these instructions
@@ -131,11 +129,20 @@ public:
         V away[3];
         for (int k = 0; k < 3; ++k) away[k] = x[k] - number(c.center[k]);
         const bool point = c.kind == RoundCoordinate::Kind::point;
+        V t = zero;
         if (!point) {
-            const V t = dot(c.axis, away);
+            t = dot(c.axis, away);
             for (int k = 0; k < 3; ++k) away[k] = away[k] - number(c.axis[k]) * t;
         }
         const V length = hn::Sqrt(dot(away, away));
+        if (c.kind == RoundCoordinate::Kind::circle) {
+            for (int k = 0; k < 3; ++k)
+                g[k] =
+                    (length - number(c.ring)) * select(length > zero, away[k] / length, zero) + t * number(c.axis[k]);
+            const V whole = hn::Sqrt(dot(g, g));
+            for (int k = 0; k < 3; ++k) g[k] = select(whole > zero, g[k] / whole, zero);
+            return;
+        }
         for (int k = 0; k < 3; ++k) {
             g[k] = select(length > zero, away[k] / length, zero);
             if (!point) g[k] = number(c.across) * g[k] + number(c.along) * number(c.axis[k]);
@@ -163,11 +170,23 @@ HWY_INLINE Lanes surface_crossings_of(const RoundSurface& surface, const RayPack
     for (std::size_t first = 0; first < RayPacket::size; first += hn::Lanes(d)) {
         const Lanes part = part_of(lanes, first);
         if (part == 0) continue;
-        RoundOnRays on_rays;
-        on_rays.set(surface.coordinate, Rays(rays, first));
         const V lo = hn::Load(d, spans.from + first), hi = hn::Load(d, spans.to + first);
         const M asked = mask_of(part),
                 complement = surface.complement ? hn::Not(hn::Xor(asked, asked)) : hn::Xor(asked, asked);
+        const auto keep = [&](M any, M enters, V t) {
+            hn::Store(t, d, found.t + first);
+            hn::Store(number(-1), d, found.plane + first);
+            crossed |= bits_of(any) << first;
+            found.entering |= bits_of(and_(any, enters)) << first;
+        };
+        if (surface.is_torus()) {
+            const TorusOnRays torus(surface.coordinate, surface.offset, surface.complement, Rays(rays, first), lo, hi);
+            const auto f = torus.first(asked);
+            keep(f.any, hn::Xor(f.into, complement), f.t);
+            continue;
+        }
+        RoundOnRays on_rays;
+        on_rays.set(surface.coordinate, Rays(rays, first));
         const M starts_inside = hn::Xor(on_rays.at(lo) <= offset, complement);
         const auto c = on_rays.crossings(offset);
         const auto enters = [&](V t) { return hn::Xor(on_rays.slope(t) < zero, complement); };
@@ -177,11 +196,7 @@ HWY_INLINE Lanes surface_crossings_of(const RoundSurface& surface, const RayPack
         };
         const M at_first = counts(c.has_first, c.first), at_second = and_not(counts(c.has_second, c.second), at_first);
         const V t = select(at_first, c.first, c.second);
-        hn::Store(t, d, found.t + first);
-        hn::Store(number(-1), d, found.plane + first);
-        const M any = or_(at_first, at_second);
-        crossed |= bits_of(any) << first;
-        found.entering |= bits_of(and_(any, enters(t))) << first;
+        keep(or_(at_first, at_second), enters(t), t);
     }
     return crossed;
 }

@@ -4,6 +4,7 @@
 
 #include "bounds/decision_diagram.hpp"
 #include "bounds/round_density.hpp"
+#include "bounds/torus.hpp"
 
 namespace deburr {
 namespace {
@@ -71,18 +72,19 @@ void LocalSolid::add_leaf(const SolidLeaf& leaf, const Box& box, const Tolerance
                           std::optional<bool>& constant) {
     if (leaf.field) {  // pruned to where it straddles
         leaves_.push_back({Vec3(0.0), 0, int(softs_.size()), leaf.material});
-        FieldPtr field = leaf.field;
         const auto keep = [&](auto form) { softs_.push_back({std::move(form), std::size_t(leaf.field->size())}); };
         const auto* round = dynamic_cast<const RoundDensity*>(leaf.field.get());
         if (round && round->local() && root_method != RootMethod::always) {
             if (auto surface = RoundSurface::of(*round->local())) return keep(*std::move(surface));
             if (auto sum = ProductSum::of(*round->local(), tolerances.clearance())) return keep(*std::move(sum));
             if (auto product = RoundProduct::of(*round->local())) return keep(*std::move(product));
-            if (auto torus = torus_of(*round->local())) field = std::move(torus);
         }
-        const Box seen = intersection(box, inflated(field->bounding_box(), tolerances.margin()));
-        const double max_noise_scale = !seen.empty() && seen.finite() ? field->max_noise_scale(seen) : 0;
-        return keep(SearchedField{std::move(field), max_noise_scale});
+        const auto* torus = dynamic_cast<const Torus*>(leaf.field.get());
+        if (torus && root_method != RootMethod::always)
+            if (auto surface = RoundSurface::of(*torus)) return keep(*std::move(surface));
+        const Box seen = intersection(box, inflated(leaf.field->bounding_box(), tolerances.margin()));
+        const double max_noise_scale = !seen.empty() && seen.finite() ? leaf.field->max_noise_scale(seen) : 0;
+        return keep(SearchedField{leaf.field, max_noise_scale});
     }
     const auto prepared = [&] {
         try {

@@ -160,8 +160,8 @@ private:
     void sum_crossings(const ProductSum& sum, const Vec3& origin, const Vec3& direction, double t0, double t1,
                        bool coarse, CrossingScratch& scratch, bool* start_inside, Visit visit) const;
     // Of a round surface or product, which it names `round`.
-    template <class Round, class Visit>
-    void visit_round(const Round& round, const ConvexCrossings& all, const Vec3& origin, const Vec3& direction,
+    template <class Round, class Crossings, class Visit>
+    void visit_round(const Round& round, const Crossings& all, const Vec3& origin, const Vec3& direction,
                      CrossingScratch& scratch, bool* start_inside, Visit visit) const;
     template <class Visit>
     void soft_crossings(const Soft& soft, const Vec3& origin, const Vec3& direction, double t0, double t1,

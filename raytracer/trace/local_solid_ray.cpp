@@ -115,8 +115,8 @@ void LocalSolid::crossings_of(const SearchedField& searched, const Vec3& origin,
     }
 }
 
-template <class Round, class Visit>
-void LocalSolid::visit_round(const Round& round, const ConvexCrossings& all, const Vec3& origin, const Vec3& direction,
+template <class Round, class Crossings, class Visit>
+void LocalSolid::visit_round(const Round& round, const Crossings& all, const Vec3& origin, const Vec3& direction,
                              CrossingScratch& scratch, bool* start_inside, Visit visit) const {
     if (start_inside) *start_inside = all.start_inside;
     scratch.error = Tolerances{scale_}.of_round();

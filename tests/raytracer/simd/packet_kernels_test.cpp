@@ -238,7 +238,7 @@ void check_surface(const PacketFunctions& functions, const RoundSurface& surface
     nearest.entering = found.entering;
     functions.surface_normals(surface, p.rays, found.t, lanes, nearest, normal);
     for_each_lane(p.lanes, [&](int k) {
-        const ConvexCrossings all = surface.crossings(p.origin(k), p.direction(k), p.spans.from[k], p.spans.to[k]);
+        const RoundCrossings all = surface.crossings(p.origin(k), p.direction(k), p.spans.from[k], p.spans.to[k]);
         REQUIRE(bool(lanes >> k & 1) == (all.count > 0));
         if (all.count == 0) return;
         ++crossed;
@@ -303,6 +303,30 @@ TEST_CASE("rays of a packet cross round parts, and sums with these, where they d
         CHECK(tally.crossed > 1'000);
         CHECK(tally.missed > 1'000);
         CHECK(tally.split > 100);
+    }
+}
+
+TEST_CASE("rays of a packet cross tori where they do alone, to the bit") {
+    for (const auto& [name, functions] : packet_instructions()) {
+        CAPTURE(name);
+        int crossed = 0;
+        for (auto seed : seeds(4'000)) {
+            CAPTURE(seed);
+            Gen g(seed);
+            const double R = std::pow(10, g.between(-2, 1)), tube = R * (g.chance(0.3) ? 1e-3 : g.between(0.02, 1));
+            const RoundCoordinate circle = RoundCoordinate::distance_from_circle(g.point(1), g.direction(), R);
+            const RoundSurface torus{circle, tube, g.chance(0.3)};
+            Packet p(g);
+            const Vec3 u = glm::normalize(glm::cross(circle.axis, g.direction()));
+            const auto near = [&] {  // at the tube, within, or anywhere
+                const Vec3 out = glm::normalize(u + g.point(2) - circle.axis);
+                const Vec3 across = glm::normalize(out - circle.axis * glm::dot(circle.axis, out));
+                return circle.center + R * across + tube * (g.chance(0.5) ? g.direction() : g.point(3));
+            };
+            aim(g, p, near, [&] { return g.chance(0.3) ? circle.axis : g.direction(); });
+            check_surface(*functions, torus, p, crossed);
+        }
+        CHECK(crossed > 8'000);
     }
 }
 
