@@ -26,8 +26,6 @@ struct KeptEdges {
     Kind edges = Kind::none;   // those at which the faces turn by 30° or more
     std::vector<Box> regions;  // sides may be infinite
     double fade = 0;           // w > 0
-
-    bool any() const { return edges != Kind::none || !regions.empty(); }
 };
 
 class LocalRadius {

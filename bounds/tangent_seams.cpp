@@ -1,6 +1,7 @@
 #include "bounds/tangent_seams.hpp"
 
 #include <algorithm>
+#include <numbers>
 
 #include "bounds/bounding_box.hpp"
 #include "bounds/box_range.hpp"
@@ -14,10 +15,10 @@ using Kind = RoundCoordinate::Kind;
 constexpr double same = 1e-6;
 // A bulge of less is not told, in radii.
 constexpr double least_bulge = 0.02;
-// Points along a line or a circle of contact that are looked at.
-constexpr int along = 64;
+// So many points along a line or a circle of contact are looked at.
+constexpr int looked_at = 64;
 // Places of a torus's circle between which the other's coordinate is stationary once at the most, but for tori that
-// nearly touch twice: a multiple of `along`.
+// nearly touch twice: a multiple of `looked_at`.
 constexpr int around_tube = 256;
 
 enum class Shape { plane, sphere, cylinder, cone, torus };
@@ -103,15 +104,15 @@ private:
     template <class Reaches>
     void line(Vec3 x, Vec3 direction, Reaches reaches) {
         const Vec3 nearest = x + direction * glm::dot(direction, middle_ - x);
-        for (int k = 0; k <= along; ++k) {
-            const Vec3 y = nearest + direction * (reach_ * (2.0 * k / along - 1));
+        for (int k = 0; k <= looked_at; ++k) {
+            const Vec3 y = nearest + direction * (reach_ * (2.0 * k / looked_at - 1));
             if (reaches(y)) add(y);
         }
     }
     void circle(Vec3 center, Vec3 axis, double radius) {
         const Vec3 u = any_across(axis), v = glm::cross(axis, u);
-        for (int k = 0; k < along; ++k) {
-            const double angle = 2 * 3.14159265358979323846 * (k + 0.5) / along;
+        for (int k = 0; k < looked_at; ++k) {
+            const double angle = 2 * std::numbers::pi * (k + 0.5) / looked_at;
             add(center + radius * (std::cos(angle) * u + std::sin(angle) * v));
         }
     }
@@ -238,7 +239,7 @@ private:
             values = {std::min(values.lo, value), std::max(values.hi, value)};
         }
         if (values.hi - values.lo <= near_) {
-            for (int k = 0; k < along; ++k) touches(angle_of(k * (around_tube / along)));
+            for (int k = 0; k < looked_at; ++k) touches(angle_of(k * (around_tube / along)));
             return;
         }
         double at_start = slope(angle_of(0));

@@ -176,6 +176,8 @@ Scene load_scene(const Options& o) {
             fmt::format("{}: expected a model file with --round, --keep-sharp, --fade, --up, --color or --material, "
                         "got a scene, which says these itself",
                         o.scene));
+    if (o.model.keep.fade && !o.model.keep.any())
+        throw UsageError("--fade: expected --keep-sharp with it, beside which the rounding fades");
     ModelSettings model = o.model;
     model.ground = !o.model_only;
     Scene scene = is_model ? model_scene(o.scene, model) : read_scene(o.scene, o.defines, {}, o.model_folders);

@@ -57,9 +57,10 @@ bool varies_in_radius(const SolidTree& tree) {
 // Triage follows half-spaces, and radii that are the same everywhere: what has none it cannot see.
 void need_densities(const SolidTree& solid, std::size_t id) {
     if (!solid.has_free_form()) return;
-    const char* found = varies_in_radius(solid) ? "a model with a radius that varies (keep_sharp)" : "a free form";
+    const char* found = varies_in_radius(solid) ? "a model with a radius that varies (keep_sharp)"
+                                                : "a free form or a sharp round part";
     throw UnsupportedError(fmt::format(
-        "--method triage: expected rounded polyhedra, got {} in solid {}; use octree or marching-cubes", found, id));
+        "--method triage: expected rounded solids, got {} in solid {}; use octree or marching-cubes", found, id));
 }
 
 double octree_tolerance(const SolidTree& tree, const Box& box, const MeshSettings& settings) {

@@ -28,7 +28,7 @@ FieldPtr rounded_mesh(ClosedMeshPtr mesh, double radius, const KeepSharp& keep, 
         above.lo[up] = *keep.above;
         kept.regions.push_back(above);
     }
-    if (radius == 0 || !kept.any()) return std::make_shared<MeshField>(std::move(mesh), radius);
+    if (radius == 0 || !keep.any()) return std::make_shared<MeshField>(std::move(mesh), radius);
     return std::make_shared<SelectiveMeshField>(std::move(mesh), radius, std::move(kept));
 }
 

@@ -16,6 +16,8 @@ struct KeepSharp {
     std::vector<Box> boxes;
     std::optional<double> fade;  // > 0; none: three radii
 
+    /// Whether anything stays sharp.
+    bool any() const { return edges != KeptEdges::Kind::none || below || above || !boxes.empty(); }
     /// All of it.
     std::string text() const;
 };

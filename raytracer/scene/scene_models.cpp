@@ -76,7 +76,10 @@ KeepSharp keep_sharp(const LuaValue& value, const std::string& location) {
             keep.boxes.push_back({glm::min(a, b), glm::max(a, b)});
         }
     }
-    if (const LuaValue* fade = fields.find("fade")) keep.fade = number_above(*fade, fields.location("fade"), 0);
+    if (const LuaValue* fade = fields.find("fade")) {
+        keep.fade = number_above(*fade, fields.location("fade"), 0);
+        if (!keep.any()) throw BadValue(fields.location("fade"), "expected edges or keep_sharp beside it");
+    }
     return keep;
 }
 

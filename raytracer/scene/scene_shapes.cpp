@@ -204,8 +204,7 @@ SceneResult convolved(SceneCall& call) {
     const KeepSharp keep = is_nil(options) ? KeepSharp{} : keep_sharp(options, call.location("options"));
     if (const auto* model = as<PlacedModel>(as_object(call.argument(1))))
         return call.make(call.builder.solid(*model, radius, call.line, keep));
-    const bool keeps = keep.edges != KeptEdges::Kind::none || keep.below || keep.above || !keep.boxes.empty();
-    if (keeps) expected(call.name, "a model where something is kept sharp", call.argument(1));
+    if (keep.any()) expected(call.name, "a model where something is kept sharp", call.argument(1));
     const Density& density = need_density(call.argument(1), call.name, "a density or a model");
     if (density.has_radius())
         throw BadValue(call.name,

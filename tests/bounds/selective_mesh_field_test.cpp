@@ -25,8 +25,9 @@ Case random_case(Gen& g) {
     KeptEdges kept;
     kept.fade = g.between(1.5, 5) * radius;
     const Box box = mesh->bounding_box();
-    if (g.chance(0.6)) kept.edges = g.chance(0.5) ? KeptEdges::Kind::convex : KeptEdges::Kind::concave;
-    if (!kept.any() || g.chance(0.5)) {
+    const bool edges = g.chance(0.6);
+    if (edges) kept.edges = g.chance(0.5) ? KeptEdges::Kind::convex : KeptEdges::Kind::concave;
+    if (!edges || g.chance(0.5)) {
         Box region{g.point(1) + 0.5 * (box.lo + box.hi), Vec3(0.0)};
         region.hi = region.lo + Vec3(g.between(0.1, 1), g.between(0.1, 1), g.chance(0.3) ? infinity : 0.7);
         kept.regions.push_back(region);

@@ -2,6 +2,8 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
+
 #include "catch.hpp"
 #include "closed_shapes.hpp"
 #include "raytracer/cli/option_values.hpp"
@@ -95,6 +97,18 @@ TEST_CASE("a model whose radius varies is thinned out within the tolerance, and 
     CHECK(has(refused.err, "got a model with a radius that varies (keep_sharp) in solid 1"));
 }
 
+TEST_CASE("--fade without --keep-sharp is refused") {
+    const test::Folder folder;
+    test::write_file(folder / "part.stl", Shape::l_prism().stl());
+    for (const char* command : {"render", "mesh"}) {
+        const Outcome o = run({command, folder / "part.stl", "--round", "0.1", "--fade", "1", "-o",
+                               folder / (command == std::string("mesh") ? "out.stl" : "out.png")});
+        CHECK(o.code == 2);
+        CHECK(has(o.err, "--fade: expected --keep-sharp with it"));
+        CHECK(std::count(o.err.begin(), o.err.end(), '\n') == 1);
+    }
+}
+
 TEST_CASE("a scene says what stays sharp, and wrong fields are told") {
     const test::Folder folder;
     test::write_file(folder / "part.stl", Shape::l_prism().stl());
@@ -109,7 +123,8 @@ TEST_CASE("a scene says what stays sharp, and wrong fields are told") {
         {"{ edges = \"sharp\" }", "edges: expected 'convex', 'concave' or 'all'"},
         {"{ keep_sharp = { under = 1 } }", "under"},
         {"{ keep_sharp = { box = {1, 2, 3} } }", "expected two corners"},
-        {"{ fade = 0 }", "fade: expected a number > 0"}};
+        {"{ fade = 0 }", "fade: expected a number > 0"},
+        {"{ fade = 1 }", "fade: expected edges or keep_sharp beside it"}};
     for (const auto& [options, said] : wrong) {
         const Outcome o = info(options);
         CAPTURE(o.err);
