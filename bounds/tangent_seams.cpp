@@ -239,7 +239,7 @@ private:
             values = {std::min(values.lo, value), std::max(values.hi, value)};
         }
         if (values.hi - values.lo <= near_) {
-            for (int k = 0; k < looked_at; ++k) touches(angle_of(k * (around_tube / along)));
+            for (int k = 0; k < looked_at; ++k) touches(angle_of(k * (around_tube / looked_at)));
             return;
         }
         double at_start = slope(angle_of(0));

@@ -1,7 +1,5 @@
 #include "polygonizer/octree/octree.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <map>
 #include <optional>
@@ -9,14 +7,12 @@
 
 #include "bounds/bounding_box.hpp"
 #include "bounds/sort_once.hpp"
-#include "polygonizer/mesh/crossing_triangles.hpp"
-#include "polygonizer/mesh/decimate.hpp"
 #include "polygonizer/mesh/repair.hpp"
 #include "polygonizer/mesh/sharp_parts.hpp"
 #include "polygonizer/octree/octree_hard_edges.hpp"
 #include "polygonizer/octree/octree_linking.hpp"
+#include "polygonizer/octree/octree_mending.hpp"
 #include "polygonizer/octree/thin_features.hpp"
-#include "polygonizer/octree/unfold.hpp"
 
 namespace deburr {
 namespace {
@@ -355,82 +351,6 @@ private:
     std::set<std::pair<int, int>> diagonals_;  // taken, where they may be asked for twice
 };
 
-// A mesh with what is wrong with it.
-struct Mended {
-    Mesh mesh;
-    std::vector<Origin> origins;
-    std::vector<int> wrong;                            // triangles that lean or cross
-    std::pair<std::size_t, std::size_t> faults{0, 0};  // how many lean, and how many pairs cross
-};
-
-Mended mended(Mesh mesh, std::vector<Origin> origins, const FacetJudge& judge, double tolerance, CancelFlag cancel) {
-    Mended m{std::move(mesh), std::move(origins), {}, {}};
-    std::vector<std::pair<int, int>> pairs;  // that cross
-    constexpr int max_unfoldings = 3;        // what is unfolded may lie on the next
-    for (int round = 0; round < max_unfoldings; ++round) {
-        m.wrong = repair(m.mesh, m.origins, judge, tolerance).left;
-        // Where a wall is thinner than the cells, facets on its two sides face as they should and cross.
-        pairs = crossing_triangles(m.mesh, TriangleTree(m.mesh), cancel);
-        if (pairs.empty() || unfold(m.mesh, m.origins, judge, pairs) == 0) break;
-    }
-    m.faults = {m.wrong.size(), pairs.size()};
-    for (const auto& [s, t] : pairs) m.wrong.insert(m.wrong.end(), {s, t});
-    return m;
-}
-
-// The mesh with fewer triangles, within the tolerance; around what that makes wrong it stays as it was.
-Mended thinned_out(const Mended& fine, const SolidTree& solid, const OctreeOptions& options) {
-    constexpr int max_thinnings = 4;
-    constexpr double at_points = 0.85;  // of the tolerance, at the points that collapses look at
-    const FacetJudge judge(solid, fine.mesh);
-    std::vector<Box> dense;
-    for (int round = 0; round < max_thinnings; ++round) {
-        Mesh mesh = fine.mesh;
-        std::vector<Origin> origins = fine.origins;
-        decimate(mesh, origins, judge, at_points * options.tolerance,
-                 {.dense = dense, .cancel = options.cancel, .progress = options.progress});
-        Mended thin = mended(std::move(mesh), std::move(origins), judge, options.tolerance, options.cancel);
-        if (thin.faults <= fine.faults) return thin;
-        for (const int t : thin.wrong) {
-            Box box;
-            for (const int v : thin.mesh.triangles[t].vertex)
-                box = hull(box, {thin.mesh.positions[v], thin.mesh.positions[v]});
-            dense.push_back(box);
-        }
-    }
-    return fine;
-}
-
-// An edge that is not between two triangles that run through it in turn, for the message.
-std::optional<Vec3> first_fault(const Mesh& mesh) {
-    std::vector<std::array<int, 3>> edges;  // ends in order, and direction
-    for (const Triangle& t : mesh.triangles)
-        for (std::size_t k = 0; k < 3; ++k) {
-            const auto [lo, hi] = std::minmax(t.vertex[k], t.vertex[(k + 1) % 3]);
-            edges.push_back({lo, hi, t.vertex[k] == lo});
-        }
-    std::sort(edges.begin(), edges.end());
-    for (std::size_t i = 0; i < edges.size();) {
-        std::size_t end = i, forward = 0;
-        while (end < edges.size() && edges[end][0] == edges[i][0] && edges[end][1] == edges[i][1])
-            forward += std::size_t(edges[end++][2]);
-        if (end - i != 2 || forward != 1) return 0.5 * (mesh.positions[edges[i][0]] + mesh.positions[edges[i][1]]);
-        i = end;
-    }
-    return std::nullopt;
-}
-
-void check(const Mesh& mesh) {
-    const Topology t = topology(mesh);
-    if (t.manifold()) return;
-    std::string where;
-    if (const auto x = first_fault(mesh)) where = fmt::format(", first at ({:.6g}, {:.6g}, {:.6g})", x->x, x->y, x->z);
-    throw OpenMeshError(
-        fmt::format("the mesh does not close: {} edges in one triangle, {} in more than two, {} turned, {} points of "
-                    "several fans{}",
-                    t.open_edges, t.nonmanifold_edges, t.flipped_edges, t.nonmanifold_vertices, where));
-}
-
 }  // namespace
 
 double octree_edge(const SolidTree& solid, const Box& box) {
@@ -473,8 +393,9 @@ Mesh octree(const SolidTree& mixed, const Box& box, const OctreeOptions& options
         if (now.faults < best.faults) best = std::move(now);
         if (!more) break;
     }
-    if (options.decimate && std::isfinite(options.tolerance)) best = thinned_out(best, solid, options);
-    check(best.mesh);
+    if (options.decimate && std::isfinite(options.tolerance))
+        best = thinned_out(best, solid, options.tolerance, options.cancel, options.progress);
+    throw_unless_closed(best.mesh);
     return best.mesh;
 }
 

@@ -72,11 +72,11 @@ TEST_CASE(
                 d = -out;
                 break;
             case 2: {  // touches the top's circle, or the inner equator, within a ten-millionth
-                const double off = 1e-7 * (g.chance(0.5) ? 1 : -1);
-                o = ring.center + ring.radius * out + (ring.tube + off) * ring.axis;
+                const double beside = 1e-7 * (g.chance(0.5) ? 1 : -1);
+                o = ring.center + ring.radius * out + (ring.tube + beside) * ring.axis;
                 d = g.chance(0.5) ? out : around;
                 if (g.chance(0.4)) {
-                    o = ring.center + (ring.radius - ring.tube - off) * out;
+                    o = ring.center + (ring.radius - ring.tube - beside) * out;
                     d = ring.axis;
                 }
                 o -= 4.0 * d;
