@@ -9,6 +9,7 @@
 #include "raytracer/scene/lua_sandbox.hpp"
 #include "raytracer/scene/name_hints.hpp"
 #include "raytracer/scene/scene_descriptions.hpp"
+#include "raytracer/util/count_text.hpp"
 #include "raytracer/util/printable.hpp"
 
 namespace deburr {
@@ -141,8 +142,7 @@ const LuaValue& SceneCall::argument(std::size_t index) const {
 
 void SceneCall::at_most(std::size_t count) const {
     if (arguments.size() <= count) return;
-    throw BadValue(
-        name, fmt::format("expected at most {} argument{}, got {}", count, count == 1 ? "" : "s", arguments.size()));
+    throw BadValue(name, fmt::format("expected at most {}, got {}", count_of(count, "argument"), arguments.size()));
 }
 
 namespace {

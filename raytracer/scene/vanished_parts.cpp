@@ -14,6 +14,7 @@
 #include "bounds/selective_mesh_field.hpp"
 #include "raytracer/scene/box_text.hpp"
 #include "raytracer/scene/thin_walls.hpp"
+#include "raytracer/util/count_text.hpp"
 
 namespace deburr {
 namespace {
@@ -174,10 +175,10 @@ std::string thin_walls_text(const MeshField& model, const Affine& map) {
     const double scale = std::cbrt(std::abs(glm::determinant(map.linear))), thickness = scale * walls.thickness;
     const Vec3 at = map(walls.place);
     return fmt::format(
-        "walls behind {} facet{} vanish at radius {:.4g}, the thinnest {:.4g} thick near ({:.4g}, {:.4g}, {:.4g}); up "
+        "walls behind {} vanish at radius {:.4g}, the thinnest {:.4g} thick near ({:.4g}, {:.4g}, {:.4g}); up "
         "to "
         "{:.3g} they stay",
-        walls.facets, walls.facets == 1 ? "" : "s", scale * model.filter_radius(), thickness, at.x, at.y, at.z,
+        count_of(walls.facets, "facet"), scale * model.filter_radius(), thickness, at.x, at.y, at.z,
         rounded_down(thickness / vanishing_thickness));
 }
 
