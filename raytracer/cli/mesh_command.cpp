@@ -351,9 +351,9 @@ int run_mesh(const MeshCommandOptions& o) {
     const bool written = passes(o, scene, mesh);
     if (written && !o.quiet) warn_of_single_precision(o, mesh);
     clock.begin("write");
-    if (written)
-        for (const MeshOutput& output : outputs)
-            write_mesh(output, mesh, notes_of(o, scene), scene.z_up, parse_up(o.up, scene.z_up));
+    const MeshNotes notes = notes_of(o, scene);
+    for (const MeshOutput& output : outputs)
+        if (written) write_mesh(output, mesh, notes, scene.z_up, parse_up(o.up, scene.z_up));
     clock.end();
     say_statistics(o, scene, mesh, clock);
     return written ? 0 : 1;

@@ -41,7 +41,10 @@ Integrator::Integrator(const Scene& scene, const RayTracer& tracer, RenderSettin
         emits_ = emits_ || m.emission != Vec3(0.0);
         polished_ = polished_ || layers_.back().polished();
     }
-    for (const Light& light : scene.lights) lights_.emplace_back(light);
+    for (const Light& light : scene.lights) {
+        lights_.emplace_back(light);
+        samples_lights_ = samples_lights_ || lights_.back().extended();
+    }
     if (!sky_.sun().shines()) return;
     Light sun;
     sun.kind = Light::Kind::directional;

@@ -104,6 +104,7 @@ private:
     SkyLight seen_, sky_;                          // by the camera; by all else
     bool glass_ = false, emits_ = false;           // is there any
     bool polished_ = false;                        // may mirrors be traced
+    bool samples_lights_ = false;                  // is any extended
     std::shared_ptr<const PathIntegrator> paths_;  // null: a preview
 };
 

@@ -39,6 +39,7 @@ public:
         std::vector<Use> uses = std::vector<Use>(max_rays);
         std::vector<Hit> hits = std::vector<Hit>(max_rays);
         std::vector<Vec3> colors = std::vector<Vec3>(max_rays);
+        std::vector<Sampler> samplers;  // of all rays, where lights are sampled
         // Of those that hit something opaque.
         SurfaceRoom<max_rays> surfaces;
         std::array<std::uint32_t, max_rays> seen_by;
@@ -74,6 +75,8 @@ public:
         for (std::uint32_t i = 0; i < m_.count; ++i) take(i);
         if (m_.surfaces.count > 0) {
             const Surfaces surfaces = m_.surfaces.surfaces();
+            if (in_.samples_lights_)
+                for (std::size_t i = 0; i < m_.count; ++i) m_.samplers.push_back(sampler(i));
             in_.shade(surfaces, [this](std::size_t j) { return path(m_.seen_by[j]); });
             for (std::size_t j = 0; j < m_.surfaces.count; ++j)
                 m_.colors[m_.seen_by[j]] = surfaces.batch.vec(SurfaceField::shaded, j);
@@ -87,6 +90,7 @@ private:
     void clear() {
         m_.count = 0;
         m_.surfaces.count = 0;
+        m_.samplers.clear();
     }
 
     void add_to_film(std::uint32_t pixel, bool hit, Vec3 color) {
@@ -99,9 +103,13 @@ private:
         film_.sums[pixel].hits += hit;
     }
 
-    Path path(std::uint32_t i) const {
+    Sampler sampler(std::size_t i) const {
         const Use& use = m_.uses[i];
-        return {.sampler = Sampler(in_.settings_.seed, use.x, use.y, use.sample), .counters = counters_};
+        return Sampler(in_.settings_.seed, use.x, use.y, use.sample);
+    }
+
+    Path path(std::uint32_t i) const {
+        return {.sampler = m_.samplers.empty() ? sampler(i) : m_.samplers[i], .counters = counters_};
     }
 
     void take(std::uint32_t i) {

@@ -26,11 +26,12 @@ void Integrator::light(const Surfaces& surfaces, const LightSource& source, std:
                        const PathOf& path) const {
     const SurfaceBatch& batch = surfaces.batch;
     const int samples = source.samples();
-    const auto add = [&batch](SurfaceField to, SurfaceField from, double share) {
+    // Of the values in `from`, so many make one.
+    const auto add = [&batch](SurfaceField to, SurfaceField from, int many) {
         for (int axis = 0; axis < 3; ++axis) {
             double* const sum = batch.array(to, axis);
             const double* const part = batch.array(from, axis);
-            for (std::size_t i = 0; i < batch.count; ++i) sum[i] += part[i] / share;
+            for (std::size_t i = 0; i < batch.count; ++i) sum[i] += many == 1 ? part[i] : part[i] / many;
         }
     };
     if (samples > 1)

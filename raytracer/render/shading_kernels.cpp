@@ -2,8 +2,9 @@
 
 #include <numbers>
 
+#include "raytracer/simd/disabled_targets.hpp"
+
 // This file is compiled once for each set of instructions, as raytracer/simd/packet_kernels.cpp is.
-#define HWY_DISABLED_TARGETS (HWY_SSSE3 | HWY_AVX3_DL | HWY_SVE | HWY_SVE2 | HWY_SVE_256 | HWY_SVE2_128 | HWY_RVV)
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "raytracer/render/shading_kernels.cpp"
 #include <hwy/foreach_target.h>

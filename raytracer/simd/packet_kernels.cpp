@@ -1,9 +1,9 @@
 #include "raytracer/simd/packet_kernels.hpp"
 
+#include "raytracer/simd/disabled_targets.hpp"
+
 // This file is compiled once for each set of instructions: what is between HWY_BEFORE_NAMESPACE and
 // HWY_AFTER_NAMESPACE, and the files whose names end in -inl, each time in a namespace of its own.
-// Left out: what differs little from its neighbours, and vectors whose size is not known here.
-#define HWY_DISABLED_TARGETS (HWY_SSSE3 | HWY_AVX3_DL | HWY_SVE | HWY_SVE2 | HWY_SVE_256 | HWY_SVE2_128 | HWY_RVV)
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "raytracer/simd/packet_kernels.cpp"
 #include <hwy/foreach_target.h>
