@@ -143,14 +143,11 @@ private:
         hi[axis] += side_;
         // Inside the box the root; on its wall where the solid leaves it.
         const bool low_in = grid_.value(ax, ay, az) > 0;
-        double t0 = 0, t1 = 1;
-        while (t1 - t0 > 1e-15) {
-            const double t = 0.5 * (t0 + t1);
-            if (t <= t0 || t >= t1) break;
+        const auto [t0, t1] = bisected([&](double t) {
             Vec3 p = lo;
             p[axis] += side_ * t;
-            (inside(p) == low_in ? t0 : t1) = t;
-        }
+            return inside(p) == low_in;
+        });
         // Off the corners by so little that it does not matter, so that no triangle vanishes.
         constexpr double nudge = 1e-7;
         const double t = std::clamp(0.5 * (t0 + t1), nudge, 1 - nudge);
@@ -255,6 +252,18 @@ private:
         for (std::size_t k = 0; k < n; ++k) triangle(middle, loop[k], loop[(k + 1) % n]);
     }
 
+    // Places of [0, 1] next to one another, of which the first is still as 0 is, and the second no more.
+    template <class AsFirst>
+    static std::pair<double, double> bisected(AsFirst as_first) {
+        double t0 = 0, t1 = 1;
+        while (t1 - t0 > 1e-15) {
+            const double t = 0.5 * (t0 + t1);
+            if (t <= t0 || t >= t1) break;
+            (as_first(t) ? t0 : t1) = t;
+        }
+        return {t0, t1};
+    }
+
     bool inside(Vec3 x) const { return box_.contains(x) && field_.inside(x); }
 
     // A point of the surface in the cube, near the middle of the loop: on the normal there, or where that leads out of
@@ -274,12 +283,7 @@ private:
             if ((values[k] > 0) != in && (!nearest || glm::distance(corner, center) < glm::distance(*nearest, center)))
                 nearest = corner;
         }
-        double t0 = 0, t1 = 1;
-        while (t1 - t0 > 1e-15) {
-            const double t = 0.5 * (t0 + t1);
-            if (t <= t0 || t >= t1) break;
-            (inside(center + t * (*nearest - center)) == in ? t0 : t1) = t;
-        }
+        const double t0 = bisected([&](double t) { return inside(center + t * (*nearest - center)) == in; }).first;
         return center + t0 * (*nearest - center);
     }
 

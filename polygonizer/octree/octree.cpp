@@ -374,9 +374,7 @@ Mesh octree(const SolidTree& mixed, const Box& box, const OctreeOptions& options
     if (!statistics) statistics = &own;
     *statistics = {};
     Polygonization polygonization(numbered, box, options, edge);
-    Mended best;
-    constexpr std::size_t most = std::numeric_limits<std::size_t>::max();
-    best.faults = {most, most};
+    MendedMesh best;
     // What repair cannot help needs smaller cells around it. Sharp walls part in the end, however thin; where rounded
     // surfaces taper to where they touch, smaller cells find as many that cross.
     const int max_mending_rounds = solid.min_radius() > 0 || solid.has_free_form() ? 4 : 8;
@@ -385,12 +383,11 @@ Mesh octree(const SolidTree& mixed, const Box& box, const OctreeOptions& options
         std::vector<Origin> origins;
         Mesh mesh = polygonization.run(*statistics, origins);
         const FacetJudge judge(solid, mesh);
-        Mended now = mended(std::move(mesh), std::move(origins), judge, infinity, options.cancel);
+        MendedMesh now = mended(std::move(mesh), std::move(origins), judge, infinity, options.cancel);
         // Where surfaces touch, smaller cells leave as many.
-        const bool helped =
-            now.faults.second > 0 || double(now.faults.first) < worth_another * double(best.faults.first);
+        const bool helped = now.others > 0 || double(now.leaning) < worth_another * double(best.leaning);
         const bool more = helped && !now.wrong.empty() && polygonization.cut_around(now.mesh, now.wrong);
-        if (now.faults < best.faults) best = std::move(now);
+        if (now.is_better_than(best)) best = std::move(now);
         if (!more) break;
     }
     if (options.decimate && std::isfinite(options.tolerance))

@@ -36,8 +36,11 @@ std::optional<Vec3> first_fault(const Mesh& mesh) {
 
 }  // namespace
 
-Mended mended(Mesh mesh, std::vector<Origin> origins, const FacetJudge& judge, double tolerance, CancelFlag cancel) {
-    Mended m{std::move(mesh), std::move(origins), {}, {}};
+MendedMesh mended(Mesh mesh, std::vector<Origin> origins, const FacetJudge& judge, double tolerance,
+                  CancelFlag cancel) {
+    MendedMesh m;
+    m.mesh = std::move(mesh);
+    m.origins = std::move(origins);
     std::vector<std::pair<int, int>> pairs;  // that cross
     constexpr int max_unfoldings = 3;        // what is unfolded may lie on the next
     for (int round = 0; round < max_unfoldings; ++round) {
@@ -46,13 +49,15 @@ Mended mended(Mesh mesh, std::vector<Origin> origins, const FacetJudge& judge, d
         pairs = crossing_triangles(m.mesh, TriangleTree(m.mesh), cancel);
         if (pairs.empty() || unfold(m.mesh, m.origins, judge, pairs) == 0) break;
     }
-    m.faults = {m.wrong.size(), pairs.size()};
+    m.leaning = m.wrong.size();
+    m.others = pairs.size();
+    m.crosses = m.others > 0;
     for (const auto& [s, t] : pairs) m.wrong.insert(m.wrong.end(), {s, t});
     return m;
 }
 
-Mended thinned_out(const Mended& fine, const SolidTree& solid, double tolerance, CancelFlag cancel,
-                   WorkProgress* progress) {
+MendedMesh thinned_out(const MendedMesh& fine, const SolidTree& solid, double tolerance, CancelFlag cancel,
+                       WorkProgress* progress) {
     constexpr int max_thinnings = 4;
     constexpr double at_points = 0.85;  // of the tolerance, at the points that collapses look at
     const FacetJudge judge(solid, fine.mesh);
@@ -61,8 +66,8 @@ Mended thinned_out(const Mended& fine, const SolidTree& solid, double tolerance,
         Mesh mesh = fine.mesh;
         std::vector<Origin> origins = fine.origins;
         decimate(mesh, origins, judge, at_points * tolerance, {.dense = dense, .cancel = cancel, .progress = progress});
-        Mended thin = mended(std::move(mesh), std::move(origins), judge, tolerance, cancel);
-        if (thin.faults <= fine.faults) return thin;
+        MendedMesh thin = mended(std::move(mesh), std::move(origins), judge, tolerance, cancel);
+        if (!fine.is_better_than(thin)) return thin;
         for (const int t : thin.wrong) {
             Box box;
             for (const int v : thin.mesh.triangles[t].vertex)

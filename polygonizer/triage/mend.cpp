@@ -1,4 +1,4 @@
-#include "polygonizer/triage/mended_mesh.hpp"
+#include "polygonizer/triage/mend.hpp"
 
 #include "bounds/sort_once.hpp"
 #include "polygonizer/mesh/crossing_triangles.hpp"

@@ -1,31 +1,13 @@
-// A mesh after its last repair, and what is wrong with it still.
+// The last repair of a mesh by triage, and its verdict.
 #pragma once
-#include <limits>
-#include <utility>
-
 #include "polygonizer/mesh/cancel.hpp"
 #include "polygonizer/mesh/facet_judge.hpp"
+#include "polygonizer/mesh/mended_mesh.hpp"
 
 namespace deburr {
 
-struct MendedMesh {
-    Mesh mesh;
-    std::vector<Origin> origins;
-    std::vector<int> wrong;  // triangles that lean, cross others, or are too far from the surface; sorted
-    std::size_t leaning = std::numeric_limits<std::size_t>::max();  // facets that lean or face inward
-    std::size_t others = std::numeric_limits<std::size_t>::max();   // facets that are too far, and pairs that cross
-    bool crosses = false;                                           // whether any do
-    double farthest = 0;                                            // middle of a facet from the surface
-
-    bool is_right() const { return leaning == 0 && others == 0; }
-    /// Facets that lean or face inward are the graver fault.
-    bool is_better_than(const MendedMesh& other) const {
-        return std::pair(leaning, others) < std::pair(other.leaning, other.others);
-    }
-};
-
 /// Repairs the mesh, drops shells of it that are wrong, and looks for crossing facets and, with a finite tolerance, for
-/// those farther than that. `may_split`: repairs may put vertices in. Throws Cancelled.
+/// those farther than that. What is wrong is sorted. `may_split`: repairs may put vertices in. Throws Cancelled.
 MendedMesh mend(Mesh mesh, std::vector<Origin> origins, const FacetJudge& judge, double tolerance, bool may_split,
                 CancelFlag cancel);
 

@@ -12,7 +12,7 @@
 #include "polygonizer/mesh/separate_touching.hpp"
 #include "polygonizer/mesh/sharp_parts.hpp"
 #include "polygonizer/mesh/simplify_borders.hpp"
-#include "polygonizer/triage/mended_mesh.hpp"
+#include "polygonizer/triage/mend.hpp"
 #include "polygonizer/triage/rounds.hpp"
 #include "polygonizer/triage/surface.hpp"
 
