@@ -2,6 +2,8 @@
 //
 //   test_bounds [OPTION | PATTERN …]   Catch2's own call; it fails if a run matches no case
 //   test_bounds --case NAME            runs the one case of exactly this name; any other number of cases is a failure
+//   test_bounds --share K N PATTERN    runs every N-th of the cases that match, from the K-th on, in one process: where
+//                                      a process takes a second to begin, as with sanitizers
 //   test_bounds --count                prints the number of cases that are compiled in
 //   test_bounds --ctest FILE           writes CTest's list of the cases, with their labels
 //
@@ -87,6 +89,27 @@ void write_ctest(const std::string& path, const std::string& program, const std:
     if (!file) throw std::runtime_error("cannot write " + path);
 }
 
+// Runs every n-th of the cases that a pattern matches, from the k-th on.
+int run_share(Catch::Session& session, std::size_t k, std::size_t n, const std::string& pattern) {
+    auto config = session.configData();
+    config.testsOrTags = {pattern};
+    config.showDurations = Catch::ShowDurations::Always;
+    session.useConfigData(config);
+    const auto all = Catch::getAllTestCasesSorted(session.config());
+    const auto matching = Catch::filterTests(all, session.config().testSpec(), session.config());
+    std::string share;
+    for (std::size_t i = k; i < matching.size(); i += n)
+        share += (share.empty() ? "" : ",") + pattern_of(matching[i].getTestCaseInfo().name);
+    if (share.empty()) throw std::runtime_error("expected a case to run, none matched '" + pattern + "'");
+    config.testsOrTags = {share};
+    session.useConfigData(config);
+    if (const int failed = session.run()) return failed;
+    const std::size_t expected = (matching.size() - k - 1) / n + 1;
+    if (begun().size() == expected) return 0;
+    std::fprintf(stderr, "expected to run %zu cases of '%s', ran %zu\n", expected, pattern.c_str(), begun().size());
+    return 1;
+}
+
 int run(int argc, char** argv) {
     const std::string option = argc > 1 ? argv[1] : "";
     if (option == "--count") {
@@ -106,6 +129,7 @@ int run(int argc, char** argv) {
         std::fprintf(stderr, "expected to run the one case '%s', ran %zu\n", argv[2], begun().size());
         return 1;
     }
+    if (option == "--share" && argc == 5) return run_share(session, std::stoul(argv[2]), std::stoul(argv[3]), argv[4]);
     if (const int failed = session.applyCommandLine(argc, argv)) return failed;
     const auto& config = session.configData();
     const bool only_says = config.showHelp || config.libIdentify || config.listTests || config.listTags ||

@@ -27,20 +27,20 @@ constexpr double min_cosine = 1e-5;
 struct V3 {
     V x, y, z;
 };
-HWY_INLINE V3 numbers(Vec3 v) { return {number(v.x), number(v.y), number(v.z)}; }
-HWY_INLINE V3 operator+(V3 a, V3 b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
-HWY_INLINE V3 operator-(V3 a, V3 b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
-HWY_INLINE V3 operator*(V3 a, V3 b) { return {a.x * b.x, a.y * b.y, a.z * b.z}; }
-HWY_INLINE V3 operator*(V3 a, V b) { return {a.x * b, a.y * b, a.z * b}; }
-HWY_INLINE V3 operator/(V3 a, V3 b) { return {a.x / b.x, a.y / b.y, a.z / b.z}; }
-HWY_INLINE V3 operator/(V3 a, V b) { return {a.x / b, a.y / b, a.z / b}; }
-HWY_INLINE V3 negative(V3 a) { return {hn::Neg(a.x), hn::Neg(a.y), hn::Neg(a.z)}; }
-HWY_INLINE V3 select3(M m, V3 a, V3 b) { return {select(m, a.x, b.x), select(m, a.y, b.y), select(m, a.z, b.z)}; }
-HWY_INLINE V dot(V3 a, V3 b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
-HWY_INLINE V3 mix(V3 a, V3 b, V t) { return a * (number(1) - t) + b * t; }
-HWY_INLINE V3 unit(V3 a) { return a * (number(1) / hn::Sqrt(dot(a, a))); }
+DEBURR_INLINE V3 numbers(Vec3 v) { return {number(v.x), number(v.y), number(v.z)}; }
+DEBURR_INLINE V3 operator+(V3 a, V3 b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
+DEBURR_INLINE V3 operator-(V3 a, V3 b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
+DEBURR_INLINE V3 operator*(V3 a, V3 b) { return {a.x * b.x, a.y * b.y, a.z * b.z}; }
+DEBURR_INLINE V3 operator*(V3 a, V b) { return {a.x * b, a.y * b, a.z * b}; }
+DEBURR_INLINE V3 operator/(V3 a, V3 b) { return {a.x / b.x, a.y / b.y, a.z / b.z}; }
+DEBURR_INLINE V3 operator/(V3 a, V b) { return {a.x / b, a.y / b, a.z / b}; }
+DEBURR_INLINE V3 negative(V3 a) { return {hn::Neg(a.x), hn::Neg(a.y), hn::Neg(a.z)}; }
+DEBURR_INLINE V3 select3(M m, V3 a, V3 b) { return {select(m, a.x, b.x), select(m, a.y, b.y), select(m, a.z, b.z)}; }
+DEBURR_INLINE V dot(V3 a, V3 b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
+DEBURR_INLINE V3 mix(V3 a, V3 b, V t) { return a * (number(1) - t) + b * t; }
+DEBURR_INLINE V3 unit(V3 a) { return a * (number(1) / hn::Sqrt(dot(a, a))); }
 // As glm::clamp chooses, which differs from std::clamp for what is no number.
-HWY_INLINE V clamped_as_glm(V x, V lo, V hi) { return least(most(x, lo), hi); }
+DEBURR_INLINE V clamped_as_glm(V x, V lo, V hi) { return least(most(x, lo), hi); }
 
 // Surfaces of a batch from `first` on, as many as a vector holds: all of them, or `asked`.
 class Some {
@@ -73,13 +73,13 @@ private:
 
 // Calls each(some) for all surfaces, and for what is in the arrays after the last one.
 template <class Each>
-HWY_INLINE void for_all(const SurfaceBatch& batch, Each each) {
+DEBURR_INLINE void for_all(const SurfaceBatch& batch, Each each) {
     for (std::size_t first = 0; first < batch.count; first += hn::Lanes(d)) each(Some(batch, first));
 }
 
 // Calls each(layer, some) for all surfaces, by the layers of those that are in a vector together.
 template <class Each>
-HWY_INLINE void for_layers(std::span<const SurfaceLayer> layers, const SurfaceBatch& batch, Each each) {
+DEBURR_INLINE void for_layers(std::span<const SurfaceLayer> layers, const SurfaceBatch& batch, Each each) {
     constexpr std::size_t lanes = hn::MaxLanes(D());
     for (std::size_t first = 0; first < batch.count; first += lanes) {
         const std::size_t here = std::min(lanes, batch.count - first);
@@ -95,7 +95,7 @@ HWY_INLINE void for_layers(std::span<const SurfaceLayer> layers, const SurfaceBa
 }
 
 // Numbers of a table of `steps` + 1, linearly in between, at a place from 0 to `steps`.
-HWY_INLINE V interpolated(const double* table, int steps, V at) {
+DEBURR_INLINE V interpolated(const double* table, int steps, V at) {
     using Whole = hn::RebindToSigned<D>;
     const Whole w;
     // The last for no number, too.
@@ -106,13 +106,13 @@ HWY_INLINE V interpolated(const double* table, int steps, V at) {
     return a * (number(1) - t) + b * t;
 }
 
-HWY_INLINE V albedo(const SurfaceLayer& layer, V cosine) {
+DEBURR_INLINE V albedo(const SurfaceLayer& layer, V cosine) {
     const auto& table = layer.albedo_table();
     const int steps = int(table.size()) - 1;
     return interpolated(table.data(), steps, hn::Sqrt(clamped_as_glm(cosine, number(0), number(1))) * number(steps));
 }
 
-HWY_INLINE V fresnel_dielectric(V cosine, double ior) {
+DEBURR_INLINE V fresnel_dielectric(V cosine, double ior) {
     const V c = clamped_as_glm(hn::Abs(cosine), number(0), number(1));
     const V g2 = number(ior * ior - 1) + c * c;
     const V g = hn::Sqrt(g2), far = number(ior * ior) * c, inverse = number(1) / ((c + g) * (far + g));
@@ -120,7 +120,7 @@ HWY_INLINE V fresnel_dielectric(V cosine, double ior) {
     return select(g2 <= number(0), number(1), number(0.5) * (s * s + p * p));
 }
 
-HWY_INLINE V3 fresnel(const SurfaceLayer& layer, V3 color, V cosine) {
+DEBURR_INLINE V3 fresnel(const SurfaceLayer& layer, V3 color, V cosine) {
     switch (layer.kind()) {
         case Material::Kind::mirror: return color;
         case Material::Kind::metal: {
@@ -193,13 +193,13 @@ void incident(const LightSource& source, const SurfaceBatch& batch) {
     });
 }
 
-HWY_INLINE V distribution(const Ggx& ggx, V cos_half) {
+DEBURR_INLINE V distribution(const Ggx& ggx, V cos_half) {
     const double a2 = ggx.alpha * ggx.alpha;
     const V t = cos_half * cos_half * number(a2 - 1) + number(1);
     return number(a2) / (number(pi) * t * t);
 }
 
-HWY_INLINE V visibility(const Ggx& ggx, V cos_in, V cos_out) {
+DEBURR_INLINE V visibility(const Ggx& ggx, V cos_in, V cos_out) {
     const double a2 = ggx.alpha * ggx.alpha;
     const V in = hn::Sqrt(number(a2) + number(1 - a2) * cos_in * cos_in);
     const V out = hn::Sqrt(number(a2) + number(1 - a2) * cos_out * cos_out);
@@ -207,7 +207,7 @@ HWY_INLINE V visibility(const Ggx& ggx, V cos_in, V cos_out) {
 }
 
 // What the base and the layer scatter, times the cosine of the light.
-HWY_INLINE V3 scattered(const SurfaceLayer& layer, const Some& some, V3 normal, V3 towards, V cos_light) {
+DEBURR_INLINE V3 scattered(const SurfaceLayer& layer, const Some& some, V3 normal, V3 towards, V cos_light) {
     const V3 base = some.get3(SurfaceField::base);
     if (layer.kind() == Material::Kind::matte) return base * (cos_light * number(inv_pi));
     const V3 below = base * (cos_light * (number(1) - some.get(SurfaceField::albedo_eye)) *
@@ -245,9 +245,9 @@ void mirror(std::span<const SurfaceLayer> layers, const SurfaceBatch& batch) {
 }
 
 // Of a gradient or a single colour, as SkyLight has them.
-HWY_INLINE V height(const Background& sky, V3 direction) { return sky.z_up ? direction.z : direction.y; }
+DEBURR_INLINE V height(const Background& sky, V3 direction) { return sky.z_up ? direction.z : direction.y; }
 
-HWY_INLINE V3 mean_sky(const SkyLight& light, V3 normal) {
+DEBURR_INLINE V3 mean_sky(const SkyLight& light, V3 normal) {
     const Background& sky = light.background();
     if (!sky.sky) return numbers(sky.color);
     const auto& shares = light.zenith_shares();
@@ -256,7 +256,7 @@ HWY_INLINE V3 mean_sky(const SkyLight& light, V3 normal) {
     return mix(numbers(sky.horizon), numbers(sky.zenith), interpolated(shares.data(), steps, up * number(steps)));
 }
 
-HWY_INLINE V3 sky_towards(const SkyLight& light, V3 direction) {
+DEBURR_INLINE V3 sky_towards(const SkyLight& light, V3 direction) {
     const Background& sky = light.background();
     if (!sky.sky) return numbers(sky.color);
     return mix(numbers(sky.horizon), numbers(sky.zenith), hn::Sqrt(most(number(0), height(sky, direction))));

@@ -9,6 +9,7 @@
 #include <hwy/highway.h>
 
 #include "raytracer/simd/box_tree.hpp"
+#include "raytracer/simd/inline.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace deburr {
@@ -20,8 +21,8 @@ using Sides = hn::Vec<BoxTag>;
 
 const BoxTag box_tag;
 
-HWY_INLINE Sides sides(float x) { return hn::Set(box_tag, x); }
-HWY_INLINE unsigned bits_of_boxes(hn::Mask<BoxTag> m) {
+DEBURR_INLINE Sides sides(float x) { return hn::Set(box_tag, x); }
+DEBURR_INLINE unsigned bits_of_boxes(hn::Mask<BoxTag> m) {
     std::uint8_t bytes[8] = {};
     hn::StoreMaskBits(box_tag, m, bytes);
     return bytes[0];
@@ -30,7 +31,7 @@ HWY_INLINE unsigned bits_of_boxes(hn::Mask<BoxTag> m) {
 // Which of a node's boxes a ray meets before `end`, as bits, and where.
 class RayMeets {
 public:
-    explicit HWY_INLINE RayMeets(const BoxRay& ray) {
+    explicit DEBURR_INLINE RayMeets(const BoxRay& ray) {
         for (int k = 0; k < 3; ++k) {
             origin_[k] = sides(ray.origin[k]);
             inverse_[k] = sides(ray.inverse[k]);
@@ -38,7 +39,7 @@ public:
         }
     }
 
-    HWY_INLINE unsigned operator()(const BoxNode& n, float end, float* t) const {
+    DEBURR_INLINE unsigned operator()(const BoxNode& n, float end, float* t) const {
         unsigned met = 0;
         for (std::size_t i = 0; i < BoxNode::width; i += hn::Lanes(box_tag)) {
             const Sides lo = hn::Max(hn::Max(near(n, 0, i), near(n, 1, i)), hn::Max(near(n, 2, i), hn::Zero(box_tag)));
@@ -50,10 +51,10 @@ public:
     }
 
 private:
-    HWY_INLINE Sides near(const BoxNode& n, int k, std::size_t i) const {
+    DEBURR_INLINE Sides near(const BoxNode& n, int k, std::size_t i) const {
         return (hn::Load(box_tag, n.side[k] + near_[k] + i) - origin_[k]) * inverse_[k];
     }
-    HWY_INLINE Sides far(const BoxNode& n, int k, std::size_t i) const {
+    DEBURR_INLINE Sides far(const BoxNode& n, int k, std::size_t i) const {
         return (hn::Load(box_tag, n.side[k] + (near_[k] ^ BoxNode::width) + i) - origin_[k]) * inverse_[k];
     }
 
@@ -64,9 +65,9 @@ private:
 // Likewise of several rays.
 class BeamMeets {
 public:
-    explicit HWY_INLINE BeamMeets(const BoxBeam& beam) : beam_(beam) {}
+    explicit DEBURR_INLINE BeamMeets(const BoxBeam& beam) : beam_(beam) {}
 
-    HWY_INLINE unsigned operator()(const BoxNode& n, float end, float* t) const {
+    DEBURR_INLINE unsigned operator()(const BoxNode& n, float end, float* t) const {
         unsigned met = 0;
         for (std::size_t i = 0; i < BoxNode::width; i += hn::Lanes(box_tag)) {
             Sides lo = hn::Zero(box_tag), hi = sides(end);
@@ -96,14 +97,14 @@ private:
     const BoxBeam& beam_;
 };
 
-HWY_INLINE void fetch_item(const BoxTree& tree, std::uint32_t i) {
+DEBURR_INLINE void fetch_item(const BoxTree& tree, std::uint32_t i) {
     if (i < tree.first_item) return;
     const char* item = tree.items + (i - tree.first_item) * tree.item_stride;
     for (std::size_t at = 0; at < tree.item_stride; at += 64) __builtin_prefetch(item + at);
 }
 
 template <class Meet>
-HWY_INLINE void walk(const BoxTree& tree, float end, const Meet& meet, BoxVisitor visitor) {
+DEBURR_INLINE void walk(const BoxTree& tree, float end, const Meet& meet, BoxVisitor visitor) {
     struct Entry {
         std::int32_t child;
         float t;

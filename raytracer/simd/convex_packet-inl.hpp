@@ -27,7 +27,7 @@ struct Point {
 template <int N>
 class Convex {
 public:
-    HWY_INLINE Convex(const ConvexView& density, const Rays& rays, std::uint64_t& evaluations)
+    DEBURR_INLINE Convex(const ConvexView& density, const Rays& rays, std::uint64_t& evaluations)
         : soft_(N > 0 ? N : density.soft),
           evaluations_(evaluations),
           level_(number(density.complement ? 0.5 - rounding : 0.5 + rounding)) {
@@ -47,17 +47,17 @@ public:
 
     // What is found in [lo, hi]: rays' t and plane where it is, and whether they go into C.
     struct Found {
-        HWY_INLINE Found() {}  // one that the compiler makes is not for these instructions
+        DEBURR_INLINE Found() {}  // one that the compiler makes is not for these instructions
         M any, into;
         V t, plane;
     };
 
-    HWY_INLINE M meeting(M rays, V lo, V hi, V t_tolerance) const {
+    DEBURR_INLINE M meeting(M rays, V lo, V hi, V t_tolerance) const {
         return and_not(and_(rays, out_ - in_ > t_tolerance), or_(in_ > hi, out_ < lo));
     }
 
     // Of `rays`, which meet C.
-    HWY_INLINE Found first(M rays, V lo, V hi, V t_tolerance) const {
+    DEBURR_INLINE Found first(M rays, V lo, V hi, V t_tolerance) const {
         const M entering = in_ > lo;
         const V start = select(entering, in_, lo);
         const M alone = and_(and_(rays, entering), is_alone(plane_in_, start));
@@ -104,7 +104,7 @@ public:
         return f;
     }
 
-    HWY_INLINE M any(M rays, V lo, V hi, V t_tolerance) const {
+    DEBURR_INLINE M any(M rays, V lo, V hi, V t_tolerance) const {
         const V from = hn::Max(in_, lo), to = hn::Min(hi, out_);
         const M inside = and_(rays, at(number(0.5) * (from + to), rays).P > level_);
         M found = and_(inside, or_(in_ > lo, out_ <= hi));
@@ -119,9 +119,9 @@ public:
     }
 
 private:
-    HWY_INLINE int soft() const { return N > 0 ? N : soft_; }
+    DEBURR_INLINE int soft() const { return N > 0 ? N : soft_; }
 
-    HWY_INLINE void clip(V a, V b, int plane) {
+    DEBURR_INLINE void clip(V a, V b, int plane) {
         const V t = hn::Neg(a) / b, zero = hn::Zero(d);
         const M later = and_(b<zero, t> in_), sooner = and_(b > zero, t < out_);
         in_ = select(later, t, in_);
@@ -134,7 +134,7 @@ private:
     }
 
     // Of the soft factors; counted for those who ask.
-    HWY_INLINE Point at(V t, M asked) const {
+    DEBURR_INLINE Point at(V t, M asked) const {
         evaluations_ += hn::CountTrue(d, asked);
         const V one = number(1), two = number(2), quarter = number(0.25), three_quarters = number(0.75);
         Point p{one, hn::Zero(d)};
@@ -147,16 +147,16 @@ private:
         return p;
     }
 
-    HWY_INLINE V if_sharp(V plane) const { return select(plane >= number(soft()), plane, number(-1)); }
+    DEBURR_INLINE V if_sharp(V plane) const { return select(plane >= number(soft()), plane, number(-1)); }
 
-    HWY_INLINE M is_alone(V plane, V t) const {
+    DEBURR_INLINE M is_alone(V plane, V t) const {
         M alone = plane < number(soft());
         for (int i = 0; i < soft(); ++i) alone = and_(alone, or_(plane == number(i), a_[i] + b_[i] * t <= number(-1)));
         return alone;
     }
 
     // Moves s to the root, for those of `run` that have one before `to`: they are returned.
-    HWY_INLINE M newton(M run, V& s, Point p, V to, V base, V sign, V t_tolerance) const {
+    DEBURR_INLINE M newton(M run, V& s, Point p, V to, V base, V sign, V t_tolerance) const {
         const V one = number(1), two = number(2), three = number(3), four = number(4), zero = hn::Zero(d);
         M found = and_not(run, run);
         for (int k = 0; k < max_newton_steps; ++k) {
@@ -186,8 +186,8 @@ private:
 };
 
 // surface_normal() of `asked` at t, against rays that enter.
-HWY_INLINE void normals_of(const ConvexView& density, const Rays& rays, V t, V plane, M entering, M asked,
-                           std::size_t first, double (*normal)[RayPacket::size]) {
+DEBURR_INLINE void normals_of(const ConvexView& density, const Rays& rays, V t, V plane, M entering, M asked,
+                              std::size_t first, double (*normal)[RayPacket::size]) {
     const V one = number(1), zero = hn::Zero(d);
     V x[3], sum[3] = {zero, zero, zero}, P = one;
     for (int k = 0; k < 3; ++k) x[k] = rays.origin[k] + rays.direction[k] * t;

@@ -9,6 +9,7 @@
 #include <hwy/highway.h>
 
 #include "bounds/convex_density.hpp"
+#include "raytracer/simd/inline.hpp"
 #include "raytracer/simd/ray_packet.hpp"
 
 HWY_BEFORE_NAMESPACE();
@@ -22,29 +23,31 @@ using M = hn::Mask<D>;
 
 const D d;
 
-HWY_INLINE V number(double x) { return hn::Set(d, x); }
-HWY_INLINE V select(M m, V a, V b) { return hn::IfThenElse(m, a, b); }
-HWY_INLINE M and_(M a, M b) { return hn::And(a, b); }
-HWY_INLINE M or_(M a, M b) { return hn::Or(a, b); }
-HWY_INLINE M and_not(M a, M b) { return hn::AndNot(b, a); }
+DEBURR_INLINE V number(double x) { return hn::Set(d, x); }
+DEBURR_INLINE V select(M m, V a, V b) { return hn::IfThenElse(m, a, b); }
+DEBURR_INLINE M and_(M a, M b) { return hn::And(a, b); }
+DEBURR_INLINE M or_(M a, M b) { return hn::Or(a, b); }
+DEBURR_INLINE M and_not(M a, M b) { return hn::AndNot(b, a); }
 // As std::min, std::max and std::clamp choose between equal ones.
-HWY_INLINE V least(V a, V b) { return select(b < a, b, a); }
-HWY_INLINE V most(V a, V b) { return select(a < b, b, a); }
-HWY_INLINE V clamped(V x, V lo, V hi) { return select(x < lo, lo, select(hi < x, hi, x)); }
-HWY_INLINE bool none(M m) { return hn::AllFalse(d, m); }
+DEBURR_INLINE V least(V a, V b) { return select(b < a, b, a); }
+DEBURR_INLINE V most(V a, V b) { return select(a < b, b, a); }
+DEBURR_INLINE V clamped(V x, V lo, V hi) { return select(x < lo, lo, select(hi < x, hi, x)); }
+DEBURR_INLINE bool none(M m) { return hn::AllFalse(d, m); }
 
-HWY_INLINE M mask_of(Lanes bits) {
+DEBURR_INLINE M mask_of(Lanes bits) {
     const std::uint8_t bytes[8] = {std::uint8_t(bits), std::uint8_t(bits >> 8)};
     return hn::LoadMaskBits(d, bytes);
 }
-HWY_INLINE Lanes bits_of(M m) {
+DEBURR_INLINE Lanes bits_of(M m) {
     std::uint8_t bytes[8] = {};
     hn::StoreMaskBits(d, m, bytes);
     return Lanes(bytes[0]) | Lanes(bytes[1]) << 8;
 }
 
 // The bits of `lanes` from `first` on that one vector holds.
-HWY_INLINE Lanes part_of(Lanes lanes, std::size_t first) { return (lanes >> first) & ((Lanes(1) << hn::Lanes(d)) - 1); }
+DEBURR_INLINE Lanes part_of(Lanes lanes, std::size_t first) {
+    return (lanes >> first) & ((Lanes(1) << hn::Lanes(d)) - 1);
+}
 
 struct Rays {
     V origin[3], direction[3];
@@ -58,14 +61,14 @@ struct Rays {
     V rate(const AlphaPlane& p) const { return along(p, direction); }
 
 private:
-    static HWY_INLINE V along(const AlphaPlane& p, const V* v) {
+    static DEBURR_INLINE V along(const AlphaPlane& p, const V* v) {
         return number(p.slope.x) * v[0] + number(p.slope.y) * v[1] + number(p.slope.z) * v[2];
     }
 };
 
 // Stores the normals of `asked`, turned against rays that enter and along those that leave.
-HWY_INLINE void store_against(const V* n, const Rays& rays, M entering, M asked, std::size_t first,
-                              double (*normal)[RayPacket::size]) {
+DEBURR_INLINE void store_against(const V* n, const Rays& rays, M entering, M asked, std::size_t first,
+                                 double (*normal)[RayPacket::size]) {
     const M against = n[0] * rays.direction[0] + n[1] * rays.direction[1] + n[2] * rays.direction[2] < hn::Zero(d);
     const M turned = hn::Xor(against, entering);
     for (int k = 0; k < 3; ++k) {

@@ -20,7 +20,7 @@ namespace deburr {
 namespace HWY_NAMESPACE {
 
 // As many rays as a vector holds.
-HWY_INLINE void load_rays(const Ray* rays, V* origin, V* direction) {
+DEBURR_INLINE void load_rays(const Ray* rays, V* origin, V* direction) {
     static_assert(sizeof(Ray) == 6 * sizeof(double));
     const double* const numbers = &rays->origin.x;
 #if HWY_TARGET == HWY_SCALAR
@@ -110,7 +110,7 @@ void map(const Affine& map, bool only_moved, const RayPacket& rays, const double
 // Where rays are within a box, as span_in() says.
 struct Span {
     V lo, hi;
-    HWY_INLINE Span(const Box& box, const RayPacket& rays, const RayTerms& terms, std::size_t first, V end)
+    DEBURR_INLINE Span(const Box& box, const RayPacket& rays, const RayTerms& terms, std::size_t first, V end)
         : lo(hn::Zero(d)), hi(end) {
         for (int k = 0; k < 3; ++k) {
             const V o = hn::Load(d, rays.origin[k] + first), inverse = hn::Load(d, terms.inverse[k] + first);
@@ -225,8 +225,8 @@ Lanes keep_nearer(RayTerms& terms, PacketNearest& nearest, const PacketCrossings
 
 // Calls at(rays, t, plane, entering, asked, first) for as many of `lanes`' nearest crossings as a vector holds.
 template <class At>
-HWY_INLINE void at_crossings(const RayPacket& packet, const double* end, Lanes lanes, const PacketNearest& nearest,
-                             At at) {
+DEBURR_INLINE void at_crossings(const RayPacket& packet, const double* end, Lanes lanes, const PacketNearest& nearest,
+                                At at) {
     for (std::size_t first = 0; first < RayPacket::size; first += hn::Lanes(d)) {
         const Lanes part = part_of(lanes, first);
         if (part == 0) continue;

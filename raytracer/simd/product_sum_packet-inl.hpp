@@ -21,11 +21,11 @@ HWY_BEFORE_NAMESPACE();
 namespace deburr {
 namespace HWY_NAMESPACE {
 
-HWY_INLINE V exponential(V x) {
+DEBURR_INLINE V exponential(V x) {
     const V two = number(2);
     return select(x < two, (two + x) / (two - x), number(infinity));
 }
-HWY_INLINE V logarithm(V x) {
+DEBURR_INLINE V logarithm(V x) {
     const V one = number(1);
     return select(x < one, number(2) * (x - one) / (x + one), number(0.5) * (x - one / x));
 }
@@ -33,7 +33,7 @@ HWY_INLINE V logarithm(V x) {
 // The rays' view of the sum.
 class SumOnRays {
 public:
-    HWY_INLINE SumOnRays(const ProductSum& sum, const Rays& rays, RootCounters& counters)
+    DEBURR_INLINE SumOnRays(const ProductSum& sum, const Rays& rays, RootCounters& counters)
         : sum_(sum), rays_(rays), counters_(counters) {
         const double *x = sum.coefficients(0), *y = sum.coefficients(1), *z = sum.coefficients(2),
                      *base = sum.coefficients(3);
@@ -99,7 +99,7 @@ public:
     }
 
     // Unit gradients of the density at t; where it has none, as at an apex, the ray's direction.
-    HWY_INLINE void gradients(V t, V* gradient) const {
+    DEBURR_INLINE void gradients(V t, V* gradient) const {
         V share[ProductSum::max_planes];
         const V zero = hn::Zero(d);
         for (int i = 0; i < sum_.planes() + rounds(); ++i) share[i] = zero;
@@ -142,27 +142,27 @@ private:
 
     // f and its slope at a point of each ray.
     struct Point {
-        HWY_INLINE Point() {}  // one that the compiler makes is not for these instructions
+        DEBURR_INLINE Point() {}  // one that the compiler makes is not for these instructions
         V t, f, slope;
         V value[max_terms], rate[max_terms];  // of every term
     };
 
-    HWY_INLINE int terms() const { return int(sum_.terms().size()); }
-    HWY_INLINE int rounds() const { return int(sum_.rounds().size()); }
-    HWY_INLINE V round_alpha(int i, V u) const {
+    DEBURR_INLINE int terms() const { return int(sum_.terms().size()); }
+    DEBURR_INLINE int rounds() const { return int(sum_.rounds().size()); }
+    DEBURR_INLINE V round_alpha(int i, V u) const {
         const ProductSum::Round& r = sum_.rounds()[std::size_t(i)];
         return (u - number(r.offset)) * number(r.inverse_radius);
     }
-    HWY_INLINE V alpha(int i, V t) const {
+    DEBURR_INLINE V alpha(int i, V t) const {
         const int round = i - sum_.planes();
         return round < 0 ? a_[i] + b_[i] * t : round_alpha(round, round_[round].at(t));
     }
-    HWY_INLINE V profile_at(int i, V t) const {
+    DEBURR_INLINE V profile_at(int i, V t) const {
         const V c = clamped(alpha(i, t), number(-1), number(1)), u = number(1) - c;
         return u * u * (number(2) + c) * number(0.25);
     }
 
-    HWY_INLINE Point select_point(M m, const Point& a, const Point& b) const {
+    DEBURR_INLINE Point select_point(M m, const Point& a, const Point& b) const {
         Point p;
         p.t = select(m, a.t, b.t);
         p.f = select(m, a.f, b.f);
@@ -175,7 +175,7 @@ private:
     }
 
     // Those of `rays` that have anything left.
-    HWY_INLINE M narrow(M rays, V& t0, V& t1) {
+    DEBURR_INLINE M narrow(M rays, V& t0, V& t1) {
         const V zero = hn::Zero(d), never = number(-infinity);
         V begin = sum_.anywhere() ? t0 : number(infinity), end = sum_.anywhere() ? t1 : never;
         for (const ProductSum::Term& term : sum_.terms()) {
@@ -243,11 +243,11 @@ private:
         return and_(and_(rays, any), t0 <= t1);
     }
 
-    HWY_INLINE Point evaluate(V t, M asked) {
+    DEBURR_INLINE Point evaluate(V t, M asked) {
         counters_.evaluations += hn::CountTrue(d, asked);
         return evaluate_uncounted(t);
     }
-    HWY_INLINE Point evaluate_uncounted(V t) const {
+    DEBURR_INLINE Point evaluate_uncounted(V t) const {
         const V one = number(1), zero = hn::Zero(d);
         V F[ProductSum::max_planes], slope[ProductSum::max_planes];
         for (int i = 0; i < sum_.planes(); ++i) {
@@ -288,7 +288,7 @@ private:
         V lo, hi;
     };
 
-    HWY_INLINE SlopeRange slopes(const Point& a, const Point& b) const {
+    DEBURR_INLINE SlopeRange slopes(const Point& a, const Point& b) const {
         constexpr double min_product = 1e-200;
         const V length = b.t - a.t, zero = hn::Zero(d), one = number(1);
         SlopeRange sum{zero, zero};
@@ -319,7 +319,7 @@ private:
     }
 
     // As half_space_bounds() and product_bounds() say, but for the second derivatives.
-    HWY_INLINE SlopeRange slopes_near_zero(int k, const Point& a, const Point& b) const {
+    DEBURR_INLINE SlopeRange slopes_near_zero(int k, const Point& a, const Point& b) const {
         const V one = number(1), zero = hn::Zero(d);
         V M_all = one, L_all = zero;
         for (const int i : sum_.terms()[std::size_t(k)].factors) {
@@ -351,7 +351,7 @@ private:
         return {select(b.rate[k] > zero, zero, hn::Neg(L_all)), select(a.rate[k] < zero, zero, L_all)};
     }
 
-    HWY_INLINE M at_most_one_root(const Point& a, const Point& b, V f_tolerance) const {
+    DEBURR_INLINE M at_most_one_root(const Point& a, const Point& b, V f_tolerance) const {
         const SlopeRange s = slopes(a, b);
         const V zero = hn::Zero(d), length = b.t - a.t;
         const M monotone = or_(s.lo >= zero, s.hi <= zero);
@@ -365,7 +365,7 @@ private:
         return or_(or_(monotone, flat), and_(same, away));
     }
 
-    HWY_INLINE V root(M run, Point a, Point b, V t_tolerance) {
+    DEBURR_INLINE V root(M run, Point a, Point b, V t_tolerance) {
         const V zero = hn::Zero(d), half = number(0.5), two = number(2), three = number(3);
         const M rises = b.f > zero;
         Point p = select_point(hn::Abs(a.f) < hn::Abs(b.f), a, b);
@@ -430,8 +430,8 @@ private:
 };
 
 // Unit normals of `asked` at t, against rays that enter.
-HWY_INLINE void sum_normals_of(const ProductSum& sum, const Rays& rays, V t, M entering, M asked, std::size_t first,
-                               double (*normal)[RayPacket::size]) {
+DEBURR_INLINE void sum_normals_of(const ProductSum& sum, const Rays& rays, V t, M entering, M asked, std::size_t first,
+                                  double (*normal)[RayPacket::size]) {
     RootCounters none_counted;
     V n[3];
     SumOnRays(sum, rays, none_counted).gradients(t, n);

@@ -21,8 +21,8 @@ namespace HWY_NAMESPACE {
 // Not of circles, but for their gradient.
 class RoundOnRays {
 public:
-    HWY_INLINE RoundOnRays() {}  // one that the compiler makes is not for these instructions
-    HWY_INLINE void set(const RoundCoordinate& coordinate, const Rays& rays) {
+    DEBURR_INLINE RoundOnRays() {}  // one that the compiler makes is not for these instructions
+    DEBURR_INLINE void set(const RoundCoordinate& coordinate, const Rays& rays) {
         coordinate_ = &coordinate;
         V away[3], across[3];
         for (int k = 0; k < 3; ++k) {
@@ -47,13 +47,13 @@ public:
         least_ = dot(foot, foot);
     }
 
-    HWY_INLINE V at(V t) const {
+    DEBURR_INLINE V at(V t) const {
         const V s = distance(t);
         if (is_point()) return s;
         return number(coordinate_->across) * s + number(coordinate_->along) * height(t);
     }
 
-    HWY_INLINE V slope(V t) const {
+    DEBURR_INLINE V slope(V t) const {
         const V s = distance(t), zero = hn::Zero(d);
         const V rate = select(s > zero, square_ * (t - nearest_) / s, zero);
         if (is_point()) return rate;
@@ -63,7 +63,7 @@ public:
     struct Interval {
         V lo, hi;
     };
-    HWY_INLINE Interval range(V t0, V t1) const {
+    DEBURR_INLINE Interval range(V t0, V t1) const {
         const V a = at(t0), b = at(t1);
         if (is_point()) return {distance(clamped(nearest_, t0, t1)), most(a, b)};
         Interval u{least(a, b), most(a, b)};
@@ -78,9 +78,9 @@ public:
         return {select(between, least(u.lo, value), u.lo), select(between, most(u.hi, value), u.hi)};
     }
 
-    HWY_INLINE V max_slope(V t0, V t1) const { return most(hn::Abs(slope(t0)), hn::Abs(slope(t1))); }
+    DEBURR_INLINE V max_slope(V t0, V t1) const { return most(hn::Abs(slope(t0)), hn::Abs(slope(t1))); }
 
-    HWY_INLINE V max_curvature(V t0, V t1) const {
+    DEBURR_INLINE V max_curvature(V t0, V t1) const {
         const V s = distance(clamped(nearest_, t0, t1)), zero = hn::Zero(d);
         const V bend = select(square_ == zero, zero,
                               select(s > zero, square_ * least(number(1), least_ / (s * s)) / s, number(infinity)));
@@ -92,7 +92,7 @@ public:
         V first, second;
         M has_first, has_second;
     };
-    HWY_INLINE Crossings crossings(V level) const {
+    DEBURR_INLINE Crossings crossings(V level) const {
         const RoundCoordinate& c = *coordinate_;
         const V zero = hn::Zero(d);
         const V rate = is_point() ? zero : number(c.along) * climb_;
@@ -112,7 +112,7 @@ public:
     }
 
     // Cuts [lo, hi] down to where the coordinate is at most `level`.
-    HWY_INLINE void clip(V level, V& lo, V& hi) const {
+    DEBURR_INLINE void clip(V level, V& lo, V& hi) const {
         const Crossings c = crossings(level);
         const M both = and_(c.has_first, c.has_second), one = hn::Xor(c.has_first, c.has_second);
         const V only = select(c.has_first, c.first, c.second);
@@ -124,7 +124,7 @@ public:
     }
 
     // At points of the rays; a unit vector, or 0.
-    static HWY_INLINE void gradient(const RoundCoordinate& c, const V* x, V* g) {
+    static DEBURR_INLINE void gradient(const RoundCoordinate& c, const V* x, V* g) {
         const V zero = hn::Zero(d);
         V away[3];
         for (int k = 0; k < 3; ++k) away[k] = x[k] - number(c.center[k]);
@@ -150,20 +150,20 @@ public:
     }
 
 private:
-    HWY_INLINE bool is_point() const { return coordinate_->kind == RoundCoordinate::Kind::point; }
-    HWY_INLINE V distance(V t) const {
+    DEBURR_INLINE bool is_point() const { return coordinate_->kind == RoundCoordinate::Kind::point; }
+    DEBURR_INLINE V distance(V t) const {
         const V past = t - nearest_;
         return hn::Sqrt(least_ + square_ * past * past);
     }
-    HWY_INLINE V height(V t) const { return height_ + climb_ * t; }
+    DEBURR_INLINE V height(V t) const { return height_ + climb_ * t; }
 
     const RoundCoordinate* coordinate_ = nullptr;
     V nearest_, least_, square_, height_, climb_;
 };
 
 // RoundSurface's first crossings.
-HWY_INLINE Lanes surface_crossings_of(const RoundSurface& surface, const RayPacket& rays, Lanes lanes,
-                                      const PacketSpans& spans, PacketCrossings& found) {
+DEBURR_INLINE Lanes surface_crossings_of(const RoundSurface& surface, const RayPacket& rays, Lanes lanes,
+                                         const PacketSpans& spans, PacketCrossings& found) {
     Lanes crossed = 0;
     found.entering = 0;
     const V zero = hn::Zero(d), offset = number(surface.offset);
@@ -201,8 +201,8 @@ HWY_INLINE Lanes surface_crossings_of(const RoundSurface& surface, const RayPack
     return crossed;
 }
 
-HWY_INLINE void surface_normals_of(const RoundSurface& surface, const Rays& rays, V t, M entering, M asked,
-                                   std::size_t first, double (*normal)[RayPacket::size]) {
+DEBURR_INLINE void surface_normals_of(const RoundSurface& surface, const Rays& rays, V t, M entering, M asked,
+                                      std::size_t first, double (*normal)[RayPacket::size]) {
     V x[3], n[3];
     for (int k = 0; k < 3; ++k) x[k] = rays.origin[k] + rays.direction[k] * t;
     RoundOnRays::gradient(surface.coordinate, x, n);

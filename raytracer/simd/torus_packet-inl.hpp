@@ -16,12 +16,12 @@ HWY_BEFORE_NAMESPACE();
 namespace deburr {
 namespace HWY_NAMESPACE {
 
-HWY_INLINE V dot(const V* a, const V* b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
-HWY_INLINE V dot(const Vec3& a, const V* b) { return number(a.x) * b[0] + number(a.y) * b[1] + number(a.z) * b[2]; }
+DEBURR_INLINE V dot(const V* a, const V* b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+DEBURR_INLINE V dot(const Vec3& a, const V* b) { return number(a.x) * b[0] + number(a.y) * b[1] + number(a.z) * b[2]; }
 
 class TorusOnRays {
 public:
-    HWY_INLINE TorusOnRays(const RoundCoordinate& circle, double tube, bool complement, const Rays& rays, V t0, V t1)
+    DEBURR_INLINE TorusOnRays(const RoundCoordinate& circle, double tube, bool complement, const Rays& rays, V t0, V t1)
         : ring_(number(circle.ring)), tube_(number(tube)), t0_(t0), t1_(t1) {
         V away[3], y[3], across[3], rate[3];
         for (int k = 0; k < 3; ++k) away[k] = rays.origin[k] - number(circle.center[k]);
@@ -55,11 +55,11 @@ public:
 
     // The first crossings of `rays`, and which go into the torus.
     struct Found {
-        HWY_INLINE Found() {}  // one that the compiler makes is not for these instructions
+        DEBURR_INLINE Found() {}  // one that the compiler makes is not for these instructions
         M any, into;
         V t;
     };
-    HWY_INLINE Found first(M rays) const {
+    DEBURR_INLINE Found first(M rays) const {
         const V zero = hn::Zero(d);
         V from = lo_, width = hi_ - lo_, at_from = value(lo_);
         V root_from = lo_, root_to = lo_, at_root_from = zero, at_root_to = zero;
@@ -102,10 +102,10 @@ public:
     }
 
 private:
-    HWY_INLINE V value(V u) const { return c0_ + u * (c1_ + u * (c2_ + u * (u * c4_))); }
-    HWY_INLINE V slope(V u) const { return c1_ + u * (number(2) * c2_ + u * (number(4) * u * c4_)); }
+    DEBURR_INLINE V value(V u) const { return c0_ + u * (c1_ + u * (c2_ + u * (u * c4_))); }
+    DEBURR_INLINE V slope(V u) const { return c1_ + u * (number(2) * c2_ + u * (number(4) * u * c4_)); }
 
-    HWY_INLINE V root(M run, V from, V to, V at_from, V at_to) const {
+    DEBURR_INLINE V root(M run, V from, V to, V at_from, V at_to) const {
         const V zero = hn::Zero(d);
         const M in = at_from > zero;
         V a = from, b = to, u = from + (to - from) * (at_from / (at_from - at_to));
@@ -125,7 +125,7 @@ private:
         return least(most(u + middle_, t0_), t1_);
     }
 
-    HWY_INLINE V nearer_by_distance(V u) const {
+    DEBURR_INLINE V nearer_by_distance(V u) const {
         const V s = hn::Sqrt(start_square_ + u * (number(2) * start_rate_ + u * rate_square_)), out = s - ring_;
         const V h = height_ + climb_ * u, distance = hn::Sqrt(out * out + h * h);
         const V rate = (out * ((start_rate_ + u * rate_square_) / s) + h * climb_) / distance;
