@@ -20,6 +20,7 @@
 #include "raytracer/image/scene_pictures.hpp"
 #include "raytracer/render/passes.hpp"
 #include "raytracer/scene/vanished_parts.hpp"
+#include "raytracer/scene/view_warnings.hpp"
 #include "raytracer/util/errors.hpp"
 #include "raytracer/util/interrupt.hpp"
 #include "raytracer/util/message.hpp"
@@ -301,7 +302,9 @@ private:
             progress_->finish();
         else
             progress_->stop();
-        if (!o_.quiet && complete_ && std::any_of(o_.outputs.begin(), o_.outputs.end(), is_for_screen))
+        // A scene without light was told before.
+        const bool told = is_unlit(world_->scene);
+        if (!o_.quiet && complete_ && !told && std::any_of(o_.outputs.begin(), o_.outputs.end(), is_for_screen))
             if (const auto advice = exposure_advice(film, exposure_)) message("warning: " + *advice);
         const Scene& scene = world_->scene;
         write_statistics(o_, {scene.file, o_.via, world_->bsp ? name(o_.accel.value_or(Accel::bvh)) : "",

@@ -27,6 +27,10 @@ std::optional<std::string> exposure_advice(const Film& film, double exposure) {
     const double scale = std::exp2(exposure);
     for (const Pixel& pixel : film.pixels)
         brightest.push_back(scale * std::max({pixel.color.x, pixel.color.y, pixel.color.z}));
+    const bool is_black = std::all_of(brightest.begin(), brightest.end(), [](double x) { return x == 0; });
+    const bool sees_something =
+        std::any_of(film.pixels.begin(), film.pixels.end(), [](const Pixel& pixel) { return pixel.alpha > 0; });
+    if (is_black && sees_something) return "the picture is black: no light falls on what the camera sees";
     const double all = double(brightest.size());
     const double clipped = double(std::count_if(brightest.begin(), brightest.end(), [](double x) { return x > 1; }));
     const auto at = brightest.begin() + std::ptrdiff_t((1 - left_share) * (all - 1));

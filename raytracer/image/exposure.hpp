@@ -7,8 +7,8 @@
 
 namespace deburr {
 
-/// One line where a picture of this exposure, in stops, is clipped in a large part or nearly black, with the exposure
-/// that shows it; nothing where it is neither, or black whatever the exposure.
+/// Returns one line where a picture of this exposure, in stops, is clipped in a large part or nearly black, with the
+/// exposure that shows it, or where it is black whatever the exposure though it shows a solid; otherwise nothing.
 std::optional<std::string> exposure_advice(const Film& film, double exposure);
 
 }  // namespace deburr

@@ -20,17 +20,6 @@ constexpr double least_fov = std::numbers::pi, greatest_fov = 130;
 
 bool is_black(Vec3 color) { return color == Vec3(0.0); }
 
-bool is_dark(const Scene& scene) {
-    const bool shines = std::any_of(scene.lights.begin(), scene.lights.end(),
-                                    [](const Light& light) { return light.power > 0 && !is_black(light.color); });
-    const bool glows = std::any_of(scene.materials.begin(), scene.materials.end(),
-                                   [](const Material& material) { return !is_black(material.emission); });
-    const Background& b = scene.lighting();
-    if (glows || b.by_day() || !b.file.empty()) return false;
-    const bool black = b.sky ? is_black(b.horizon) && is_black(b.zenith) : is_black(b.color);
-    return !shines && black && is_black(scene.ambient);
-}
-
 std::string name_of(const Scene& scene, std::size_t solid) {
     return fmt::format("solid {}{}", solid + 1, scene.names[solid].empty() ? "" : " (" + scene.names[solid] + ")");
 }
@@ -80,10 +69,21 @@ bool out_of_view(const Box& box, const Camera& camera, double aspect) {
 
 }  // namespace
 
+bool is_unlit(const Scene& scene) {
+    const bool shines = std::any_of(scene.lights.begin(), scene.lights.end(),
+                                    [](const Light& light) { return light.power > 0 && !is_black(light.color); });
+    const bool glows = std::any_of(scene.materials.begin(), scene.materials.end(),
+                                   [](const Material& material) { return !is_black(material.emission); });
+    const Background& b = scene.lighting();
+    if (glows || b.by_day() || !b.file.empty()) return false;
+    const bool black = b.sky ? is_black(b.horizon) && is_black(b.zenith) : is_black(b.color);
+    return !shines && black && is_black(scene.ambient);
+}
+
 std::vector<std::string> view_warnings(const Scene& scene, double aspect) {
     std::vector<std::string> lines;
     const auto say = [&](const std::string& what) { lines.push_back(fmt::format("{}: {}", scene.file, what)); };
-    if (is_dark(scene)) say("there is no light: give lights, a background or ambient, or leave all of them out");
+    if (is_unlit(scene)) say("there is no light: give lights, a background or ambient, or leave all of them out");
 
     const double fov = scene.camera.fov;
     if (fov <= least_fov)

@@ -30,7 +30,9 @@ TEST_CASE("a picture that is clipped in a large part, or nearly black, is told t
           "50 % of the pixels are brighter than white and clipped; --exposure 0.1 shows them");
     CHECK(exposure_advice(film_of(500, 0.015625, 0), 0) == "the picture is nearly black; --exposure 6.0 shows it");
     CHECK_FALSE(exposure_advice(film_of(500, 0.015625, 0), 6));
-    CHECK_FALSE(exposure_advice(film_of(0, 0, 0), 0));
+    CHECK(exposure_advice(film_of(0, 0, 0), 0) == "the picture is black: no light falls on what the camera sees");
+    CHECK_FALSE(exposure_advice(film_of(1, 0.5, 0), 0));
+    CHECK_FALSE(exposure_advice(Film(100, 10, {0, 0, 100, 10}, {}), 0));  // of nothing
 }
 
 TEST_CASE("an exposure of -1 halves the light of a PNG, and leaves an EXR as it is") {
