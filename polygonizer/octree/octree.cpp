@@ -9,6 +9,7 @@
 #include "bounds/sort_once.hpp"
 #include "polygonizer/mesh/repair.hpp"
 #include "polygonizer/mesh/sharp_parts.hpp"
+#include "polygonizer/mesh/untangle.hpp"
 #include "polygonizer/octree/octree_hard_edges.hpp"
 #include "polygonizer/octree/octree_linking.hpp"
 #include "polygonizer/octree/octree_mending.hpp"
@@ -392,6 +393,10 @@ Mesh octree(const SolidTree& mixed, const Box& box, const OctreeOptions& options
     }
     if (options.decimate && std::isfinite(options.tolerance))
         best = thinned_out(best, solid, options.tolerance, options.cancel, options.progress);
+    if (!best.is_right()) {
+        constexpr double in_edges = 0.25;
+        untangle(best, FacetJudge(solid, best.mesh), in_edges * edge, options.cancel);
+    }
     throw_unless_closed(best.mesh);
     return best.mesh;
 }

@@ -140,6 +140,18 @@ TEST_CASE("The octree cuts cells further until sharp walls part, however thin") 
     }
 }
 
+TEST_CASE("Facets of the octree that cross at any size of its cells are untangled") {
+    for (const int seed : {266, 353}) {
+        CAPTURE(seed);
+        CHECK(check_part(seed, octree_of_40).faults() == 0);
+    }
+    for (const int seed : {48, 77}) {
+        CAPTURE(seed);
+        CHECK(check_part<RandomSlantedPart>(seed, octree_of_40).faults() == 0);
+    }
+    CHECK(check_part<RandomSlantedPart>(70, octree_of_40).crossing.count == 0);
+}
+
 TEST_CASE("Random parts with sharp round tools by the octree pass the check of what was made") {
     CHECK(check_parts<RandomSlantedPart>(10, true, octree_of_40) > 10'000);
 }

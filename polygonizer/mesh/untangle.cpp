@@ -1,0 +1,157 @@
+#include "polygonizer/mesh/untangle.hpp"
+
+#include <algorithm>
+#include <optional>
+
+#include "polygonizer/mesh/crossing_triangles.hpp"
+
+namespace deburr {
+namespace {
+
+// Cosine between a facet and the surface, below which it leans: as after repair's last resort.
+constexpr double upright = 0.05;
+
+class Untangling {
+public:
+    Untangling(MendedMesh& m, const FacetJudge& judge, double reach)
+        : mesh_(m.mesh), tree_(m.mesh), facets_(m.mesh, m.origins), judge_(judge), reach_(reach) {
+        std::vector<int> wrong = m.wrong;
+        std::sort(wrong.begin(), wrong.end());
+        wrong.erase(std::unique(wrong.begin(), wrong.end()), wrong.end());
+        for (const int f : wrong)
+            if (facets_.alive(f)) help(f);
+        facets_.finish();
+    }
+
+    std::size_t changes() const { return changes_; }
+
+private:
+    // Makes the best change of the facet's edges, if there is one. Facets near one that changed wait for the next time.
+    void help(int f) {
+        std::optional<Change> best;
+        int best_gain = 0;
+        const auto offer = [&](std::optional<Change> change) {
+            if (!change || !untouched(*change)) return;
+            // Two facets fewer that are as wrong are a step, too.
+            const int fewer = int(change->out.size()) - int(change->in.size());
+            const int gain = 4 * (faults_before(*change) - faults_after(*change)) + fewer;
+            if (gain <= best_gain) return;
+            best_gain = gain;
+            best = std::move(change);
+        };
+        const auto offer_edges = [&](int g) {
+            const Triangle t = facets_.at(g).triangle;
+            for (std::size_t k = 0; k < 3; ++k) {
+                offer(facets_.collapse(t.vertex[k], t.vertex[(k + 1) % 3]));
+                offer(facets_.collapse(t.vertex[(k + 1) % 3], t.vertex[k]));
+                offer(facets_.flip(g, k, true));
+            }
+        };
+        offer_edges(f);
+        if (!best)  // or of the facets around
+            for (const int v : facets_.at(f).triangle.vertex)
+                for (const int g : facets_.around(v)) offer_edges(g);
+        if (!best) return;
+        touched_.push_back(box_of(*best));
+        facets_.apply(*best);
+        ++changes_;
+    }
+
+    Box box_of(const Triangle& t) const {
+        Box box;
+        for (const int v : t.vertex) box = hull(box, {mesh_.positions[v], mesh_.positions[v]});
+        return box;
+    }
+    Box box_of(const Change& change) const {
+        Box box;
+        for (const int f : change.out) box = hull(box, box_of(facets_.at(f).triangle));
+        for (const Facet& f : change.in) box = hull(box, box_of(f.triangle));
+        return box;
+    }
+    bool untouched(const Change& change) const {
+        const Box box = box_of(change);
+        return std::none_of(touched_.begin(), touched_.end(),
+                            [&](const Box& other) { return !intersection(box, other).empty(); });
+    }
+
+    // Facets of the mesh that cross one which is not among `out`.
+    int crossings(const Triangle& t, const std::vector<int>& out) const {
+        int count = 0;
+        tree_.visit(box_of(t), [&](int other) {
+            if (std::find(out.begin(), out.end(), other) == out.end())
+                count += crosses(t, mesh_.triangles[std::size_t(other)]);
+            return true;
+        });
+        return count;
+    }
+    bool crosses(const Triangle& s, const Triangle& t) const {
+        const double rounding = 1e-11 * std::max(largest(tree_.box().lo), largest(tree_.box().hi));
+        return triangles_cross(mesh_, s, t, rounding);
+    }
+    template <class Facet, class TriangleOf>
+    int crossings_among(const std::vector<Facet>& facets, TriangleOf triangle) const {
+        int count = 0;
+        for (std::size_t i = 0; i < facets.size(); ++i)
+            for (std::size_t j = 0; j < i; ++j) count += crosses(triangle(facets[i]), triangle(facets[j]));
+        return count;
+    }
+    int faults_before(const Change& change) const {
+        const auto triangle = [&](int f) { return facets_.at(f).triangle; };
+        int count = crossings_among(change.out, triangle);
+        for (const int f : change.out)
+            count += crossings(triangle(f), change.out) + (judge_.shape(facets_, facets_.at(f)).cosine < upright);
+        return count;
+    }
+    // More than any before where a facet would be too far from the surface.
+    int faults_after(const Change& change) const {
+        int count = 0;
+        for (const Facet& f : change.in) {
+            const FacetShape shape = judge_.shape(facets_, f);
+            if (shape.distance > reach_) return std::numeric_limits<int>::max() / 8;
+            count += shape.cosine < upright;
+        }
+        for (const Facet& f : change.in) count += crossings(f.triangle, change.out);
+        return count + crossings_among(change.in, [](const Facet& f) { return f.triangle; });
+    }
+
+    const Mesh& mesh_;
+    const TriangleTree tree_;
+    Facets facets_;
+    const FacetJudge& judge_;
+    double reach_;
+    std::vector<Box> touched_;
+    std::size_t changes_ = 0;
+};
+
+void find_faults(MendedMesh& m, const FacetJudge& judge, CancelFlag cancel) {
+    m.wrong.clear();
+    Mesh copy = m.mesh;
+    std::vector<Origin> origins = m.origins;
+    const Facets facets(copy, origins);
+    for (int f = 0; f < int(facets.size()); ++f)
+        if (judge.shape(facets, facets.at(f), upright).cosine < upright) m.wrong.push_back(f);
+    m.leaning = m.wrong.size();
+    m.others = add_crossing(m.mesh, m.wrong, cancel);
+    m.crosses = m.others > 0;
+}
+
+}  // namespace
+
+std::size_t untangle(MendedMesh& m, const FacetJudge& judge, double reach, CancelFlag cancel) {
+    constexpr std::size_t max_faults = 1000;  // a mesh with more is wrong as a whole
+    if (m.wrong.size() > max_faults) return 0;
+    constexpr int max_rounds = 60, patience = 12;  // rounds, in all and without fewer faults
+    std::size_t changes = 0, least = m.leaning + m.others;
+    for (int round = 0, last = 0; round < max_rounds && round - last <= patience && !m.wrong.empty(); ++round) {
+        const std::size_t made = Untangling(m, judge, reach).changes();
+        if (made == 0) break;
+        changes += made;
+        find_faults(m, judge, cancel);
+        if (m.leaning + m.others >= least) continue;
+        least = m.leaning + m.others;
+        last = round;
+    }
+    return changes;
+}
+
+}  // namespace deburr
