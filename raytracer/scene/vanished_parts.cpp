@@ -23,6 +23,8 @@ namespace {
 constexpr double max_leaves = 3'000;
 // Halvings in search of the largest radius that keeps a part: three digits of it.
 constexpr int halvings = 12;
+// Nodes that are looked at for one radius, to find a point that it keeps.
+constexpr std::int64_t nodes_of_radius = 1'000'000;
 // Points along each side of a part's box where it is compared with the whole.
 constexpr int points_along = 12;
 // A plate of this many radii holds half of the ball around its middle: 3u - u³ = 1 of u, half of it, = 2 sin 10°.
@@ -105,7 +107,12 @@ private:
     // Errs towards no.
     bool is_surely_kept(const DensityTree& tree, const Box& box) {
         if (node_.convolved()) return some_point(box, [&](Vec3 x) { return value(tree, x) > 0.5; });
-        return emptiness(tree, box, nodes_) == Emptiness::not_empty;
+        // Beyond the largest such radius no answer may be found at all.
+        const std::int64_t given = std::min(nodes_, nodes_of_radius);
+        std::int64_t left = given;
+        const Emptiness found = emptiness(tree, box, left);
+        nodes_ -= given - left;
+        return found == Emptiness::not_empty;
     }
 
     double value(const DensityTree& tree, Vec3 x) {
