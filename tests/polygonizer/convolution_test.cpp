@@ -18,7 +18,8 @@ double off_surface(const Mesh& mesh, const SolidTree& tree) {
 
 }  // namespace
 
-TEST_CASE("triage and marching cubes make closed manifolds of convolved solids, with their vertices on the surface") {
+TEST_CASE("triage and marching cubes make closed manifolds of convolved solids, with their vertices on the surface",
+          "[slow]") {
     int shells = 0;
     for (auto seed : seeds(60)) {
         CAPTURE(seed);

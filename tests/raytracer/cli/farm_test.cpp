@@ -96,13 +96,14 @@ void check_kills(int kills, unsigned seed) {
 
 }  // namespace
 
-TEST_CASE("a run that is killed at random moments and resumed makes the picture of an uninterrupted one") {
+TEST_CASE("a run that is killed at random moments and resumed makes the picture of an uninterrupted one", "[slow]") {
     check_kills(10, 1);
 }
 
 TEST_CASE("200 kills at random moments lose nothing", "[slow]") { check_kills(200, 2); }
 
-TEST_CASE("SIGTERM leaves a checkpoint and exit code 75, SIGINT 130, and --resume goes on to the same bytes") {
+TEST_CASE("SIGTERM leaves a checkpoint and exit code 75, SIGINT 130, and --resume goes on to the same bytes",
+          "[slow]") {
     for (const int signal : {SIGTERM, SIGINT}) {
         const Place place;
         const Words call = {"--size", "200x200", "--spp", "400"};

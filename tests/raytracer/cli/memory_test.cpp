@@ -38,7 +38,7 @@ TEST_CASE("of errors in a parallel loop that of the least index is thrown, and o
 
 // Sanitizers take more address space than any limit leaves.
 #if !DEBURR_IS_SANITIZED
-TEST_CASE("running out of memory is one line and exit code 1, at whatever limit") {
+TEST_CASE("running out of memory is one line and exit code 1, at whatever limit", "[slow]") {
     const Folder folder;
     write_file(folder / "s.lua", R"(
         local all = {}

@@ -202,7 +202,7 @@ TEST_CASE("compare says how two files differ, and its limits are exit codes") {
     CHECK(nlohmann::json::parse(read_file(folder / "j"))["within_limits"] == true);
 }
 
-TEST_CASE("what a picture's header claims is believed as far as the file's size allows") {
+TEST_CASE("what a picture's header claims is believed as far as the file's size allows", "[slow]") {
     const Folder folder;
     const auto big_endian = [](std::uint32_t n) {
         return std::string{char(n >> 24), char(n >> 16), char(n >> 8), char(n)};

@@ -128,7 +128,7 @@ TEST_CASE("a formula for POV-Ray has the density's value everywhere") {
     CHECK(varying > 300);
 }
 
-TEST_CASE("a formula for POV-Ray has the value of round parts, and their slope is bounded") {
+TEST_CASE("a formula for POV-Ray has the value of round parts, and their slope is bounded", "[slow]") {
     int varying = 0;
     for (const auto seed : seeds(150)) {
         CAPTURE(seed);
@@ -149,7 +149,7 @@ TEST_CASE("a formula for POV-Ray has the value of round parts, and their slope i
     CHECK(varying > 300);
 }
 
-TEST_CASE("POV-Ray sees the silhouettes of round parts, rounded and sharp") {
+TEST_CASE("POV-Ray sees the silhouettes of round parts, rounded and sharp", "[slow]") {
     if (!has_povray()) return;
     for (const char* form : {"rounded(0.08, ", "sharp("})
         for (const char* density : {"cylinder{ from = {0.5, 0, 0.5}, to = {0.5, 1, 0.5}, radius = 0.4 } & ~cylinder{ "
@@ -188,7 +188,7 @@ TEST_CASE("the slope that is proved is nearly that of a face") {
     }
 }
 
-TEST_CASE("POV-Ray sees the silhouettes that Deburr sees") {
+TEST_CASE("POV-Ray sees the silhouettes that Deburr sees", "[slow]") {
     if (!has_povray()) return;
     for (const char* solid :
          {"rounded(0.1, cube() - halfspace({0, 1, 0}, 1) * pit)",
