@@ -73,6 +73,13 @@ TEST_CASE("walls of a model that its radius leaves nothing of are told with the 
     CHECK(larger[0].find("at radius 1.5, the thinnest 1 thick") != std::string::npos);
 }
 
+TEST_CASE("the search for the largest radius that keeps one part leaves time for the others") {
+    // Near that radius nothing can be proved in any time.
+    const VanishedParts found =
+        of("rounded(0.9, box({0, 0, 0}, {10, 0.5, 10})), rounded(0.9, box({0, 0, 0}, {9, 0.5, 10}))");
+    CHECK(found.rounded_away.size() == 2);
+}
+
 TEST_CASE("a part of a union that vanishes is told by its place, unless its neighbours hold it") {
     const std::string plate = "box({0, 0, 0}, {10, 2, 10})", fin = "box({4, 2, 0}, {4.1, 6, 10})";
     for (const char* op : {" | ", " + "}) {
