@@ -6,78 +6,137 @@
 
 namespace deburr {
 
+namespace {
+
+// A product of a sum that is multiplied out.
+struct Product {
+    double weight;
+    std::vector<std::uint8_t> planes, rounds;
+};
+
+// A density's sum, multiplied out further until no round half-space is flipped, and the half-spaces in it.
+class Expansion {
+public:
+    explicit Expansion(const LocalDensity& density)
+        : half_spaces_(density.half_spaces()),
+          plane_of_(2 * half_spaces_.size(), -1),
+          round_of_(half_spaces_.size(), -1) {}
+
+    // Adds a weighted product; false if a round half-space of it is not convex.
+    bool add(const LocalDensity::Sum::Term& term) {
+        std::vector<Product> parts{{term.weight, {}, {}}};
+        for (const auto& [i, flipped] : term.factors) {
+            const HalfSpace& h = half_spaces_[i];
+            if (h.round && !h.round->is_convex()) return false;
+            const std::uint8_t number = number_of(i, flipped);
+            if (h.round && flipped)
+                subtract_products(parts, number);
+            else
+                for (Product& part : parts) (h.round ? part.rounds : part.planes).push_back(number);
+        }
+        for (Product& part : parts) {
+            if (part.planes.empty() && part.rounds.empty())
+                constant += part.weight;
+            else
+                products.push_back(std::move(part));
+        }
+        return true;
+    }
+
+    bool is_small() const {
+        return products.size() <= std::size_t(ProductSum::max_terms) &&
+               rounds.size() <= std::size_t(ProductSum::max_rounds) &&
+               planes.size() + rounds.size() <= std::size_t(ProductSum::max_planes);
+    }
+
+    double constant = 0;
+    std::vector<Product> products;
+    std::vector<AlphaPlane> planes;
+    std::vector<ProductSum::Round> rounds;
+    double steepest = 0;  // the greatest slope of an α
+
+private:
+    // The number of the half-space in `planes` or in `rounds`, where it is added if it is new.
+    std::uint8_t number_of(int i, bool flipped) {
+        const HalfSpace& h = half_spaces_[i];
+        int& number = h.round ? round_of_[std::size_t(i)] : plane_of_[2 * std::size_t(i) + flipped];
+        if (number >= 0) return std::uint8_t(number);
+        steepest = std::max(steepest, 1 / h.radius);
+        number = int(h.round ? rounds.size() : planes.size());
+        if (h.round)
+            rounds.push_back({*h.round, h.offset, 1 / h.radius});
+        else
+            planes.push_back(alpha_plane(h, flipped));
+        return std::uint8_t(number);
+    }
+
+    // P (1 − F) = P − P F: of the two sides of a round part one is convex.
+    static void subtract_products(std::vector<Product>& parts, std::uint8_t round) {
+        const std::size_t before = parts.size();
+        for (std::size_t k = 0; k < before; ++k) {
+            Product other = parts[k];
+            other.weight = -other.weight;
+            other.rounds.push_back(round);
+            parts.push_back(std::move(other));
+        }
+    }
+
+    const std::vector<HalfSpace>& half_spaces_;
+    std::vector<int> plane_of_, round_of_;  // of half-spaces, each as it is and flipped
+};
+
+// The terms, without their reach; none if one has too many factors.
+std::vector<ProductSum::Term> terms_of(Expansion& sum) {
+    std::vector<ProductSum::Term> terms;
+    for (Product& product : sum.products) {
+        ProductSum::Term term{product.weight, std::move(product.planes), infinity};
+        for (const std::uint8_t round : product.rounds) term.factors.push_back(std::uint8_t(sum.planes.size() + round));
+        if (term.factors.size() > std::size_t(ProductSum::max_planes)) return {};
+        terms.push_back(std::move(term));
+    }
+    return terms;
+}
+
+// As ProductSum::coefficients() gives them, for `n` planes, of which the last may not be there.
+std::vector<double> coefficients_of(const std::vector<AlphaPlane>& planes, std::size_t n) {
+    std::vector<double> all(4 * n, 0.0);
+    for (std::size_t i = 0; i < planes.size(); ++i) {
+        for (int k = 0; k < 3; ++k) all[std::size_t(k) * n + i] = planes[i].slope[k];
+        all[3 * n + i] = planes[i].base;
+    }
+    return all;
+}
+
+// ρ = ½ takes that terms of the one sign together make up for what c misses: of m terms one makes up
+// for 1/m of it, and then so does every factor of it. `clearance`: in α.
+void set_reaches(std::vector<ProductSum::Term>& terms, double missing, double clearance) {
+    const auto helps = [&](const ProductSum::Term& term) { return missing * term.weight > 0; };
+    const auto helpers = double(std::count_if(terms.begin(), terms.end(), helps));
+    for (ProductSum::Term& term : terms)
+        if (helps(term)) term.reach = displacement(missing / (helpers * term.weight) - inverse_slack) + clearance;
+}
+
+}  // namespace
+
 std::optional<ProductSum> ProductSum::of(const LocalDensity& density, double clearance) {
     if (density.has_sharp()) return std::nullopt;
     const auto expanded = density.as_sum(std::size_t(max_terms));
     if (!expanded || expanded->terms.empty()) return std::nullopt;
+    Expansion expansion(density);
+    expansion.constant = expanded->constant;
+    for (const LocalDensity::Sum::Term& term : expanded->terms)
+        if (!expansion.add(term)) return std::nullopt;
+    if (!expansion.is_small()) return std::nullopt;
     ProductSum sum;
-    sum.constant_ = expanded->constant;
-    std::vector<AlphaPlane> planes;
-    std::vector<int> plane_of(2 * density.half_spaces().size(), -1), round_of(density.half_spaces().size(), -1);
-    double steepest = 0;
-    struct Split {
-        double weight;
-        std::vector<std::uint8_t> planes, rounds;
-    };
-    std::vector<Split> terms;
-    for (const auto& [weight, factors] : expanded->terms) {
-        std::vector<Split> parts{{weight, {}, {}}};
-        for (const auto& [i, flipped] : factors) {
-            const HalfSpace& h = density.half_spaces()[i];
-            if (h.round && !h.round->is_convex()) return std::nullopt;
-            int& at = h.round ? round_of[std::size_t(i)] : plane_of[2 * std::size_t(i) + flipped];
-            if (at < 0) {
-                steepest = std::max(steepest, 1 / h.radius);
-                at = int(h.round ? sum.rounds_.size() : planes.size());
-                if (h.round)
-                    sum.rounds_.push_back({*h.round, h.offset, 1 / h.radius});
-                else
-                    planes.push_back(alpha_plane(h, flipped));
-            }
-            const std::size_t before = parts.size();
-            for (std::size_t k = 0; k < before; ++k) {
-                if (h.round && flipped) {  // P (1 − F) = P − P F: of the two sides of a round part one is convex
-                    Split other = parts[k];
-                    other.weight = -other.weight;
-                    other.rounds.push_back(std::uint8_t(at));
-                    parts.push_back(std::move(other));
-                } else {
-                    (h.round ? parts[k].rounds : parts[k].planes).push_back(std::uint8_t(at));
-                }
-            }
-        }
-        for (Split& part : parts) {
-            if (part.planes.empty() && part.rounds.empty())
-                sum.constant_ += part.weight;
-            else
-                terms.push_back(std::move(part));
-        }
-    }
-    if (terms.size() > std::size_t(max_terms) || sum.rounds_.size() > std::size_t(max_rounds) ||
-        planes.size() + sum.rounds_.size() > std::size_t(max_planes))
-        return std::nullopt;
-    for (Split& part : terms) {
-        Term term{part.weight, std::move(part.planes), infinity};
-        for (const std::uint8_t round : part.rounds) term.factors.push_back(std::uint8_t(planes.size() + round));
-        if (term.factors.size() > std::size_t(max_planes)) return std::nullopt;
-        sum.terms_.push_back(std::move(term));
-    }
-    sum.planes_ = int(planes.size());
-    const auto n = std::size_t(sum.even_planes());
-    sum.coefficients_.assign(4 * n, 0.0);
-    for (std::size_t i = 0; i < planes.size(); ++i) {
-        for (int k = 0; k < 3; ++k) sum.coefficients_[std::size_t(k) * n + i] = planes[i].slope[k];
-        sum.coefficients_[3 * n + i] = planes[i].base;
-    }
-    // ρ = ½ takes that terms of the one sign together make up for what c misses: of m terms one makes up
-    // for 1/m of it, and then so does every factor of it.
+    sum.terms_ = terms_of(expansion);
+    if (sum.terms_.size() < expansion.products.size()) return std::nullopt;
+    sum.constant_ = expansion.constant;
+    sum.rounds_ = std::move(expansion.rounds);
+    sum.planes_ = int(expansion.planes.size());
+    sum.coefficients_ = coefficients_of(expansion.planes, std::size_t(sum.even_planes()));
     const double missing = 0.5 - sum.constant_;
     sum.anywhere_ = missing == 0;
-    const auto helps = [&](const Term& term) { return missing * term.weight > 0; };
-    const auto helpers = double(std::count_if(sum.terms_.begin(), sum.terms_.end(), helps));
-    for (Term& term : sum.terms_)
-        if (helps(term))
-            term.reach = displacement(missing / (helpers * term.weight) - inverse_slack) + clearance * steepest;
+    set_reaches(sum.terms_, missing, clearance * expansion.steepest);
     return sum;
 }
 
