@@ -18,36 +18,6 @@ constexpr double pi = mesh_pi;
 
 constexpr double steepest = 0.75;  // what the largest disc changes the share by, for each radius
 
-// Between planes that make a wedge: an error of ε in one moves their edge by ε over the angle.
-constexpr double least_angle = 1e-6;
-
-bool same_plane(const ClosedMesh::Plane& a, const ClosedMesh::Plane& b, double scale) {
-    if (a.id == b.id) return true;
-    return glm::dot(a.normal, b.normal) > 0 && largest(a.normal - b.normal) <= 4 * epsilon &&
-           std::abs(a.offset - b.offset) <= 8 * epsilon * scale;
-}
-
-// At least the distance of the box from a convex set whose nearest point to any is `nearest`: from one to the other
-// and back, a few times.
-template <class Nearest>
-double distance_bound(const Box& box, Vec3 start, Nearest nearest) {
-    double distance = infinity;
-    Vec3 on = start;
-    for (int k = 0; k < 8; ++k) {
-        const Vec3 in = glm::clamp(on, box.lo, box.hi);
-        distance = std::min(distance, glm::distance(in, on));
-        on = nearest(in);
-    }
-    return std::min(distance, glm::distance(on, glm::clamp(on, box.lo, box.hi)));
-}
-
-double distance_bound(Vec3 a, Vec3 b, const Box& box) {
-    return distance_bound(box, 0.5 * (a + b), [&](Vec3 x) {
-        const Vec3 d = b - a;
-        return a + std::clamp(glm::dot(x - a, d) / glm::dot(d, d), 0.0, 1.0) * d;
-    });
-}
-
 // Calls visit(triangle, steepness) with what holds for balls whose centres are within `half` of the center, and within
 // `reach` radii across the directions in which nothing changes.
 template <class Visit>
@@ -223,77 +193,6 @@ FieldPtr MeshField::prune(const Box& box) const {
     if (found.empty() || (!whole_ && found.size() == triangles_.size())) return nullptr;
     found.shrink_to_fit();
     return FieldPtr(new MeshField(Part{}, *this, std::move(found)));
-}
-
-std::optional<DensityTree> MeshField::as_density(const Box& cell) const {
-    const Box box = reached(cell);
-    if (box.empty()) return std::nullopt;
-    thread_local std::vector<int> found;
-    found.clear();
-    const double scale = std::max(largest(box_.lo), largest(box_.hi));
-    const ClosedMesh::Plane *a = nullptr, *b = nullptr;
-    // False for a triangle of a third plane.
-    const auto place = [&](int t) {
-        const ClosedMesh::Plane& plane = mesh_->plane(t);
-        if ((a && same_plane(plane, *a, scale)) || (b && same_plane(plane, *b, scale))) return true;
-        if (b) return false;
-        (a ? b : a) = &plane;
-        return true;
-    };
-    bool many = false;
-    const auto add = [&](int t) {
-        found.push_back(t);
-        many = !place(t);
-        return !many;
-    };
-    if (whole_) {
-        mesh_->visit_near(box, radius_, add);
-    } else {
-        for (const int t : triangles_)
-            if (mesh_->reaches(t, box, radius_) && !add(t)) break;
-    }
-    if (found.empty() || many) return std::nullopt;
-    // Which plane stands for those that are equal to rounding is told by the triangles' order.
-    std::sort(found.begin(), found.end());
-    a = b = nullptr;
-    for (const int t : found)
-        if (!place(t)) return std::nullopt;
-    const auto half_space = [&](const ClosedMesh::Plane& p) {
-        return HalfSpace{p.normal, p.offset, sharp_ ? 0 : radius_};
-    };
-    if (!b) {
-        // Where none of it surely reaches there may be nothing.
-        const bool reached = std::any_of(found.begin(), found.end(), [&](int t) {
-            return distance_bound(box, mesh_->ball(t).center, [&](Vec3 x) { return mesh_->nearest(t, x); }) < radius_;
-        });
-        if (!reached) return std::nullopt;
-        return DensityTree{{half_space(*a)}, {{Op::half_space, 0}}, {}};
-    }
-    // Where planes that are all but one plane meet is not known well enough.
-    if (glm::length(glm::cross(a->normal, b->normal)) < least_angle && glm::dot(a->normal, b->normal) > 0)
-        return std::nullopt;
-    // They meet in edges of one kind, one of which is surely near.
-    bool convex = false, concave = false, meet = false;
-    for (const int t : found) {
-        if (!same_plane(mesh_->plane(t), *a, scale)) continue;
-        for (int k = 0; k < 3; ++k) {
-            const ClosedMesh::Neighbour& other = mesh_->across(t, k);
-            if (same_plane(mesh_->plane(other.triangle), *a, scale)) continue;
-            if (!std::binary_search(found.begin(), found.end(), other.triangle)) continue;
-            const Vec3 beyond = mesh_->corner(other.triangle, (other.edge + 2) % 3);
-            (glm::dot(a->normal, beyond) < a->offset ? convex : concave) = true;
-            meet = meet || distance_bound(mesh_->corner(t, k), mesh_->corner(t, (k + 1) % 3), box) < radius_;
-        }
-    }
-    if (!meet || convex == concave) return std::nullopt;
-    DensityTree wedge{{half_space(*a), half_space(*b)},
-                      {{Op::half_space, 0}, {Op::half_space, 1}, {convex ? Op::conjunction : Op::disjunction, 0, 1}},
-                      {}};
-    if (!sharp_) {
-        wedge.nodes.push_back({Op::convolution, wedge.root()});
-        wedge.ball = Mat3(radius_);
-    }
-    return wedge;
 }
 
 std::vector<HalfSpace> MeshField::planes() const {

@@ -45,6 +45,14 @@ private:
     bool is_inside(Vec3 x) const;
     Range range(const Box& box, std::span<const int> triangles) const;
 
+    struct NearPlanes;
+    std::optional<NearPlanes> near_planes(const Box& box, std::vector<int>& found) const;
+    HalfSpace half_space(const ClosedMesh::Plane& plane) const;
+    std::optional<DensityTree> one_plane(const Box& box, const std::vector<int>& triangles,
+                                         const ClosedMesh::Plane& plane) const;
+    std::optional<DensityTree> wedge(const Box& box, const std::vector<int>& triangles, const NearPlanes& planes) const;
+    std::optional<Op> edge_between(const Box& box, const std::vector<int>& triangles, const NearPlanes& planes) const;
+
     ClosedMeshPtr mesh_;
     double radius_;
     bool sharp_;
