@@ -15,12 +15,6 @@ NotClosed::NotClosed(std::size_t open_edges, Vec3 at)
 
 namespace {
 
-struct HalfEdge {
-    int lo, hi;  // its vertices by number
-    bool up;     // it runs from lo to hi
-    int triangle, k;
-};
-
 double angle_between(Vec3 a, Vec3 b) { return std::atan2(glm::length(glm::cross(a, b)), glm::dot(a, b)); }
 
 }  // namespace
@@ -113,69 +107,6 @@ void ClosedMesh::find_planes() {
         areas_.push_back(0.5 * length);
         perimeters_.push_back(glm::distance(a, b) + glm::distance(b, c) + glm::distance(c, a));
     }
-}
-
-void ClosedMesh::find_neighbours() {
-    std::vector<HalfEdge> all;
-    for (std::size_t t = 0; t < triangles_.size(); ++t)
-        for (int k = 0; k < 3; ++k) {
-            const int a = triangles_[t][k], b = triangles_[t][(k + 1) % 3];
-            all.push_back({std::min(a, b), std::max(a, b), a < b, int(t), k});
-        }
-    std::sort(all.begin(), all.end(), [](const HalfEdge& a, const HalfEdge& b) {
-        return std::tie(a.lo, a.hi, a.triangle, a.k) < std::tie(b.lo, b.hi, b.triangle, b.k);
-    });
-    neighbours_.resize(triangles_.size());
-    edges_.resize(triangles_.size());
-    std::size_t open = 0;
-    Vec3 place(0.0);
-    int id = 0;
-    const auto pair = [&](const HalfEdge& a, const HalfEdge& b) {
-        neighbours_[a.triangle][a.k] = {b.triangle, b.k};
-        neighbours_[b.triangle][b.k] = {a.triangle, a.k};
-        edges_[a.triangle][a.k] = edges_[b.triangle][b.k] = id++;
-    };
-    for (std::size_t i = 0; i < all.size();) {
-        std::size_t end = i;
-        int balance = 0;
-        for (; end < all.size() && all[end].lo == all[i].lo && all[end].hi == all[i].hi; ++end)
-            balance += all[end].up ? 1 : -1;
-        if (balance != 0) {
-            if (open++ == 0) place = 0.5 * (vertices_[all[i].lo] + vertices_[all[i].hi]);
-        } else if (end - i == 2) {
-            pair(all[i], all[i + 1]);
-        } else {
-            // Around the edge, from lo to hi: the solid lies between a triangle that runs up and the next, clockwise,
-            // that runs down.
-            const Vec3 along = glm::normalize(vertices_[all[i].hi] - vertices_[all[i].lo]);
-            Vec3 x = glm::cross(along, std::abs(along.x) < 0.6 ? Vec3(1, 0, 0) : Vec3(0, 1, 0));
-            x = glm::normalize(x);
-            const Vec3 y = glm::cross(along, x);
-            std::vector<std::pair<double, std::size_t>> around;
-            for (std::size_t e = i; e < end; ++e) {
-                const Vec3 d = corner(all[e].triangle, (all[e].k + 2) % 3) - vertices_[all[i].lo];
-                around.push_back({std::atan2(glm::dot(d, y), glm::dot(d, x)), e});
-            }
-            std::sort(around.begin(), around.end());
-            // A stack of those that run up pairs each with the nearest that runs down behind it, as brackets are.
-            std::vector<std::size_t> stack;
-            std::vector<char> paired(around.size(), false);
-            for (std::size_t step = 0; step < 2 * around.size(); ++step) {
-                const std::size_t at = (2 * around.size() - 1 - step) % around.size();
-                if (paired[at]) continue;
-                const HalfEdge& e = all[around[at].second];
-                if (e.up) {
-                    if (step < around.size()) stack.push_back(at);
-                } else if (!stack.empty()) {
-                    pair(all[around[stack.back()].second], e);
-                    paired[at] = paired[stack.back()] = true;
-                    stack.pop_back();
-                }
-            }
-        }
-        i = end;
-    }
-    if (open > 0) throw NotClosed(open, place);
 }
 
 // Neighbours whose corners all lie in one plane, to what rounding leaves, are one face.

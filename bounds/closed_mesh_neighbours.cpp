@@ -1,0 +1,106 @@
+// Which triangles of a closed mesh are neighbours across an edge, also where more than two meet in one.
+#include <algorithm>
+#include <span>
+#include <tuple>
+#include <utility>
+
+#include "bounds/closed_mesh.hpp"
+
+namespace deburr {
+namespace {
+
+struct HalfEdge {
+    int lo, hi;  // its vertices by number
+    bool up;     // it runs from lo to hi
+    int triangle, k;
+};
+
+using HalfEdges = std::span<const HalfEdge>;
+using Pairs = std::vector<std::pair<const HalfEdge*, const HalfEdge*>>;
+
+// Sorted by edge, then by triangle.
+std::vector<HalfEdge> half_edges_of(const std::vector<std::array<int, 3>>& triangles) {
+    std::vector<HalfEdge> all;
+    for (std::size_t t = 0; t < triangles.size(); ++t)
+        for (int k = 0; k < 3; ++k) {
+            const int a = triangles[t][k], b = triangles[t][(k + 1) % 3];
+            all.push_back({std::min(a, b), std::max(a, b), a < b, int(t), k});
+        }
+    std::sort(all.begin(), all.end(), [](const HalfEdge& a, const HalfEdge& b) {
+        return std::tie(a.lo, a.hi, a.triangle, a.k) < std::tie(b.lo, b.hi, b.triangle, b.k);
+    });
+    return all;
+}
+
+// How many run up, less those that run down; 0 where the edge is closed.
+int balance_of(HalfEdges edge) {
+    int balance = 0;
+    for (const HalfEdge& e : edge) balance += e.up ? 1 : -1;
+    return balance;
+}
+
+// The triangles at an edge by their angle around it, seen along it from lo.
+std::vector<const HalfEdge*> in_order_around(const ClosedMesh& mesh, HalfEdges edge) {
+    const Vec3 lo = mesh.vertices()[edge[0].lo], along = glm::normalize(mesh.vertices()[edge[0].hi] - lo);
+    Vec3 x = glm::cross(along, std::abs(along.x) < 0.6 ? Vec3(1, 0, 0) : Vec3(0, 1, 0));
+    x = glm::normalize(x);
+    const Vec3 y = glm::cross(along, x);
+    std::vector<std::pair<double, const HalfEdge*>> angles;
+    for (const HalfEdge& e : edge) {
+        const Vec3 d = mesh.corner(e.triangle, (e.k + 2) % 3) - lo;
+        angles.push_back({std::atan2(glm::dot(d, y), glm::dot(d, x)), &e});
+    }
+    std::sort(angles.begin(), angles.end());
+    std::vector<const HalfEdge*> around;
+    for (const auto& [angle, e] : angles) around.push_back(e);
+    return around;
+}
+
+// Around the edge, from lo to hi: the solid lies between a triangle that runs up and the next, clockwise, that runs
+// down. A stack of those that run up pairs each with the nearest that runs down behind it, as brackets are.
+void pair_around(const std::vector<const HalfEdge*>& around, Pairs& pairs) {
+    std::vector<std::size_t> stack;
+    std::vector<char> paired(around.size(), false);
+    for (std::size_t step = 0; step < 2 * around.size(); ++step) {
+        const std::size_t at = (2 * around.size() - 1 - step) % around.size();
+        if (paired[at]) continue;
+        if (around[at]->up) {
+            if (step < around.size()) stack.push_back(at);
+        } else if (!stack.empty()) {
+            pairs.push_back({around[stack.back()], around[at]});
+            paired[at] = paired[stack.back()] = true;
+            stack.pop_back();
+        }
+    }
+}
+
+}  // namespace
+
+void ClosedMesh::find_neighbours() {
+    const std::vector<HalfEdge> all = half_edges_of(triangles_);
+    Pairs pairs;
+    std::size_t open = 0;
+    Vec3 place(0.0);
+    for (std::size_t i = 0, end; i < all.size(); i = end) {
+        end = i;
+        while (end < all.size() && all[end].lo == all[i].lo && all[end].hi == all[i].hi) ++end;
+        const HalfEdges edge(&all[i], end - i);
+        if (balance_of(edge) != 0) {
+            if (open++ == 0) place = 0.5 * (vertices_[all[i].lo] + vertices_[all[i].hi]);
+        } else if (edge.size() == 2) {
+            pairs.push_back({&edge[0], &edge[1]});
+        } else {
+            pair_around(in_order_around(*this, edge), pairs);
+        }
+    }
+    if (open > 0) throw NotClosed(open, place);
+    neighbours_.resize(triangles_.size());
+    edges_.resize(triangles_.size());
+    for (int id = 0; const auto& [a, b] : pairs) {
+        neighbours_[a->triangle][a->k] = {b->triangle, b->k};
+        neighbours_[b->triangle][b->k] = {a->triangle, a->k};
+        edges_[a->triangle][a->k] = edges_[b->triangle][b->k] = id++;
+    }
+}
+
+}  // namespace deburr
