@@ -60,6 +60,9 @@ public:
     const Surfaces& surfaces() const { return surfaces_; }        // what these were, one tree's after the other's
 
 private:
+    void build_bvh(std::vector<NamedBsp> bsps, const std::vector<Box>& boxes, const std::vector<Box>& instance_boxes,
+                   Accel accel);
+    void keep(BspTree&& tree);
     template <bool Any>
     bool search(SurfaceSearch<Any>& search) const;
     // Queries in [begin, t_max], for rays that begin near the surfaces, or were moved there.
