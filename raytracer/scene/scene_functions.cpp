@@ -254,6 +254,11 @@ SceneResult object_text(SceneCall& call) {
     return description(object);
 }
 
+SceneResult param(SceneCall& call) {
+    call.at_most(2);
+    return call.builder.parameter(text(call.argument(0), call.location("name")), call.argument(1));
+}
+
 constexpr SceneFunction text_function{SceneFunction::Kind::metamethod, "tostring", "__tostring", object_text};
 
 void push_function(lua_State* lua, const SceneFunction& function) {
@@ -263,22 +268,34 @@ void push_function(lua_State* lua, const SceneFunction& function) {
 
 }  // namespace
 
+const std::vector<SceneFunction>& parameter_functions() {
+    static const std::vector<SceneFunction> functions = {{SceneFunction::Kind::global, "param", "", param}};
+    return functions;
+}
+
+std::vector<const SceneFunction*> scene_functions() {
+    std::vector<const SceneFunction*> all;
+    for (const auto* functions :
+         {&shape_functions(), &round_functions(), &free_form_functions(), &model_functions(), &operator_functions(),
+          &method_functions(), &rounding_functions(), &material_functions(), &parameter_functions()})
+        for (const SceneFunction& function : *functions) all.push_back(&function);
+    return all;
+}
+
 void open_scene_functions(lua_State* lua) {
     lua_pushlightuserdata(lua, nullptr);  // all light userdata share one metatable
     lua_newtable(lua);
     const int meta = lua_gettop(lua);
     lua_newtable(lua);
     const int methods = lua_gettop(lua);
-    for (const auto* functions :
-         {&shape_functions(), &round_functions(), &free_form_functions(), &material_functions(), &model_functions()})
-        for (const SceneFunction& function : *functions) {
-            push_function(lua, function);
-            switch (function.kind) {
-                case SceneFunction::Kind::global: lua_setglobal(lua, function.name); break;
-                case SceneFunction::Kind::method: lua_setfield(lua, methods, function.name); break;
-                case SceneFunction::Kind::metamethod: lua_setfield(lua, meta, function.symbol); break;
-            }
+    for (const SceneFunction* function : scene_functions()) {
+        push_function(lua, *function);
+        switch (function->kind) {
+            case SceneFunction::Kind::global: lua_setglobal(lua, function->name); break;
+            case SceneFunction::Kind::method: lua_setfield(lua, methods, function->name); break;
+            case SceneFunction::Kind::metamethod: lua_setfield(lua, meta, function->symbol); break;
         }
+    }
     lua_pushcclosure(lua, find_method, 1);
     lua_setfield(lua, meta, "__index");
     push_function(lua, text_function);

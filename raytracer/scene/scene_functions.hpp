@@ -180,13 +180,19 @@ struct SceneFunction {
     SceneResult (*body)(SceneCall&);
 };
 
-/// The tables of functions: shapes, operators and placements; spheres and tori; quadrics and free forms; materials,
-/// textures, lights and views; models.
-const std::vector<SceneFunction>& model_functions();
+/// The tables of functions, each in a file of its name (scene_shapes.cpp, …); parameter_functions: param() alone.
 const std::vector<SceneFunction>& shape_functions();
 const std::vector<SceneFunction>& round_functions();
 const std::vector<SceneFunction>& free_form_functions();
+const std::vector<SceneFunction>& model_functions();
+const std::vector<SceneFunction>& operator_functions();
+const std::vector<SceneFunction>& method_functions();
+const std::vector<SceneFunction>& rounding_functions();
 const std::vector<SceneFunction>& material_functions();
+const std::vector<SceneFunction>& parameter_functions();
+
+/// All functions of these tables.
+std::vector<const SceneFunction*> scene_functions();
 
 /// What convolved(r, model, { … }) keeps sharp.
 KeepSharp keep_sharp(const LuaValue& value, const std::string& location);

@@ -34,14 +34,6 @@ std::string error_of(const std::string& scene) {
 
 bool contains(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
 
-std::vector<const SceneFunction*> all_functions() {
-    std::vector<const SceneFunction*> all;
-    for (const auto* functions :
-         {&shape_functions(), &round_functions(), &free_form_functions(), &material_functions()})
-        for (const SceneFunction& function : *functions) all.push_back(&function);
-    return all;
-}
-
 // The heading's beginning: "matte{", "rounded(", "x:translate(" or "d:radius(", and of an operator its sign.
 bool is_heading_of(const SceneFunction& function, const std::string& heading) {
     const std::string name = function.name;
@@ -163,18 +155,18 @@ std::string argument(const std::string& function, const std::string& name) {
 
 TEST_CASE("docs/scenes.md has a part for every function, method and operator of the scene language") {
     const std::vector<PagePart> parts = scene_parts();
-    for (const SceneFunction* function : all_functions()) {
+    for (const SceneFunction* function : scene_functions()) {
         INFO(function->name);
         CHECK(std::count_if(parts.begin(), parts.end(), [&](const PagePart& part) {
                   return part.level == 3 && is_heading_of(*function, part.heading);
               }) == 1);
     }
-    CHECK(all_functions().size() > 30);
+    CHECK(scene_functions().size() > 30);
 }
 
 TEST_CASE("docs/scenes.md names no function and no method that the program does not have") {
     std::set<std::string> methods;
-    for (const SceneFunction* function : all_functions())
+    for (const SceneFunction* function : scene_functions())
         if (function->kind == SceneFunction::Kind::method) methods.insert(function->name);
     const std::string page = project_file("docs/scenes.md");
     const std::regex in_quotes("`[^`\n]+`"), call("(:?)\\b([a-z_][a-z_.]*)[({]");
@@ -278,7 +270,7 @@ TEST_CASE("docs/scenes.md has the limits of a scene") {
 
 TEST_CASE("docs/scenes.md has the arguments of every function, and what each takes") {
     int arguments = 0;
-    for (const SceneFunction* function : all_functions())
+    for (const SceneFunction* function : scene_functions())
         for (const PagePart& part : scene_parts()) {
             if (part.level != 3 || !is_heading_of(*function, part.heading)) continue;
             std::vector<Row> rows = rows_of(part.text);

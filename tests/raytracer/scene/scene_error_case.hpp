@@ -1,0 +1,30 @@
+// Texts of scenes that are wrong, and what is said of them.
+#pragma once
+#include <map>
+#include <string>
+
+#include "catch.hpp"
+#include "raytracer/scene/scene_reader.hpp"
+
+namespace deburr {
+
+/// What the reader says of the scene "s.lua" with this text.
+inline std::string error_of(const std::string& text, const std::map<std::string, std::string>& defines = {}) {
+    try {
+        read_scene_text(text, "s.lua", defines, {std::size_t(64) << 20, 20'000'000, 20.0});
+    } catch (const SceneError& error) {
+        return error.what();
+    }
+    return "no error";
+}
+
+struct ErrorCase {
+    const char *text, *error;
+};
+
+inline void check_error(const ErrorCase& c) {
+    CAPTURE(c.text);
+    CHECK(error_of(c.text) == c.error);
+}
+
+}  // namespace deburr
