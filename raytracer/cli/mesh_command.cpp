@@ -4,24 +4,21 @@
 
 #include <algorithm>
 #include <memory>
-#include <nlohmann/json.hpp>
 
 #include "bounds/bounding_box.hpp"
-#include "polygonizer/mesh/metrics.hpp"
 #include "polygonizer/mesh/single_precision.hpp"
 #include "raytracer/cli/commands.hpp"
 #include "raytracer/cli/farm_options.hpp"
+#include "raytracer/cli/mesh_options.hpp"
 #include "raytracer/cli/mesh_outputs.hpp"
-#include "raytracer/cli/options.hpp"
+#include "raytracer/cli/mesh_statistics.hpp"
 #include "raytracer/cli/solid_choice.hpp"
-#include "raytracer/cli/statistics.hpp"
 #include "raytracer/image/scene_pictures.hpp"
 #include "raytracer/mesh/face_count.hpp"
 #include "raytracer/model/model_format.hpp"
 #include "raytracer/scene/vanished_parts.hpp"
 #include "raytracer/util/errors.hpp"
 #include "raytracer/util/message.hpp"
-#include "raytracer/util/printable.hpp"
 #include "raytracer/util/progress.hpp"
 #include "raytracer/util/whole_file.hpp"
 
@@ -42,145 +39,6 @@ SurfaceNotes surface_notes(const Material& m) {
             break;
     }
     return s;
-}
-
-using Json = nlohmann::ordered_json;
-
-struct MeshCommandOptions : Options {
-    std::string method, tolerance, grid, edge, level, hard_angle, faces, unit, up;
-    std::vector<std::string> only;
-    bool no_check = false, force = false, recenter = false;
-};
-
-MeshSettings settings(const MeshCommandOptions& o) {
-    MeshSettings s;
-    if (!o.method.empty()) s.method = parse_mesh_method("--method", o.method);
-    if (!o.tolerance.empty())
-        s.tolerance = parse_tolerance(o.tolerance);
-    else
-        s.triage_tolerance_in_radii = default_tolerance_in_radii;
-    if (!o.grid.empty()) s.grid = parse_positive("--grid", o.grid);
-    if (!o.edge.empty()) s.edge = parse_positive("--edge", o.edge);
-    if (!o.level.empty()) s.level = int(parse_whole("--level", o.level, 1, 12));
-    if (!o.hard_angle.empty()) {
-        s.hard_angle = parse_positive("--hard-edges", o.hard_angle);
-        if (s.hard_angle > 180)
-            throw UsageError(fmt::format("--hard-edges: expected degrees up to 180, got '{}'", o.hard_angle));
-    }
-    if (!o.edge.empty() && !o.level.empty())
-        throw UsageError("--edge: expected it without --level, which says the same");
-    const auto only = [&](const char* option, const std::string& given, MeshMethod method) {
-        if (!given.empty() && s.method != method)
-            throw UsageError(
-                fmt::format("{}: expected --method {}, got '{}'", option, mesh_method_name(method), o.method));
-    };
-    if (!o.tolerance.empty() && s.method == MeshMethod::marching_cubes)
-        throw UsageError("--tolerance: expected --method triage or octree, got 'marching-cubes'");
-    s.check = !o.no_check;
-    only("--grid", o.grid, MeshMethod::marching_cubes);
-    only("--edge", o.edge, MeshMethod::octree);
-    only("--level", o.level, MeshMethod::octree);
-    only("--hard-edges", o.hard_angle, MeshMethod::octree);
-    return s;
-}
-
-LengthUnit unit(const MeshCommandOptions& o) {
-    if (o.unit.empty()) return LengthUnit::millimeter;
-    const auto unit = find_unit(o.unit);
-    if (!unit) throw UsageError(fmt::format("--unit: expected one of {}, got '{}'", known_units(), o.unit));
-    if (std::none_of(o.outputs.begin(), o.outputs.end(),
-                     [](const std::string& path) { return mesh_format(path) == MeshFormat::three_mf; }))
-        throw UsageError("--unit: expected an output that ends in .3mf, for the other formats have no units");
-    return *unit;
-}
-
-Json json_of(const Spread& s) { return {{"mean", s.mean}, {"max", s.max}}; }
-
-Json json_of(const MeshMetrics& m) {
-    const Topology& t = m.topology;
-    return {{"vertices", t.vertices},
-            {"edges", t.edges},
-            {"triangles", t.triangles},
-            {"polygons", m.polygons},
-            {"closed", t.closed()},
-            {"manifold", t.manifold()},
-            {"open_edges", t.open_edges},
-            {"nonmanifold_edges", t.nonmanifold_edges},
-            {"nonmanifold_vertices", t.nonmanifold_vertices},
-            {"shells", t.shells},
-            {"euler", t.euler},
-            {"area", m.area},
-            {"volume", m.volume},
-            {"vertex_distance_mean", m.vertex_distance_mean},
-            {"vertex_distance_max", m.vertex_distance},
-            {"vertex_normal_degrees", json_of(m.vertex_normal_degrees)},
-            {"triangle_distance_first_order", json_of(m.first_order)},
-            {"triangle_distance", json_of(m.distance)},
-            {"triangle_normal_degrees", json_of(m.normal_degrees)},
-            {"inverted", m.inverted},
-            {"degenerate", m.degenerate},
-            {"edge_length_mean", m.edge_mean},
-            {"edge_length_spread", m.edge_spread}};
-}
-
-void print_table(const Json& j, const std::string& prefix = "") {
-    for (const auto& [name, value] : j.items()) {
-        if (value.is_object())
-            print_table(value, prefix + name + " ");
-        else if (value.is_number_float())
-            fmt::print("{:<40}{:.6g}\n", prefix + name, value.get<double>());
-        else if (!value.is_array())
-            fmt::print("{:<40}{}\n", printable(prefix + name),
-                       printable(value.is_string() ? value.get<std::string>() : value.dump()));
-    }
-}
-
-Json json_of(const MeshFault& f) {
-    Json j{{"count", f.count}};
-    if (f.count > 0) j["place"] = {f.location.x, f.location.y, f.location.z};
-    if (f.line > 0) j["line"] = f.line;
-    return j;
-}
-
-Json json_of(const std::vector<MeshCheck>& checks, std::size_t made_again) {
-    Json solids = Json::array();
-    MeshCheck sum;
-    for (const MeshCheck& c : checks) {
-        sum.facets += c.facets;
-        sum.pairs += c.pairs;
-        sum.points += c.points;
-        sum.open.count += c.faults();
-        solids.push_back({{"open", json_of(c.open)},
-                          {"inward", json_of(c.inward)},
-                          {"crossing", json_of(c.crossing)},
-                          {"missing", json_of(c.missing)},
-                          {"added", json_of(c.added)}});
-    }
-    return {{"faults", sum.open.count}, {"made_again", made_again}, {"facets", sum.facets},
-            {"pairs", sum.pairs},       {"points", sum.points},     {"solids", solids}};
-}
-
-// What the run did and made, but for the times.
-Json statistics(const Scene& scene, const SceneMesh& mesh) {
-    Json j;
-    j["scene"] = scene.file;
-    j["method"] = mesh.method_names();
-    j["parameters"] = scene.parameters;
-    j["mesh"] = json_of(combined(measure_parts(mesh)));
-    if (mesh.triage.cells)
-        j["triage"] = {
-            {"cells", mesh.triage.cells}, {"open_cells", mesh.triage.open_cells}, {"rounds", mesh.triage.rounds}};
-    if (const OctreeStatistics& t = mesh.octree; t.cells)
-        j["octree"] = {{"level", t.level},
-                       {"edge", t.edge},
-                       {"range_tests", t.range_tests},
-                       {"cells", t.cells},
-                       {"open_cells", t.open_cells},
-                       {"hard_points", t.hard_points},
-                       {"partitions", t.partitions},
-                       {"rounds", t.rounds}};
-    if (!mesh.checks.empty()) j["check"] = json_of(mesh.checks, mesh.made_again);
-    return j;
 }
 
 // A line for each kind of fault in each solid.
@@ -302,7 +160,7 @@ void say_what_was_made(const MeshCommandOptions& o, const Scene& scene, const Sc
 
 MeshNotes notes_of(const MeshCommandOptions& o, const Scene& scene) {
     MeshNotes notes;
-    notes.unit = unit(o);
+    notes.unit = length_unit(o);
     notes.names = scene.names;
     for (const Material& m : scene.materials) {
         notes.colors.push_back(m.color.a);
@@ -311,26 +169,15 @@ MeshNotes notes_of(const MeshCommandOptions& o, const Scene& scene) {
     return notes;
 }
 
-void say_statistics(const MeshCommandOptions& o, const Scene& scene, const SceneMesh& mesh, PhaseClock& clock) {
-    if (!o.stats && o.stats_json.empty()) return;
-    clock.begin("measure");
-    Json j = statistics(scene, mesh);
-    clock.end();
-    for (const PhaseTime& t : clock.times()) j["seconds"][t.name] = t.wall;
-    if (o.stats) print_table(j);
-    if (!o.stats_json.empty())
-        write_whole_file(o.stats_json, j.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
-}
-
 int run_mesh(const MeshCommandOptions& o) {
     if (o.scene.empty()) throw UsageError("mesh: expected a scene file");
     if (o.outputs.empty() && !o.stats && o.stats_json.empty())
         throw UsageError("mesh: expected an output file, -o FILE");
     check_mesh_names(o.outputs);
-    MeshSettings method = settings(o);
-    unit(o);  // before the work, as the next two
+    MeshSettings method = mesh_settings(o);
+    length_unit(o);  // before the work, as the next two
     parse_up(o.up, false);
-    const auto faces = o.faces.empty() ? 0 : std::size_t(parse_whole("--faces", o.faces, 4, 100'000'000));
+    const std::size_t faces = max_faces(o);
     const int threads = o.threads.value_or(default_threads());
     const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, std::size_t(threads));
 
@@ -355,55 +202,15 @@ int run_mesh(const MeshCommandOptions& o) {
     for (const MeshOutput& output : outputs)
         if (written) write_mesh(output, mesh, notes, scene.z_up, parse_up(o.up, scene.z_up));
     clock.end();
-    say_statistics(o, scene, mesh, clock);
+    report_statistics(o, scene, mesh, clock);
     return written ? 0 : 1;
 }
 
 }  // namespace
 
 Command add_mesh_command(CLI::App& program) {
-    CLI::App* command = add_command(program, "mesh", "write a scene's solids as a closed mesh");
     const auto options = std::make_shared<MeshCommandOptions>();
-    add_scene_options(*command, *options);
-    add_output_option(*command, *options, known_mesh_extensions(),
-                      "; %n in its name: one for each solid, by its name or number");
-    command->add_option("--only", options->only, "this solid, by its name or number; repeatable")
-        ->type_name("NAME|ID")
-        ->allow_extra_args(false);
-    command
-        ->add_option("--method", options->method,
-                     mesh_method_names() + "; default: triage, and octree for solids with free forms")
-        ->type_name("NAME");
-    command
-        ->add_option(
-            "--tolerance", options->tolerance,
-            "triage, octree: refine until no point of the mesh is farther from the surface, or inf; triage's default: "
-            "0.05 of each solid's least radius")
-        ->type_name("D");
-    command->add_option("--grid", options->grid, "marching-cubes: side of a cube; default: half the least radius")
-        ->type_name("H");
-    command->add_option("--edge", options->edge, "octree: side of a cell, nearly the mean length of edges")
-        ->type_name("L");
-    command->add_option("--level", options->level, "octree: 2^N cells along each solid's longest side")->type_name("N");
-    command
-        ->add_option("--hard-edges", options->hard_angle,
-                     "octree: degrees between faces from which their edge is kept; default: 15")
-        ->type_name("A");
-    command->add_option("--faces", options->faces, "at most this number of triangles, and as near to it as may be")
-        ->type_name("N");
-    command
-        ->add_option("--unit", options->unit,
-                     ".3mf: what the scene's lengths are: " + known_units() + "; default: millimeter")
-        ->type_name("NAME");
-    command
-        ->add_option("--up", options->up,
-                     "the axis that is up in the files, but for .glb, which is y-up; default: the scene's")
-        ->type_name("y|z");
-    command->add_flag("--recentre", options->recenter, "move the middle of the solids to the origin");
-    command->add_flag("--no-check", options->no_check, "do not check the mesh against the solids");
-    command->add_flag("--force", options->force, "write the mesh even if the check fails");
-    add_run_options(*command, *options);
-    add_statistics_options(*command, *options);
+    CLI::App* command = add_mesh_options(program, options);
     return {command, [options] { return run_mesh(*options); }};
 }
 
