@@ -96,26 +96,30 @@ void unite(FileSurface& surface, const Pairs& pairs, std::vector<std::string>& m
             : fmt::format("united what a shell that crosses itself winds around, where {}", said));
 }
 
-}  // namespace
-
-ClosedSurface closed_surface(const TriangleSoup& soup) {
-    ClosedSurface result;
+void check_coordinates(const TriangleSoup& soup) {
     for (const Vec3& v : soup.vertices)
         for (int k = 0; k < 3; ++k)
             if (!std::isfinite(v[k])) throw UnsoundSurface("expected coordinates, got one that is not a number");
     if (soup.triangles.empty()) throw UnsoundSurface("expected a solid's surface, got no triangles");
-    FileSurface surface = welded(soup);
-    drop_collapsed(surface);
-    // Two bodies may have a facet in common, which each of them needs.
+}
+
+// Drops facets that are there twice, unless that opens the surface: two bodies may have a facet in common, which each
+// of them needs.
+void drop_needless_doubles(FileSurface& surface, std::vector<std::string>& mended) {
     FileSurface with_doubles = surface;
-    if (const std::size_t doubles = drop_doubles(surface)) {
-        const Openness now = openness(surface), before = openness(with_doubles);
-        if (now.open + now.unturned > before.open + before.unturned)
-            surface = std::move(with_doubles);
-        else
-            result.mended.push_back(
-                fmt::format("dropped {} that {} there twice", count_of(doubles, "facet"), doubles == 1 ? "is" : "are"));
-    }
+    const std::size_t doubles = drop_doubles(surface);
+    if (doubles == 0) return;
+    const Openness now = openness(surface), before = openness(with_doubles);
+    if (now.open + now.unturned > before.open + before.unturned)
+        surface = std::move(with_doubles);
+    else
+        mended.push_back(
+            fmt::format("dropped {} that {} there twice", count_of(doubles, "facet"), doubles == 1 ? "is" : "are"));
+}
+
+// Closes the surface by joining vertices along its open edges, as near as may be; throws if that does not help. Returns
+// what is left to turn.
+Openness close_rims(FileSurface& surface, std::vector<std::string>& mended) {
     Openness open = openness(surface);
     const double size = size_of(surface.vertices);
     for (const double tolerance : {1e-7, 1e-6, 1e-5}) {
@@ -125,8 +129,7 @@ ClosedSurface closed_surface(const TriangleSoup& soup) {
         const Openness now = openness(joined);
         if (now.open >= open.open) continue;
         if (now.open == 0)
-            result.mended.push_back(
-                fmt::format("joined vertices that lie within {:.2g} of one another", tolerance * size));
+            mended.push_back(fmt::format("joined vertices that lie within {:.2g} of one another", tolerance * size));
         surface = std::move(joined);
         open = now;
     }
@@ -134,31 +137,53 @@ ClosedSurface closed_surface(const TriangleSoup& soup) {
         throw UnsoundSurface(
             fmt::format("expected a closed surface, got one with {}, one near {}; close it in the program that made it",
                         count_of(open.open, "open edge"), place(open.place)));
-    bool trusted = true;
-    if (open.unturned > 0) {
-        const long turned = turn_alike(surface);
-        if (turned < 0)
-            throw UnsoundSurface("expected a surface with an inside and an outside, got one that has a single side");
-        result.mended.push_back(fmt::format("turned {} that faced inward", count_of(std::size_t(turned), "facet")));
-        trusted = false;
-    }
-    const Pairs crossing = crossing_pairs(surface);
-    settle_shells(surface, trusted, crossing, result.mended);
-    if (!crossing.empty()) {
-        unite(surface, crossing, result.mended);
-        FileSurface flat = surface;
-        flatten_faces(flat.vertices, flat.triangles);
-        if (crossing_pairs(flat).empty()) surface = std::move(flat);
-    } else {
+    return open;
+}
+
+void turn_facets_alike(FileSurface& surface, std::vector<std::string>& mended) {
+    const long turned = turn_alike(surface);
+    if (turned < 0)
+        throw UnsoundSurface("expected a surface with an inside and an outside, got one that has a single side");
+    mended.push_back(fmt::format("turned {} that faced inward", count_of(std::size_t(turned), "facet")));
+}
+
+// Unites shells that cross, if any do, and makes faces flat that a file's single precision bent, unless they cross
+// then.
+void unite_and_flatten(FileSurface& surface, const Pairs& crossing, std::vector<std::string>& mended) {
+    if (crossing.empty()) {
         flatten_faces(surface.vertices, surface.triangles);
+        return;
     }
+    unite(surface, crossing, mended);
+    FileSurface flat = surface;
+    flatten_faces(flat.vertices, flat.triangles);
+    if (crossing_pairs(flat).empty()) surface = std::move(flat);
+}
+
+std::shared_ptr<ClosedMesh> closed_mesh(FileSurface surface) {
     try {
-        result.mesh = std::make_shared<ClosedMesh>(std::move(surface.vertices), std::move(surface.triangles));
+        return std::make_shared<ClosedMesh>(std::move(surface.vertices), std::move(surface.triangles));
     } catch (const NotClosed& error) {
         throw UnsoundSurface(fmt::format(
             "expected a surface with an inside and an outside, got {} whose triangles do not pair up, one near {}",
             count_of(error.count, "edge"), place(error.place)));
     }
+}
+
+}  // namespace
+
+ClosedSurface closed_surface(const TriangleSoup& soup) {
+    check_coordinates(soup);
+    ClosedSurface result;
+    FileSurface surface = welded(soup);
+    drop_collapsed(surface);
+    drop_needless_doubles(surface, result.mended);
+    const bool trusted = close_rims(surface, result.mended).unturned == 0;
+    if (!trusted) turn_facets_alike(surface, result.mended);
+    const Pairs crossing = crossing_pairs(surface);
+    settle_shells(surface, trusted, crossing, result.mended);
+    unite_and_flatten(surface, crossing, result.mended);
+    result.mesh = closed_mesh(std::move(surface));
     if (!crossing.empty()) {  // what has no area was dropped since
         const Pairs left = crossing_pairs({result.mesh->vertices(), result.mesh->triangles()});
         if (!left.empty()) throw_not_united(result.mesh->corner(left[0].first, 0), crossing, left);

@@ -151,81 +151,96 @@ void PlaneTriangulation::insert(int point) {
 void PlaneTriangulation::insert_edge(int a, int b) {
     std::vector<Edge> todo{{a, b}};
     while (!todo.empty()) {
-        const int from = todo.back().first, to = todo.back().second;
+        const auto [from, to] = todo.back();
         todo.pop_back();
         if (from == to) continue;
         if (apex(from, to) >= 0 || apex(to, from) >= 0) {
             fix(from, to);
             continue;
         }
-        // The triangle at `from` that the way to `to` begins in: around by the edges, left and then right.
-        int u = next_[from], v = -1, stop = -1;
-        const auto found = [&](int right, int left) {
-            const int r = side(from, to, right), l = side(from, to, left);
-            const auto ahead = [&](int w) {
-                const int k = cmp(points_[to].x[axes_.u], points_[from].x[axes_.u]) != 0 ? axes_.u : axes_.v;
-                return cmp(points_[w].x[k], points_[from].x[k]) * cmp(points_[to].x[k], points_[from].x[k]) > 0;
-            };
-            if (r == 0 && ahead(right)) stop = right;
-            if (l == 0 && ahead(left)) stop = left;
-            return stop >= 0 || (r < 0 && l > 0);
-        };
-        bool is_found = false;
-        for (int right = u, left; !is_found && (left = apex(from, right)) >= 0; right = left) {
-            is_found = found(right, left);
-            u = right, v = left;
-            if (left == next_[from]) break;
-        }
-        for (int left = next_[from], right; !is_found && (right = apex(left, from)) >= 0; left = right) {
-            is_found = found(right, left);
-            u = right, v = left;
-        }
-        if (!is_found) continue;  // not for points within the first triangle
-        if (stop >= 0) {
-            todo.push_back({stop, to});
-            fix(from, stop);
-            continue;
-        }
-        // Across triangles, until a vertex on the way or an edge that is given.
-        std::vector<Edge> crossed{{u, v}};
-        int right = u, left = v, end = -1, cut = -1;
-        while (end < 0 && cut < 0) {
-            if (is_fixed(right, left)) {
-                // (right, left) and (from, to) meet in one point.
-                const ExactPoint &p = points_[right], &q = points_[left], &s = points_[from], &t = points_[to];
-                const auto area = [&](const ExactPoint& x) {
-                    return determinant(t.x[axes_.u] - s.x[axes_.u], t.x[axes_.v] - s.x[axes_.v],
-                                       x.x[axes_.u] - s.x[axes_.u], x.x[axes_.v] - s.x[axes_.v]);
-                };
-                const mpq_class below = area(p), above = area(q), f = below / (below - above);
-                std::array<mpq_class, 3> x;
-                for (int k = 0; k < 3; ++k) x[k] = p.x[k] + f * (q.x[k] - p.x[k]);
-                cut = number_of_(ExactPoint(std::move(x)));
-                break;
-            }
-            const int beyond = apex(left, right);
-            if (beyond == to) {
-                end = to;
-                break;
-            }
-            const int s = side(from, to, beyond);
-            if (s == 0)
-                end = beyond;
-            else if (s > 0)
-                crossed.push_back({right, left = beyond});
-            else
-                crossed.push_back({right = beyond, left});
-        }
-        if (cut >= 0) {
-            split_edge(right, left, cut);
-            todo.push_back({cut, to});
-            todo.push_back({from, cut});
+        const std::optional<Start> begin = start(from, to);
+        if (!begin) continue;  // not for points within the first triangle
+        if (begin->vertex >= 0) {
+            todo.push_back({begin->vertex, to});
+            fix(from, begin->vertex);
         } else {
-            if (end != to) todo.push_back({end, to});
-            force(from, end, std::move(crossed));
-            fix(from, end);
+            insert_across(from, to, begin->opposite, todo);
         }
     }
+}
+
+// Whether a point of the line through `from` and `to` is on the same side of `from` as `to`.
+bool PlaneTriangulation::is_ahead(int from, int to, int point) const {
+    const int k = cmp(points_[to].x[axes_.u], points_[from].x[axes_.u]) != 0 ? axes_.u : axes_.v;
+    return cmp(points_[point].x[k], points_[from].x[k]) * cmp(points_[to].x[k], points_[from].x[k]) > 0;
+}
+
+// The start of the way if it is in the triangle (from, right, left).
+std::optional<PlaneTriangulation::Start> PlaneTriangulation::start_between(int from, int to, int right,
+                                                                           int left) const {
+    const int r = side(from, to, right), l = side(from, to, left);
+    int vertex = -1;
+    if (r == 0 && is_ahead(from, to, right)) vertex = right;
+    if (l == 0 && is_ahead(from, to, left)) vertex = left;
+    if (vertex < 0 && !(r < 0 && l > 0)) return std::nullopt;
+    return Start{{right, left}, vertex};
+}
+
+// Looks through the triangles around `from`: to the left by the edges, then to the right.
+std::optional<PlaneTriangulation::Start> PlaneTriangulation::start(int from, int to) {
+    const int first = next_[from];
+    for (int right = first, left; (left = apex(from, right)) >= 0; right = left) {
+        if (const auto found = start_between(from, to, right, left)) return found;
+        if (left == first) break;
+    }
+    for (int left = first, right; (right = apex(left, from)) >= 0; left = right)
+        if (const auto found = start_between(from, to, right, left)) return found;
+    return std::nullopt;
+}
+
+// Across triangles, until a vertex on the way or an edge that is given.
+PlaneTriangulation::Way PlaneTriangulation::way(int from, int to, Edge first) const {
+    Way way{{first}, -1};
+    for (auto [right, left] = first; !is_fixed(right, left);) {
+        const int beyond = apex(left, right);
+        const int s = beyond == to ? 0 : side(from, to, beyond);
+        if (s == 0) {
+            way.end = beyond;
+            break;
+        }
+        (s > 0 ? left : right) = beyond;
+        way.crossed.push_back({right, left});
+    }
+    return way;
+}
+
+// The point in which the way and a given edge that crosses it meet.
+int PlaneTriangulation::cut_point(int from, int to, Edge given) {
+    const ExactPoint &p = points_[given.first], &q = points_[given.second], &s = points_[from], &t = points_[to];
+    const auto area = [&](const ExactPoint& x) {
+        return determinant(t.x[axes_.u] - s.x[axes_.u], t.x[axes_.v] - s.x[axes_.v], x.x[axes_.u] - s.x[axes_.u],
+                           x.x[axes_.v] - s.x[axes_.v]);
+    };
+    const mpq_class below = area(p), above = area(q), f = below / (below - above);
+    std::array<mpq_class, 3> x;
+    for (int k = 0; k < 3; ++k) x[k] = p.x[k] + f * (q.x[k] - p.x[k]);
+    return number_of_(ExactPoint(std::move(x)));
+}
+
+// Makes an edge of a way that begins across `first`, as far as the next vertex; `todo` is left with its other parts.
+void PlaneTriangulation::insert_across(int from, int to, Edge first, std::vector<Edge>& todo) {
+    Way passed = way(from, to, first);
+    if (passed.end < 0) {
+        const auto [right, left] = passed.crossed.back();
+        const int cut = cut_point(from, to, {right, left});
+        split_edge(right, left, cut);
+        todo.push_back({cut, to});
+        todo.push_back({from, cut});
+        return;
+    }
+    if (passed.end != to) todo.push_back({passed.end, to});
+    force(from, passed.end, std::move(passed.crossed));
+    fix(from, passed.end);
 }
 
 // Flips edges that cross the way from a to b until none does [Sloan 1993].

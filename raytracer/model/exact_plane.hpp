@@ -8,6 +8,7 @@
 #include <array>
 #include <functional>
 #include <map>
+#include <optional>
 #include <set>
 #include <vector>
 
@@ -65,6 +66,16 @@ public:
 
 private:
     using Edge = std::pair<int, int>;  // directed: a triangle is on its left
+    // Where a way from a point begins.
+    struct Start {
+        Edge opposite;  // the edge of the first triangle that is opposite the point, to the way's right and left
+        int vertex;     // of that edge, which lies on the way; −1: none
+    };
+    // What a way passes.
+    struct Way {
+        std::vector<Edge> crossed;  // edges, each from the way's right to its left
+        int end;  // the first vertex on it; −1: the last of `crossed` is given and cannot be crossed
+    };
 
     int side(int a, int b, int c) const;
     int apex(int a, int b) const;
@@ -74,6 +85,12 @@ private:
     void split_edge(int a, int b, int point);
     bool is_fixed(int a, int b) const { return fixed_.contains(std::minmax(a, b)); }
     void fix(int a, int b) { fixed_.insert(std::minmax(a, b)); }
+    bool is_ahead(int from, int to, int point) const;
+    std::optional<Start> start_between(int from, int to, int right, int left) const;
+    std::optional<Start> start(int from, int to);
+    Way way(int from, int to, Edge first) const;
+    int cut_point(int from, int to, Edge given);
+    void insert_across(int from, int to, Edge first, std::vector<Edge>& todo);
     void force(int a, int b, std::vector<Edge> crossed);
 
     const std::vector<ExactPoint>& points_;
