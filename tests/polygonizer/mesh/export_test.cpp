@@ -191,6 +191,29 @@ TEST_CASE("An STL's normals are those of the corners that it has") {
     CHECK(normal == std::array<float, 3>{-1, 0, 0});
 }
 
+TEST_CASE("A GLB's bounds of positions are those of the numbers in its buffer") {
+    const std::string glb = encode(mesh(), MeshFormat::glb);
+    const std::uint32_t length = read<std::uint32_t>(glb, 12);
+    const auto j = nlohmann::json::parse(glb.substr(20, length));
+    int bounds = 0;
+    for (const auto& a : j["accessors"]) {
+        if (!a.contains("min")) continue;
+        const std::size_t from = 28 + length + j["bufferViews"][a["bufferView"].get<int>()]["byteOffset"].get<int>();
+        glm::vec3 lo(infinity), hi(-infinity);
+        for (std::size_t v = 0; v < a["count"].get<std::size_t>(); ++v) {
+            const auto x = read<glm::vec3>(glb, from + 12 * v);
+            lo = glm::min(lo, x);
+            hi = glm::max(hi, x);
+        }
+        for (int k = 0; k < 3; ++k) {
+            CHECK(a["min"][k].get<double>() == lo[k]);
+            CHECK(a["max"][k].get<double>() == hi[k]);
+        }
+        ++bounds;
+    }
+    CHECK(bounds > 0);
+}
+
 TEST_CASE("A GLB has the surfaces of its materials by glTF's names") {
     MeshNotes notes;
     notes.colors = {{0.5, 0.25, 0.125}};
