@@ -32,6 +32,15 @@ FlatDensity flat_density(const LocalDensity& density) {
     return {FlatDensity::plane, -h.normal, -offset};
 }
 
+// Throws TooEntangled with the leaf's line.
+LocalDensity prepared(const SolidLeaf& leaf) {
+    try {
+        return LocalDensity(leaf.density);
+    } catch (const TooEntangled&) {
+        throw TooEntangled(leaf.line);
+    }
+}
+
 }  // namespace
 
 LocalSolid::LocalSolid(int solid, const SolidTree& tree, const Box& box, const Tolerances& tolerances,
@@ -72,35 +81,18 @@ void LocalSolid::add_leaf(const SolidLeaf& leaf, const Box& box, const Tolerance
                           std::optional<bool>& constant) {
     if (leaf.field) {  // pruned to where it straddles
         leaves_.push_back({Vec3(0.0), 0, int(softs_.size()), leaf.material});
-        const auto keep = [&](auto form) { softs_.push_back({std::move(form), std::size_t(leaf.field->size())}); };
-        const auto* round = dynamic_cast<const RoundDensity*>(leaf.field.get());
-        if (round && round->local() && root_method != RootMethod::always) {
-            if (auto surface = RoundSurface::of(*round->local())) return keep(*std::move(surface));
-            if (auto sum = ProductSum::of(*round->local(), tolerances.clearance())) return keep(*std::move(sum));
-            if (auto product = RoundProduct::of(*round->local())) return keep(*std::move(product));
-        }
-        const auto* torus = dynamic_cast<const Torus*>(leaf.field.get());
-        if (torus && root_method != RootMethod::always)
-            if (auto surface = RoundSurface::of(*torus)) return keep(*std::move(surface));
-        const Box seen = intersection(box, inflated(leaf.field->bounding_box(), tolerances.margin()));
-        const double max_noise_scale = !seen.empty() && seen.finite() ? leaf.field->max_noise_scale(seen) : 0;
-        return keep(SearchedField{leaf.field, max_noise_scale});
+        softs_.push_back({form_of_field(leaf.field, box, tolerances, root_method), std::size_t(leaf.field->size())});
+        return;
     }
-    const auto prepared = [&] {
-        try {
-            return LocalDensity(leaf.density);
-        } catch (const TooEntangled&) {
-            throw TooEntangled(leaf.line);
-        }
-    };
-    LocalDensity density = prepared();
+    LocalDensity density = prepared(leaf);
     if (const Side side = classify(density.range(box)); side != Side::straddling) {
         constant = side == Side::inside;
         return;
     }
     Leaf to;
     to.material = leaf.material;
-    if (density.half_spaces().size() == 1) {
+    const std::size_t half_spaces = density.half_spaces().size();
+    if (half_spaces == 1) {
         const FlatDensity flat = flat_density(density);
         if (flat.kind != FlatDensity::plane) {
             constant = flat.kind == FlatDensity::inside;
@@ -108,34 +100,51 @@ void LocalSolid::add_leaf(const SolidLeaf& leaf, const Box& box, const Tolerance
         }
         to.normal = flat.normal;
         to.offset = flat.offset;
-    } else if (auto convex = root_method == RootMethod::always ? std::nullopt : convex_density(density, scale_)) {
-        if (convex->planes.size() == 1) {  // other planes coincide with it, or do not matter
-            const AlphaPlane& p = convex->planes[0];
-            const double length = glm::length(p.slope) * (convex->complement ? -1 : 1);
-            to.normal = p.slope / length;
-            to.offset = -p.base / length;
-        } else {
-            to.soft = int(softs_.size());
-            softs_.push_back({*std::move(convex), density.half_spaces().size()});
-        }
-    } else if (auto sum =
-                   root_method == RootMethod::always ? std::nullopt : ProductSum::of(density, tolerances.clearance())) {
-        to.soft = int(softs_.size());
-        softs_.push_back({*std::move(sum), density.half_spaces().size()});
+    } else if (auto convex = root_method == RootMethod::always ? std::nullopt : convex_density(density, scale_);
+               convex && convex->planes.size() == 1) {  // other planes coincide with it, or do not matter
+        const AlphaPlane& p = convex->planes[0];
+        const double length = glm::length(p.slope) * (convex->complement ? -1 : 1);
+        to.normal = p.slope / length;
+        to.offset = -p.base / length;
     } else {
         to.soft = int(softs_.size());
-        const double clearance = tolerances.clearance();
-        const auto is_sharp = [](const HalfSpace& h) { return h.radius == 0; };
-        const bool all_sharp = std::all_of(density.half_spaces().begin(), density.half_spaces().end(), is_sharp);
-        const std::size_t half_spaces = density.half_spaces().size();
-        softs_.push_back({SearchedDensity{.density = std::move(density),
-                                          .outer = outer_bound(leaf.density, 0.5, clearance),
-                                          .inner = inner_bound(leaf.density, 0.5, clearance),
-                                          .bounded = bounds_hold(leaf.density, box),
-                                          .all_sharp = all_sharp},
+        softs_.push_back({convex ? Form(*std::move(convex))
+                                 : form_of_density(std::move(density), leaf.density, box, tolerances, root_method),
                           half_spaces});
     }
     leaves_.push_back(to);
+}
+
+// A round part's closed form where the field has one.
+LocalSolid::Form LocalSolid::form_of_field(const FieldPtr& field, const Box& box, const Tolerances& tolerances,
+                                           RootMethod root_method) {
+    const auto* round = dynamic_cast<const RoundDensity*>(field.get());
+    if (round && round->local() && root_method != RootMethod::always) {
+        if (auto surface = RoundSurface::of(*round->local())) return *std::move(surface);
+        if (auto sum = ProductSum::of(*round->local(), tolerances.clearance())) return *std::move(sum);
+        if (auto product = RoundProduct::of(*round->local())) return *std::move(product);
+    }
+    const auto* torus = dynamic_cast<const Torus*>(field.get());
+    if (torus && root_method != RootMethod::always)
+        if (auto surface = RoundSurface::of(*torus)) return *std::move(surface);
+    const Box seen = intersection(box, inflated(field->bounding_box(), tolerances.margin()));
+    const double max_noise_scale = !seen.empty() && seen.finite() ? field->max_noise_scale(seen) : 0;
+    return SearchedField{field, max_noise_scale};
+}
+
+// A sum of products, or a search between bounds, of a density that is no single product. `tree`: what it was made of.
+LocalSolid::Form LocalSolid::form_of_density(LocalDensity density, const DensityTree& tree, const Box& box,
+                                             const Tolerances& tolerances, RootMethod root_method) {
+    const double clearance = tolerances.clearance();
+    if (root_method != RootMethod::always)
+        if (auto sum = ProductSum::of(density, clearance)) return *std::move(sum);
+    const auto is_sharp = [](const HalfSpace& h) { return h.radius == 0; };
+    const bool all_sharp = std::all_of(density.half_spaces().begin(), density.half_spaces().end(), is_sharp);
+    return SearchedDensity{.density = std::move(density),
+                           .outer = outer_bound(tree, 0.5, clearance),
+                           .inner = inner_bound(tree, 0.5, clearance),
+                           .bounded = bounds_hold(tree, box),
+                           .all_sharp = all_sharp};
 }
 
 std::size_t LocalSolid::half_spaces() const {

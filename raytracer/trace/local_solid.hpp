@@ -123,17 +123,28 @@ private:
         double max_noise_scale;  // upper bound of FieldRay::noise_scale over the rays here; 0: not known
     };
     // What is not flat, in the simplest form that it has here.
+    using Form = std::variant<ConvexDensity, ProductSum, RoundSurface, RoundProduct, SearchedDensity, SearchedField>;
     struct Soft {
-        std::variant<ConvexDensity, ProductSum, RoundSurface, RoundProduct, SearchedDensity, SearchedField> form;
+        Form form;
         std::size_t half_spaces;  // that it was made of
     };
 
     bool is_one_soft() const { return nodes_.size() == 1 && softs_.size() == 1 && leaves_[0].soft == 0; }
     void add_leaf(const SolidLeaf& leaf, const Box& box, const Tolerances& tolerances, RootMethod root_method,
                   std::optional<bool>& constant);
+    static Form form_of_field(const FieldPtr& field, const Box& box, const Tolerances& tolerances,
+                              RootMethod root_method);
+    static Form form_of_density(LocalDensity density, const DensityTree& tree, const Box& box,
+                                const Tolerances& tolerances, RootMethod root_method);
     /// The intersection of those leaves whose bit is set and of the others' complements.
     std::optional<ConvexDensity> intersection_of_leaves(unsigned positive) const;
     bool evaluate(std::vector<char>& state, const std::vector<char>& inside) const;
+    SurfaceCrossing first_leaf_crossing(const Vec3& origin, const Vec3& direction, double t0, double t1, bool any,
+                                        CrossingScratch& scratch) const;
+    // Fills scratch.events with the crossings of all leaves, in order, and scratch.inside with what holds at t0.
+    void find_events(const Vec3& origin, const Vec3& direction, double t0, double t1, CrossingScratch& scratch) const;
+    // Of the events, the first that changes whether the ray is in the solid.
+    SurfaceCrossing first_change(const Vec3& direction, CrossingScratch& scratch) const;
     // What follows calls visit(t, entering, normal or 0: not known yet) → go on?
     template <class Visit>
     void crossings_of(const SearchedField& searched, const Vec3& origin, const Vec3& direction, double t0, double t1,

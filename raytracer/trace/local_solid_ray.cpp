@@ -5,6 +5,40 @@
 namespace deburr {
 namespace {
 
+// A finite t after which nothing varies along the ray: beyond `lo` and the last plane that saturates.
+double last_change(const RayDensity& density, double scale, double lo) {
+    double last = lo;
+    for (std::size_t i = 0; i < density.size(); ++i) {
+        const double rate = density.distance_rate(i), reach = density.density().half_spaces()[i].radius;
+        if (rate != 0) last = std::max(last, (std::abs(density.distance0(i)) + reach + scale) / std::abs(rate));
+    }
+    return last < 1e300 ? last : 1e300;
+}
+
+// lo, hi and the places between where sharp planes are met, in order.
+const std::vector<double>& sharp_cuts(const RayDensity& density, double lo, double hi, std::vector<double>& cuts) {
+    cuts.assign(1, lo);
+    for (std::size_t i = 0; i < density.size(); ++i) {
+        if (density.density().half_spaces()[i].radius > 0 || density.distance_rate(i) == 0) continue;
+        const double t = density.plane_crossing(i);
+        if (t > lo && t < hi) cuts.push_back(t);
+    }
+    cuts.push_back(hi);
+    std::sort(cuts.begin(), cuts.end());
+    return cuts;
+}
+
+// The normal of a sharp plane that is met at t; 0 if there is none.
+Vec3 sharp_normal(const RayDensity& density, double t, double t_tolerance) {
+    Vec3 normal(0.0);
+    for (std::size_t i = 0; i < density.size(); ++i) {
+        const HalfSpace& h = density.density().half_spaces()[i];
+        if (h.radius > 0 || density.distance_rate(i) == 0) continue;
+        if (std::abs(density.plane_crossing(i) - t) <= t_tolerance) normal = h.normal;
+    }
+    return normal;
+}
+
 // Crossings of one stretch of a ray over which sharp half-spaces stay as they are.
 class Stretch {
 public:
@@ -50,6 +84,11 @@ private:
 Vec3 normalized(Vec3 v) {
     const double length = glm::length(v);
     return length > 0 ? v / length : v;
+}
+
+// A normal that is known up to its sign: it leaves the solid, so it is against a ray that enters.
+Vec3 against(const Vec3& direction, bool entering, const Vec3& normal) {
+    return (glm::dot(normal, direction) < 0) != entering ? -normal : normal;
 }
 
 // Cuts [t0, t1] down to where the ray is in the box; false if nothing is left.
@@ -192,15 +231,7 @@ void LocalSolid::crossings_of(const SearchedDensity& searched, const Vec3& origi
         *start_inside = inside_at(t0);
     }
     for (const Span* span = first; span != last; ++span) {
-        double lo = span->lo, hi = span->hi;
-        if (hi == infinity) {  // nothing varies beyond the last plane that saturates
-            hi = lo;
-            for (std::size_t i = 0; i < density.size(); ++i) {
-                const double rate = density.distance_rate(i), reach = searched.density.half_spaces()[i].radius;
-                if (rate != 0) hi = std::max(hi, (std::abs(density.distance0(i)) + reach + scale_) / std::abs(rate));
-            }
-            if (!(hi < 1e300)) hi = 1e300;
-        }
+        const double lo = span->lo, hi = span->hi == infinity ? last_change(density, scale_, lo) : span->hi;
         const double t_tolerance = Tolerances{scale_}.along(lo);
         Stretch stretch(density, scratch, t_tolerance);
         const auto pass = [&](double t, bool entering) { return visit(t, entering, Vec3(0.0)); };
@@ -208,31 +239,14 @@ void LocalSolid::crossings_of(const SearchedDensity& searched, const Vec3& origi
             if (!stretch.crossings(lo, hi, pass)) return;
             continue;
         }
-        auto& cuts = scratch.sharp;
-        cuts.assign(1, lo);
-        for (std::size_t i = 0; i < density.size(); ++i) {
-            if (searched.density.half_spaces()[i].radius > 0 || density.distance_rate(i) == 0) continue;
-            const double t = density.plane_crossing(i);
-            if (t > lo && t < hi) cuts.push_back(t);
-        }
-        cuts.push_back(hi);
-        std::sort(cuts.begin(), cuts.end());
+        const std::vector<double>& cuts = sharp_cuts(density, lo, hi, scratch.sharp);
         bool inside = false;
         for (std::size_t k = 0; k + 1 < cuts.size(); ++k) {
             const double a = cuts[k], b = cuts[k + 1];
             if (k > 0 && k + 2 < cuts.size() && b - a <= t_tolerance) continue;  // a gap of rounding
             density.fix_sharp(a + 0.5 * (b - a));
             const bool now = inside_at(a);
-            if (k > 0 && now != inside) {
-                Vec3 normal(0.0);  // of a sharp plane here
-                for (std::size_t i = 0; i < density.size(); ++i) {
-                    const HalfSpace& h = searched.density.half_spaces()[i];
-                    if (h.radius > 0 || density.distance_rate(i) == 0) continue;
-                    const double t = density.plane_crossing(i);
-                    if (std::abs(t - a) <= t_tolerance) normal = h.normal;
-                }
-                if (!visit(a, now, normal)) return;
-            }
+            if (k > 0 && now != inside && !visit(a, now, sharp_normal(density, a, t_tolerance))) return;
             inside = now;
             if (searched.all_sharp) continue;
             if (!stretch.crossings(a, b, pass)) return;
@@ -243,39 +257,42 @@ void LocalSolid::crossings_of(const SearchedDensity& searched, const Vec3& origi
 
 SurfaceCrossing LocalSolid::first_crossing(const Vec3& origin, const Vec3& direction, double t0, double t1, bool any,
                                            CrossingScratch& scratch) const {
-    SurfaceCrossing result;
-    // A normal that is known up to its sign: it leaves the solid, so it is against a ray that enters.
-    const auto found = [&](double t, bool entering, Vec3 normal, int material, double error) {
-        if ((glm::dot(normal, direction) < 0) != entering) normal = -normal;
-        result = {t, normal, material, error};
-    };
     scratch.error = 0;
-    if (nodes_.size() == 1) {
-        const Leaf& leaf = leaves_[0];
-        if (leaf.soft < 0) {
-            const double rate = glm::dot(leaf.normal, direction);
-            const double t = (leaf.offset - glm::dot(leaf.normal, origin)) / rate;
-            if (!(t >= t0 && t <= t1)) return result;
-            ++scratch.counters.flat;
-            return {t, leaf.normal, leaf.material};
-        }
-        const Soft& soft = softs_[leaf.soft];
-        if (const auto* sum = std::get_if<ProductSum>(&soft.form)) {
-            sum_crossings(*sum, origin, direction, t0, t1, any, scratch, nullptr,
-                          [&](double t, bool entering, Vec3 normal) {
-                              found(t, entering, normal, leaf.material, scratch.error);
-                              return false;
-                          });
-            return result;
-        }
-        soft_crossings(soft, origin, direction, t0, t1, scratch, nullptr, [&](double t, bool entering, Vec3 normal) {
-            if (normal == Vec3(0.0)) normal = normalized(scratch.density.gradient(t));
-            found(t, entering, normal, leaf.material, scratch.error);
-            return false;
-        });
+    if (nodes_.size() == 1) return first_leaf_crossing(origin, direction, t0, t1, any, scratch);
+    find_events(origin, direction, t0, t1, scratch);
+    return first_change(direction, scratch);
+}
+
+SurfaceCrossing LocalSolid::first_leaf_crossing(const Vec3& origin, const Vec3& direction, double t0, double t1,
+                                                bool any, CrossingScratch& scratch) const {
+    SurfaceCrossing result;
+    const Leaf& leaf = leaves_[0];
+    if (leaf.soft < 0) {
+        const double rate = glm::dot(leaf.normal, direction);
+        const double t = (leaf.offset - glm::dot(leaf.normal, origin)) / rate;
+        if (!(t >= t0 && t <= t1)) return result;
+        ++scratch.counters.flat;
+        return {t, leaf.normal, leaf.material};
+    }
+    const Soft& soft = softs_[leaf.soft];
+    if (const auto* sum = std::get_if<ProductSum>(&soft.form)) {
+        sum_crossings(*sum, origin, direction, t0, t1, any, scratch, nullptr,
+                      [&](double t, bool entering, Vec3 normal) {
+                          result = {t, against(direction, entering, normal), leaf.material, scratch.error};
+                          return false;
+                      });
         return result;
     }
+    soft_crossings(soft, origin, direction, t0, t1, scratch, nullptr, [&](double t, bool entering, Vec3 normal) {
+        if (normal == Vec3(0.0)) normal = normalized(scratch.density.gradient(t));
+        result = {t, against(direction, entering, normal), leaf.material, scratch.error};
+        return false;
+    });
+    return result;
+}
 
+void LocalSolid::find_events(const Vec3& origin, const Vec3& direction, double t0, double t1,
+                             CrossingScratch& scratch) const {
     auto& events = scratch.events;
     events.clear();
     scratch.inside.assign(leaves_.size(), false);
@@ -304,6 +321,10 @@ SurfaceCrossing LocalSolid::first_crossing(const Vec3& origin, const Vec3& direc
     }
     std::sort(events.begin(), events.end(),
               [](const auto& a, const auto& b) { return a.t != b.t ? a.t < b.t : a.leaf < b.leaf; });
+}
+
+SurfaceCrossing LocalSolid::first_change(const Vec3& direction, CrossingScratch& scratch) const {
+    const auto& events = scratch.events;
     const bool before = evaluate(scratch.state, scratch.inside);
     // Faces that coincide are crossed at the same t but for rounding: only what has changed after
     // all of them counts.
@@ -320,10 +341,9 @@ SurfaceCrossing LocalSolid::first_crossing(const Vec3& origin, const Vec3& direc
         }
         if (now == before) continue;
         const auto& event = events[decisive];
-        found(event.t, now, event.normal, leaves_[event.leaf].material, event.error);
-        break;
+        return {event.t, against(direction, now, event.normal), leaves_[event.leaf].material, event.error};
     }
-    return result;
+    return {};
 }
 
 }  // namespace deburr
