@@ -2,6 +2,7 @@
 
 #include "catch.hpp"
 #include "random_case.hpp"
+#include "raytracer/accel/bvh.hpp"
 #include "raytracer/simd/random_packet.hpp"
 
 using namespace deburr;
