@@ -116,6 +116,11 @@ private:
     bool classify(int cell, const Plane& plane);
     bool cut_is_simple(int cell);
     const Reach& reach_of(int face) const;
+    void split_crossed_edges(const Plane& plane);
+    int split_crossed_face(int face);
+    int split_crossed_faces(int cell, List<8>& ring);
+    void order(List<8>& ring) const;
+    bool runs_with_upper_face(int cell, const List<8>& ring) const;
 };
 
 }  // namespace deburr
