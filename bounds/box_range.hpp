@@ -46,7 +46,7 @@ bool bounds_hold(const DensityTree& tree, const Box& box);
 
 enum class Side { outside, inside, straddling };
 
-/// The same over any region, given ρ of every half-space over it.
+/// Range of ρ over any region, given the range of every half-space's density over it.
 Range density_range(const DensityTree& tree, const std::vector<Range>& half_spaces);
 
 /// Where the box lies with respect to the set ρ > ½, as far as the range can tell.
@@ -71,11 +71,11 @@ struct Pruned {
 /// The local density of the box: half-spaces that are constant there are folded away.
 Pruned prune(const DensityTree& tree, const Box& box);
 
-/// The same over any region, given ρ of every half-space over it.
+/// The local density of any region, given the range of every half-space's density over it.
 Pruned prune(const DensityTree& tree, const std::vector<Range>& half_spaces);
 
-/// The same, with a tree only where it has fewer half-spaces than before (of hundreds a quarter less) and is not
-/// decided, as the caller sees it; else the tree has no nodes.
+/// prune(), but that the tree has no nodes unless it has fewer half-spaces than before (of hundreds a quarter less)
+/// and is_classified(range) is false.
 Pruned prune_further(const DensityTree& tree, const std::vector<Range>& half_spaces, bool (&is_classified)(Range));
 
 struct LocalSize {

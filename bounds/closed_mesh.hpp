@@ -16,7 +16,7 @@
 
 namespace deburr {
 
-/// What is said of a mesh that is not the boundary of a solid.
+/// Thrown for a mesh that is not the boundary of a solid.
 struct NotClosed : std::invalid_argument {
     NotClosed(std::size_t count, Vec3 place);
     std::size_t count;  // of edges that have not as many triangles on one side as on the other
@@ -63,15 +63,15 @@ public:
     int edge_id(int triangle, int k) const { return edges_[triangle][k]; }
     std::size_t planes() const { return plane_count_; }
     const Box& bounding_box() const { return box_; }
-    /// Of the solid; negative if the mesh is inside out.
+    /// Volume of the solid; negative if the mesh is inside out.
     double volume() const;
 
     /// Appends the triangles that may come within `reach` of the box, in rising order.
     void near(const Box& box, double reach, std::vector<int>& found) const;
-    /// Calls visit(triangle) for those in no order, until it returns false.
+    /// Calls visit(triangle) for the triangles that near() finds, in no order, until it returns false.
     template <class Visit>
     void visit_near(const Box& box, double reach, Visit visit) const;
-    /// At least how many they are, by the hierarchy's boxes alone.
+    /// Upper bound of the number of triangles that near() finds, by the hierarchy's boxes alone.
     std::size_t count_near(const Box& box, double reach) const;
     /// Whether the triangle may come within `reach` of the box: never false where it does.
     bool reaches(int triangle, const Box& box, double reach) const;

@@ -19,8 +19,8 @@
 
 namespace deburr {
 
-/// Where n·x ≤ offset; or, with another coordinate in the place of n·x, where that is: such a *round part* is a
-/// half-space whose plane is bent.
+/// The points with n·x ≤ offset. In a *round part*, a half-space whose plane is bent, another coordinate stands in the
+/// place of n·x.
 struct HalfSpace {
     Vec3 normal;                             // unit, outward; of a round part, nothing
     double offset;                           // n·x = offset on the plane
@@ -28,7 +28,7 @@ struct HalfSpace {
     const RoundCoordinate* round = nullptr;  // in place of n·x, if not null; the tree's
 
     double distance(Vec3 x) const { return (round ? round->at(x) : glm::dot(normal, x)) - offset; }
-    /// Of the distance: a unit vector, but where a round part has none.
+    /// Gradient of distance(): a unit vector, or 0 where a round part has none.
     Vec3 normal_at(Vec3 x) const { return round ? round->gradient(x) : normal; }
     /// Signed distance in radii; a sharp plane counts as inside, so α is −infinity or +infinity.
     double alpha(Vec3 x) const { return alpha_at(distance(x)); }
@@ -69,7 +69,7 @@ struct DensityTree {
     std::vector<TreeNode> nodes;  // children before parents, the root last; never empty
     std::vector<Box> supports = {};
     Mat3 ball{1.0};  // convolution: makes the unit ball the filter
-    /// What half_spaces point to; null where none is round.
+    /// Owns the coordinates that half_spaces point to; null where none is round.
     std::shared_ptr<const std::deque<RoundCoordinate>> rounds = nullptr;
 
     static DensityTree constant(double value) { return {{}, {{Op::constant, -1, -1, value}}, {}}; }

@@ -14,7 +14,7 @@ enum class Emptiness { empty, not_empty, unknown };
 
 /// Looks at so many tree nodes at most, and counts `nodes` down. The box is finite.
 Emptiness emptiness(const SolidTree& tree, const Box& box, std::int64_t& nodes);
-/// Of the set ρ > ½.
+/// As above, of the set ρ > ½.
 Emptiness emptiness(const DensityTree& tree, const Box& box, std::int64_t& nodes);
 
 }  // namespace deburr

@@ -74,7 +74,7 @@ public:
     virtual RayBounds bounds(const FieldRay& ray, double t0, double t1) const = 0;
 };
 
-/// What a field keeps of the latest ray, if numbers are not enough.
+/// A field's notes on the latest ray, where FieldRay::numbers are not enough.
 struct FieldRayState {
     virtual ~FieldRayState() = default;
 };

@@ -20,7 +20,7 @@
 
 namespace deburr {
 
-/// What stays as it is.
+/// The edges and regions of a mesh that are not rounded.
 struct KeptEdges {
     enum class Kind { none, convex, concave };
     Kind edges = Kind::none;   // those at which the faces turn by 30° or more

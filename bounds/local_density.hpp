@@ -31,7 +31,7 @@ public:
     bool has_sharp() const { return has_sharp_; }
     /// Whether some of them are round parts.
     bool has_round() const { return rounds_ != nullptr; }
-    /// What they point to.
+    /// The coordinates that half_spaces() point to; null where none is round.
     const std::shared_ptr<const std::deque<RoundCoordinate>>& rounds() const { return rounds_; }
 
     struct Factor {
@@ -63,7 +63,7 @@ public:
     ValueGradient gradient_at(Vec3 x) const;
     /// ρ over a box; tighter than the tree's, as it sees what operands share.
     Range range(const Box& box) const;
-    /// The same over any region, given ρ of every half-space (half_spaces()) over it.
+    /// ρ over any region, given the range of the density of each of half_spaces() over it.
     Range range(std::span<const Range> half_spaces) const;
     /// The rate at which ρ changes in some direction, over any region, given for every half-space its ρ over the
     /// region and the rate at which that changes in the direction. Sound; where a half-space's side of a Boolean
@@ -127,7 +127,7 @@ public:
     /// Distance of the origin from half-space i's plane, and its change with t.
     double distance0(std::size_t i) const { return lines_[i].distance; }
     double distance_rate(std::size_t i) const { return lines_[i].rate; }
-    /// Where the ray meets half-space i's plane; not finite where it is parallel to it.
+    /// The t at which the ray meets half-space i's plane; not finite where they are parallel.
     double plane_crossing(std::size_t i) const { return -lines_[i].distance / lines_[i].rate; }
 
 private:

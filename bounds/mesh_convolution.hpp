@@ -21,9 +21,9 @@ namespace deburr {
 /// the sphere cuts an edge of which one triangle is not among them, all that reach the ball are looked for. Linear in
 /// their number. Off by 10⁻¹² at most, but where the sphere touches a plane within 10⁻⁶ r: 10⁻⁹ there.
 ValueGradient ball_share(const ClosedMesh& mesh, std::span<const int> triangles, Vec3 x, double r);
-/// The same with all triangles.
+/// The share and its gradient, with all triangles of the mesh.
 ValueGradient ball_share(const ClosedMesh& mesh, Vec3 x, double r);
-/// The same and the share's rate of change with r, which is −3/(4πr⁴) Σ h |D|.
+/// A share, its gradient, and its rate of change with r, which is −3/(4πr⁴) Σ h |D|.
 struct ShareRates {
     double value = 0;
     Vec3 gradient{0.0};

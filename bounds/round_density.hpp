@@ -24,7 +24,7 @@ public:
     bool has_sharp() const;
     /// The tree, with radius 0 where a sharp part got another.
     DensityTree as_written() const;
-    /// What is left of it, made ready; null where that is too much.
+    /// The pruned density, made ready for evaluation; null where it has too many parts.
     const LocalDensity* local() const { return local_ ? &*local_ : nullptr; }
 
     ValueGradient at(Vec3 x) const override;

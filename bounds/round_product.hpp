@@ -24,7 +24,7 @@ struct RoundSurface {
     /// The surface ρ = ½ of a density of one round part; none where ρ does not cross ½, or of tori that TorusOnRay is
     /// not for.
     static std::optional<RoundSurface> of(const LocalDensity& density);
-    /// Of a sharp torus.
+    /// The surface of a sharp torus; none where TorusOnRay is not for it.
     static std::optional<RoundSurface> of(const Torus& torus);
     bool is_torus() const { return coordinate.kind == RoundCoordinate::Kind::circle; }
     RoundCrossings crossings(const Vec3& origin, const Vec3& direction, double t0, double t1) const;

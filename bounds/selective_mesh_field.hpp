@@ -42,7 +42,7 @@ private:
     struct Part {};  // of another
     struct Local;
     SelectiveMeshField(Part, const SelectiveMeshField& of, const Local& local);
-    /// What reaches a finite box.
+    /// The triangles and kept edges that reach a finite box.
     Local local(const Box& box) const;
     /// The field of constant radius that it is there; null if it is none.
     std::shared_ptr<const MeshField> constant(const LocalRadius::Bounds& bounds) const;

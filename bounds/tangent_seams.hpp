@@ -16,8 +16,8 @@ struct TangentSeam {
     double radius = 0;
 };
 
-/// Of each pair of parts that touch along their surfaces and on the solid's, one place: planes, spheres, cylinders,
-/// cones and tori, however they lie. At most `max_pairs` pairs are looked at.
+/// One place for each pair of parts that touch along their surfaces, and on the solid's. Parts are planes, spheres,
+/// cylinders, cones and tori, however they lie. At most `max_pairs` pairs are looked at.
 std::vector<TangentSeam> tangent_seams(const DensityTree& tree, int max_pairs = 20'000);
 
 }  // namespace deburr

@@ -21,7 +21,7 @@ struct BoxFrame {
     explicit BoxFrame(const Box& around);
 
     Vec3 to_local(const Vec3& x) const { return (x - middle) * per_unit; }
-    /// At least the distance, and 0.
+    /// A distance in these units, rounded up; 0 for a negative one.
     float distance(double d) const { return std::max(0.0f, float(d * per_unit) * (1 + 0x1p-22f)); }
 
     Vec3 middle{0.0};
@@ -34,11 +34,11 @@ public:
     class Builder {
     public:
         static constexpr int nothing = -1;
-        /// For so many items.
+        /// Makes room for so many items.
         void reserve(std::size_t items) { parts_.reserve(2 * items); }
         int item(std::uint32_t number, const Box& box);
         int join(int a, int b);  // of any two, also of nothing
-        /// All of these, so that few rays meet many: by the surface-area heuristic.
+        /// Joins all of these by the surface-area heuristic, so that few rays meet many.
         int join_by_area(std::vector<int> parts);
         const Box& box(int part) const { return parts_[part].box; }
 

@@ -17,7 +17,7 @@
 
 namespace deburr {
 
-/// Of a whole picture, of which crops are rendered; and of what is rendered at once.
+/// Limits, in pixels: sides of a whole picture and of what is rendered of it at once; and the area of the latter.
 constexpr int largest_picture_side = 1'000'000, largest_side = 65536;
 constexpr std::int64_t max_pixels = std::int64_t(1) << 28;
 
@@ -55,7 +55,7 @@ Accel parse_accel(std::string_view option, std::string_view text);
 MeshMethod parse_mesh_method(const std::string& option, const std::string& name);
 /// --tolerance: a number > 0, or inf for the paper's one refinement of each edge.
 double parse_tolerance(const std::string& text);
-/// For pictures of meshes, from --via and --tolerance (which may be empty).
+/// The settings of meshes that are made to be rendered, from --via and --tolerance (which may be empty).
 MeshSettings picture_mesh_settings(const std::string& via, const std::string& tolerance);
 /// name=value, added to `defines`.
 void parse_define(std::string_view option, std::string_view text, std::map<std::string, std::string>& defines);

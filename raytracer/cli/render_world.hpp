@@ -12,7 +12,7 @@
 
 namespace deburr {
 
-/// What rays are traced in, and how. Tiles that are abandoned share in it.
+/// The scene and how its rays are traced. Tiles that are abandoned share in it.
 struct RenderWorld {
     Scene scene;
     std::unique_ptr<RayTracer> tracer;
@@ -32,7 +32,7 @@ struct Frame {
 /// Throws as picture_window() does.
 Frame frame_of(const RenderOptions& options, const Scene& scene);
 
-/// Of pictures for the screen, in stops: a wire frame is black on white.
+/// Exposure of pictures for the screen, in stops; 0 for a wire frame, which is black on white.
 double exposure_of(const RenderOptions& options, const Scene& scene);
 
 /// Warns of what can be known of a scene before it is rendered.

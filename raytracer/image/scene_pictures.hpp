@@ -9,7 +9,7 @@ namespace deburr {
 /// cannot be read, if a background holds no light that is finite and not negative, or if a texture holds what its field
 /// does not take. The `a` of a texture becomes its mean, as does the number in whose place it stands.
 void load_pictures(Scene& scene);
-/// Those of the textures alone.
+/// Reads the pictures of the textures alone.
 void load_textures(Scene& scene);
 
 }  // namespace deburr

@@ -41,7 +41,7 @@ int orientation(const ExactPoint& a, const ExactPoint& b, const ExactPoint& c, P
 /// −1, 0 or 1: the sign of the volume of abcd, 1 where abc is counter-clockwise seen from d.
 int orientation(const ExactPoint& a, const ExactPoint& b, const ExactPoint& c, const ExactPoint& d, double scale);
 
-/// Where the line through a and b, which are on different sides of the plane through pqr, goes through that.
+/// The point in which the line through a and b goes through the plane pqr; a and b lie on different sides of that.
 ExactPoint on_plane(const ExactPoint& a, const ExactPoint& b, const ExactPoint& p, const ExactPoint& q,
                     const ExactPoint& r);
 
@@ -61,7 +61,7 @@ public:
     /// Makes the edges from a to b edges of triangles: it is cut at points that lie on it and where it crosses others.
     void insert_edge(int a, int b);
 
-    /// In the order by their numbers.
+    /// Triangles by the numbers of their corners, counter-clockwise, in rising order.
     std::vector<std::array<int, 3>> triangles() const;
 
 private:

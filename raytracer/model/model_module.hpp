@@ -17,7 +17,7 @@ struct TriangleSoup {
 /// Reads the bytes of a file of this format, a name such as "stl". Throws std::runtime_error with the library's words.
 using ModelReader = TriangleSoup(const std::string& bytes, const std::string& format);
 
-/// What the module gives, by this name.
+/// The one function that the module exports, under this name.
 using ModelModuleEntry = ModelReader*();
 constexpr const char* model_module_entry = "deburr_model_module";
 

@@ -18,7 +18,7 @@ public:
     /// `ior`: of the far side over that of the near one. An α below smooth_alpha is smooth.
     AlbedoTable(Kind kind, double alpha, double ior);
 
-    /// Off by at most 5·10⁻⁴.
+    /// The albedo for light at this cosine to the normal, to within 5·10⁻⁴.
     double at(double cosine) const;
     /// The mean over a hemisphere, weighted by the cosine: 2 ∫ at(c) c dc, of the table as it interpolates.
     double mean() const { return mean_; }

@@ -15,7 +15,7 @@ public:
         if (orthographic_) return {eye_ + (on_picture - forward_), forward_};
         return {eye_, glm::normalize(on_picture)};
     }
-    /// The same from a point of the lens, `u` in the unit square, through what is in focus there.
+    /// Ray from a point of the lens, by `u` in the unit square, through the point in focus that (x, y) shows.
     Ray ray(double x, double y, Vec2 u) const;
     bool has_lens() const { return lens_radius_ > 0; }
     /// Where a point is seen: x and y as ray() takes them, and z its distance along the axis; x and y
@@ -26,7 +26,7 @@ public:
     double pixel(double distance) const { return glm::length(dx_) * (orthographic_ ? 1 : distance); }
     Vec3 eye() const { return eye_; }
     bool orthographic() const { return orthographic_; }
-    /// From a point in front of the camera to where its ray began.
+    /// Vector from a point in front of the camera to where the ray through it began.
     Vec3 to_eye(Vec3 point) const;
 
 private:

@@ -11,7 +11,7 @@ namespace deburr {
 
 /// The sky without its sun and without Background::scale.
 std::shared_ptr<const PictureData> daylight(const Background& background);
-/// Of the sun, on a surface that faces it; Background::scale is in it.
+/// Irradiance by the sun of a surface that faces it; Background::scale is in it.
 Vec3 sun_irradiance(const Background& background);
 
 }  // namespace deburr

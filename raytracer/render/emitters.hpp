@@ -58,7 +58,7 @@ public:
         double density;
     };
     std::optional<OfSolid> of_solid(int solid, Vec3 point) const;
-    /// What a ray that hits nothing meets: the sky and, if it is there, the sun. Either may be missing.
+    /// Calls each(Met) for the emitters that a ray meets if it hits nothing: the sky and, where it is, the sun.
     template <class Each>
     void for_each_at_infinity(Vec3 direction, Each each) const {
         each(Met{sky_.towards(direction), sky_.sampled() ? sky_.density(direction) : 0.0, infinity, first_sky_});

@@ -34,9 +34,9 @@ public:
     /// Incidents per shading point: 1 where there is only one.
     int samples() const { return samples_; }
     Light::Kind kind() const { return kind_; }
-    /// Its middle; of a directional one nothing.
+    /// Middle of the light; meaningless for a directional one.
     Vec3 position() const { return position_; }
-    /// In which a directional one shines, or the normal of an area.
+    /// Direction in which a directional light shines, or the normal of an area.
     Vec3 direction() const { return direction_; }
     /// An area's sides.
     Vec3 u() const { return u_; }
@@ -47,7 +47,7 @@ public:
     bool extended() const { return kind_ == Light::Kind::area || kind_ == Light::Kind::sphere; }
     /// Whether the camera sees it and it hides what is behind it: extended ones alone.
     bool visible() const { return visible_; }
-    /// At `point`, from the place `u` of the light (area: uniform over it; sphere: over the cone that it fills).
+    /// Light that reaches `point` from the place `u` of the light (area: uniform over it; sphere: over its cone).
     /// Irradiance 0 where the light does not shine.
     Incident at(Vec3 point, Vec2 u) const;
 
@@ -56,13 +56,13 @@ public:
         double density = 0.0;  // with which at() would have found the ray's direction; 0: it would not
         double t = infinity;   // where the light is met; infinity: it is not
     };
-    /// What the ray sees of the light itself at a distance in (0, t_max): extended lights only. An area light is black
+    /// The light itself as the ray sees it at a distance in (0, t_max): extended lights only. An area light is black
     /// from behind, a sphere from within.
     Emission seen(const Ray& ray, double t_max) const;
     /// Irradiance that the light gives at most at a point with nothing in between, by a rough estimate; 0 only where
     /// at() finds nothing. For choosing among lights.
     double importance(Vec3 point) const;
-    /// Of what is not directional.
+    /// Where the light is and shines, unless it is directional.
     LightBounds bounds() const;
 
 private:
@@ -83,7 +83,7 @@ class SkyLight {
 public:
     explicit SkyLight(const Background& background);
 
-    /// Without the sun.
+    /// Radiance from this unit direction, without the sun.
     Vec3 towards(Vec3 direction) const {
         return picture_ ? picture_towards(direction) : background_.towards(direction);
     }

@@ -67,7 +67,7 @@ public:
         Vec3 value{0.0};       // times the cosine of the direction
         double density = 0.0;  // per solid angle, with which sample() finds it
     };
-    /// Of what is not a mirror.
+    /// Value and density of what the material scatters there, but for mirrors, whose value is 0.
     Value value(Vec3 direction) const;
 
     struct Sample {
@@ -92,7 +92,7 @@ public:
 
     /// Whether value() is ever more than 0.
     bool diffuses() const { return diffuses_; }
-    /// What the base returns of a uniformly white world.
+    /// Share of the light of a uniformly white world that the base returns.
     Vec3 base_albedo() const { return below_coat_ * (dielectric_base_ * kept_ + metal_base_ * metal_kept_); }
     Vec3 normal() const { return normal_; }
 

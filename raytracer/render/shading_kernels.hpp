@@ -37,7 +37,7 @@ struct ShadingFunctions {
     void (*shade)(Vec3 ambient, std::span<const SurfaceLayer> layers, const SurfaceBatch& batch);
 };
 
-/// Of the sets of instructions that this machine has, the widest first.
+/// The kernels of every set of instructions that this machine has, the widest first.
 std::vector<Instructions<ShadingFunctions>> shading_instructions();
 
 /// The kernels of the widest set of instructions that this machine has.

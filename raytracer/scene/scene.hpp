@@ -107,7 +107,7 @@ struct Background {
     double scale = 1.0, rotate = 0.0;            // of picture and day; degrees about y
 
     bool by_day() const { return sun != Vec3(0.0); }
-    /// Of a unit direction: 1 towards the zenith, 0 towards the horizon.
+    /// Height of a unit direction: 1 towards the zenith, 0 towards the horizon.
     double height(Vec3 direction) const { return z_up ? direction.z : direction.y; }
     /// Neither of a picture nor by day.
     Vec3 towards(Vec3 unit_direction) const {

@@ -7,7 +7,7 @@ namespace deburr {
 
 class SceneFiles {
 public:
-    /// Of the scene at this path; `others` are further folders, looked in after its own.
+    /// Files of the scene at this path; `others` are further folders, which are searched after its own.
     explicit SceneFiles(const std::string& scene, std::vector<std::string> others = {});
 
     /// The path of the file that the scene calls `name`. Throws std::runtime_error where there is none, where it is no

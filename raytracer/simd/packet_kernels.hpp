@@ -95,7 +95,7 @@ struct PacketFunctions {
     void (*surface_normals)(const RoundSurface& surface, const RayPacket& rays, const double* end, Lanes lanes,
                             const PacketNearest& nearest, double (*normal)[RayPacket::size]);
 
-    /// The same of a sum of products (ProductSumRay).
+    /// First crossings, any crossings and normals of a sum of products (ProductSumRay).
     Lanes (*sum_crossings)(const ProductSum& sum, const RayPacket& rays, Lanes lanes, const PacketSpans& spans,
                            double scale, PacketCrossings& found, RootCounters& counters);
     Lanes (*sum_any_crossings)(const ProductSum& sum, const RayPacket& rays, Lanes lanes, const PacketSpans& spans,
@@ -109,7 +109,7 @@ struct PacketFunctions {
     void (*walk_beam)(const BoxTree& tree, const BoxBeam& beam, BoxVisitor visitor);
 };
 
-/// Of the sets of instructions that this machine has, the widest first.
+/// The kernels of every set of instructions that this machine has, the widest first.
 std::vector<Instructions<PacketFunctions>> packet_instructions();
 
 /// The kernels of the widest set of instructions that this machine has.

@@ -22,7 +22,7 @@ public:
     /// What build_bsp() makes of the solids, to the bit. Several threads may ask at a time.
     BspTree bsp(const std::vector<Solid>& solids, RootMethod root_method, double min_scale);
 
-    /// Of this scene's BSPs, those that were taken over and those that were built.
+    /// How many of this scene's BSPs were taken over from the last, and how many were built.
     std::size_t kept() const { return kept_; }
     std::size_t built() const { return built_; }
 

@@ -94,9 +94,9 @@ public:
     /// The whole of it as a sum of products, or as a round part's surface, if it is one leaf's; else null.
     const ProductSum* sum() const { return is_one_soft() ? std::get_if<ProductSum>(&softs_[0].form) : nullptr; }
     const RoundSurface* surface() const { return is_one_soft() ? std::get_if<RoundSurface>(&softs_[0].form) : nullptr; }
-    /// Those of the BSP that it was made for.
+    /// Tolerances of the BSP that it was made for.
     Tolerances tolerances() const { return {scale_}; }
-    /// Of the first leaf.
+    /// The first leaf's material, by its index in the scene.
     int material() const { return leaves_[0].material; }
 
     /// First crossing of the solid's surface in [t0, t1]; `any`: that there is one will do, t and normal

@@ -45,7 +45,7 @@ public:
             return any_hit_from_afar(ray, t_max, counters, instances);
         return any_hit_nearby(ray, 0, t_max, counters, instances);
     }
-    /// The same for `lanes` of the rays, which begin at 0, to the bit.
+    /// Both queries for `lanes` of the rays, which begin at 0, with the same results to the bit.
     void closest_hit_packet(const RayPacket& rays, Lanes lanes, PacketSurfaces& found, TraceCounters& counters,
                             const InstanceTracer* instances = nullptr) const;
     Lanes any_hit_packet(const RayPacket& rays, Lanes lanes, TraceCounters& counters,

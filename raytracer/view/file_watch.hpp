@@ -13,7 +13,7 @@ public:
     FileWatch(const FileWatch&) = delete;
     FileWatch& operator=(const FileWatch&) = delete;
 
-    /// From now on these, whether they are there or not.
+    /// Watches these files from now on, and no others, whether they are there or not.
     void set_files(const std::vector<std::string>& paths);
     /// Whether one of them was written, replaced or removed; waits so long for it, and then until nothing more has
     /// happened for a moment.

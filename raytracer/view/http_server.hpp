@@ -9,7 +9,7 @@
 
 namespace deburr {
 
-/// What a client asks.
+/// A client's request.
 class HttpRequest {
 public:
     virtual ~HttpRequest() = default;
@@ -18,7 +18,7 @@ public:
     virtual const std::string& body() const = 0;
 };
 
-/// What it gets.
+/// The answer to a request.
 struct HttpResponse {
     int status = 200;
     std::string body, type;  // MIME

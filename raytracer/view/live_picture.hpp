@@ -25,7 +25,7 @@
 
 namespace deburr {
 
-/// What was shown at a time.
+/// A picture as it was shown at one time.
 struct LiveFrame {
     int number = 0;                    // counts from 1
     int width = 0, height = 0;         // of `rgba`, which may be coarser than the picture
