@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "polygonizer/mesh/patches.hpp"
+
 namespace deburr {
 namespace {
 
@@ -9,7 +11,8 @@ constexpr double same_normal = 1e-6;
 
 }  // namespace
 
-Facets::Facets(Mesh& mesh, std::vector<Origin>& origins) : mesh_(mesh), origins_(origins) {
+Facets::Facets(Mesh& mesh, std::vector<Origin>& origins, Patches* patches)
+    : mesh_(mesh), origins_(origins), patches_(patches) {
     around_.resize(mesh.positions.size());
     facets_.reserve(mesh.triangles.size());
     for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
@@ -140,6 +143,11 @@ int Facets::add_normal(Vec3 n) {
     return int(mesh_.normals.size()) - 1;
 }
 
+void Facets::move(int vertex, Vec3 x) {
+    mesh_.positions[vertex] = x;
+    if (patches_) patches_->join({around_[vertex].begin(), around_[vertex].end()});
+}
+
 std::vector<int> Facets::apply(const Change& change) {
     for (const int f : change.out) {
         alive_[f] = false;
@@ -164,6 +172,7 @@ std::vector<int> Facets::apply(const Change& change) {
         for (const int v : change.in[k].triangle.vertex) around_[v].push_back(f);
         fresh.push_back(f);
     }
+    if (patches_) patches_->change(change, fresh);
     return fresh;
 }
 
@@ -197,8 +206,17 @@ void Facets::finish(std::vector<int>* old_vertices, std::vector<int>* old_normal
         for (std::size_t k = 0; k < new_index.size(); ++k)
             if (new_index[k] >= 0) (*old)[new_index[k]] = int(k);
     };
+    std::vector<int> own_vertices, own_normals;
+    if (patches_ && !old_vertices) old_vertices = &own_vertices;
+    if (patches_ && !old_normals) old_normals = &own_normals;
     say(old_vertices, position, positions.size());
     say(old_normals, normal, normals.size());
+    if (patches_) {
+        std::vector<int> left;
+        for (std::size_t f = 0; f < facets_.size(); ++f)
+            if (alive_[f]) left.push_back(int(f));
+        patches_->renumber(left, *old_vertices, *old_normals);
+    }
     mesh_.positions = std::move(positions);
     mesh_.normals = std::move(normals);
 }

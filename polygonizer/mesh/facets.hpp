@@ -27,12 +27,15 @@ struct Change {
     std::vector<Facet> in;
 };
 
+class Patches;
+
 class Facets {
 public:
     using Fan = ShortList<int, 8>;
 
     /// `origins`: one for each triangle. Both are brought up to date by finish().
-    Facets(Mesh& mesh, std::vector<Origin>& origins);
+    /// `patches` of the mesh, if any, follow what happens to it.
+    Facets(Mesh& mesh, std::vector<Origin>& origins, Patches* patches = nullptr);
 
     std::size_t size() const { return facets_.size(); }
     bool alive(int f) const { return alive_[f]; }
@@ -65,7 +68,7 @@ public:
 
     int add_vertex(Vec3 x);
     int add_normal(Vec3 n);
-    void move(int vertex, Vec3 x) { mesh_.positions[vertex] = x; }
+    void move(int vertex, Vec3 x);
     void set_normal(int n, Vec3 x) { mesh_.normals[n] = x; }
     /// Returns the numbers of the facets that came.
     std::vector<int> apply(const Change& change);
@@ -78,6 +81,7 @@ private:
 
     Mesh& mesh_;
     std::vector<Origin>& origins_;
+    Patches* patches_;
     std::vector<Facet> facets_;
     std::vector<Fan> around_;
     std::vector<char> alive_;

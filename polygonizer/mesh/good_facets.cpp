@@ -5,10 +5,10 @@
 
 namespace deburr {
 
-GoodFacets::Key GoodFacets::key_of(const Mesh& mesh, const Triangle& triangle, Origin origin) {
+FacetKey facet_key(const Mesh& mesh, const Triangle& triangle, Origin origin) {
     // Odd numbers without a pattern: the fractions of the golden ratio, √2 and √3.
     constexpr std::uint64_t golden = 0x9e3779b97f4a7c15, root2 = 0x6a09e667f3bcc909, root3 = 0xbb67ae8584caa73b;
-    Key key{golden, root2 ^ std::uint64_t(std::uint32_t(origin.leaf))};
+    FacetKey key{golden, root2 ^ std::uint64_t(std::uint32_t(origin.leaf))};
     const auto add = [&](double x) {
         const auto bits = std::bit_cast<std::uint64_t>(x);
         key.a = std::rotl((key.a ^ bits) * golden, 29);
@@ -23,8 +23,8 @@ GoodFacets::Key GoodFacets::key_of(const Mesh& mesh, const Triangle& triangle, O
 }
 
 // Where the key is, or where it would be.
-std::size_t GoodFacets::place(Key key) const {
-    std::size_t at = std::size_t(key.a ^ key.b >> 32) & (keys_.size() - 1);
+std::size_t GoodFacets::place(FacetKey key) const {
+    std::size_t at = key.hash() & (keys_.size() - 1);
     while (keys_[at] != nobody && keys_[at] != key) at = (at + 1) & (keys_.size() - 1);
     return at;
 }
@@ -37,7 +37,7 @@ void GoodFacets::become(const Mesh& mesh, const std::vector<Origin>& origins, co
             ++next;
             continue;
         }
-        const Key key = key_of(mesh, mesh.triangles[t], origins[t]);
+        const FacetKey key = facet_key(mesh, mesh.triangles[t], origins[t]);
         keys_[place(key)] = key;
     }
 }

@@ -16,8 +16,13 @@ constexpr int max_generation = 24;
 class Refinement {
 public:
     Refinement(Mesh& mesh, std::vector<Origin>& origins, const FacetJudge& judge, double tolerance, CancelFlag cancel,
-               const GoodFacets* good = nullptr)
-        : facets_(mesh, origins), judge_(judge), tolerance_(tolerance), cancel_(cancel), mesh_(mesh), good_(good) {
+               const GoodFacets* good, Patches* patches)
+        : facets_(mesh, origins, patches),
+          judge_(judge),
+          tolerance_(tolerance),
+          cancel_(cancel),
+          mesh_(mesh),
+          good_(good) {
         generation_.resize(facets_.size(), 0);
     }
 
@@ -190,17 +195,17 @@ private:
 }  // namespace
 
 std::vector<int> refine(Mesh& mesh, std::vector<Origin>& origins, const FacetJudge& judge, double tolerance,
-                        CancelFlag cancel, const GoodFacets* good) {
+                        CancelFlag cancel, const GoodFacets* good, Patches* patches) {
     if (mesh.triangles.empty()) return {};
-    Refinement refinement(mesh, origins, judge, tolerance, cancel, good);
+    Refinement refinement(mesh, origins, judge, tolerance, cancel, good, patches);
     refinement.open_far();
     return refinement.run();
 }
 
 std::vector<int> refine(Mesh& mesh, std::vector<Origin>& origins, std::span<const int> triangles,
-                        const FacetJudge& judge, double tolerance, CancelFlag cancel) {
+                        const FacetJudge& judge, double tolerance, CancelFlag cancel, Patches* patches) {
     if (triangles.empty()) return {};
-    Refinement refinement(mesh, origins, judge, tolerance, cancel);
+    Refinement refinement(mesh, origins, judge, tolerance, cancel, nullptr, patches);
     refinement.open(triangles);
     return refinement.run();
 }

@@ -16,13 +16,14 @@
 namespace deburr {
 
 /// Splits edges of a closed mesh until points all over its curved triangles are within `tolerance` of the surface.
-/// Returns the triangles, in the order of the refined mesh, for which no split or flip led there. `good` are near.
-/// Throws Cancelled.
+/// Returns the triangles, in the order of the refined mesh, for which no split or flip led there. `good` are near;
+/// `patches` of the mesh follow. Throws Cancelled.
 std::vector<int> refine(Mesh& mesh, std::vector<Origin>& origins, const FacetJudge& judge, double tolerance,
-                        CancelFlag cancel = nullptr, const GoodFacets* good = nullptr);
+                        CancelFlag cancel = nullptr, const GoodFacets* good = nullptr, Patches* patches = nullptr);
 
 /// The same for some of the triangles, and for what their splits touch; the others stay as they are.
 std::vector<int> refine(Mesh& mesh, std::vector<Origin>& origins, std::span<const int> triangles,
-                        const FacetJudge& judge, double tolerance, CancelFlag cancel = nullptr);
+                        const FacetJudge& judge, double tolerance, CancelFlag cancel = nullptr,
+                        Patches* patches = nullptr);
 
 }  // namespace deburr

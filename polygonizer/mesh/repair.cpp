@@ -34,8 +34,8 @@ struct Verdict {
 
 class Repair {
 public:
-    Repair(Mesh& mesh, std::vector<Origin>& origins, const FacetJudge& judge, double tolerance)
-        : facets_(mesh, origins),
+    Repair(Mesh& mesh, std::vector<Origin>& origins, const FacetJudge& judge, double tolerance, Patches* patches)
+        : facets_(mesh, origins, patches),
           judge_(judge),
           tolerance_(tolerance),
           solid_(judge.solid()),
@@ -377,10 +377,10 @@ private:
 }  // namespace
 
 RepairStatistics repair(Mesh& mesh, std::vector<Origin>& origins, const FacetJudge& judge, double tolerance,
-                        bool may_split, const GoodFacets* good) {
+                        bool may_split, const GoodFacets* good, Patches* patches) {
     RepairStatistics statistics;
     if (mesh.triangles.empty()) return statistics;
-    Repair work(mesh, origins, judge, tolerance);
+    Repair work(mesh, origins, judge, tolerance, patches);
     if (good) work.find_good(*good, mesh);
     if (!may_split) work.forbid_splits();
     work.mend_vertices(statistics);

@@ -21,8 +21,9 @@ struct RepairStatistics {
 
 /// Only the last resort makes facets that are farther from the surface than the tolerance, where none was.
 /// Without splits the mesh stays as fine as it is: where surfaces cross at almost no angle, halves of what is
-/// wrong are wrong again. `good` facets need not be mended; how far they are from the surface is not told.
+/// wrong are wrong again. `good` facets need not be mended; how far they are from the surface is not told. `patches` of
+/// the mesh follow.
 RepairStatistics repair(Mesh& mesh, std::vector<Origin>& origins, const FacetJudge& judge, double tolerance = infinity,
-                        bool may_split = true, const GoodFacets* good = nullptr);
+                        bool may_split = true, const GoodFacets* good = nullptr, Patches* patches = nullptr);
 
 }  // namespace deburr

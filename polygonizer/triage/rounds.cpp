@@ -66,14 +66,14 @@ std::size_t add_far(const Mesh& mesh, const FacetJudge& judge, double tolerance,
 
 std::vector<int> wrong_before_decimation(Mesh& mesh, std::vector<Origin>& origins, const FacetJudge& judge,
                                          double tolerance, const std::vector<int>& left, CancelFlag cancel,
-                                         const GoodFacets* good) {
-    RepairStatistics repaired = repair(mesh, origins, judge, at_points * tolerance, true, good);
+                                         const GoodFacets* good, Patches* patches) {
+    RepairStatistics repaired = repair(mesh, origins, judge, at_points * tolerance, true, good, patches);
     // The others are near: `refine` looked at them.
     std::vector<int> far = repaired.changed;
     for (const int t : left)
         if (repaired.numbers[t] >= 0) far.push_back(repaired.numbers[t]);
     std::erase_if(far, [&](int t) { return origins[t].leaf == Origin::wall || is_near(mesh, t, judge, tolerance); });
-    if (repaired.left.empty()) return refine(mesh, origins, far, judge, at_points * tolerance, cancel);
+    if (repaired.left.empty()) return refine(mesh, origins, far, judge, at_points * tolerance, cancel, patches);
     repaired.left.insert(repaired.left.end(), far.begin(), far.end());
     sort_once(repaired.left);
     return repaired.left;

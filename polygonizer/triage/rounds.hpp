@@ -28,10 +28,10 @@ std::size_t add_far(const Mesh& mesh, const FacetJudge& judge, double tolerance,
 
 /// Repairs a mesh that `refine` left with these triangles too far from the surface, and refines what its last
 /// resort made too coarse. What is wrong with it then, sorted: what is too far now is too far in a mesh that
-/// is thinned out, too.
+/// is thinned out, too. `patches` of the mesh follow.
 std::vector<int> wrong_before_decimation(Mesh& mesh, std::vector<Origin>& origins, const FacetJudge& judge,
                                          double tolerance, const std::vector<int>& left, CancelFlag cancel,
-                                         const GoodFacets* good = nullptr);
+                                         const GoodFacets* good = nullptr, Patches* patches = nullptr);
 
 /// Those of the cuts that are not of the others' cells, or of neighbours of theirs.
 std::vector<Cut> without_neighbours(std::vector<Cut> cuts, const std::vector<Cut>& others, const CellComplex& complex);

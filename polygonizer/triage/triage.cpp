@@ -8,6 +8,7 @@
 #include "bounds/sort_once.hpp"
 #include "polygonizer/mesh/decimate.hpp"
 #include "polygonizer/mesh/degenerate_shells.hpp"
+#include "polygonizer/mesh/patches.hpp"
 #include "polygonizer/mesh/refine.hpp"
 #include "polygonizer/mesh/separate_touching.hpp"
 #include "polygonizer/mesh/sharp_parts.hpp"
@@ -61,7 +62,8 @@ void add_corners(const Mesh& mesh, const Triangle& triangle, std::vector<Box>& b
 
 constexpr std::size_t max_mending_rounds = 8, max_fine_rounds = 6;
 
-// One solid's way to a mesh, round by round. Each whole round polygonizes all cells, after some were halved.
+// One solid's way to a mesh, round by round. Each whole round polygonizes all cells, after some were halved. Where
+// nothing changed since the round before, facets stay as they were refined and mended then.
 class Triage {
 public:
     /// `solid` has its sharp leaves apart.
@@ -132,32 +134,54 @@ private:
         if (!judge_) judge_.emplace(solid_, mesh_);
         drop_flat_shells(mesh_, origins_, 10 * subdivision_.complex.tolerance, judge_->solid());
         std::vector<int> left, wrong;
-        std::vector<Cut> far, around_wrong;
+        std::vector<Cut> far;
+        Patches patches;
         if (std::isfinite(options_.tolerance)) {
             begin(0.2);
-            left = deburr::refine(mesh_, origins_, *judge_, near_, options_.cancel, &good_);
+            patches = refined_ ? refined_->patches.put_into(mesh_, origins_, refined_->mesh, refined_->origins,
+                                                            refined_->wrong)
+                               : Patches(mesh_, origins_);
+            refined_.reset();
+            left = deburr::refine(mesh_, origins_, *judge_, near_, options_.cancel, &good_, &patches);
             // What halves do not help is looked at again when all is done, by the tolerance itself.
             if (rounds_left() > 0) far = local_.hopeful_far(cells_to_halve(mesh_, origins_, left, subdivision_));
         }
         if (thin_out_) {
             // Facets that lean are mended first, while there are small ones to do it with. Smaller cells for those that
             // cannot be mended cost less before the rest is thinned out, as long as they help.
-            wrong =
-                wrong_before_decimation(mesh_, origins_, *judge_, options_.tolerance, left, options_.cancel, &good_);
-            if (mending_ < max_fine_rounds && local_.may_halve())
-                around_wrong =
-                    without_neighbours(local_.hopeful_wrong(cells_around(mesh_, origins_, wrong, subdivision_)), far,
-                                       subdivision_.complex);
+            wrong = wrong_before_decimation(mesh_, origins_, *judge_, options_.tolerance, left, options_.cancel, &good_,
+                                            &patches);
         }
+        std::vector<Cut> around_wrong = cuts_around(wrong, far);
         const bool cut =
             !far.empty() && local_.cut_far(far, *judge_, near_, left.size(), thin_out_ ? options_.tolerance : infinity);
-        const bool mended =
-            !around_wrong.empty() && local_.mend(std::move(around_wrong), *judge_, options_.tolerance, wrong.size());
+        const bool mended = mend_cells(std::move(around_wrong), wrong.size());
         mending_ += mended;
-        if (!cut && !mended) return false;
-        good_.become(mesh_, origins_, thin_out_ ? wrong : left);
+        const bool again = cut || mended;
+        if (std::isfinite(options_.tolerance)) {
+            refined_ = again ? Refined{std::move(mesh_), std::move(origins_)} : Refined{mesh_, origins_};
+            refined_->wrong = std::move(thin_out_ ? wrong : left);
+            refined_->patches = std::move(patches);
+        }
+        if (again) know_good();
+        return again;
+    }
+
+    // Around triangles of wrong_before_decimation, but not beside the cells of `others`.
+    std::vector<Cut> cuts_around(const std::vector<int>& wrong, const std::vector<Cut>& others) const {
+        if (wrong.empty() || mending_ >= max_fine_rounds || !local_.may_halve()) return {};
+        return without_neighbours(local_.hopeful_wrong(cells_around(mesh_, origins_, wrong, subdivision_)), others,
+                                  subdivision_.complex);
+    }
+    bool mend_cells(std::vector<Cut> cuts, std::size_t wrong) {
+        return !cuts.empty() && local_.mend(std::move(cuts), *judge_, options_.tolerance, wrong);
+    }
+
+    // What was refined and is not wrong is good.
+    void know_good() {
+        if (!refined_) return;
+        good_.become(refined_->mesh, refined_->origins, refined_->wrong);
         local_.know(good_);
-        return true;
     }
 
     // Thins the mesh out and repairs it. What that cannot help needs smaller cells around it; false if such were made.
@@ -175,6 +199,7 @@ private:
             !halve_all(subdivision_, cuts[0], crosses).empty() || !halve_all(subdivision_, cuts[1], crosses).empty();
         if (!any && !thin_out_) return true;
         for (const int t : best_.wrong) add_corners(best_.mesh, best_.mesh.triangles[t], dense_);
+        know_good();
         return false;
     }
 
@@ -193,6 +218,14 @@ private:
         return crosses;
     }
 
+    // A whole round's mesh before it was thinned out.
+    struct Refined {
+        Mesh mesh;
+        std::vector<Origin> origins;
+        std::vector<int> wrong = {};
+        Patches patches = {};  // that it came by
+    };
+
     const TriageOptions& options_;
     const SolidTree& solid_;
     const bool thin_out_;
@@ -203,7 +236,8 @@ private:
     std::vector<Origin> origins_;
     MendedMesh best_;
     std::optional<FacetJudge> judge_;
-    GoodFacets good_;  // of the last round's mesh
+    std::optional<Refined> refined_;  // the last one
+    GoodFacets good_;                 // of its mesh
     std::size_t rounds_ = 0, whole_rounds_ = 0, mending_ = 0;
     std::vector<Box> dense_;  // where a mesh that was thinned out was wrong
 };
