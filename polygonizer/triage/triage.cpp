@@ -155,7 +155,9 @@ private:
         std::vector<Cut> around_wrong = cuts_around(wrong, far);
         const bool cut =
             !far.empty() && local_.cut_far(far, *judge_, near_, left.size(), thin_out_ ? options_.tolerance : infinity);
-        const bool mended = mend_cells(std::move(around_wrong), wrong.size());
+        bool mended = mend_cells(std::move(around_wrong), wrong.size());
+        // Planes may pass by all the cells that were to be cut. A mesh that is thinned out would be wrong there.
+        if (!far.empty() && !cut && !mended) mended = mend_cells(cuts_around(wrong, {}), wrong.size());
         mending_ += mended;
         const bool again = cut || mended;
         if (std::isfinite(options_.tolerance)) {
