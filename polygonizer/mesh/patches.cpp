@@ -85,7 +85,6 @@ public:
         for (const int t : but) forget(patches_.source_[t]);
         find_sources();
         match_corners();
-        list_facets();
         while (true) {
             std::vector<Piece> pieces = assemble();
             if (!drop_double_edges(pieces)) return insert(pieces);
@@ -159,32 +158,20 @@ private:
         return numbers[index];
     }
 
-    // Those of each patch from before, patch by patch.
-    void list_facets() {
-        first_.assign(is_kept_.size() + 1, 0);
-        for (const int s : patches_.source_) ++first_[patch_of(s) + 1];
-        std::partial_sum(first_.begin(), first_.end(), first_.begin());
-        facets_.resize(patches_.source_.size());
-        std::vector<int> next = first_;
-        for (std::size_t t = 0; t < facets_.size(); ++t) facets_[next[patch_of(patches_.source_[t])]++] = int(t);
-    }
-
     bool stays(int facet) { return source_[facet] < 0 || !is_kept_[patch_of(source_[facet])]; }
 
+    // What is kept comes first, as it was, then what stays.
     std::vector<Piece> assemble() {
         std::vector<Piece> pieces;
-        pieces.reserve(std::max(source_.size(), facets_.size()));
-        std::vector<char> is_put(is_kept_.size(), false);
-        for (int f = 0; f < int(source_.size()); ++f) {
-            if (stays(f)) {
-                pieces.push_back({f});
-                continue;
-            }
-            const int patch = patch_of(source_[f]);
-            if (is_put[patch]) continue;
-            is_put[patch] = true;
-            for (int k = first_[patch]; k < first_[patch + 1]; ++k) pieces.push_back({f, facets_[k]});
-        }
+        pieces.reserve(std::max(source_.size(), patches_.source_.size()));
+        std::vector<int> first(is_kept_.size(), -1);  // fresh facet of a patch
+        for (int f = int(source_.size()); f-- > 0;)
+            if (!stays(f)) first[patch_of(source_[f])] = f;
+        for (std::size_t t = 0; t < patches_.source_.size(); ++t)
+            if (const int patch = patch_of(patches_.source_[t]); is_kept_[patch])
+                pieces.push_back({first[patch], int(t)});
+        for (int f = 0; f < int(source_.size()); ++f)
+            if (stays(f)) pieces.push_back({f});
         return pieces;
     }
 
@@ -293,7 +280,6 @@ private:
     std::vector<char> is_kept_;                    // of patches
     std::vector<int> source_;                      // of each fresh facet
     std::vector<int> vertex_, normal_;             // of the fresh mesh, by numbers of the source
-    std::vector<int> first_, facets_;              // facets from before, by patches
     std::vector<int> first_of_patch_;              // fresh facet
     std::vector<int> put_vertices_, put_normals_;  // of the fresh mesh, by their numbers before
 };
