@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <numbers>
+#include <utility>
 
 #include "bounds/bounding_box.hpp"
 #include "bounds/box_range.hpp"
@@ -341,6 +342,7 @@ std::vector<TangentSeam> tangent_seams(const DensityTree& tree, int max_pairs) {
             --max_pairs;
             const double radius = std::min(a.radius, b.radius);
             TangentSeam worst;
+            std::size_t others = all.size();  // half-spaces that vary there
             for (const Vec3& x : contact.of(a, b)) {
                 if (!inflated(box, radius).contains(x)) continue;
                 const Vec3 normal = b.normal_at(x);
@@ -348,9 +350,14 @@ std::vector<TangentSeam> tangent_seams(const DensityTree& tree, int max_pairs) {
                 const DensityTree here = prune(tree, inflated({x, x}, 1e-3 * radius)).tree;
                 if (!is_in(here.half_spaces, a) || !is_in(here.half_spaces, b)) continue;
                 const double bulge = distance_from(tree, x, normal, radius);
-                if (bulge > worst.bulge) worst = {x, bulge, radius};
+                if (bulge <= least_bulge * radius) continue;
+                // At the seam's ends it is the rounded edges' distance, too.
+                const std::size_t vary = prune(tree, inflated({x, x}, radius)).tree.half_spaces.size();
+                if (std::pair(vary, -bulge) >= std::pair(others, -worst.bulge)) continue;
+                worst = {x, bulge, radius};
+                others = vary;
             }
-            if (worst.bulge > least_bulge * radius) found.push_back(worst);
+            if (worst.bulge > 0) found.push_back(worst);
         }
     }
     return found;

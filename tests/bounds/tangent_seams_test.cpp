@@ -49,6 +49,20 @@ TEST_CASE("surfaces that run on smoothly are found, with how much they bulge") {
     CHECK(two[0].bulge == Approx(r * expected).epsilon(0.02));
 }
 
+TEST_CASE("a seam's bulge is told where its ends' rounded edges are none of it") {
+    const Density slot = Density::box({0, 0, 0}, {2, 1, 1}) | rod({2, 0, 0.5}, {2, 1, 0.5}, 0.5);
+    for (const double r : {0.02, 0.05, 0.1}) {
+        CAPTURE(r);
+        const auto found = seams(slot, r);
+        REQUIRE(found.size() == 2);
+        for (const TangentSeam& seam : found) {
+            CHECK(seam.bulge < 0.36 * r);
+            CHECK(seam.at.y > r);
+            CHECK(seam.at.y < 1 - r);
+        }
+    }
+}
+
 TEST_CASE("where surfaces meet in edges, share a draw or touch from outside there is no seam") {
     const Density cube = Density::box(Vec3(-1.0), Vec3(1.0));
     CHECK(seams(cube | rod({0, 0, 0}, {0, 3, 0}, 0.5)).empty());
