@@ -140,15 +140,12 @@ TEST_CASE("The octree cuts cells further until sharp walls part, however thin") 
     }
 }
 
-TEST_CASE("Facets of the octree that cross at any size of its cells are untangled") {
+TEST_CASE("Facets of the octree that cross at any size of its cells are untangled", "[slow]") {
     for (const int seed : {266, 353}) {
         CAPTURE(seed);
         CHECK(check_part(seed, octree_of_40).faults() == 0);
     }
-    for (const int seed : {48, 77}) {
-        CAPTURE(seed);
-        CHECK(check_part<RandomSlantedPart>(seed, octree_of_40).faults() == 0);
-    }
+    CHECK(check_part<RandomSlantedPart>(48, octree_of_40).faults() == 0);
     CHECK(check_part<RandomSlantedPart>(70, octree_of_40).crossing.count == 0);
 }
 
