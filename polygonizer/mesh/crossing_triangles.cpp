@@ -6,12 +6,15 @@
 
 namespace deburr {
 
+double touching_slack(const Box& box) {
+    constexpr double rounding = 1e-11;
+    return box.empty() ? 0 : rounding * std::max(largest(box.lo), largest(box.hi));
+}
+
 std::vector<std::pair<int, int>> crossing_triangles(const Mesh& mesh, const TriangleTree& tree, CancelFlag cancel,
                                                     std::size_t* looked_at) {
     constexpr std::size_t check_interval = 1024;
-    // Where parts touch, vertices lie in facets up to the rounding of what computed them.
-    const Box all = tree.box();
-    const double rounding = all.empty() ? 0 : 1e-11 * std::max(largest(all.lo), largest(all.hi));
+    const double slack = touching_slack(tree.box());
     struct Found {
         std::vector<std::pair<int, int>> pairs;
         std::size_t looked = 0;
@@ -26,7 +29,7 @@ std::vector<std::pair<int, int>> crossing_triangles(const Mesh& mesh, const Tria
             tree.visit(tree.box(int(s)), [&](int t) {
                 if (t <= int(s)) return true;
                 ++own.looked;
-                if (triangles_cross(mesh, mesh.triangles[s], mesh.triangles[t], rounding))
+                if (triangles_cross(mesh, mesh.triangles[s], mesh.triangles[t], slack))
                     own.pairs.push_back({int(s), t});
                 return true;
             });

@@ -7,6 +7,10 @@
 
 namespace deburr {
 
+/// Length by which triangles of a mesh in this box reach into each other where parts touch: vertices lie in facets up
+/// to the rounding of what computed them.
+double touching_slack(const Box& box);
+
 /// Pairs of triangles whose insides meet, the lesser number first, in order. Those that reach into each other by no
 /// more than rounding, where parts touch, do not count. `tree` is the mesh's; `looked_at`, if given, becomes the number
 /// of pairs whose boxes meet. Throws Cancelled.

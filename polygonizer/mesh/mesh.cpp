@@ -78,6 +78,12 @@ Box bounding_box(const Mesh& mesh) {
     return box;
 }
 
+Box bounding_box(const Mesh& mesh, const Triangle& triangle) {
+    Box box;
+    for (const int v : triangle.vertex) box = hull(box, Box{mesh.positions[v], mesh.positions[v]});
+    return box;
+}
+
 double mean_edge(const Mesh& mesh) {
     double sum = 0;
     for (const Triangle& t : mesh.triangles)

@@ -48,6 +48,8 @@ struct Topology {
 Topology topology(const Mesh& mesh);
 
 Box bounding_box(const Mesh& mesh);
+/// Box around one triangle, whose vertices are the mesh's.
+Box bounding_box(const Mesh& mesh, const Triangle& triangle);
 /// Length of an edge of the closed mesh; 0 if it is empty.
 double mean_edge(const Mesh& mesh);
 /// A box around the mesh in which to look for the surfaces near it (DistanceField).

@@ -113,10 +113,12 @@ private:
         std::vector<char> is_found(count, false);
         for (std::size_t s = 0; s < count; ++s) {
             int& known = table[place(patches_.sources_[s].key)];
-            if (known < 0)
+            if (known < 0) {
                 known = int(s);
-            else
-                forget(known), forget(int(s));
+                continue;
+            }
+            forget(known);
+            forget(int(s));
         }
         source_.assign(fresh_.triangles.size(), -1);
         for (std::size_t f = 0; f < source_.size(); ++f) {

@@ -25,12 +25,7 @@ bool meets(const Box& box, Vec3 x, Vec3 d) {
 
 TriangleTree::TriangleTree(const Mesh& mesh) : mesh_(mesh) {
     for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
-        Box box;
-        for (const int v : mesh.triangles[t].vertex) {
-            const Vec3 x = mesh.positions[v];
-            box = hull(box, Box{x, x});
-        }
-        boxes_.push_back(box);
+        boxes_.push_back(bounding_box(mesh, mesh.triangles[t]));
         order_.push_back(int(t));
     }
     if (!order_.empty()) build(0, int(order_.size()));

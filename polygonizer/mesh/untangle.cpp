@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <optional>
 
+#include "bounds/sort_once.hpp"
 #include "polygonizer/mesh/crossing_triangles.hpp"
 
 namespace deburr {
@@ -14,10 +15,14 @@ constexpr double upright = 0.05;
 class Untangling {
 public:
     Untangling(MendedMesh& m, const FacetJudge& judge, double reach)
-        : mesh_(m.mesh), tree_(m.mesh), facets_(m.mesh, m.origins), judge_(judge), reach_(reach) {
+        : mesh_(m.mesh),
+          tree_(m.mesh),
+          slack_(touching_slack(tree_.box())),
+          facets_(m.mesh, m.origins),
+          judge_(judge),
+          reach_(reach) {
         std::vector<int> wrong = m.wrong;
-        std::sort(wrong.begin(), wrong.end());
-        wrong.erase(std::unique(wrong.begin(), wrong.end()), wrong.end());
+        sort_once(wrong);
         for (const int f : wrong)
             if (facets_.alive(f)) help(f);
         facets_.finish();
@@ -32,9 +37,11 @@ private:
         int best_gain = 0;
         const auto offer = [&](std::optional<Change> change) {
             if (!change || !untouched(*change)) return;
-            // Two facets fewer that are as wrong are a step, too.
+            const std::optional<int> after = faults_after(*change);
+            if (!after) return;
+            // As many faults in fewer facets are a step, too.
             const int fewer = int(change->out.size()) - int(change->in.size());
-            const int gain = 4 * (faults_before(*change) - faults_after(*change)) + fewer;
+            const int gain = 4 * (faults_before(*change) - *after) + fewer;
             if (gain <= best_gain) return;
             best_gain = gain;
             best = std::move(change);
@@ -57,15 +64,10 @@ private:
         ++changes_;
     }
 
-    Box box_of(const Triangle& t) const {
-        Box box;
-        for (const int v : t.vertex) box = hull(box, {mesh_.positions[v], mesh_.positions[v]});
-        return box;
-    }
     Box box_of(const Change& change) const {
         Box box;
-        for (const int f : change.out) box = hull(box, box_of(facets_.at(f).triangle));
-        for (const Facet& f : change.in) box = hull(box, box_of(f.triangle));
+        for (const int f : change.out) box = hull(box, bounding_box(mesh_, facets_.at(f).triangle));
+        for (const Facet& f : change.in) box = hull(box, bounding_box(mesh_, f.triangle));
         return box;
     }
     bool untouched(const Change& change) const {
@@ -77,17 +79,14 @@ private:
     // Facets of the mesh that cross one which is not among `out`.
     int crossings(const Triangle& t, const std::vector<int>& out) const {
         int count = 0;
-        tree_.visit(box_of(t), [&](int other) {
+        tree_.visit(bounding_box(mesh_, t), [&](int other) {
             if (std::find(out.begin(), out.end(), other) == out.end())
                 count += crosses(t, mesh_.triangles[std::size_t(other)]);
             return true;
         });
         return count;
     }
-    bool crosses(const Triangle& s, const Triangle& t) const {
-        const double rounding = 1e-11 * std::max(largest(tree_.box().lo), largest(tree_.box().hi));
-        return triangles_cross(mesh_, s, t, rounding);
-    }
+    bool crosses(const Triangle& s, const Triangle& t) const { return triangles_cross(mesh_, s, t, slack_); }
     template <class Facet, class TriangleOf>
     int crossings_among(const std::vector<Facet>& facets, TriangleOf triangle) const {
         int count = 0;
@@ -102,12 +101,12 @@ private:
             count += crossings(triangle(f), change.out) + (judge_.shape(facets_, facets_.at(f)).cosine < upright);
         return count;
     }
-    // More than any before where a facet would be too far from the surface.
-    int faults_after(const Change& change) const {
+    // None where a facet would be too far from the surface.
+    std::optional<int> faults_after(const Change& change) const {
         int count = 0;
         for (const Facet& f : change.in) {
             const FacetShape shape = judge_.shape(facets_, f);
-            if (shape.distance > reach_) return std::numeric_limits<int>::max() / 8;
+            if (shape.distance > reach_) return {};
             count += shape.cosine < upright;
         }
         for (const Facet& f : change.in) count += crossings(f.triangle, change.out);
@@ -116,6 +115,7 @@ private:
 
     const Mesh& mesh_;
     const TriangleTree tree_;
+    double slack_;
     Facets facets_;
     const FacetJudge& judge_;
     double reach_;
@@ -125,9 +125,7 @@ private:
 
 void find_faults(MendedMesh& m, const FacetJudge& judge, CancelFlag cancel) {
     m.wrong.clear();
-    Mesh copy = m.mesh;
-    std::vector<Origin> origins = m.origins;
-    const Facets facets(copy, origins);
+    const Facets facets(m.mesh, m.origins);
     for (int f = 0; f < int(facets.size()); ++f)
         if (judge.shape(facets, facets.at(f), upright).cosine < upright) m.wrong.push_back(f);
     m.leaning = m.wrong.size();

@@ -11,8 +11,8 @@
 namespace deburr {
 
 /// Collapses and flips edges of `m`'s facets that lean, face inward or cross, as long as each change leaves fewer of
-/// them and no new facet's middle is farther from the surface than `reach`. Brings the faults of `m` up to date, and
-/// returns the number of changes. The mesh stays closed. Throws Cancelled.
+/// them, or as many among fewer facets, and no new facet's middle is farther from the surface than `reach`. Brings the
+/// faults of `m` up to date, and returns the number of changes. The mesh stays closed. Throws Cancelled.
 std::size_t untangle(MendedMesh& m, const FacetJudge& judge, double reach, CancelFlag cancel);
 
 }  // namespace deburr

@@ -68,12 +68,7 @@ MendedMesh thinned_out(const MendedMesh& fine, const SolidTree& solid, double to
         decimate(mesh, origins, judge, at_points * tolerance, {.dense = dense, .cancel = cancel, .progress = progress});
         MendedMesh thin = mended(std::move(mesh), std::move(origins), judge, tolerance, cancel);
         if (!fine.is_better_than(thin)) return thin;
-        for (const int t : thin.wrong) {
-            Box box;
-            for (const int v : thin.mesh.triangles[t].vertex)
-                box = hull(box, {thin.mesh.positions[v], thin.mesh.positions[v]});
-            dense.push_back(box);
-        }
+        for (const int t : thin.wrong) dense.push_back(bounding_box(thin.mesh, thin.mesh.triangles[t]));
     }
     return fine;
 }

@@ -302,9 +302,9 @@ private:
             progress_->finish();
         else
             progress_->stop();
-        // A scene without light was told before.
-        const bool told = is_unlit(world_->scene);
-        if (!o_.quiet && complete_ && !told && std::any_of(o_.outputs.begin(), o_.outputs.end(), is_for_screen))
+        // A scene without light was told of before.
+        if (!o_.quiet && complete_ && !is_unlit(world_->scene) &&
+            std::any_of(o_.outputs.begin(), o_.outputs.end(), is_for_screen))
             if (const auto advice = exposure_advice(film, exposure_)) message("warning: " + *advice);
         const Scene& scene = world_->scene;
         write_statistics(o_, {scene.file, o_.via, world_->bsp ? name(o_.accel.value_or(Accel::bvh)) : "",

@@ -1,4 +1,4 @@
-// What is inlined into kernels, whatever its size.
+// DEBURR_INLINE marks what is inlined into kernels, whatever its size.
 //
 // With sanitizers clang takes ten minutes over the functions that come of it (a loop of 30,000 instructions), and half
 // of one where it may choose.
