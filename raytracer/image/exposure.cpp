@@ -18,29 +18,48 @@ constexpr double nearly_black = 0.018;
 // A step of the scale that people read, in stops.
 constexpr double step = 0.1;
 
+// The largest of a pixel's three values, in linear light.
+double brightest_channel(const Pixel& pixel) { return std::max({pixel.color.x, pixel.color.y, pixel.color.z}); }
+
+// The value that only `left_share` of the pixels exceed is the one with this number in rising order.
+std::size_t rank_of_shown(std::size_t pixels) { return std::size_t((1 - left_share) * double(pixels - 1)); }
+
+// The exposure, in stops, that shows all but `left_share` of the pixels as at most white, rounded down to a step.
+double exposure_that_shows(const Film& film) {
+    std::vector<double> brightest;
+    brightest.reserve(film.pixels.size());
+    for (const Pixel& pixel : film.pixels) brightest.push_back(brightest_channel(pixel));
+    const auto at = brightest.begin() + std::ptrdiff_t(rank_of_shown(brightest.size()));
+    std::nth_element(brightest.begin(), at, brightest.end());
+    return step * std::floor(-std::log2(*at) / step);
+}
+
 }  // namespace
 
 std::optional<std::string> exposure_advice(const Film& film, double exposure) {
     if (film.pixels.empty()) return std::nullopt;
-    std::vector<double> brightest;
-    brightest.reserve(film.pixels.size());
+    // Most pictures are well exposed, which counting tells without memory for their values.
     const double scale = std::exp2(exposure);
-    for (const Pixel& pixel : film.pixels)
-        brightest.push_back(scale * std::max({pixel.color.x, pixel.color.y, pixel.color.z}));
-    const bool is_black = std::all_of(brightest.begin(), brightest.end(), [](double x) { return x == 0; });
-    const bool sees_something =
-        std::any_of(film.pixels.begin(), film.pixels.end(), [](const Pixel& pixel) { return pixel.alpha > 0; });
-    if (is_black && sees_something) return "the picture is black: no light falls on what the camera sees";
-    const double all = double(brightest.size());
-    const double clipped = double(std::count_if(brightest.begin(), brightest.end(), [](double x) { return x > 1; }));
-    const auto at = brightest.begin() + std::ptrdiff_t((1 - left_share) * (all - 1));
-    std::nth_element(brightest.begin(), at, brightest.end());
-    const double stops = exposure - std::log2(*at);
-    if (clipped > tolerated_share * all)
+    std::size_t lit = 0, dark = 0, clipped = 0, covered = 0;
+    for (const Pixel& pixel : film.pixels) {
+        const double shown = scale * brightest_channel(pixel);
+        lit += shown != 0;
+        dark += shown < nearly_black;
+        clipped += shown > 1;
+        covered += pixel.alpha > 0;
+    }
+    const std::size_t all = film.pixels.size();
+    if (lit == 0) {
+        if (covered == 0) return std::nullopt;
+        return "the picture is black: no light falls on what the camera sees";
+    }
+    if (double(clipped) > tolerated_share * double(all))
         return fmt::format("{:.0f} % of the pixels are brighter than white and clipped; --exposure {:.1f} shows them",
-                           100 * clipped / all, step * std::floor(stops / step));
-    if (*at > 0 && *at < nearly_black)
-        return fmt::format("the picture is nearly black; --exposure {:.1f} shows it", step * std::floor(stops / step));
+                           100 * double(clipped) / double(all), exposure_that_shows(film));
+    // Where all but a few pixels are black, no exposure shows them.
+    if (dark > rank_of_shown(all))
+        if (const double shows = exposure_that_shows(film); std::isfinite(shows))
+            return fmt::format("the picture is nearly black; --exposure {:.1f} shows it", shows);
     return std::nullopt;
 }
 

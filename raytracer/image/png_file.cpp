@@ -11,6 +11,7 @@
 #include <stdexcept>
 
 #include "raytracer/image/image_raster.hpp"
+#include "raytracer/util/large_pages.hpp"
 
 namespace deburr {
 namespace {
@@ -127,7 +128,7 @@ std::string encode_png(const ImageRaster& image, const ShareDone& done) {
     const std::size_t width = std::size_t(w.width), height = std::size_t(w.height), pixel = channels * sample;
     std::vector<unsigned char> row_bytes(width * pixel);
     const std::size_t filtered_row = 1 + row_bytes.size();
-    const auto filtered = std::make_unique_for_overwrite<unsigned char[]>(height * filtered_row);
+    std::vector<unsigned char, LargePages<unsigned char>> filtered(height * filtered_row);
     std::size_t equal = 0;
     by_rows(image, done, [&](int row, int end) {
         for (std::size_t y = std::size_t(row); y < std::size_t(end); ++y) {
@@ -137,8 +138,7 @@ std::string encode_png(const ImageRaster& image, const ShareDone& done) {
             equal += filter_row(row_bytes, pixel, &filtered[y * filtered_row]);
         }
     });
-    const std::size_t size = height * filtered_row;
-    write_compressed(writer.png, filtered.get(), size, level_of(equal, size));
+    write_compressed(writer.png, filtered.data(), filtered.size(), level_of(equal, filtered.size()));
     write_chunk(writer.png, "IEND");  // libpng's own end misses pixels that it has written itself
     return std::move(writer.bytes);
 }

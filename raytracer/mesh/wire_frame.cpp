@@ -190,6 +190,7 @@ std::vector<Stroke> visible_line(const std::vector<Vec3>& points, const std::vec
 }
 
 void draw_strokes(Film& film, const std::vector<Stroke>& strokes, Vec3 color, double line_width, bool alpha) {
+    if (strokes.empty()) return;
     const Window& w = film.window;
     // The most that any line covers of the pixel: where lines meet they are no darker.
     std::vector<float> covered(film.pixels.size(), 0);
