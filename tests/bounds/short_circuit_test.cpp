@@ -104,7 +104,7 @@ TEST_CASE("what is left of a function has its value wherever the known variables
     CHECK(decided > 200);
 }
 
-TEST_CASE("relevant variables are those that change the value somewhere") {
+TEST_CASE("relevant variables are those that change the value somewhere", "[slow]") {
     int irrelevant = 0;
     for (auto seed : seeds(1'000)) {
         CAPTURE(seed);

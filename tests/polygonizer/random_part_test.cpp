@@ -133,7 +133,7 @@ TEST_CASE("The octree cuts cells further where the sides of a thin wall cross ea
     }
 }
 
-TEST_CASE("The octree cuts cells further until sharp walls part, however thin") {
+TEST_CASE("The octree cuts cells further until sharp walls part, however thin", "[slow]") {
     for (const int seed : {66, 341}) {
         CAPTURE(seed);
         CHECK(check_part(seed, octree_of_40).crossing.count == 0);

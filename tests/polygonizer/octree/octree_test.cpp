@@ -185,7 +185,7 @@ TEST_CASE("A quadric: an ellipsoid's volume, and no hard edge") {
     CHECK(m.metrics.edge_spread < 0.35);
 }
 
-TEST_CASE("A cone has its tip and the rim of its base, with hard edges [Vyatkin figures 10 and 11]") {
+TEST_CASE("A cone has its tip and the rim of its base, with hard edges [Vyatkin figures 10 and 11]", "[slow]") {
     // x² + y² ≤ (1 − z)² is two cones; the box ends at the tip of the lower one.
     const Quadric q = revolved({0, 0, 1, -1}, Vec3(0, 0, 1), Vec3(0, 0, 1), 1, 1);
     const Solid cone = Solid::of_field(std::make_shared<FreeForm>(q, std::vector<Perturbation>{})) &

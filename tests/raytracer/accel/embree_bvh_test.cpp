@@ -63,7 +63,7 @@ void follow_any(Roads& roads, Gen& g, double reach, int rays) {
 
 }  // namespace
 
-TEST_CASE("the scenes: camera rays, shadow rays and reflections hit the same to the bit") {
+TEST_CASE("the scenes: camera rays, shadow rays and reflections hit the same to the bit", "[slow]") {
     int scenes = 0;
     for (const auto& file : std::filesystem::directory_iterator(DEBURR_SOURCE_DIR "/scenes")) {
         if (file.path().extension() != ".lua") continue;

@@ -6,7 +6,7 @@
 
 using namespace deburr::test;
 
-TEST_CASE("info counts what a union places, however often it is more than can be laid out") {
+TEST_CASE("info counts what a union places, however often it is more than can be laid out", "[slow]") {
     const SceneFolder place;
     // Each step doubles the row: 2^24 cubes one after the other, in 100 million half-spaces.
     write_file(place.scene,

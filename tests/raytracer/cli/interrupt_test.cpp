@@ -125,7 +125,7 @@ TEST_CASE("an interrupted picture has the samples that all pixels have, and ends
     CHECK(pixels(place / "a.exr") == pixels(place / "b.exr"));
 }
 
-TEST_CASE("--write-every writes what all pixels have, and the picture at the end is the same") {
+TEST_CASE("--write-every writes what all pixels have, and the picture at the end is the same", "[slow]") {
     const Place place;
     Call call({"render", place.scene, "-o", place / "a.exr", "-q", "--size", "300x300", "--spp", "4000",
                "--write-every", "0.2"});

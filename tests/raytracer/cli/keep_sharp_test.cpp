@@ -74,7 +74,8 @@ TEST_CASE("meshes of a box that is rounded in part lose what is rounded there", 
     CHECK(of_upper < lost * (4 + 2) / 12);
 }
 
-TEST_CASE("a model whose radius varies is thinned out within the tolerance, and triage says why it cannot take it") {
+TEST_CASE("a model whose radius varies is thinned out within the tolerance, and triage says why it cannot take it",
+          "[slow]") {
     const test::Folder folder;
     const std::string part = folder / "part.stl", mesh = folder / "mesh.stl";
     test::write_file(part, Shape::box({0, 0, 0}, {10, 10, 10}).stl());

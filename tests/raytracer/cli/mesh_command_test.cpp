@@ -34,7 +34,8 @@ TEST_CASE("mesh writes every format, and says that the mesh is closed") {
     CHECK(j["mesh"]["vertex_distance_max"] < 1e-6);
 }
 
-TEST_CASE("Parts and solids that touch are closed 2-manifolds in an STL, whose vertices a reader joins by position") {
+TEST_CASE("Parts and solids that touch are closed 2-manifolds in an STL, whose vertices a reader joins by position",
+          "[slow]") {
     const Folder folder;
     for (const char* solids :
          {"sharp(cube() + cube():translate(1,1,0))", "rounded(0.1, cube() + cube():translate(1,1,1))",
@@ -271,7 +272,7 @@ TEST_CASE("a mesh does not depend on the number of threads", "[threads]") {
     CHECK(read_file(folder / "1.ply") == read_file(folder / "4.ply"));
 }
 
-TEST_CASE("one large solid has the same mesh by any number of threads", "[threads]") {
+TEST_CASE("one large solid has the same mesh by any number of threads", "[threads][slow]") {
     const Folder folder;
     // More than one block of triangles before they are thinned out.
     write_file(

@@ -4,7 +4,7 @@
 
 using namespace deburr::test;
 
-TEST_CASE("pictures and meshes of every road have the same bytes in 1 and 4 threads", "[threads]") {
+TEST_CASE("pictures and meshes of every road have the same bytes in 1 and 4 threads", "[threads][slow]") {
     const Folder folder;
     const std::string first = DEBURR_SOURCE_DIR "/scenes/first.lua", forms = DEBURR_SOURCE_DIR "/scenes/free_form.lua";
     const std::vector<std::string> pictures[] = {

@@ -182,7 +182,7 @@ TEST_CASE("what writes a PNG tells how far it is") {
     CHECK((reported.front() > 0 && reported.back() < 1));
 }
 
-TEST_CASE("PNGs of nearly flat scenes are at most 2 % larger than zlib's level 6 makes them") {
+TEST_CASE("PNGs of nearly flat scenes are at most 2 % larger than zlib's level 6 makes them", "[slow]") {
     const Folder folder;
     for (const auto& [scene, size] : {std::pair{"first", "600x380"},
                                       {"first", "300x190"},

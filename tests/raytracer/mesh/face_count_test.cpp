@@ -55,7 +55,7 @@ TEST_CASE("mesh --faces thins out what has more triangles, and says how far that
     }
 }
 
-TEST_CASE("mesh --faces makes finer what has fewer triangles, and keeps the tolerance") {
+TEST_CASE("mesh --faces makes finer what has fewer triangles, and keeps the tolerance", "[slow]") {
     const Made coarse = mesh(parts, {}), fine = mesh(parts, {"--faces", "8000"});
     CHECK(fine.outcome.err == "");
     REQUIRE(fine.outcome.code == 0);
@@ -78,7 +78,7 @@ TEST_CASE("mesh --faces says when there are no fewer triangles, or no more, to b
     CHECK(right.outcome.err == "");
 }
 
-TEST_CASE("mesh --faces keeps the cells of octree and marching cubes even") {
+TEST_CASE("mesh --faces keeps the cells of octree and marching cubes even", "[slow]") {
     const std::string solid = "rounded(0.1, cube()) - sharp(box({0.5,0.5,0.5},{2,2,2}))";
     for (const char* method : {"octree", "marching-cubes"})
         for (const int faces : {400, 3001, 20000}) {

@@ -92,7 +92,7 @@ TEST_CASE("two boxes that overlap, or touch in a part of a face, are one solid")
     CHECK(said.mended[0] == "united 2 shells that overlap, where 6 pairs of facets crossed");
 }
 
-TEST_CASE("a hundred random boxes, flush or turned by any angle, have the volume of their union") {
+TEST_CASE("a hundred random boxes, flush or turned by any angle, have the volume of their union", "[slow]") {
     constexpr int size = 50;
     int turned_and_united = 0;
     for (auto seed : seeds(4)) {

@@ -80,7 +80,7 @@ TEST_CASE("the search for the largest radius that keeps one part leaves time for
     CHECK(found.rounded_away.size() == 2);
 }
 
-TEST_CASE("a part of a union that vanishes is told by its place, unless its neighbours hold it") {
+TEST_CASE("a part of a union that vanishes is told by its place, unless its neighbours hold it", "[slow]") {
     const std::string plate = "box({0, 0, 0}, {10, 2, 10})", fin = "box({4, 2, 0}, {4.1, 6, 10})";
     for (const char* op : {" | ", " + "}) {
         CAPTURE(op);
@@ -153,7 +153,7 @@ TEST_CASE("whether a set is empty is proved either way, or not said") {
     CHECK(emptiness(rounded(1), box, nodes) == Emptiness::unknown);
 }
 
-TEST_CASE("where nothing is left, mesh and render end with exit code 1 and write nothing") {
+TEST_CASE("where nothing is left, mesh and render end with exit code 1 and write nothing", "[slow]") {
     const Folder folder;
     const std::string scene = folder / "s.lua";
     write_file(scene, "return { solids = { rounded(0.9, box({0, 0, 0}, {10, 0.5, 10})) } }");

@@ -119,7 +119,7 @@ TEST_CASE("rays of a packet cross sums of products where they do alone, to the b
     }
 }
 
-TEST_CASE("rays of a packet cross round parts, and sums with these, where they do alone, to the bit") {
+TEST_CASE("rays of a packet cross round parts, and sums with these, where they do alone, to the bit", "[slow]") {
     for (const auto& [name, functions] : packet_instructions()) {
         CAPTURE(name);
         SumTally tally;

@@ -206,7 +206,7 @@ struct Tracers {
 
 }  // namespace
 
-TEST_CASE("rays from 10 to 1e9 sizes away hit where the definition says, to a few roundings of t") {
+TEST_CASE("rays from 10 to 1e9 sizes away hit where the definition says, to a few roundings of t", "[slow]") {
     int rays_in_all = 0, unknown = 0;
     for (const Kind& kind : kinds()) {
         const Tracers tracers(kind);

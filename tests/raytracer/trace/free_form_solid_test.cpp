@@ -49,7 +49,7 @@ Solid solid_of(const Quadric& q) { return Solid::of_field(std::make_shared<FreeF
 
 }  // namespace
 
-TEST_CASE("free forms of up to 80 perturbations are hit where the definition says") {
+TEST_CASE("free forms of up to 80 perturbations are hit where the definition says", "[slow]") {
     Agreement a;
     for (auto seed : seeds(150)) {
         CAPTURE(seed);

@@ -107,7 +107,7 @@ TEST_CASE("every criterion and any rays: any_hit agrees with closest_hit") {
     CHECK(blocked > 500);
 }
 
-TEST_CASE("slots and ribs as wide as the filter, for radii from 0 over 1e-7 to half the object") {
+TEST_CASE("slots and ribs as wide as the filter, for radii from 0 over 1e-7 to half the object", "[slow]") {
     for (const double r : {0.0, 1e-7, 1e-3, 0.05, 0.1, 0.25, 0.5}) {
         CAPTURE(r);
         Density comb = Density::box({0, 0, 0}, {2, 1, 1});
@@ -203,7 +203,7 @@ TEST_CASE("a camera inside a room sees its rounded walls, pixel for pixel") {
     CHECK(csg.hits == csg.rays);
 }
 
-TEST_CASE("600 tilted blocks, as 600 solids, as one union and as one Boolean density") {
+TEST_CASE("600 tilted blocks, as 600 solids, as one union and as one Boolean density", "[slow]") {
     Gen g(600);
     std::vector<Solid> solids;
     std::vector<Density> densities;
@@ -332,7 +332,7 @@ TEST_CASE("coincident faces of a primary CSG tree leave no film behind") {
     CHECK(pair.closest_hit({{0.5, 0.5, 0.5}, {1, 0, 0}}, infinity, counters).t == Approx(1.5));
 }
 
-TEST_CASE("Lobb's figure 11: the six objects, by the definition") {
+TEST_CASE("Lobb's figure 11: the six objects, by the definition", "[slow]") {
     const double r = 0.08;
     const auto at = [](Vec3 size, Vec3 shift) { return Density::box(shift, shift + size); };
     const Density cube = at(Vec3(1), Vec3(0)), box1 = at(Vec3(0.5), {0.25, 0.8, 0.25});

@@ -33,7 +33,8 @@ std::vector<Solid> crowd(Gen& g) {
 
 }  // namespace
 
-TEST_CASE("the surface found is the same to the bit in whatever order surfaces are looked at, through a BSP or not") {
+TEST_CASE("the surface found is the same to the bit in whatever order surfaces are looked at, through a BSP or not",
+          "[slow]") {
     int hits = 0, ties = 0;
     for (const auto seed : seeds(1500)) {
         CAPTURE(seed);
