@@ -49,7 +49,7 @@ public:
             int a, b;  // b < 0: an item, its number in a
         };
         int split(std::vector<int>& order, std::size_t first, std::size_t end, int slot, int depth);
-        std::vector<Part> parts_;
+        LargeVector<Part> parts_;
     };
 
     Bvh8() = default;
@@ -110,7 +110,7 @@ private:
     BoxNode node_of(const Builder& from, const std::vector<int>& children) const;
 
     BoxTree tree_;  // without its nodes
-    std::vector<BoxNode, LargePages<BoxNode>> nodes_;
+    LargeVector<BoxNode> nodes_;
     Box box_;
     BoxFrame frame_;
 };

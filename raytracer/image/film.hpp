@@ -63,14 +63,14 @@ public:
 
 private:
     std::size_t components_;
-    std::vector<double, LargePages<double>> values_;
+    LargeVector<double> values_;
 };
 
 struct Film {
-    int width = 0, height = 0;                     // the whole picture (display window)
-    Window window;                                 // the part that is held (data window)
-    bool complete = true;                          // false: interrupted, some pixels are still empty
-    std::vector<Pixel, LargePages<Pixel>> pixels;  // window.width * window.height, row by row
+    int width = 0, height = 0;  // the whole picture (display window)
+    Window window;              // the part that is held (data window)
+    bool complete = true;       // false: interrupted, some pixels are still empty
+    LargeVector<Pixel> pixels;  // window.width * window.height, row by row
 
     Film() = default;
     /// All pixels are empty.

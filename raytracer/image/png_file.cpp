@@ -128,7 +128,7 @@ std::string encode_png(const ImageRaster& image, const ShareDone& done) {
     const std::size_t width = std::size_t(w.width), height = std::size_t(w.height), pixel = channels * sample;
     std::vector<unsigned char> row_bytes(width * pixel);
     const std::size_t filtered_row = 1 + row_bytes.size();
-    std::vector<unsigned char, LargePages<unsigned char>> filtered(height * filtered_row);
+    LargeVector<unsigned char> filtered(height * filtered_row);
     std::size_t equal = 0;
     by_rows(image, done, [&](int row, int end) {
         for (std::size_t y = std::size_t(row); y < std::size_t(end); ++y) {

@@ -18,7 +18,7 @@ namespace deburr {
 struct PassState {
     SampleRange samples;  // all that are to be taken
     Window window;
-    std::vector<PixelSums, LargePages<PixelSums>> sums;
+    LargeVector<PixelSums> sums;
     std::vector<LayerSums> layers;  // empty: none are kept
     std::vector<ColorSum> halves;   // empty: no noise bound
     std::vector<int> taken;         // of each tile: all samples before this one

@@ -53,6 +53,8 @@ bool is_turned(const Mat3& m) {
     return m[0][1] != 0 || m[0][2] != 0 || m[1][0] != 0 || m[1][2] != 0 || m[2][0] != 0 || m[2][1] != 0;
 }
 
+using Placements = LargeVector<CanonicalPlacement>;
+
 // What is in one BSP.
 struct Group {
     std::vector<Solid> solids;
@@ -63,7 +65,7 @@ struct PlannedPrototype {
     std::vector<Group> groups{1};  // the first is of what is unbounded, or squeezed, or all there is
     double coordinate_bound = 0;   // of the others
     Instances instances;
-    std::vector<Box> boxes;  // of the placements
+    LargeVector<Box> boxes;  // of the placements
 };
 
 class Plan {
@@ -93,7 +95,7 @@ private:
     using Counts = std::unordered_map<int, double>;
 
     /// How often each form occurs, counting through unions.
-    Counts occurrences(const std::vector<CanonicalPlacement>& roots) {
+    Counts occurrences(const Placements& roots) {
         Counts count;
         std::map<int, double, std::greater<int>> open;  // parts have lower numbers
         for (const CanonicalPlacement& root : roots) open[root.canonical] += 1;
@@ -148,7 +150,7 @@ private:
     }
 
     /// Finds the boxes of those forms that are no unions, several at once.
-    void find_boxes(const std::vector<CanonicalPlacement>& all) {
+    void find_boxes(const Placements& all) {
         std::vector<std::pair<const int, Box>*> open;
         for (const CanonicalPlacement& p : all)
             if (!is_union(p.canonical))
@@ -158,8 +160,8 @@ private:
     }
 
     /// The operands of a union, as far down as unions occur once.
-    std::vector<CanonicalPlacement> operands(const CanonicalPlacement& root, const Counts& count) {
-        std::vector<CanonicalPlacement> open{root}, all;
+    Placements operands(const CanonicalPlacement& root, const Counts& count) {
+        Placements open{root}, all;
         while (!open.empty()) {
             const CanonicalPlacement now = open.back();
             open.pop_back();
@@ -180,7 +182,7 @@ private:
     }
 
     /// Which of the boxes nearly meet, directly or by way of others: ordered lists, that of the least number first.
-    static std::vector<std::vector<int>> clusters(const std::vector<Box>& boxes, double clearance) {
+    static std::vector<std::vector<int>> clusters(const LargeVector<Box>& boxes, double clearance) {
         Bvh8::Builder builder;
         std::vector<int> items;
         for (std::size_t i = 0; i < boxes.size(); ++i) items.push_back(builder.item(std::uint32_t(i), boxes[i]));
@@ -208,17 +210,17 @@ private:
     }
 
     /// Takes a union that occurs once apart; operands that meet stay together.
-    void take_apart(const CanonicalPlacement& root, int solid, const Counts& count, std::vector<Part>& parts) {
+    void take_apart(const CanonicalPlacement& root, int solid, const Counts& count, LargeVector<Part>& parts) {
         if (!is_union(root.canonical) || count.at(root.canonical) > 1) {
             const Box own = box(root.canonical);
             if (!own.empty()) parts.push_back({root, solid, placed_box(root.map, own)});
             return;
         }
-        std::vector<CanonicalPlacement> all = operands(root, count);
+        Placements all = operands(root, count);
         find_boxes(all);
         std::erase_if(all, [&](const CanonicalPlacement& p) { return box(p.canonical).empty(); });
         if (all.empty()) return;
-        std::vector<Box> boxes;
+        LargeVector<Box> boxes;
         Box around;
         for (const CanonicalPlacement& p : all) {
             boxes.push_back(placed_box(p.map, box(p.canonical)));
@@ -242,7 +244,7 @@ private:
         }
     }
 
-    const Solid& sum(const std::vector<CanonicalPlacement>& all, const std::vector<int>& members) {
+    const Solid& sum(const Placements& all, const std::vector<int>& members) {
         Solid to = solid_of(all[members[0]]);
         for (std::size_t k = 1; k < members.size(); ++k) to = to | solid_of(all[members[k]]);
         sums_.push_back(to);  // forms look at it later
@@ -261,12 +263,12 @@ private:
                 put(prototype, prototypes[prototype].groups[0], solids[i], int(i));
             return;
         }
-        std::vector<CanonicalPlacement> roots;
+        Placements roots;
         roots.reserve(solids.size());
         for (const Solid& s : solids) roots.push_back(canonical_.of(s));
         const Counts count = occurrences(roots);
         find_boxes(roots);
-        std::vector<Part> parts;
+        LargeVector<Part> parts;
         parts.reserve(roots.size());
         for (std::size_t i = 0; i < roots.size(); ++i) take_apart(roots[i], int(i), count, parts);
         std::unordered_map<int, int> uses;

@@ -25,7 +25,7 @@ struct alignas(64) Instance {  // two cache lines
 };
 
 static_assert(sizeof(Instance) == 128);
-using Instances = std::vector<Instance, LargePages<Instance>>;
+using Instances = LargeVector<Instance>;
 
 struct Prototype {
     SurfaceTracer bsp;  // its own surfaces, and the boxes of its instances

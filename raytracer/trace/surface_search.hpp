@@ -42,7 +42,7 @@ struct Surfaces {
     double scale = 1;  // coordinates reach so far
     CellPrimitives cell_primitives;
     CellPrimitives infinite_planes;   // whole solids
-    std::vector<Box> instance_boxes;  // around them, with more to spare than rounding makes of a ray
+    LargeVector<Box> instance_boxes;  // around them, with more to spare than rounding makes of a ray
 };
 
 /// Rounding error of a distance t along a ray, given the largest coordinate magnitude.

@@ -5,6 +5,7 @@
 // outside of the BVH's box, where an unbounded solid goes on.
 #pragma once
 #include <optional>
+#include <span>
 
 #include "raytracer/accel/bvh.hpp"
 #include "raytracer/accel/embree_bvh.hpp"
@@ -27,7 +28,7 @@ public:
     /// A tracer of one BSP, whose solids keep their numbers.
     SurfaceTracer(BspTree&& tree, Criterion criterion, Accel accel = Accel::bvh);
     /// A tracer of several BSPs, all but the first bounded, and of the instances in these boxes.
-    SurfaceTracer(std::vector<NamedBsp> bsps, const std::vector<Box>& instance_boxes, Criterion criterion,
+    SurfaceTracer(std::vector<NamedBsp> bsps, std::span<const Box> instance_boxes, Criterion criterion,
                   Accel accel = Accel::bvh);
 
     /// First crossing along the ray in [0, t_max]; none is needed beyond `end`. `instances` are asked by the
@@ -60,7 +61,7 @@ public:
     const Surfaces& surfaces() const { return surfaces_; }        // what these were, one tree's after the other's
 
 private:
-    void build_bvh(std::vector<NamedBsp> bsps, const std::vector<Box>& boxes, const std::vector<Box>& instance_boxes,
+    void build_bvh(std::vector<NamedBsp> bsps, const std::vector<Box>& boxes, std::span<const Box> instance_boxes,
                    Accel accel);
     void keep(BspTree&& tree);
     template <bool Any>

@@ -81,7 +81,7 @@ void add_primitives(NamedBsp& bsp, Surfaces& surfaces, std::vector<Box>& boxes) 
 SurfaceTracer::SurfaceTracer(BspTree&& tree, Criterion criterion, Accel accel)
     : SurfaceTracer(alone(std::move(tree)), {}, criterion, accel) {}
 
-SurfaceTracer::SurfaceTracer(std::vector<NamedBsp> bsps, const std::vector<Box>& instance_boxes, Criterion criterion,
+SurfaceTracer::SurfaceTracer(std::vector<NamedBsp> bsps, std::span<const Box> instance_boxes, Criterion criterion,
                              Accel accel) {
     Tolerances tolerances = bsps[0].tree.tolerances;
     double min_scale = infinity;  // of BSPs that hold anything
@@ -102,7 +102,7 @@ SurfaceTracer::SurfaceTracer(std::vector<NamedBsp> bsps, const std::vector<Box>&
 
 // Builds the BVH over the primitives, in these boxes, and the instances, and keeps of the BSPs what is needed still.
 void SurfaceTracer::build_bvh(std::vector<NamedBsp> bsps, const std::vector<Box>& boxes,
-                              const std::vector<Box>& instance_boxes, Accel accel) {
+                              std::span<const Box> instance_boxes, Accel accel) {
     Box world;
     for (const Box& box : instance_boxes) world = hull(world, box);
     for (const Box& box : boxes)

@@ -7,6 +7,7 @@
 #include <cstdlib>
 #include <memory>
 #include <new>
+#include <vector>
 
 namespace deburr {
 
@@ -41,5 +42,8 @@ private:
     // A quarter of a huge page costs as much to clear as the faults of its small ones.
     static bool large(std::size_t count) { return count >= page / 4 / sizeof(T); }
 };
+
+template <class T>
+using LargeVector = std::vector<T, LargePages<T>>;
 
 }  // namespace deburr
