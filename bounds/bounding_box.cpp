@@ -11,8 +11,8 @@ namespace deburr {
 
 Box bounding_box(const BoundCsg& csg) {
     using Kind = BoundCsg::Kind;
-    // By de Morgan, a complement is a matter of which of two sets a node stands for; nodes are made
-    // for the one that is asked, from the root down.
+    // By de Morgan's laws a complement only changes which of two sets a node stands for; every node's box is that of
+    // the set that its parents ask for, as determined from the root down.
     std::vector<char> negated(csg.nodes.size(), false);
     for (std::size_t i = csg.nodes.size(); i-- > 0;) {
         const BoundCsg::Node& n = csg.nodes[i];
@@ -45,13 +45,14 @@ Box bounding_box(const BoundCsg& csg) {
 
 namespace {
 
-// Cuts off the ends of a finite box over which the density does not exceed ½: to 10⁻⁹ of the box.
+// Cuts off the ends of a finite box over which the density does not exceed ½, to 10⁻⁹ of the box's size.
 Box without_ends_below_half(const DensityTree& tree, Box box) {
     constexpr int halvings = 32;
-    for (int k = 0; k < 6; ++k)  // what is known of one axis helps with another
+    for (int k = 0; k < 6; ++k)  // narrowing one axis helps with the others
         for (const bool upper : {false, true}) {
             double& end = (upper ? box.hi : box.lo)[k % 3];
-            double off = end, on = (upper ? box.lo : box.hi)[k % 3];  // nothing beyond `off`; something beyond `on`
+            // the set has nothing beyond `off`, and perhaps something beyond `on`
+            double off = end, on = (upper ? box.lo : box.hi)[k % 3];
             for (int i = 0; i < halvings; ++i) {
                 const double middle = 0.5 * (off + on);
                 Box beyond = box;
@@ -63,8 +64,8 @@ Box without_ends_below_half(const DensityTree& tree, Box box) {
     return box;
 }
 
-// The tree with planes that touch them in place of its round parts: where these stand for more of the solid, an
-// intersection of half-spaces that holds them; where for less, nothing.
+// The tree with planes in place of its round parts, such that its set holds the original one: a round part that adds to
+// the solid becomes the half-spaces that touch it, one that takes away becomes nothing.
 DensityTree flattened_around(const DensityTree& tree) {
     std::vector<char> takes(tree.nodes.size(), false);
     for (std::size_t i = tree.nodes.size(); i-- > 0;) {
@@ -123,8 +124,8 @@ Box bounding_box(const DensityTree& tree) {
 
 namespace {
 
-// An infinite field may be cut down to something finite by others: beyond a cone's base nothing is
-// left of it, though the cone's box is all of space. What lies beyond a plane is off if its range says so.
+// Cuts infinite sides of a box down where ranges say that nothing of the solid lies beyond: an infinite field may be
+// cut to something finite by others, as a cone is by its base, though the cone's own box is all of space.
 Box without_empty_ends(const SolidTree& tree, Box box) {
     Box seen;
     for (const SolidLeaf& leaf : tree.leaves)
@@ -132,9 +133,9 @@ Box without_empty_ends(const SolidTree& tree, Box box) {
     if (box.empty() || box.finite() || seen.empty() || !seen.finite()) return box;
     const Vec3 middle = 0.5 * (seen.lo + seen.hi), size = seen.hi - seen.lo;
     const double least = std::max({size.x, size.y, size.z}) * 0x1p-4;
-    constexpr double most = 0x1p40;       // times as far away as that
-    constexpr double closer = 0.98;       // ends are brought in as long as they come nearer by this
-    for (int pass = 0; pass < 2; ++pass)  // what is known of one axis helps with another
+    constexpr double most = 0x1p40;  // the farthest place looked at, in multiples of `least`
+    constexpr double closer = 0.98;  // bisection ends where the two ends' distances differ by less than this factor
+    for (int pass = 0; pass < 2; ++pass)  // narrowing one axis helps with the others
         for (int k = 0; k < 3; ++k)
             for (const bool upper : {false, true}) {
                 if (std::isfinite((upper ? box.hi : box.lo)[k])) continue;

@@ -1,4 +1,4 @@
-// Boxes around densities and solids, found from their outer bound CSG.
+// Bounding boxes of densities and solids, found from their outer bound CSG.
 //
 // Lobb tags convex intersections as boundable and takes their vertices [Lobb §3.5]. Here every
 // intersection of planes is bounded by linear programs (polyhedron_box.hpp), and the rest follows by
@@ -9,11 +9,12 @@
 
 namespace deburr {
 
-/// A box that holds the CSG object; empty if it is certainly empty.
+/// A box that holds the CSG object; empty if the object is certainly empty.
 Box bounding_box(const BoundCsg& csg);
-/// A box that holds the set ρ > ½: that of its outer bound where the operands are in [0, 1]
-/// (bounds_hold), else its support.
+/// A box that holds the set ρ > ½: that of the outer bound where operands are in [0, 1] (bounds_hold), else the support
+/// of the root. Sides may be infinite.
 Box bounding_box(const DensityTree& tree);
+/// A box that holds the solid. Sides may be infinite.
 Box bounding_box(const SolidTree& tree);
 
 }  // namespace deburr

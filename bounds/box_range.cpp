@@ -5,9 +5,9 @@
 namespace deburr {
 namespace {
 
-// ρ of a node over the region, and whether it is constant there for a reason that holds wherever the
-// half-spaces that are not saturated may lie. (That a range is a single value is no such reason: it
-// is one over a box that is a point.)
+// Range of a node's ρ over the region, and whether ρ is provably constant there because enough half-spaces are
+// saturated (0 or 1), wherever the others lie. A range that is a single value does not imply that: over a box that is a
+// point every range is one.
 struct NodeRange : Range {
     bool constant = false;
 };
@@ -56,7 +56,7 @@ const std::vector<NodeRange>& ranges(const DensityTree& tree, const std::vector<
         tree, [&](std::size_t i) { return half_spaces[i]; }, [](const Box&) { return false; });
 }
 
-// Folds constants while it copies what the root reaches; children first, as in the original.
+// Copies the part of a tree that the root needs, with constant nodes folded away; the order stays, children first.
 class Folding {
 public:
     Folding(const DensityTree& from, const std::vector<NodeRange>& ranges)
@@ -88,7 +88,7 @@ private:
     bool constant(int i) const { return ranges_[i].constant; }
     bool is(int i, double value) const { return constant(i) && ranges_[i].lo == value; }
 
-    // The child that node i equals throughout, or −1.
+    // The child that node i equals throughout the region, or −1.
     int same_as(int i) const {
         const TreeNode& n = from_.nodes[i];
         switch (n.op) {
@@ -105,7 +105,7 @@ private:
         }
     }
 
-    // From the root down: constants end a branch.
+    // Marks the nodes that the root needs, from the root down; a constant node needs no operands.
     void mark() {
         const std::size_t count = from_.nodes.size();
         needed_.assign(count, false);
@@ -118,7 +118,7 @@ private:
                 needed_[same] = true;
                 continue;
             }
-            // 1 − b is kept as a complement, whose bounds are tighter than a difference's.
+            // 1 − b becomes a complement, whose bounds are tighter than a difference's.
             if (!(n.op == Op::difference && is(n.a, 1))) needed_[n.a] = true;
             if (n.b >= 0) needed_[n.b] = true;
         }
@@ -149,7 +149,7 @@ private:
         return int(to_.nodes.size()) - 1;
     }
 
-    // Kept from one to the next of a thread.
+    // Buffers that a thread keeps from one folding to the next.
     struct Memory {
         std::vector<char> needed;
         std::vector<int> new_index;
@@ -170,8 +170,8 @@ private:
 
 namespace {
 
-// Of a node in each of K boxes. The half-spaces that are left below it are those below its operands: a constant has
-// none, and what is folded away is constant.
+// Range of a node in each of K boxes, whether it is constant there, and how many half-spaces are left below it: the sum
+// of its operands', as a constant has none and whatever is folded away is constant.
 template <int K>
 struct NodeSizes {
     double lo[K], hi[K];
@@ -187,7 +187,7 @@ struct NodeSizes {
     }
 };
 
-// density_range in K boxes, in the same order of operations.
+// density_range() in K boxes at a time, with the same order of operations, so with the same bits.
 template <int K>
 void set_half_space(NodeSizes<K>& to, const HalfSpace& h, const Box* boxes) {
     if (h.round) {
@@ -216,7 +216,8 @@ void set_half_space(NodeSizes<K>& to, const HalfSpace& h, const Box* boxes) {
     }
 }
 
-// Conjunctions, disjunctions and products of what is nowhere negative make up nearly all of a tree.
+// Combines the operators that make up nearly all of a tree: conjunctions, disjunctions, and products without negative
+// operands. Returns false, with `to` unchanged, for any other.
 template <int K>
 bool combine_usual(NodeSizes<K>& to, Op op, const NodeSizes<K>& a, const NodeSizes<K>& b) {
     double absorbing = 0;
@@ -293,7 +294,7 @@ Range distance_range(const HalfSpace& h, const Box& box) {
     double lo = -h.offset, hi = -h.offset;
     for (int k = 0; k < 3; ++k) {
         const double n = h.normal[k];
-        if (n == 0) continue;  // 0·∞ is no number
+        if (n == 0) continue;  // 0·∞ would be NaN
         lo += n * (n > 0 ? box.lo[k] : box.hi[k]);
         hi += n * (n > 0 ? box.hi[k] : box.lo[k]);
     }
@@ -344,7 +345,7 @@ bool bounds_hold(const DensityTree& tree, const Box& box) {
 Pruned prune_further(const DensityTree& tree, const std::vector<Range>& half_spaces, bool (&is_classified)(Range)) {
     const std::vector<NodeRange>& all = ranges(tree, half_spaces);
     if (is_classified(all.back())) return {{}, all.back()};
-    // Copies of nearly all of a large tree in each of very many places would take the memory of all of them.
+    // Copies of nearly all of a large tree, one for each of very many boxes, would take the memory of all of them.
     constexpr std::size_t large = 512;
     const std::size_t before = tree.half_spaces.size();
     Folding folding(tree, all);

@@ -1,11 +1,11 @@
-// What a density can be over a box, and the little of it that matters there.
+// The range of a density over a box, and the local density that is left of it there.
 //
 // Interval arithmetic says for each half-space whether its density is 0, 1 or varying over the
 // box, and for the tree whether it is outside, inside or straddling. What is left is the local
 // density [Triage §4.2.1, §4.5.1]. Conjunctions and disjunctions take the Fréchet bounds, which
 // hold whatever their operands share.
 //
-// Not promised: that a range is the tightest.
+// Not promised: that a range is the tightest one.
 #pragma once
 #include <algorithm>
 #include <span>
@@ -14,7 +14,7 @@
 
 namespace deburr {
 
-/// Range of op(a, b) from the ranges of a and b, whatever half-spaces a and b share; a complement has no b.
+/// Range of op(a, b) from the ranges of a and b, valid whatever half-spaces a and b share. A complement ignores b.
 inline Range combine(Op op, Range a, Range b) {
     switch (op) {
         case Op::sum: return {a.lo + b.lo, a.hi + b.hi};
@@ -31,32 +31,33 @@ inline Range combine(Op op, Range a, Range b) {
     }
 }
 
-/// Least and greatest n·x − offset over the box, or what holds them for a round part; infinite sides are allowed.
+/// A range that holds n·x − offset, or u(x) − offset of a round part, over the box (a world distance); exact for planes
+/// up to rounding. The box may have infinite sides.
 Range distance_range(const HalfSpace& h, const Box& box);
 
-/// ρ of one half-space over the box.
+/// Range of the density of one half-space over the box.
 Range density_range(const HalfSpace& h, const Box& box);
 
-/// ρ of the tree over the box.
+/// Range of ρ over the box.
 Range density_range(const DensityTree& tree, const Box& box);
 
-/// True if every operand of the papers' arithmetic is provably in [0, 1] over the box; false says
-/// nothing.
+/// True if every operand of the papers' arithmetic provably lies in [0, 1] over the box; false says nothing.
 bool bounds_hold(const DensityTree& tree, const Box& box);
 
 enum class Side { outside, inside, straddling };
 
-/// Range of ρ over any region, given the range of every half-space's density over it.
+/// Range of ρ over any region, given the range of each half-space's density over it: half_spaces[i] belongs to
+/// tree.half_spaces[i]. Supports are not used.
 Range density_range(const DensityTree& tree, const std::vector<Range>& half_spaces);
 
-/// Where the box lies with respect to the set ρ > ½, as far as the range can tell.
+/// Where a box lies with respect to the set ρ > ½, as far as the range of ρ over it can tell.
 inline Side classify(Range rho) {
     if (rho.hi <= 0.5) return Side::outside;
     if (rho.lo > 0.5) return Side::inside;
     return Side::straddling;
 }
 
-/// Where the box lies with respect to a field's set f > 0, given the range of f over the box.
+/// Where a box lies with respect to a field's set f > 0, given the range of f over it.
 inline Side classify_field(Range f) {
     if (f.hi <= 0) return Side::outside;
     if (f.lo > 0) return Side::inside;
@@ -64,29 +65,31 @@ inline Side classify_field(Range f) {
 }
 
 struct Pruned {
-    DensityTree tree;  // equals the original throughout the box
-    Range range;       // of ρ over the box
+    DensityTree tree;  // equals the original throughout the region
+    Range range;       // of ρ over the region
 };
 
-/// The local density of the box: half-spaces that are constant there are folded away.
+/// The local density of the box: the tree with every part that is constant there folded away.
 Pruned prune(const DensityTree& tree, const Box& box);
 
-/// The local density of any region, given the range of every half-space's density over it.
+/// The local density of any region, given the range of each half-space's density over it (as in density_range).
 Pruned prune(const DensityTree& tree, const std::vector<Range>& half_spaces);
 
-/// prune(), but that the tree has no nodes unless it has fewer half-spaces than before (of hundreds a quarter less)
-/// and is_classified(range) is false.
+/// Like prune(), but returns a tree without nodes where copying does not pay: where is_classified(range) is true, where
+/// no half-space is folded away, or where more than 512 are left and those are more than three quarters.
 Pruned prune_further(const DensityTree& tree, const std::vector<Range>& half_spaces, bool (&is_classified)(Range));
 
+/// The range of ρ, and how many half-spaces prune() would leave.
 struct LocalSize {
     Range range;
-    int half_spaces = 0;  // that `prune` would leave
+    int half_spaces = 0;  // that prune() would leave
 };
 
-/// Range over the box, and how many half-spaces `prune` would leave; costs less than `prune`.
+/// The range of ρ over the box and the size of its local density, at less cost than prune().
 LocalSize local_size(const DensityTree& tree, const Box& box);
 
-/// local_size in several boxes, by one walk over the tree for every four of them; sizes[k] is that of boxes[k].
+/// local_size() in several boxes, with one walk over the tree for every four of them; sizes[k] is set for boxes[k], so
+/// `sizes` has room for as many.
 void local_sizes(const DensityTree& tree, std::span<const Box> boxes, LocalSize* sizes);
 
 }  // namespace deburr

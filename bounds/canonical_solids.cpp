@@ -14,13 +14,13 @@ void append(std::string& key, const Values&... values) {
     (key.append(reinterpret_cast<const char*>(&values), sizeof values), ...);
 }
 
-// Member by member: what pads them is anything.
+// Members are appended one by one, because padding between them is indeterminate.
 void append_round(std::string& key, const RoundPart& part) {
     const RoundCoordinate& c = part.coordinate;
     append(key, c.kind, c.center, c.axis, c.across, c.along, c.ring, part.offset);
 }
 
-// Most parts of long unions are not placed: what they are placed by is left out.
+// Appends a part and its placement. Most parts of long unions are not placed, and the map of those is left out.
 void append_placed(std::string& key, const CanonicalPlacement& part) {
     append(key, part.canonical, part.material);
     const bool placed = std::memcmp(&part.map, &identity, sizeof identity) != 0;
@@ -28,7 +28,7 @@ void append_placed(std::string& key, const CanonicalPlacement& part) {
     if (placed) append(key, part.map);
 }
 
-// Rounding knows lengths only. What floating point makes of a rotation deviates by a few ε.
+// Whether the map keeps lengths, and so filter radii. A computed rotation deviates from that by a few ε.
 bool is_rigid(const Mat3& m) {
     const Mat3 gram = glm::transpose(m) * m;
     double worst = 0;
@@ -37,6 +37,7 @@ bool is_rigid(const Mat3& m) {
     return worst <= 64 * epsilon;
 }
 
+/// The solid below all materials and placements, which are added to `to`.
 const Solid& peel(const Solid& solid, CanonicalPlacement& to) {
     const Solid* at = &solid;
     for (;;) {
@@ -51,6 +52,7 @@ const Solid& peel(const Solid& solid, CanonicalPlacement& to) {
     }
 }
 
+/// The density below all rigid placements, which are added to `to`.
 const Density& peel_rigid(const Density& density, CanonicalPlacement& to) {
     const Density* at = &density;
     while (at->node().kind == DensityNode::Kind::transform && is_rigid(at->node().map().linear)) {
@@ -60,8 +62,8 @@ const Density& peel_rigid(const Density& density, CanonicalPlacement& to) {
     return *at;
 }
 
-// Numbers a node once all its parts are numbered, with a stack of its own: chains may be long.
-// parts(handle, visit) calls visit(part); make(handle) may ask for the parts' numbers.
+// Numbers every node after its parts, with a stack of its own because chains may be long. parts(handle, visit) calls
+// visit(part) for each part; make(handle) returns the node's number and may use the parts' numbers.
 template <class Handle, class Parts, class Make>
 int number_bottom_up(std::unordered_map<const void*, int>& known, const Handle& root, Parts parts, Make make) {
     std::vector<const Handle*> open{&root};
@@ -113,7 +115,7 @@ int CanonicalSolids::density(const Density& root) {
                 append_round(key, n.round());
             else if (n.kind == DensityNode::Kind::radius)
                 append(key, n.radius());
-            for (const Density& child : n.children()) {  // half-spaces, of which there are most, need no number
+            for (const Density& child : n.children()) {  // half-spaces, the most frequent children, need no number
                 const DensityNode& c = child.node();
                 key.push_back(c.is_plane() ? char(c.kind) + 1 : 0);
                 if (c.is_plane())
@@ -145,7 +147,8 @@ int CanonicalSolids::base(const Solid& root) {
             }
         },
         [&](const Solid& s) {
-            std::vector<CanonicalPlacement> parts;  // before the key is begun: a part may have to be numbered
+            std::vector<CanonicalPlacement> parts;  // before the key is begun, because parts may have to be numbered
+                                                    // first
             for (const Solid& child : s.node().children()) parts.push_back(of(child));
             append(solid_keys_.bytes(), s.node().kind, s.node().field().get());
             for (const CanonicalPlacement& part : parts) append_placed(solid_keys_.bytes(), part);
@@ -163,7 +166,7 @@ CanonicalPlacement CanonicalSolids::of(const Solid& solid) {
         const Density& inner = peel_rigid(node.density(), to);
         to.canonical = rounded(node, inner);
     } else {
-        to.canonical = base(at);  // at once, where base() is under way: it has numbered the parts
+        to.canonical = base(at);  // returns at once where base() is under way, as the parts are numbered by then
     }
     return to;
 }

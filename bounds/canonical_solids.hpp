@@ -1,9 +1,9 @@
-// Which parts of shared expressions are equal in form: the same set in a space of its own, placed.
+// Finds which parts of shared expressions are the same set up to a placement.
 //
-// A scene may use one value a thousand times, or call a function that makes an equal one each time;
-// either way it is one form with many placements. Placements are peeled off, also those of a density
-// below its rounding where they are rigid, for rounding does not see these. Fields are equal if they are
-// one value.
+// A scene may use one value a thousand times, or call a function that makes an equal value each time; either way it is
+// one canonical solid with many placements. Placements are peeled off a solid, and also off a density below its
+// rounding where they are rigid, because rounding does not depend on those. Fields are equal only if they are the same
+// object.
 #pragma once
 #include <string>
 #include <string_view>
@@ -16,29 +16,32 @@
 
 namespace deburr {
 
-/// A form, in the space that it is placed into.
+/// A use of a canonical solid: its number, the map that places it, and its material.
 struct CanonicalPlacement {
     int canonical = -1;
     Affine map;
-    int material = -1;  // of what has none in the form; −1: none was named
+    int material = -1;  // of parts that have none of their own; −1: none was named
 };
 
+/// Numbers canonical solids in the order in which they are first met.
 class CanonicalSolids {
 public:
     CanonicalSolids() = default;
-    CanonicalSolids(const CanonicalSolids&) = delete;  // hashes look into it
+    CanonicalSolids(const CanonicalSolids&) = delete;  // not copied, because hash functions point into it
     CanonicalSolids& operator=(const CanonicalSolids&) = delete;
-    /// The solid must live as long as this does.
+    /// The canonical solid that `solid` is a placement of. `solid` must live as long as this object.
     CanonicalPlacement of(const Solid& solid);
-    /// The first solid that had this form.
+    /// The first solid that was this canonical solid, without its placement.
     const Solid& solid(int canonical) const { return solids_[canonical]; }
+    /// The number of canonical solids so far.
     std::size_t size() const { return solids_.size(); }
 
 private:
-    /// Numbers keys 0, 1, 2 … in the order in which they are first met. The keys' bytes lie one after the other.
+    /// Numbers byte strings 0, 1, 2 … in the order in which they are first met. The strings lie one after the other in
+    /// bytes().
     class Numbering {
     public:
-        /// The number of the key that the caller appended to bytes() since the last call.
+        /// The number of the byte string that the caller has appended to bytes() since the last call.
         int number_of_appended();
         std::string& bytes() { return bytes_; }
         std::size_t size() const { return ends_.size(); }
@@ -70,9 +73,9 @@ private:
     std::unordered_map<const void*, int> known_solids_, known_densities_;
 };
 
-/// Calls visit(leaf, placement) for the rounded densities and fields of the solids, from left to right. Nothing at
-/// or below a node is visited where enter(node) is false: a few shared values can stand for more placements than
-/// can be counted.
+/// Calls visit(leaf, placement) for every rounded density and field of the solids, from left to right. enter(node) is
+/// asked at each node, and nothing at or below a node is visited where it returns false: a few shared values can stand
+/// for more placements than can be counted.
 template <class Enter, class Visit>
 void for_each_leaf(const std::vector<Solid>& roots, Enter enter, Visit visit) {
     std::vector<std::pair<const Solid*, Affine>> open;
@@ -92,8 +95,8 @@ void for_each_leaf(const std::vector<Solid>& roots, Enter enter, Visit visit) {
     }
 }
 
-/// Half-spaces (and sizes of fields) that have to be laid out at least: those of one value count once, however often
-/// unions place it.
+/// The number of half-spaces (and sizes of fields) that have to be laid out at least: those of a value that unions
+/// place several times count once.
 double half_spaces_to_lay_out(const std::vector<Solid>& solids);
 
 }  // namespace deburr

@@ -1,5 +1,5 @@
-// α within [−1, 1], where a density varies, without branches: whether it is there no processor foresees, and of
-// comparisons the compiler makes branches, for beyond the density is known.
+// α clamped to [−1, 1], the interval in which a density varies, without branches: a processor cannot predict whether α
+// is in it, and compilers turn comparisons into branches here, because the density outside of [−1, 1] is a constant.
 #pragma once
 
 #if defined(__SSE2__)
@@ -8,7 +8,7 @@
 
 namespace deburr {
 
-/// As std::clamp(alpha, -1.0, 1.0).
+/// Same as std::clamp(alpha, -1.0, 1.0).
 inline double clamped_alpha(double alpha) {
 #if defined(__SSE2__)
     return _mm_cvtsd_f64(_mm_max_sd(_mm_min_sd(_mm_set_sd(alpha), _mm_set_sd(1)), _mm_set_sd(-1)));
@@ -18,7 +18,7 @@ inline double clamped_alpha(double alpha) {
 #endif
 }
 
-/// Two numbers at a time.
+/// Two doubles in one vector register.
 using DoublePair = double __attribute__((vector_size(16)));
 
 inline DoublePair clamped_alpha(DoublePair alpha) {

@@ -8,7 +8,7 @@
 namespace deburr {
 namespace {
 
-// A ray's view of the factors. N: their number if known when compiled, else 0.
+// The soft factors along a ray. N is their number if it is known at compile time, else 0.
 template <int N>
 class Ray : public ConvexSearch<Ray<N>> {
     using Search = ConvexSearch<Ray<N>>;
@@ -18,7 +18,7 @@ class Ray : public ConvexSearch<Ray<N>> {
 public:
     Ray(const ConvexView& density, const Vec3& origin, const Vec3& direction, std::uint64_t& evaluations)
         : Search(density.complement, evaluations), density_(density) {
-        // C lies where every factor is above ½, to within rounding.
+        // C lies where every factor is above ½, up to rounding.
         for (int i = 0; i < soft(); ++i) {
             const AlphaPlane& p = density.planes[i];
             a_[i] = glm::dot(p.slope, origin) + p.base;
@@ -50,7 +50,7 @@ private:
             this->is_empty();
     }
 
-    // Of the soft factors.
+    // Product of the soft factors at t, and its slope.
     Point at(double t) const {
         ++this->evaluations_;
         Point p{1, 0};
@@ -64,7 +64,7 @@ private:
         return p;
     }
 
-    // Where α of this soft plane is 0, all others are 1: P is ½.
+    // Whether P is ½ where α of this soft plane is 0 at t: all other soft factors are 1 there.
     bool is_alone(int plane, double t) const {
         bool alone = plane < soft();
         for (int i = 0; i < soft(); ++i) alone &= i == plane || a_[i] + b_[i] * t <= -1;
@@ -111,7 +111,7 @@ Vec3 surface_normal(const ConvexView& density, const ConvexCrossing& crossing, c
     if (crossing.plane >= 0) {
         sum = density.planes[crossing.plane].slope;
     } else {
-        // −∇P, but for a factor.
+        // −∇P, up to a positive factor.
         double P = 1;
         for (int i = 0; i < density.soft; ++i) {
             const AlphaPlane& p = density.planes[i];

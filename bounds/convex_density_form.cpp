@@ -1,4 +1,4 @@
-// Which densities are products of half-spaces, or one minus such a product.
+// Recognizes densities that are products of half-spaces, or one minus such a product.
 #include <algorithm>
 
 #include "bounds/convex_density.hpp"
@@ -18,7 +18,7 @@ struct Occurrence {
     bool flipped = false;
 };
 
-// The least number of variables: coinciding planes share one.
+// Half-spaces as occurrences of the fewest variables: planes that coincide share one.
 std::vector<Occurrence> occurrences(const std::vector<HalfSpace>& planes, double scale) {
     constexpr double slack = 8 * epsilon;
     std::vector<Occurrence> all;
@@ -38,7 +38,7 @@ std::vector<Occurrence> occurrences(const std::vector<HalfSpace>& planes, double
     return all;
 }
 
-// Above this many variables the corners are not counted out.
+// With more variables than this the 2ⁿ corners are not enumerated.
 constexpr int max_variables = 6;
 
 }  // namespace
@@ -52,8 +52,8 @@ std::optional<ConvexDensity> convex_density(const LocalDensity& density, double 
         result.complement = product->complement;
         for (const auto& [plane, flipped] : product->factors) factors.push_back({plane, flipped});
     } else {
-        // A polynomial that is affine in each variable is known by its values where all are 0 or 1.
-        // It is a product if one of these is 1 and the others 0.
+        // A polynomial that is affine in each variable is determined by its values at the corners, where every variable
+        // is 0 or 1. It is a product if exactly one of these is 1, and the others are 0.
         const std::vector<Occurrence> of = occurrences(planes, scale);
         std::vector<int> variables;
         std::vector<int> variable_of;

@@ -7,13 +7,13 @@ namespace {
 
 using Kind = BoundCsg::Kind;
 
-// What a node of the density has to supply.
+// The bound that a node's operands have to supply: outer or inner, at threshold t.
 struct Demand {
     bool outer = true;
     double t = 0;
 };
 
-// The demands of the theorems, from the root down.
+// The demands on all nodes by the theorems, from the root down.
 std::vector<Demand> demands(const DensityTree& tree, Demand root) {
     std::vector<Demand> all(tree.nodes.size());
     all.back() = root;
@@ -85,7 +85,7 @@ private:
         const auto [outer, t] = asked;
         if (outer ? t < 0 : t <= 0) return constant(true);
         if (outer ? t >= 1 : t > 1) return constant(false);
-        // Besides the cubic's slack in ρ, the plane keeps clear by what its distance is rounded by.
+        // Besides the cubic's slack in ρ, the plane is displaced by the rounding error of its distance.
         const double clearance = clear_ + 4 * epsilon * (std::abs(h.offset) + h.radius);
         double offset = h.offset + (outer ? clearance : -clearance);
         if (h.radius > 0) offset += h.radius * displacement(outer ? t - inverse_slack : t + inverse_slack);
@@ -109,7 +109,7 @@ private:
         if (kind(a) == Kind::nothing || kind(a) == Kind::everything) return constant(kind(a) == Kind::nothing);
         return add({Kind::complement, a});
     }
-    // The root must come last.
+    // Node i, copied to the end if it is not the last node, because the root must come last.
     int again(int i) { return i + 1 == int(csg_.nodes.size()) ? i : add(csg_.nodes[i]); }
 
     double clear_;
@@ -172,7 +172,7 @@ Span convex_span(const BoundCsg& csg, Vec3 origin, Vec3 direction) {
 
 }  // namespace
 
-// Interval lists, node by node, all in one pool.
+// The spans of every node along the ray, sorted and disjoint, all in one pool.
 void SearchSpans::general(const BoundCsg& csg, Vec3 origin, Vec3 direction) {
     pool_.clear();
     parts_.clear();

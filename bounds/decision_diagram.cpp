@@ -8,17 +8,17 @@
 namespace deburr {
 namespace {
 
-// Normals and radii that differ by less come from the same plane through other arithmetic: two
-// chains of transforms differ by a few ε; a millionth of a degree is 2·10⁻⁸.
+// Normals (unit vectors) and radii (relatively) that differ by less count as the same: two chains of transforms that
+// lead to one plane differ by a few ε; a millionth of a degree is 2·10⁻⁸.
 constexpr double same_direction = 1e-9, same_radius = 1e-9;
-// Thresholds: relative to the largest offset, as that is what their rounding is relative to.
+// Thresholds that differ by less count as the same, relative to the largest offset, as their rounding is.
 constexpr double same_threshold = 1e-12;
 constexpr std::size_t max_nodes = 100'000;
 
-// Where a half-space stands in its family.
+// The place of a half-space in its family.
 struct Literal {
     int family = -1, threshold = -1;
-    bool above = false;  // normal against the family's: true where the coordinate is above τ
+    bool above = false;  // normal opposite to the family's: the half-space is true where the coordinate > τ
 };
 
 class Construction {
@@ -87,7 +87,7 @@ private:
         return int(diagram_.families.size()) - 1;
     }
 
-    // Which nodes are operands of one that does the same, and of no other.
+    // The nodes that are operands of exactly one node, whose operator is their own: links of a chain.
     std::vector<char> merged_nodes() const {
         std::vector<int> uses(reached_.size(), 0);
         std::vector<char> merged(reached_.size(), false);
@@ -104,8 +104,9 @@ private:
         return merged;
     }
 
-    // A chain a & b & c … is combined from its end: families are numbered as they occur, so that each operand goes on
-    // top of what is there and not below all of it, which took the square of the chain's length.
+    // Builds the diagrams of all reached nodes. A chain a & b & c … is combined from its end: families are numbered as
+    // they occur, so each operand goes on top of the diagram so far instead of below all of it, which would take time
+    // quadratic in the chain's length.
     void combine(int root) {
         std::vector<int> done(reached_.size(), 0), open, operands;
         const std::vector<char> merged = merged_nodes();
@@ -138,7 +139,8 @@ private:
         return add({l.family, {l.threshold}, l.above ? std::vector{0, 1} : std::vector{1, 0}});
     }
 
-    // Merges gaps that lead to the same node; a decision that decides nothing is its child.
+    // The node's number, or that of an equal one. Gaps that lead to the same child are merged, and a decision with one
+    // child left is that child.
     int add(Decision node) {
         std::size_t kept = 0;  // thresholds
         for (std::size_t j = 0; j < node.thresholds.size(); ++j) {
@@ -149,7 +151,7 @@ private:
         if (kept == 0) return node.children[0];
         node.thresholds.resize(kept);
         node.children.resize(kept + 1);
-        // The set holds numbers of nodes: the new one is put there first.
+        // The set holds node numbers and hashes the nodes themselves, so the new node is appended first.
         diagram_.nodes.push_back(std::move(node));
         const auto [entry, is_new] = unique_.insert(int(diagram_.nodes.size()) - 1);
         if (!is_new)
@@ -174,12 +176,12 @@ private:
         const std::uint64_t key = std::uint64_t(op) << 60 | std::uint64_t(a) << 30 | std::uint64_t(b);
         if (const auto known = applied_.find(key); known != applied_.end()) return known->second;
 
-        // By number, each time: add() moves the nodes. Those of constants have no family.
+        // Nodes are looked up by number each time, because add() may move them. Constants have no family.
         const auto at = [&](int i) -> const Decision& { return diagram_.nodes[i]; };
         Decision node;
         node.family = at(b).family < 0 ? at(a).family : std::min(at(a).family, at(b).family);
         const bool in_a = at(a).family == node.family, in_b = at(b).family == node.family;
-        std::size_t i = 0, j = 0;  // gap of a, of b
+        std::size_t i = 0, j = 0;  // gaps of a and of b
         for (;;) {
             node.children.push_back(apply(op, in_a ? at(a).children[i] : a, in_b ? at(b).children[j] : b));
             const bool more_a = in_a && i < at(a).thresholds.size();

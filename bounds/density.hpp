@@ -1,11 +1,11 @@
-// Densities as a scene writes them: unrounded polyhedra under the papers' arithmetic [Lobb §2.2]
-// and under Boolean operators.
+// Densities as a scene writes them: expressions over unrounded half-spaces and round parts with the papers' sums,
+// products and differences [Lobb §2.2] and with Boolean operators.
 //
-// A Density is a cheap handle on an immutable, shared expression. Nothing is evaluated here: a
-// filter radius and a placement turn the expression into a DensityTree, which is.
+// A Density is a cheap handle on an immutable, shared expression. Nothing is evaluated here: flatten()
+// (density_tree.hpp) turns the expression, a filter radius and a placement into a DensityTree that can be evaluated.
 //
-// Not promised: legality. `a + b` of overlapping parts and `a - b` of parts that stick out leave
-// [0, 1]; the box ranges find that (box_range.hpp).
+// Not promised: legality. `a + b` of overlapping parts and `a - b` of parts that stick out leave [0, 1]; find_illegal()
+// (legality.hpp) looks for that.
 #pragma once
 #include <array>
 #include <cstdint>
@@ -23,32 +23,35 @@ class DensityNode;
 
 class Density {
 public:
-    /// 1 where n·x ≤ d, else 0. `normal` points outward, of any length but 0; d is divided by it.
+    /// The half-space n·x ≤ d. `normal` points outward and may have any length but 0; d is divided by the same length.
     static Density half_space(Vec3 normal, double offset);
-    /// A half-space that rounding moves outward by its radius, so that it is 1 where n·x ≤ d, rounded or not: it gives
-    /// bounds to what has none of its own, and changes nothing of what lies within.
+    /// A half-space that is moved outward by its filter radius when it is rounded, so that its density is 1 where n·x ≤
+    /// d, rounded or not. It bounds sets that have no bounds of their own, and changes nothing of what lies within.
     static Density cover(Vec3 normal, double offset);
-    /// 1 where the coordinate is at most `offset` > 0, else 0: a ball, a cylinder without ends, a torus, a nappe of a
+    /// The set where the coordinate is at most `offset` > 0: a ball, an infinite cylinder, a torus, or a nappe of a
     /// cone.
     static Density round(const RoundCoordinate& coordinate, double offset);
-    /// The ball of this radius.
+    /// The ball of this radius around the centre.
     static Density sphere(Vec3 center, double radius);
-    /// Around the segment; `from` ≠ `to`.
+    /// The cylinder of this radius around the segment, with flat ends; `from` ≠ `to`.
     static Density cylinder(Vec3 from, Vec3 to, double radius);
-    /// From one radius to another, not both 0; `from` ≠ `to`. An end of radius 0 is the apex.
+    /// The (truncated) cone around the segment, with one radius at `from` and the other at `to`, not both 0; `from` ≠
+    /// `to`. An end of radius 0 is the apex; ends of a radius > 0 are flat.
     static Density cone(Vec3 from, Vec3 to, double radius_from, double radius_to);
-    /// Around the circle of radius `radius` about the unit axis; tube < radius.
+    /// The torus whose tube of radius `tube` runs around the circle of radius `radius` about the unit vector `axis`;
+    /// tube < radius.
     static Density torus(Vec3 center, Vec3 axis, double radius, double tube);
-    /// Product of six half-spaces; lo < hi on each axis.
+    /// The box as a product of six half-spaces; lo < hi on each axis.
     static Density box(Vec3 lo, Vec3 hi);
-    /// Product of all; at least one.
+    /// Product of all parts, of which there is at least one.
     static Density product(std::vector<Density> parts);
 
-    /// The papers' arithmetic. `line` is the scene's line that wrote it, for messages; 0 unknown.
+    /// The papers' arithmetic. `line` is the line of the scene that wrote the operator, for messages; 0 if it is
+    /// unknown.
     static Density sum(Density a, Density b, int line = 0);
     static Density product(Density a, Density b, int line = 0);
     static Density difference(Density a, Density b, int line = 0);
-    /// Boolean densities: below one, the whole operand is read as a Boolean function.
+    /// Boolean densities: below a Boolean operator the whole operand is read as a Boolean function.
     static Density disjunction(Density a, Density b);
     static Density conjunction(Density a, Density b);
     static Density complement(Density a);
@@ -62,9 +65,10 @@ public:
 
     /// Fixes the filter radius of those half-spaces that have none yet [Lobb §4.2, Triage §4.5.3].
     Density radius(double r) const;
-    /// The transformed polyhedron, to be rounded afterwards. `map` must be regular.
+    /// The transformed polyhedron, which is rounded after it is placed: filter radii do not scale. `map` must be
+    /// regular.
     Density transformed(const Affine& map) const;
-    /// Whether radius() was used anywhere in it.
+    /// Whether radius() was used anywhere in the expression.
     bool has_radius() const;
 
     const DensityNode& node() const { return *node_; }
@@ -74,8 +78,8 @@ private:
     std::shared_ptr<const DensityNode> node_;
 };
 
-/// One step of the expression. Children are shared, so expressions are graphs without cycles. A node keeps what its
-/// kind needs, for a scene may have millions of them.
+/// A node of the expression. Children are shared, so expressions are acyclic graphs. A node stores only what its kind
+/// needs, because a scene may have millions of nodes.
 class DensityNode {
 public:
     enum class Kind : std::uint8_t {
@@ -110,11 +114,11 @@ public:
     DensityNode(Kind kind, Parts parts, int line = 0);
     DensityNode(const DensityNode&) = delete;
     DensityNode& operator=(const DensityNode&) = delete;
-    ~DensityNode();  // iterative, so that a chain of any length dies without recursion
+    ~DensityNode();  // iterative, so that a chain of any length is destroyed without recursion
 
     std::span<const Density> children() const;
     bool is_plane() const { return kind == Kind::half_space || kind == Kind::cover; }
-    // For the kinds that have them.
+    // The following may be called only for nodes of the kinds that have the value.
     const Vec3& normal() const { return std::get_if<HalfSpace>(&parts_)->normal; }
     double offset() const { return std::get_if<HalfSpace>(&parts_)->offset; }
     double radius() const { return std::get_if<Radius>(&parts_)->radius; }
@@ -122,11 +126,12 @@ public:
     const RoundPart& round() const { return **std::get_if<std::unique_ptr<const RoundPart>>(&parts_); }
 
     const Kind kind;
-    bool has_radius = false;      // radius, or anything below it
-    bool has_round = false;       // it is round, or anything below it
-    bool may_be_illegal = false;  // a sum or difference is in it that no Boolean operator is above
-    const int line;               // sum, product, difference: place in the scene
-    double leaves = 1.0;          // half-spaces below, counted once per use; may overflow to infinity
+    bool has_radius = false;      // whether this or a node below is Kind::radius
+    bool has_round = false;       // whether this or a node below is Kind::round
+    bool may_be_illegal = false;  // whether this or a node below is a sum or difference that no Boolean operator is
+                                  // above
+    const int line;               // sum, product, difference: line of the scene that wrote it, 0 unknown
+    double leaves = 1.0;  // half-spaces and round parts below, each counted once per use; may overflow to infinity
 
 private:
     Parts parts_;

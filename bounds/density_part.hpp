@@ -1,4 +1,4 @@
-// Parts of a flat density tree.
+// Subtrees of a flat density tree.
 #pragma once
 #include <vector>
 
@@ -6,10 +6,11 @@
 
 namespace deburr {
 
-/// The part of a tree below one of its nodes, as a tree of its own.
+/// The subtree below node `root` as a tree of its own, with the supports of its nodes.
 DensityTree part_below(const DensityTree& tree, int root);
 
-/// The nodes whose sum, or union, the tree is: the root alone where it is neither.
+/// The nodes whose sum or union the whole tree is, from left to right: the root alone if it is neither a sum nor a
+/// disjunction.
 std::vector<int> summands(const DensityTree& tree);
 
 }  // namespace deburr

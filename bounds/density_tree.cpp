@@ -17,12 +17,12 @@ struct Placement {
     Affine map;
 };
 
-// A subexpression that is still to be flattened, or an operator whose operands are done.
+// A subexpression that is still to be flattened, or an operator whose operands are flattened already.
 struct Task {
-    const DensityNode* node = nullptr;  // null: combine
+    const DensityNode* node = nullptr;  // null: combine the last `count` results by `op`
     Placement placement{};
     bool boolean = false;
-    Op op = Op::constant;  // combine
+    Op op = Op::constant;  // combine only
     int count = 0, line = 0;
 };
 
@@ -46,7 +46,8 @@ Op boolean_reading(Op op) {
 
 bool associative(Op op) { return op != Op::difference && op != Op::complement && op != Op::half_space; }
 
-// Every loop here keeps its own stack: scenes write chains as long as their loops.
+// Flattens an expression into a DensityTree. Every loop keeps a stack of its own instead of recursing: scenes write
+// chains as long as their loops.
 class Flattening {
 public:
     DensityTree run(const DensityNode& root, Placement placement, bool boolean) {
@@ -110,8 +111,9 @@ private:
         return add({Op::half_space, int(tree_.half_spaces.size()) - 1});
     }
 
-    // The draw of a coordinate that is a distance lies in [−offset, offset]; of a cone's, on this side of the axis and
-    // on the other.
+    // The leaf of a round part. Where the filter is wider than the part, the random draw of a distance must lie in
+    // [−offset, offset], and that of a cone's coordinate on this side of the axis and on the other (docs/design.md,
+    // Round primitives). Throws BadRoundPart.
     int round(const RoundPart& part, const Placement& placement) {
         const RoundCoordinate& c = part.coordinate;
         const double r = placement.radius;
@@ -139,7 +141,8 @@ private:
         return text.str();
     }
 
-    // The operands of a chain of one associative operator that the scene wrote in one place.
+    // The operands of a chain of one associative operator; the papers' sums and products count as one chain only if one
+    // line of the scene wrote them.
     std::vector<Task> chain(const DensityNode& node, Placement placement, bool boolean, Op op) const {
         std::vector<Task> operands, open;
         const auto expand = [&](const DensityNode& parent, const Placement& at) {
@@ -178,7 +181,7 @@ private:
     }
 
     DensityTree tree_;
-    std::shared_ptr<std::deque<RoundCoordinate>> rounds_;  // a deque: what points to it stays
+    std::shared_ptr<std::deque<RoundCoordinate>> rounds_;  // a deque, so that pointers to its elements stay valid
     std::vector<Task> tasks_;
     std::vector<int> done_;
 };
@@ -186,7 +189,7 @@ private:
 }  // namespace
 
 std::string count_text(double count) {
-    constexpr double exact = 1e15;  // counts below it are whole numbers in a double
+    constexpr double exact = 1e15;  // counts below this are whole numbers in a double
     if (count > exact) return "more than 10^15";
     return std::to_string(std::int64_t(count));
 }
@@ -202,7 +205,7 @@ HalfSpace transformed(const HalfSpace& h, const Affine& map, bool carry_radius) 
             carry_radius ? h.radius / length : h.radius};
 }
 
-// Carries the round parts along, radii and all.
+// Maps the round parts by `to_world`, radii included. Throws BadRoundPart where the map does not keep angles.
 static void carry_along(DensityTree& tree, const Affine& to_world) {
     const double scale = even_scale(to_world);
     if (scale == 0) throw BadRoundPart("expected a map that keeps angles");

@@ -9,13 +9,14 @@
 namespace deburr {
 namespace {
 
-// Of more half-spaces the tree's own range has to do: theirs sees what operands share, and takes longer.
+// The largest number of half-spaces of which a local density is made here. Its range is tighter than the tree's, as it
+// sees what operands share, and takes longer.
 constexpr std::size_t max_made_local = 24;
 
-// Of the whole, a box is not halved: what is thinner counts as unknown.
+// A box shorter than this fraction of the whole is not halved: sets that are thinner stay unknown.
 constexpr double thinnest = 1e-9;
 
-// Beyond this number of radii a half-space no longer varies.
+// A half-space's density varies over this number of radii at most.
 constexpr double reach = 2;
 
 struct Candidate {
@@ -30,7 +31,7 @@ std::int64_t size_of(const SolidTree& tree) {
     return std::int64_t(size);
 }
 
-// Where the box lies, by the leaves' tightest ranges.
+// The box's side with respect to the solid, by the tightest ranges of the leaves.
 Side side_of(const SolidTree& tree, const Box& box) {
     std::vector<Side> sides;
     for (const SolidTreeNode& n : tree.nodes) switch (n.op) {
@@ -41,7 +42,7 @@ Side side_of(const SolidTree& tree, const Box& box) {
                 Side side = Side::straddling;
                 if (!leaf.field && leaf.density.half_spaces.size() <= max_made_local) try {
                         side = classify(LocalDensity(leaf.density).range(box));
-                    } catch (const TooEntangled&) {  // then nothing more is known of it
+                    } catch (const TooEntangled&) {  // then nothing more is known of the leaf
                     }
                 sides.push_back(side);
                 break;
@@ -51,7 +52,7 @@ Side side_of(const SolidTree& tree, const Box& box) {
     return sides.back();
 }
 
-// The axis along which the half-spaces vary most, or the longest.
+// The axis along which α of some half-space changes most over the box; the longest axis if none changes.
 int axis_to_halve(const Candidate& now) {
     const Vec3 size = now.box.hi - now.box.lo;
     const double longest = std::max({size.x, size.y, size.z});
@@ -75,7 +76,7 @@ Emptiness emptiness(const SolidTree& tree, const Box& box, std::int64_t& nodes) 
     if (box.empty()) return Emptiness::empty;
     std::deque<Candidate> open;
     bool unknown = false;
-    // True where the box has a point of the set.
+    // Returns true if the part of the box has a point of the set; otherwise keeps it for halving if it may have one.
     const auto examine = [&](const SolidTree& from, const Box& part) {
         nodes -= size_of(from);
         Candidate here{prune(from, part), part};

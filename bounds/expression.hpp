@@ -1,5 +1,5 @@
-// Helpers for shared expressions of densities and of solids. Scenes write chains as long as their
-// loops, so nothing here recurses.
+// Helpers for the shared expressions of densities and of solids. Scenes write chains as long as their loops, so nothing
+// here recurses.
 #pragma once
 #include <iterator>
 #include <span>
@@ -27,7 +27,8 @@ void release(std::span<Handle> children) {
     dying = nullptr;
 }
 
-/// Replaces done[first …] by one node: neighbours are paired by add(a, b) until one is left.
+/// Replaces done[first …] by a single node: neighbours are paired by add(a, b), level by level, until one node is left.
+/// So a chain becomes a balanced tree.
 template <class Add>
 void combine_balanced(std::vector<int>& done, std::size_t first, Add add) {
     while (done.size() - first > 1) {

@@ -7,7 +7,7 @@
 namespace deburr {
 namespace {
 
-// Any field, carried along by an affine map.
+// A field carried along by an affine map; it wraps fields that have no better way (Field::transformed_by).
 class PlacedField final : public Field {
 public:
     PlacedField(FieldPtr inner, const Affine& map, const Affine& inverse)
@@ -43,7 +43,7 @@ public:
         const auto mesh = inner_->sharp_mesh();
         return mesh ? deburr::transformed(*mesh, map_) : nullptr;
     }
-    // Along the direction in which the map shrinks it most.
+    // The radius along the direction in which the map shrinks it most.
     double filter_radius() const override {
         const Mat3 square = glm::transpose(map_.linear) * map_.linear;
         const Vec3 v = eigensystem(square).values;
@@ -67,7 +67,7 @@ public:
     double last_sign_change_bound(Vec3 origin, Vec3 direction) const override {
         return inner_->last_sign_change_bound(inverse_(origin), inverse_.linear * direction);
     }
-    void begin_ray(FieldRay& ray) const override {  // from here on the ray is the inner field's
+    void begin_ray(FieldRay& ray) const override {  // from here on the ray is in the inner field's space
         ray.origin = inverse_(ray.origin);
         ray.direction = inverse_.linear * ray.direction;
         ray.field = inner_.get();

@@ -9,15 +9,16 @@
 
 namespace deburr {
 
-/// Calls work(i) for all i < count, or until one fails: of several errors that of the least i is thrown, at the end.
-/// One error is kept at a time, for without memory there is room for a few hundred exceptions only.
+/// Calls work(i) for all i < count on several threads. If calls throw, the rest is abandoned and the error of the least
+/// i that threw is rethrown at the end. Only one error is kept at a time, because a process that runs out of memory has
+/// room for only a few hundred exceptions.
 template <class Work>
 void in_parallel(std::size_t count, Work work) {
-    std::atomic<std::size_t> failed{count};  // the least i so far
+    std::atomic<std::size_t> failed{count};  // the least i that has thrown so far; `count` if none has
     std::exception_ptr error;
     std::mutex mutex;
     tbb::parallel_for(std::size_t(0), count, [&](std::size_t i) {
-        if (i > failed) return;  // what it might throw would not be told
+        if (i > failed) return;  // an error of a greater i would not be reported
         try {
             work(i);
         } catch (...) {
@@ -30,8 +31,8 @@ void in_parallel(std::size_t count, Work work) {
     if (error) std::rethrow_exception(error);
 }
 
-/// Calls work(first, last) for ranges of no more than `most` that make up all i < count; they depend on these two
-/// alone.
+/// Calls work(first, last) for consecutive ranges [first, last) of at most `most` numbers that together make up [0,
+/// count). The ranges depend on `count` and `most` alone, not on the number of threads.
 template <class Work>
 void in_parallel_ranges(std::size_t count, std::size_t most, Work work) {
     in_parallel((count + most - 1) / most, [&](std::size_t k) { work(k * most, std::min(count, (k + 1) * most)); });

@@ -10,17 +10,17 @@
 namespace deburr {
 namespace {
 
-// Sums of what is legal pass 1 by rounding; nothing to be seen comes of less than this.
+// Sums of legal densities exceed 1 by rounding; less than this shows nowhere.
 constexpr double tolerance = 1e-6;
-// Points where ρ is looked at lie off the middle, where no one puts planes.
+// ρ is evaluated at these fractions of a box's edges: off the middle, where no one puts planes.
 constexpr double off_middle[3] = {0.4142, 0.4472, 0.4690};
 
-// Of the whole, a box is not halved: faces that touch are there, and are equal but for rounding.
+// A box shorter than this fraction of the whole is not halved: faces that touch meet there, equal but for rounding.
 constexpr double thinnest = 1e-9;
 
 double excess(double rho) { return std::max(rho - 1, -rho); }
 
-// Where the planes of a tree are, and a radius around.
+// The part of space where planes and their filters are.
 Box reach_of(const DensityTree& tree) {
     double reach = 0;
     for (const HalfSpace& h : tree.half_spaces) reach = std::max(reach, std::abs(h.offset) + 2 * h.radius);
@@ -32,8 +32,9 @@ struct Candidate {
     Box box;
 };
 
-// Worst point found in [0, 1]'s outside; half of the boxes are taken widest first, half deepest
-// first: the one finds what is large, the other what is thin. Ends once `nodes` is spent, and counts it down.
+// Searches for the point where ρ is farthest outside of [0, 1]. Half of the boxes are taken breadth first and half
+// depth first: the one finds what is large, the other what is thin. The search ends once `nodes`, which is counted
+// down, is spent.
 IllegalDensity search(const DensityTree& tree, const Box& start, int boxes, std::int64_t& nodes) {
     IllegalDensity worst;
     double most = tolerance;
@@ -69,13 +70,13 @@ IllegalDensity search(const DensityTree& tree, const Box& start, int boxes, std:
         if (now.box.hi[axis] - now.box.lo[axis] < thinnest * glm::length(start.hi - start.lo)) continue;
         examine(now.tree, low);
         examine(now.tree, high);
-        if (most > 0.5) break;  // bad enough to be told
+        if (most > 0.5) break;  // bad enough to be reported
     }
     return worst;
 }
 
-// The nodes to search. Of a chain that one line wrote only the whole is: partial sums are no more than it,
-// partial differences no less, unless an operand is illegal by itself.
+// The nodes to search. Of a chain that one line of the scene wrote only the whole is searched: partial sums are no more
+// than it, and partial differences no less, unless an operand is illegal by itself.
 std::vector<int> suspects(const DensityTree& tree) {
     std::vector<char> covered(tree.nodes.size(), false);
     for (const TreeNode& n : tree.nodes) {
@@ -92,7 +93,7 @@ std::vector<int> suspects(const DensityTree& tree) {
     return all;
 }
 
-// How many nodes there are in and below each.
+// The number of nodes in the subtree of each node.
 std::vector<std::int64_t> sizes(const DensityTree& tree) {
     std::vector<std::int64_t> size(tree.nodes.size(), 1);
     for (std::size_t i = 0; i < tree.nodes.size(); ++i) {
@@ -119,7 +120,7 @@ std::vector<IllegalDensity> find_illegal(const DensityTree& tree, LegalityEffort
         effort.nodes -= share;
         share -= size[roots[k]];
         worst_of[k] = search(part_below(tree, roots[k]), start, effort.boxes, share);
-        effort.nodes += share;  // what is left of it
+        effort.nodes += share;  // the part that the search did not use
         worst_of[k].op = n.op;
         worst_of[k].line = n.line;
     }

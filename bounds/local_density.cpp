@@ -7,7 +7,7 @@
 namespace deburr {
 namespace {
 
-// Which nodes are Boolean functions of half-spaces, and so may be part of a diagram.
+// boolean[i]: whether node i is a Boolean function of half-spaces, so that it may be part of a diagram.
 void boolean_nodes(const DensityTree& tree, std::vector<char>& boolean) {
     boolean.clear();
     for (const TreeNode& n : tree.nodes) {
@@ -22,7 +22,8 @@ void boolean_nodes(const DensityTree& tree, std::vector<char>& boolean) {
     }
 }
 
-// Roots of the Boolean parts: used by the papers' arithmetic, or by nobody.
+// root[i]: whether node i is the root of a Boolean part: its parent is an operator of the papers' arithmetic, or it has
+// none.
 void roots_of_boolean_parts(const DensityTree& tree, const std::vector<char>& boolean, std::vector<char>& root) {
     root.assign(tree.nodes.size(), false);
     root.back() = boolean.back();
@@ -44,8 +45,9 @@ LocalDensity::LocalDensity(const DensityTree& tree) : rounds_(tree.rounds) {
     }
     nodes_.reserve(tree.nodes.size());
     half_spaces_.reserve(tree.half_spaces.size());
-    // Kept from one to the next of a thread.
-    thread_local std::vector<char> boolean, is_root, positive;  // never below 0, as far as the ops can tell
+    // These vectors are kept from one call to the next of a thread.
+    // positive: a node is never below 0, as far as its operators tell
+    thread_local std::vector<char> boolean, is_root, positive;
     thread_local std::vector<int> new_index;
     boolean_nodes(tree, boolean);
     roots_of_boolean_parts(tree, boolean, is_root);
@@ -86,7 +88,7 @@ int LocalDensity::add(Node node) {
     return int(nodes_.size()) - 1;
 }
 
-// Declared with the tree, so that who has one can ask it; made here of what is faster than a walk over it.
+// Declared with the tree, so that whoever has one can evaluate it; defined here, where local densities are.
 ValueGradient DensityTree::gradient_at(Vec3 x) const {
     return LocalDensity(prune(*this, Box{x, x}).tree).gradient_at(x);
 }

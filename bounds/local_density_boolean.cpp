@@ -1,4 +1,4 @@
-// The Boolean parts of a local density: as the decision nodes of a diagram, and with the polarity of every half-space.
+// Boolean parts of a local density: as decision nodes of a diagram, and the polarity of every half-space.
 #include <algorithm>
 
 #include "bounds/decision_diagram.hpp"
@@ -15,14 +15,15 @@ int LocalDensity::add_boolean(const DensityTree& tree, int root) {
     }
     const std::size_t first = half_spaces_.size();
     const DecisionDiagram diagram = build_diagram(tree, root);
-    // Of the diagram, what its root reaches.
+    // Only the nodes that the diagram's root reaches are added.
     std::vector<char> reached(diagram.nodes.size(), false);
     reached[diagram.root] = true;
     for (int i = int(diagram.nodes.size()) - 1; i >= 2; --i)
         if (reached[i])
             for (const int child : diagram.nodes[i].children) reached[child] = true;
 
-    std::vector<std::vector<int>> plane(diagram.families.size());  // of (family, threshold)
+    // index in half_spaces_ by family and threshold; −1: not added yet
+    std::vector<std::vector<int>> plane(diagram.families.size());
     for (std::size_t f = 0; f < plane.size(); ++f) plane[f].assign(diagram.families[f].thresholds.size(), -1);
     const auto plane_of = [&](int family, int threshold) {
         int& index = plane[family][threshold];
@@ -56,7 +57,7 @@ int LocalDensity::add_boolean(const DensityTree& tree, int root) {
     return new_index[diagram.root];
 }
 
-// Of the half-spaces from `first` on, which came from the Boolean function at `root`.
+// Polarities of the half-spaces from `first` on, which came from the Boolean function at node `root`.
 void LocalDensity::find_polarities(const DensityTree& tree, int root, std::size_t first) {
     enum : unsigned char { rises = 1, falls = 2 };
     const auto flipped = [](unsigned char p) {
@@ -66,7 +67,7 @@ void LocalDensity::find_polarities(const DensityTree& tree, int root, std::size_
     of_node.assign(tree.nodes.size(), 0);
     of_node[root] = rises;
     of_plane.assign(half_spaces_.size() - first, 0);
-    // Planes that the diagram took for one differ by less.
+    // Half-spaces that the diagram took for one plane differ by less than this.
     constexpr double same_direction = 1e-8, same_radius = 1e-8, same_offset = 1e-11;
     for (int i = root; i >= 0; --i) {
         const TreeNode& n = tree.nodes[i];

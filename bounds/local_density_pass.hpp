@@ -1,8 +1,8 @@
-// One pass over the nodes of a local density in any arithmetic: values alone, with gradients, or with slopes along a
-// ray.
+// One pass over the nodes of a local density in three arithmetics: values alone, values with gradients, and values with
+// slopes along a ray.
 //
 // A decision node with thresholds τ₀ … τₘ₋₁ and children c₀ … cₘ has the value Σ pⱼ cⱼ, where
-// pⱼ = F(τⱼ) − F(τⱼ₋₁). Collected by the F that is
+// pⱼ = F(τⱼ) − F(τⱼ₋₁). Ordered by F that is
 //
 //     V = cₘ + Σⱼ Fⱼ (cⱼ − cⱼ₊₁),
 //
@@ -32,12 +32,13 @@ inline ValueSlope operator*(ValueSlope a, ValueSlope b) {
     return {a.value * b.value, a.value * b.slope + b.value * a.slope};
 }
 
-// Beyond a plane's reach nothing depends on what lies there.
+// Where a half-space's density is 0 with slope 0, a decision does not depend on the children that it leads to.
 inline bool is_zero(double v) { return v == 0; }
 inline bool is_zero(const ValueGradient& v) { return v.value == 0 && v.gradient == Vec3(0.0); }
 inline bool is_zero(ValueSlope v) { return v.value == 0 && v.slope == 0; }
 
-/// The value of the last node. T: double, ValueGradient or ValueSlope; leaf(i): the density of half-space i as a T.
+/// The value of the last node, as a T: double, ValueGradient or ValueSlope. leaf(i) returns the density of half-space i
+/// as a T.
 template <class T, class Node, class Leaf>
 T evaluate_nodes(const std::vector<Node>& nodes, const std::vector<int>& children, Leaf leaf) {
     using Step = decltype(Node::step);

@@ -1,4 +1,4 @@
-// What a local density is, read off its steps: a product of half-spaces, a sum of such products.
+// A local density as a polynomial in the densities of its half-spaces: a single product, or a sum of products.
 #include <algorithm>
 
 #include "bounds/local_density.hpp"
@@ -55,7 +55,7 @@ std::optional<LocalDensity::Product> LocalDensity::as_product() const {
 
 bool LocalDensity::is_affine_in_each(const std::vector<int>& variable_of) const {
     if (convolution_ || field_) return false;
-    // Degrees, node by node, variable by variable.
+    // Degrees by node and variable.
     std::vector<std::vector<int>> degree;
     for (const Node& n : nodes_) {
         std::vector<int> d(variable_of.size(), 0);
@@ -86,20 +86,21 @@ bool LocalDensity::is_affine_in_each(const std::vector<int>& variable_of) const 
 
 namespace {
 
-// Whether their distances are of one coordinate, but for a plane's direction.
+// Whether the densities of both are functions of one coordinate: the same round one, or those of planes, whose normals
+// are compared elsewhere.
 bool same_coordinate(const HalfSpace& a, const HalfSpace& b) {
     return a.round && b.round ? a.round->is_same(*b.round) : !a.round && !b.round;
 }
 
-// A product's factors as sorted numbers: twice the half-space, and one more if it is flipped.
+// A weighted product. Factors are sorted numbers: twice the half-space's index, plus one if it is flipped (1 − F).
 struct Monomial {
     double weight = 1;
     std::vector<int> factors;
 };
 using Polynomial = std::vector<Monomial>;
 
-// Multiplies out, and makes use of parallel planes that do not vary in the same place: of nested F ⊂ G
-// F·G = F and G − F = G·(1 − F), of disjoint ones F·G = 0.
+// Multiplies polynomials out, using what is known of parallel planes whose filters do not overlap: where F ⊂ G are
+// nested, F·G = F and G − F = G·(1 − F); where they are disjoint, F·G = 0.
 class Multiplier {
 public:
     explicit Multiplier(const std::vector<HalfSpace>& half_spaces) {
@@ -112,7 +113,8 @@ public:
             };
             first_[i] = int(std::find_if(half_spaces.begin(), half_spaces.end(), same) - half_spaces.begin());
         }
-        // Where a factor is above 0, and where it is 1, along the plane's normal or the round part's coordinate.
+        // Extent of a factor along the plane's normal or the round part's coordinate: where it is above 0, and where it
+        // is 1.
         const auto factor = [&](std::size_t f) {
             const HalfSpace& h = half_spaces[f / 2];
             const bool above = f % 2 == 1;
@@ -176,7 +178,7 @@ private:
         m.factors.insert(std::lower_bound(m.factors.begin(), m.factors.end(), f), f);
     }
 
-    // Whether b is −a·F, for an F; then a becomes a·(1 − F).
+    // If b = −a·F for some factor F, a becomes a·(1 − F), the sum of both.
     bool take_away(Monomial& a, const Monomial& b) const {
         for (const int f : b.factors) {
             Monomial m = a;
@@ -188,7 +190,7 @@ private:
         return false;
     }
 
-    // Puts both into the first, if that can be.
+    // Replaces a by a + b if that is a monomial.
     bool join(Monomial& a, const Monomial& b) const {
         if (a.factors == b.factors) {
             a.weight += b.weight;
@@ -209,19 +211,19 @@ private:
                 continue;
             }
             sum.erase(sum.begin() + std::ptrdiff_t(i));
-            i = 0;  // what has become of m may join with others
+            i = 0;  // the new m may join with others
         }
         if (m.weight != 0) sum.push_back(std::move(m));
     }
 
-    std::vector<int> first_;  // of those that coincide with a half-space
+    std::vector<int> first_;  // first_[i]: the first half-space that coincides with i
     std::vector<Relation> relation_;
 };
 
 }  // namespace
 
 std::optional<LocalDensity::Sum> LocalDensity::as_sum(std::size_t max_terms) const {
-    constexpr std::size_t max_compared = 64;  // all pairs of them are compared
+    constexpr std::size_t max_compared = 64;  // half-spaces; all pairs are compared
     if (convolution_ || field_ || half_spaces_.size() > max_compared) return std::nullopt;
     const Multiplier multiplier(half_spaces_);
     const Polynomial one{{1, {}}};
@@ -249,7 +251,7 @@ std::optional<LocalDensity::Sum> LocalDensity::as_sum(std::size_t max_terms) con
                 break;
             }
         }
-        if (p.size() > 2 * max_terms) return std::nullopt;  // it would hardly become fewer
+        if (p.size() > 2 * max_terms) return std::nullopt;  // it would hardly shrink again
         expanded.push_back(std::move(p));
     }
     if (expanded.back().size() > max_terms + 1) return std::nullopt;

@@ -1,4 +1,4 @@
-// Ranges of a local density, and of its rate of change, over boxes and other regions.
+// Ranges of a local density and of its rate of change, over boxes and other regions.
 #include <algorithm>
 
 #include "bounds/local_density.hpp"
@@ -37,7 +37,7 @@ Range LocalDensity::range_from(OfHalfSpace leaf) const {
             case Step::decision: {
                 const int* thresholds = &children_[n.a];
                 const int* children = thresholds + n.b;
-                Range all = at(children[n.b]), least = all;  // the sum; the hull of the children
+                Range all = at(children[n.b]), least = all;  // range of the sum; hull of the children's ranges
                 for (int j = 0; j < n.b; ++j) {
                     const Range f = leaf(thresholds[j]), c = at(children[j]), next = at(children[j + 1]);
                     const double lo = c.lo - next.lo, hi = c.hi - next.hi;
@@ -103,8 +103,8 @@ Range LocalDensity::rate_range(std::span<const Range> half_spaces, std::span<con
             case Step::decision: {
                 const int* thresholds = &children_[n.a];
                 const int* children = thresholds + n.b;
-                // V and V' as the head of local_density.cpp has them. Averages of the children's values and rates lie
-                // within the children's, too.
+                // V and V′ as at the head of ray_density.cpp. They are averages of the children's values and rates, and
+                // so lie within the hull of these, too (V′ but for the half-spaces' own rates).
                 Range value = at(children[n.b]).value, values = value, own{0, 0};
                 Range rate = at(children[n.b]).rate, child_rates = rate;
                 for (int j = 0; j < n.b; ++j) {

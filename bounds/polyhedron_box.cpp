@@ -9,7 +9,7 @@ namespace {
 
 // ---- linear programs in up to three variables ------------------------------------------------------
 
-// a·x ≤ b. All numbers are scaled so that offsets are at most 1; |x| ≤ far stands for unbounded.
+// The constraint a·x ≤ b. All numbers are scaled so that offsets are at most 1; |x| ≤ far stands for unbounded.
 template <int D>
 struct Constraint {
     std::array<double, D> a;
@@ -17,7 +17,7 @@ struct Constraint {
 };
 
 constexpr double far = 1e6;
-// A constraint counts as violated past this, with coordinates of size 1 and normals of length 1.
+// A constraint counts as violated by more than this, with coordinates of size 1 and normals of length 1.
 constexpr double feasible = 1e-11;
 
 template <int D>
@@ -30,12 +30,12 @@ double dot(const std::array<double, D>& a, const std::array<double, D>& x) {
     return sum;
 }
 
-// Maximizes c·x within the constraints and |x_k| ≤ far; false if there is no such x.
+// Maximizes c·x subject to the constraints and |x_k| ≤ far; false if they have no solution. `x` is the optimum.
 template <int D>
 bool maximize(const std::vector<Constraint<D>>& constraints, const std::array<double, D>& c, Point<D>& x) {
     for (int k = 0; k < D; ++k) x[k] = c[k] < 0 ? -far : far;
     for (std::size_t i = 0; i < constraints.size(); ++i) {
-        const std::array<double, D>& a = constraints[i].a;  // not bound together: lambdas capture them
+        const std::array<double, D>& a = constraints[i].a;  // no structured binding, because lambdas capture them
         const double b = constraints[i].b;
         double size = 1;
         for (int k = 0; k < D; ++k) size = std::max(size, std::abs(x[k]));
@@ -91,7 +91,8 @@ bool maximize(const std::vector<Constraint<D>>& constraints, const std::array<do
     return true;
 }
 
-// A side of the box, scaled back. An unbounded program ends at `far`, or beside it after projections.
+// A side of the box in the caller's units, rounded outward. An unbounded program ends at `far`, or near it after
+// projections.
 double side(double value, double sign, double scale) {
     if (sign * value > 0.5 * far) return sign * infinity;
     return (value + sign * 1e-9 * std::max(1.0, std::abs(value))) * scale;
@@ -99,7 +100,7 @@ double side(double value, double sign, double scale) {
 
 bool is_along_axis(const Vec3& n) { return (n.x != 0) + (n.y != 0) + (n.z != 0) == 1; }
 
-// The same where every plane is at right angles to an axis, and so is a side.
+// polyhedron_box() for planes that are all perpendicular to an axis: the sides are read off.
 Box axis_parallel_box(const std::vector<BoundPlane>& planes, double scale) {
     Vec3 lo(-far), hi(far);
     for (const BoundPlane& p : planes)
@@ -126,7 +127,7 @@ Box polyhedron_box(const std::vector<BoundPlane>& planes) {
         return axis_parallel_box(planes, scale);
     std::vector<Constraint<3>> constraints;
     for (const BoundPlane& p : planes) constraints.push_back({{p.normal.x, p.normal.y, p.normal.z}, p.offset / scale});
-    // Any fixed disorder makes the expected time linear.
+    // A fixed pseudorandom order makes the expected time linear.
     std::uint64_t state = 1;
     for (std::size_t i = constraints.size(); i > 1; --i) {
         state = state * 6364136223846793005u + 1442695040888963407u;

@@ -1,4 +1,4 @@
-// The box of an intersection of half-spaces, by linear programs along the axes (Seidel 1991).
+// The bounding box of an intersection of half-spaces, by linear programs along the axes (Seidel 1991).
 #pragma once
 #include <vector>
 
@@ -6,11 +6,11 @@
 
 namespace deburr {
 
-/// Least box around { x : n·x ≤ offset for all planes }, but for a relative 10⁻⁹; sides at ±infinity
-/// where it is unbounded; empty where there is no such x.
+/// The least box around { x : n·x ≤ offset for all planes }, up to a relative 10⁻⁹, by which it may be larger. Sides
+/// are at ±infinity where the set is unbounded; the box is empty if there is no such x.
 Box polyhedron_box(const std::vector<BoundPlane>& planes);
 
-/// An intersection that is still gathering: of planes, and of a box that stands for all else.
+/// An intersection that is being gathered: of planes, and of the box `rest` around everything else.
 struct GatheredBox {
     Box rest = Box::everything();
     std::vector<BoundPlane> planes;
@@ -18,8 +18,9 @@ struct GatheredBox {
     Box box() const { return planes.empty() || rest.empty() ? rest : intersection(rest, polyhedron_box(planes)); }
 };
 
+/// The intersection of both, with the planes of both.
 GatheredBox intersect(GatheredBox a, GatheredBox b);
-/// The hull; planes end here.
+/// The union of both, as the hull of their boxes; no planes are left.
 GatheredBox unite(const GatheredBox& a, const GatheredBox& b);
 
 }  // namespace deburr

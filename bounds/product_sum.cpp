@@ -8,13 +8,13 @@ namespace deburr {
 
 namespace {
 
-// A product of a sum that is multiplied out.
+// A weighted product of the expansion; planes and rounds are indices in Expansion's lists.
 struct Product {
     double weight;
     std::vector<std::uint8_t> planes, rounds;
 };
 
-// A density's sum, multiplied out further until no round half-space is flipped, and the half-spaces in it.
+// A density's sum, multiplied out further until no round part is flipped, and the half-spaces that occur in it.
 class Expansion {
 public:
     explicit Expansion(const LocalDensity& density)
@@ -22,7 +22,7 @@ public:
           plane_of_(2 * half_spaces_.size(), -1),
           round_of_(half_spaces_.size(), -1) {}
 
-    // Adds a weighted product; false if a round half-space of it is not convex.
+    // Adds a weighted product; false if one of its round parts is not convex.
     bool add(const LocalDensity::Sum::Term& term) {
         std::vector<Product> parts{{term.weight, {}, {}}};
         for (const auto& [i, flipped] : term.factors) {
@@ -53,10 +53,10 @@ public:
     std::vector<Product> products;
     std::vector<AlphaPlane> planes;
     std::vector<ProductSum::Round> rounds;
-    double steepest = 0;  // the greatest slope of an α
+    double steepest = 0;  // the greatest |∇α| of a half-space
 
 private:
-    // The number of the half-space in `planes` or in `rounds`, where it is added if it is new.
+    // The index of the half-space in `planes` or `rounds`, to which it is appended if it is new.
     std::uint8_t number_of(int i, bool flipped) {
         const HalfSpace& h = half_spaces_[i];
         int& number = h.round ? round_of_[std::size_t(i)] : plane_of_[2 * std::size_t(i) + flipped];
@@ -70,7 +70,7 @@ private:
         return std::uint8_t(number);
     }
 
-    // P (1 − F) = P − P F: of the two sides of a round part one is convex.
+    // Multiplies by 1 − F, P (1 − F) = P − P F, because of the two sides of a round part only one is convex.
     static void subtract_products(std::vector<Product>& parts, std::uint8_t round) {
         const std::size_t before = parts.size();
         for (std::size_t k = 0; k < before; ++k) {
@@ -82,10 +82,11 @@ private:
     }
 
     const std::vector<HalfSpace>& half_spaces_;
-    std::vector<int> plane_of_, round_of_;  // of half-spaces, each as it is and flipped
+    std::vector<int> plane_of_, round_of_;  // index of each half-space in `planes` (as it is, and flipped) and in
+                                            // `rounds`; −1: not there yet
 };
 
-// The terms, without their reach; none if one has too many factors.
+// The terms of the sum, with a reach of infinity; the list is empty if a term has too many factors.
 std::vector<ProductSum::Term> terms_of(Expansion& sum) {
     std::vector<ProductSum::Term> terms;
     for (Product& product : sum.products) {
@@ -97,7 +98,7 @@ std::vector<ProductSum::Term> terms_of(Expansion& sum) {
     return terms;
 }
 
-// As ProductSum::coefficients() gives them, for `n` planes, of which the last may not be there.
+// ProductSum::coefficients(0 … 3), one after the other, for `n` planes; the last is 0 if there are fewer.
 std::vector<double> coefficients_of(const std::vector<AlphaPlane>& planes, std::size_t n) {
     std::vector<double> all(4 * n, 0.0);
     for (std::size_t i = 0; i < planes.size(); ++i) {
@@ -107,8 +108,8 @@ std::vector<double> coefficients_of(const std::vector<AlphaPlane>& planes, std::
     return all;
 }
 
-// ρ = ½ takes that terms of the one sign together make up for what c misses: of m terms one makes up
-// for 1/m of it, and then so does every factor of it. `clearance`: in α.
+// Sets each term's reach. On ρ = ½ the terms with the sign of `missing` = ½ − c make up for it together: of m such
+// terms one is at least missing/m, and so is each of its factors (divided by the weight). `clearance` is in α.
 void set_reaches(std::vector<ProductSum::Term>& terms, double missing, double clearance) {
     const auto helps = [&](const ProductSum::Term& term) { return missing * term.weight > 0; };
     const auto helpers = double(std::count_if(terms.begin(), terms.end(), helps));

@@ -1,14 +1,15 @@
-// Densities multiplied out, ρ = c + Σ wₖ Pₖ with few products Pₖ of half-spaces and convex round parts: what edges and
-// corners are that are no product themselves, the rim of a hole (P − Q) before all. Where a ray crosses ρ = ½.
+// Densities multiplied out, ρ = c + Σ wₖ Pₖ with few products Pₖ of half-spaces and convex round parts, and where a ray
+// crosses ρ = ½. Edges and corners that are not a product themselves have this form, above all the rim of a hole (P −
+// Q).
 //
 // Along a ray log Pₖ is concave (convex_density.hpp, round_product.hpp), so ℓ = Pₖ′/Pₖ falls: between two points a < b
 //
 //     ℓ(b) ≤ Pₖ′/Pₖ ≤ ℓ(a)   and   min(Pₖ(a), Pₖ(b)) ≤ Pₖ ≤ Pₖ(a) exp(ℓ(a)(t − a)), Pₖ(b) exp(ℓ(b)(t − b)),
 //
-// which bounds every Pₖ′, hence f′ of f = ρ − ½, by what was evaluated anyway. A stretch in which f′ has
-// one sign holds one crossing at most; one at whose ends f has the same sign holds none if f′ is too
-// small in between. What is neither is halved. So the first crossing is found as surely as by M, L and
-// G (root_finder.hpp), in fewer steps, and none of them looks at each half-space but to evaluate.
+// This bounds every Pₖ′, and so f′ of f = ρ − ½, by values that were computed anyway. A segment in which f′ has one
+// sign holds one crossing at most; one at whose ends f has the same sign holds none if f′ is too small in between. Any
+// other segment is halved. So the first crossing is found as surely as with M, L and G (root_finder.hpp), in fewer
+// steps, each of which does nothing for a half-space but evaluate it.
 #pragma once
 #include <cstdint>
 #include <optional>
@@ -20,16 +21,19 @@
 
 namespace deburr {
 
+/// The density, immutable after construction.
 class ProductSum {
 public:
     static constexpr int max_terms = 6;
-    static constexpr int max_planes = 32;  // and round parts among them
+    static constexpr int max_planes = 32;  // planes and round parts together
     static constexpr int max_rounds = 4;
 
+    /// One product wₖ Pₖ.
     struct Term {
         double weight;
-        std::vector<std::uint8_t> factors;  // planes, then round parts from planes() on; one may occur twice
-        double reach;                       // the surface is where some term with a finite one has no α beyond it
+        std::vector<std::uint8_t> factors;  // indices: planes, then round parts from planes() on; an index may occur
+                                            // twice
+        double reach;  // on ρ = ½, α ≤ reach for all factors of some term with a finite reach (unless anywhere())
     };
 
     /// A round part with a convex coordinate: α = (u − offset)·inverse_radius.
@@ -38,17 +42,20 @@ public:
         double offset, inverse_radius;
     };
 
-    /// The density in that form, if it has it: nothing is sharp, round parts are convex, and terms are few.
-    /// `clearance`: as bound planes keep clear (csg_bounds.hpp).
+    /// The density in that form, if it has it: nothing is sharp, round parts are convex, and there are at most as many
+    /// terms and half-spaces as above. `clearance` is the world distance by which bound planes are displaced
+    /// (csg_bounds.hpp).
     static std::optional<ProductSum> of(const LocalDensity& density, double clearance);
 
     int planes() const { return planes_; }
     const std::vector<Round>& rounds() const { return rounds_; }
     const std::vector<Term>& terms() const { return terms_; }
     double constant() const { return constant_; }
-    bool anywhere() const { return anywhere_; }  // no term's reach says where the surface is
-    /// Coordinate k of the gradient of every α; k = 3: α at the origin. As many as even_planes().
+    bool anywhere() const { return anywhere_; }  // the reaches do not bound the surface
+    /// Coefficient k of every plane's α: coordinate k of its gradient, or for k = 3 its value at the origin. The array
+    /// has even_planes() elements.
     const double* coefficients(int k) const { return coefficients_.data() + k * even_planes(); }
+    /// planes(), rounded up to an even number.
     int even_planes() const { return planes_ + (planes_ & 1); }
 
 private:
@@ -60,36 +67,39 @@ private:
     bool anywhere_ = false;
 };
 
-/// A ray's view of it. Keeps its memory; to be used again and again.
+/// A ProductSum along a ray o + t·d. The object keeps its memory, so it is cheap to set again and again.
 class ProductSumRay {
 public:
+    /// Sets the ray. Keeps a reference to `sum`.
     void set(const ProductSum& sum, const Vec3& origin, const Vec3& direction);
 
-    /// ρ > ½?
+    /// Whether ρ > ½ at t.
     bool inside(double t) const;
-    /// All crossings of ρ = ½ in [t0, t1], in order, to within `t_tolerance`; `coarse`: no matter where
-    /// exactly. visit(RootCrossing) says whether to go on.
+    /// Finds all crossings of ρ = ½ in [t0, t1], in order, to within `t_tolerance` in t; with `coarse` their t may be
+    /// anywhere in the bracketing segment. visit(RootCrossing) returns whether to go on. t1 may be infinite.
     template <class Visit>
     void crossings(double t0, double t1, double t_tolerance, bool coarse, RootCounters& counters, Visit visit);
 
+    /// ∇ρ at o + t·d.
     Vec3 gradient(double t) const;
 
-    /// f and its slope at a point of the ray.
+    /// f = ρ − ½ and its slope f′ at a point of the ray.
     struct Point {
         double t, f, slope;
-        double value[ProductSum::max_terms], rate[ProductSum::max_terms];  // of every Pₖ that varies
+        // of every Pₖ that varies: value and derivative
+        double value[ProductSum::max_terms], rate[ProductSum::max_terms];
     };
     struct SlopeRange {
         double lo, hi;
     };
 
     // The steps of the search.
-    /// Cuts [t0, t1] down to where the surface can be, and the factors to those whose densities vary there;
-    /// false if nothing is left.
+    /// Cuts [t0, t1] down to where the surface can be, and the factors to those whose densities vary there; false if
+    /// nothing is left.
     bool narrow(double& t0, double& t1);
-    /// evaluate() and slopes() are valid only within the interval that narrow() left.
+    /// Evaluates f at t, which must lie in the interval that narrow() left; so must the arguments of slopes().
     void evaluate(double t, RootCounters& counters, Point& point) const;
-    SlopeRange slopes(const Point& a, const Point& b) const;  // f′ between two points, a before b
+    SlopeRange slopes(const Point& a, const Point& b) const;  // range of f′ between a and b, a.t < b.t
 
 private:
     void reach(const ProductSum::Term& term, double& lo, double& hi) const;
@@ -112,24 +122,24 @@ private:
     struct Term {
         double weight;
         int count, rounds;
-        std::uint8_t factors[max_planes];  // as many planes as `count` says, then round parts
+        std::uint8_t factors[max_planes];  // `count` planes, then `rounds` round parts
     };
 
     const ProductSum* sum_ = nullptr;
-    alignas(16) double a_[max_planes], b_[max_planes];  // every α = a + b·t
+    alignas(16) double a_[max_planes], b_[max_planes];  // α of every plane is a + b·t
     RoundOnRay on_ray_[max_rounds];
     Vec3 origin_{0.0}, direction_{0.0};
-    // Of those that vary.
+    // Factors and terms that vary in the interval that narrow() left.
     alignas(16) double varying_a_[max_planes + 1], varying_b_[max_planes + 1];
     int varying_ = 0, terms_ = 0;
     Term term_[ProductSum::max_terms];
-    double constant_ = 0;   // the rest of f
-    double curvature_ = 0;  // |f″| at most
+    double constant_ = 0;   // f without the terms that vary
+    double curvature_ = 0;  // upper bound of |f″|
     std::vector<Point> stack_;
 };
 
-/// Whether a function with the signs and slopes of these ends, and with slopes between them in the
-/// range, has at most one root between them; as far as |f| > 2 · `f_tolerance`.
+/// True if every function with the values and slopes of these ends, whose slopes between them lie in the range, has at
+/// most one root between them; roots where |f| stays below 2 · `f_tolerance` do not count.
 bool at_most_one_root(const ProductSumRay::Point& a, const ProductSumRay::Point& b, ProductSumRay::SlopeRange slopes,
                       double f_tolerance);
 

@@ -28,10 +28,10 @@ void ProductSumRay::set(const ProductSum& sum, const Vec3& origin, const Vec3& d
     for (std::size_t i = 0; i < sum.rounds().size(); ++i) on_ray_[i].set(sum.rounds()[i].coordinate, origin, direction);
 }
 
-// Of every plane and round part: density, and its slope by α.
+// Density of every plane and round part at t, and its slope by α.
 void ProductSumRay::densities(double t, double* F, double* slope) const {
     const int planes = sum_->planes(), rounds = int(sum_->rounds().size());
-    for (int i = 0; i < planes; i += 2) {  // a plane too many is overwritten
+    for (int i = 0; i < planes; i += 2) {  // an odd last plane's partner is overwritten below
         const DoublePair c = clamped_alpha(pair_at(a_ + i) + pair_at(b_ + i) * t), u = 1 - c;
         set_pair(F + i, u * u * (2 + c) * 0.25);
         set_pair(slope + i, -0.75 * u * (1 + c));
@@ -58,9 +58,9 @@ bool ProductSumRay::inside(double t) const {
 Vec3 ProductSumRay::gradient(double t) const {
     alignas(16) double F[max_planes + 1], slope[max_planes + 1];
     densities(t, F, slope);
-    double share[max_planes] = {};  // of every factor: dρ/dα
+    double share[max_planes] = {};  // dρ/dα of every factor
     for (const ProductSum::Term& term : sum_->terms()) {
-        double before[max_planes];  // the product of the factors before
+        double before[max_planes];  // product of the factors before factor k
         double P = term.weight;
         for (std::size_t k = 0; k < term.factors.size(); ++k) {
             before[k] = P;
@@ -84,7 +84,7 @@ Vec3 ProductSumRay::gradient(double t) const {
     return sum;
 }
 
-// Cuts [lo, hi] down to where no factor's α is beyond the term's reach.
+// Cuts [lo, hi] down to where α ≤ reach for all factors of the term.
 void ProductSumRay::reach(const ProductSum::Term& term, double& lo, double& hi) const {
     for (const int i : term.factors) {
         if (i < sum_->planes()) {
@@ -115,7 +115,7 @@ void ProductSumRay::reach(const ProductSum::Term& term, double& lo, double& hi) 
     }
 }
 
-// From where on no factor varies.
+// A ray parameter beyond which no factor varies.
 double ProductSumRay::last_change(double t0) const {
     double t = t0;
     for (int i = 0; i < sum_->planes(); ++i)
@@ -131,7 +131,7 @@ double ProductSumRay::last_change(double t0) const {
 }
 
 bool ProductSumRay::narrow(double& t0, double& t1) {
-    // To where a term that can supply the surface reaches.
+    // To the hull of where terms with a finite reach can supply the surface.
     double begin = sum_->anywhere() ? t0 : infinity, end = sum_->anywhere() ? t1 : -infinity;
     for (const ProductSum::Term& term : sum_->terms()) {
         if (term.reach == infinity) continue;
@@ -151,7 +151,7 @@ bool ProductSumRay::narrow(double& t0, double& t1) {
 bool ProductSumRay::choose_varying(double t0, double t1) {
     constexpr int one = -1, zero = -2;
     int new_index[max_planes];
-    double rate[max_planes], bend[max_planes];  // |α′| and |α″| at most
+    double rate[max_planes], bend[max_planes];  // bounds of |α′| and |α″|
     varying_ = 0;
     const int planes = sum_->planes(), rounds = int(sum_->rounds().size());
     for (int i = 0; i < planes; ++i) {
@@ -168,7 +168,7 @@ bool ProductSumRay::choose_varying(double t0, double t1) {
         rate[i] = std::abs(b_[i]);
         bend[i] = 0;
     }
-    varying_a_[varying_] = varying_b_[varying_] = 0;  // evaluated with the last, if their number is odd
+    varying_a_[varying_] = varying_b_[varying_] = 0;  // evaluated along with the last plane if their number is odd
     for (int i = 0; i < rounds; ++i) {
         const ProductSum::Round& r = sum_->rounds()[std::size_t(i)];
         const Range u = on_ray_[i].range(t0, t1);
@@ -200,7 +200,7 @@ bool ProductSumRay::choose_varying(double t0, double t1) {
             constant_ += term.weight;
             continue;
         }
-        // |F′| ≤ ¾ |α′|, |F″| ≤ 3/2 α′² + ¾ |α″|.
+        // |F′| ≤ ¾ |α′|, |F″| ≤ 3/2 α′² + ¾ |α″| for each factor.
         curvature_ += std::abs(term.weight) * (1.5 * squares + 0.5625 * (rates * rates - squares) + 0.75 * bends);
         ++terms_;
     }
@@ -249,11 +249,11 @@ void ProductSumRay::evaluate(double t, RootCounters& counters, Point& p) const {
 
 namespace {
 
-// Below this a product counts as 0: its logarithm's slope may overflow.
+// Products below this count as 0, because the slope of their logarithm may overflow.
 constexpr double min_product = 1e-200;
 
-// From above: eˣ for x ≥ 0, log x; exact to the square at 0 and 1. The library's need not be the same
-// everywhere.
+// Upper bounds of eˣ for x ≥ 0 and of log x, exact to second order at 0 and 1. The C library's functions need not
+// return the same bits everywhere.
 double exponential(double x) { return x < 2 ? (2 + x) / (2 - x) : infinity; }
 double logarithm(double x) { return x < 1 ? 2 * (x - 1) / (x + 1) : 0.5 * (x - 1 / x); }
 
@@ -266,12 +266,12 @@ ProductSumRay::SlopeRange ProductSumRay::slopes(const Point& a, const Point& b) 
         const double Pa = a.value[k], Pb = b.value[k];
         SlopeRange r;
         if (Pa > min_product && Pb > min_product) {
-            // Its logarithm's slope falls.
+            // log P is concave: its slope falls from la to lb.
             const double la = a.rate[k] / Pa, lb = b.rate[k] / Pb;
             const double least = std::min(Pa, Pb);
             double most = std::max(Pa, Pb);
             if (la > 0 && lb < 0) {
-                // No higher than where the tangents of log P meet is from either end.
+                // P is no greater than where the tangents of log P at the two ends meet.
                 const double meet = (logarithm(Pb / Pa) - lb * length) / (la - lb);
                 most = std::min(1.0, Pa * exponential(la * std::clamp(meet, 0.0, length)));
             }
@@ -286,7 +286,7 @@ ProductSumRay::SlopeRange ProductSumRay::slopes(const Point& a, const Point& b) 
     return sum;
 }
 
-// One of the ends is outside of the stretch in which every factor is above 0, or nearly.
+// Range of P′ where one end lies (nearly) outside of the stretch in which every factor is above 0.
 ProductSumRay::SlopeRange ProductSumRay::slopes_near_zero(int k, const Point& a, const Point& b) const {
     RayBounds all{1, 0, 0};
     for (int j = 0; j < term_[k].count; ++j) {
@@ -303,7 +303,8 @@ ProductSumRay::SlopeRange ProductSumRay::slopes_near_zero(int k, const Point& a,
             all, half_space_bounds((u.lo - r.offset) * r.inverse_radius, (u.hi - r.offset) * r.inverse_radius,
                                    on_ray_[i].max_slope(a.t, b.t) * r.inverse_radius));
     }
-    // A logarithm that rises still has risen before.
+    // P is log-concave: if it rises at the end it has risen throughout, and if it falls at the start it falls
+    // throughout.
     return {b.rate[k] > 0 ? 0 : -all.L, a.rate[k] < 0 ? 0 : all.L};
 }
 
@@ -314,7 +315,7 @@ bool at_most_one_root(const ProductSumRay::Point& a, const ProductSumRay::Point&
     const bool near_zero_ends = std::abs(a.f) <= f_tolerance && std::abs(b.f) <= f_tolerance;
     if (near_zero_ends && std::max(slopes.hi, -slopes.lo) * length <= f_tolerance) return true;
     if ((a.f > 0) != (b.f > 0)) return false;
-    // Least |f|: falling from either end as fast as can be.
+    // The least |f| if f falls from both ends as fast as it can.
     const double sign = a.f > 0 ? 1 : -1;
     const double falling = a.f > 0 ? slopes.lo : -slopes.hi, rising = a.f > 0 ? slopes.hi : -slopes.lo;
     const double fa = sign * a.f, fb = sign * b.f;
@@ -322,8 +323,8 @@ bool at_most_one_root(const ProductSumRay::Point& a, const ProductSumRay::Point&
     return least > 0 || (near_zero_ends && least > -2 * f_tolerance);
 }
 
-// Newton's method within the bracket. With |f″| ≤ G and step = f/f′, h = G |step/f′| ≤ ½ leaves an error of
-// 2h |step| at most [Kantorovich].
+// The root between two ends of opposite sign, by Newton's method kept within the bracket. With |f″| ≤ G and step =
+// f/f′, h = G |step/f′| ≤ ½ leaves an error of 2h |step| at most [Kantorovich].
 double ProductSumRay::root(const Point& from, const Point& until, double t_tolerance, RootCounters& counters) const {
     struct End {
         double t, f, slope;
@@ -333,8 +334,8 @@ double ProductSumRay::root(const Point& from, const Point& until, double t_toler
     Point at;
     const double sign = b.f > 0 ? 1 : -1;  // f·sign rises through 0 from a to b
     End p = std::abs(a.f) < std::abs(b.f) ? a : b;
-    double last = b.t - a.t;         // step
-    constexpr int max_steps = 2000;  // halving doubles ends before
+    double last = b.t - a.t;         // length of the last step
+    constexpr int max_steps = 2000;  // halving alone exhausts a double's range before
     for (int k = 0; k < max_steps && b.t - a.t > t_tolerance; ++k) {
         if (p.f == 0) return p.t;
         const double step = -p.f / p.slope;
@@ -344,7 +345,7 @@ double ProductSumRay::root(const Point& from, const Point& until, double t_toler
         if (k == 0 || !(t > a.t && t < b.t) || std::abs(step) > 0.5 * last) {
             const double length = b.t - a.t;
             if (k == 0) {
-                // The cubic through both ends, by two of Newton's steps from the chord.
+                // First the root of the cubic through both ends, by two Newton steps from the chord's root.
                 const double ca = a.slope * length, cb = b.slope * length, rise = b.f - a.f;
                 const double c2 = 3 * rise - 2 * ca - cb, c3 = ca + cb - 2 * rise;
                 double x = -a.f / rise;

@@ -10,8 +10,8 @@
 namespace deburr {
 namespace {
 
-// u in [0, 1] with u²(3 − u)/4 = q, q in [0, ½]. Starting above the root the iteration falls
-// monotonically, as u²(3 − u) is convex on [0, 1]; √(4q/3) lies below, one step carries it above.
+// Root u in [0, 1] of u²(3 − u)/4 = q, for q in [0, ½]. Newton's method from above the root falls monotonically,
+// because u²(3 − u) is convex on [0, 1]; the start √(4q/3) lies below the root, and one step carries it above.
 double cap_height(double q) {
     double u = std::sqrt(q * (4.0 / 3.0));
     for (int step = 0; step < 5; ++step) {
@@ -27,7 +27,7 @@ double cap_height(double q) {
 double displacement(double rho) {
     if (!(rho > 0)) return 1;
     if (rho >= 1) return -1;
-    constexpr double end = 0.05;  // below it arcsin's error grows past that of Newton's step
+    constexpr double end = 0.05;  // below it arcsin's error exceeds that of Newton's method
     if (rho < end) return 1 - cap_height(rho);
     if (rho > 1 - end) return cap_height(1 - rho) - 1;
     return -2 * std::sin(std::asin(2 * rho - 1) / 3);

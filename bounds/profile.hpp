@@ -24,7 +24,7 @@ inline double profile_slope(double alpha) {
 /// 1 at ρ = 0 to −1 at ρ = 1; ½ gives exactly 0. Values outside [0, 1] give the nearer end.
 double displacement(double rho);
 
-/// profile(displacement(ρ)) misses ρ by less than this; bound planes keep clear by it.
+/// |profile(displacement(ρ)) − ρ| is less than this; bound planes are displaced by so much more in ρ.
 constexpr double inverse_slack = 8 * std::numeric_limits<double>::epsilon();
 
 }  // namespace deburr

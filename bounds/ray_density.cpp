@@ -2,13 +2,13 @@
 //
 //     V = cₘ + Σⱼ Fⱼ (cⱼ − cⱼ₊₁),
 //
-// affine in every Fⱼ = profile((n·x − τⱼ)/r), from which slopes and bounds follow term by term:
+// affine in every Fⱼ = profile((n·x − τⱼ)/r). Slopes and bounds follow term by term:
 //
-//     V′ = cₘ′ + Σ Fⱼ′ (cⱼ − cⱼ₊₁) + Fⱼ (cⱼ′ − cⱼ₊₁′),   and the second parts of it are Σ pⱼ cⱼ′,
+//     V′ = cₘ′ + Σ Fⱼ′ (cⱼ − cⱼ₊₁) + Fⱼ (cⱼ′ − cⱼ₊₁′), where cₘ′ and the last terms add up to Σ pⱼ cⱼ′,
 //     L(V) = Σ L(Fⱼ) max(Mⱼ, Mⱼ₊₁) + maxⱼ Lⱼ
 //     G(V) = Σ G(Fⱼ) max(Mⱼ, Mⱼ₊₁) + 2 Σ L(Fⱼ)(Lⱼ + Lⱼ₊₁) + maxⱼ Gⱼ
 //
-// as children lie in [0, M]: slopes of children are averaged with weights pⱼ ≥ 0 of sum 1.
+// because children lie in [0, M], and their slopes are averaged with weights pⱼ ≥ 0 of sum 1.
 #include "bounds/local_density.hpp"
 
 #include <algorithm>
@@ -78,12 +78,13 @@ void RayDensity::evaluate_rounds(double t) const {
     }
 }
 
-// With g, the even function of the distance s from the axis that the parts of one coordinate make up,
+// M, L and G of a round part. Let g be the even function of the distance s from the axis that the parts of one
+// coordinate make up together. Then
 //
 //     ρ″ = g″ s′² + g′ s″,     s″ ≤ speed²/s,     |g′| ≤ s·sup|g″|,
 //
-// so that g′ s″ ≤ speed²·sup|g″| wherever the ray comes near to the axis. A cone's two parts are a function of s and t
-// that is even in s, with across²·(3/2 + 3/2 + 2·(¾)²)/r² as the bound of its second derivative by s.
+// so that g′ s″ ≤ speed²·sup|g″| wherever the ray comes near the axis. The two parts of a cone are a function of s and
+// t that is even in s, and whose second derivative by s is bounded by across²·(3/2 + 3/2 + 2·(¾)²)/r².
 RayBounds round_part_bounds(const HalfSpace& part, const RoundOnRay& on_ray, double t0, double t1) {
     const Range u = on_ray.range(t0, t1);
     const double r = part.radius, lo = (u.lo - part.offset) / r, hi = (u.hi - part.offset) / r;
@@ -95,13 +96,14 @@ RayBounds round_part_bounds(const HalfSpace& part, const RoundOnRay& on_ray, dou
     const double nearest = std::clamp(lo > 0 ? lo : hi < 0 ? -hi : 0.0, 0.0, 1.0);
     const double farthest = std::min(1.0, std::max(-lo, hi));
     const double slope = on_ray.max_slope(t0, t1) / r, steepest = 0.75 * (1 - nearest * nearest);
-    constexpr double most = 1e200;  // products with 0 stay numbers
+    constexpr double most = 1e200;  // finite, so that products with 0 are not NaN
     const double alone = steepest > 0 ? std::min(steepest * on_ray.max_curvature(t0, t1) / r, most) : 0;
     const double along = 1.5 * farthest * slope * slope;
     if (!is_near) return {profile(lo), steepest * slope, along + alone};
     const double square = on_ray.square_of_speed() / (r * r);
     if (is_cone) return {1, steepest * slope, along + 4.2 * c.across * c.across * square};
-    // Beside a circle its distance is that from a point, but for the bend of the circle, which is no more again.
+    // Near a circle the distance from it is that from a point, but for the circle's curvature, which adds no more than
+    // as much again.
     const double together = (c.kind == RoundCoordinate::Kind::circle ? 3.0 : 1.5) * square;
     return {profile(lo), steepest * slope, along + (std::abs(part.offset) < r ? together : std::min(alone, together))};
 }

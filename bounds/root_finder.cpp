@@ -1,12 +1,11 @@
-// The least time to a turning point beyond a root, for |f′| ≤ L and |f″| ≤ G, mirrored so that
-// f > 0 at the start, where the slope is s (s > 0: away from the root). The quickest way to reach
-// f = 0 and then f′ = 0 is to push towards the root with full force, f″ = −G, and to brake with
-// f″ = +G so that f′ = 0 just after the root; as the root may be passed with any small speed, the
-// bound is the time to come to rest at f = 0:
+// Derivation of min_turning_distance(): the least time to a turning point beyond a root for |f′| ≤ L and |f″| ≤ G. The
+// problem is mirrored so that f > 0 at the start, where the slope is s (s > 0: away from the root). The quickest way to
+// reach f = 0 and then f′ = 0 is to accelerate towards the root with f″ = −G, and to brake with f″ = +G so that f′ = 0
+// just after the root. As the root may be passed at any small speed, the bound is the time to come to rest at f = 0:
 //   - accelerating from s to −w and braking to 0 covers f = w²/G − s²/2G, so w = √(Gf + s²/2),
 //     and takes (s + w)/G + w/G;
 //   - if s < 0 already and braking at once stops beyond the root (s² ≥ 2Gf), it takes −s/G;
-//   - if w > L the speed stays at L for the rest of the way, (f + s²/2G − L²/G)/L longer.
+//   - if w > L, the speed stays at L for part of the way, (f + s²/2G − L²/G)/L longer.
 #include "bounds/root_finder.hpp"
 
 #include <algorithm>
@@ -19,7 +18,7 @@ namespace deburr {
 double min_turning_distance(SegmentEnd end, RayBounds bounds) {
     const auto [M, L, G] = bounds;
     const double f = std::abs(end.f);
-    // At f = 0 the root is there already: any slope leads beyond it.
+    // At f = 0 the root is at the start itself: any slope leads beyond it.
     const double s = end.f > 0 ? end.slope : end.f < 0 ? -end.slope : -std::abs(end.slope);
     if (!(L > 0)) return infinity;  // f is constant
     if (!(G > 0)) return infinity;  // f is straight: no turning point
@@ -42,7 +41,7 @@ bool at_most_one_root(SegmentEnd start, SegmentEnd end, RayBounds bounds, double
     return distance(start, bounds) + distance(end, bounds) > length;
 }
 
-// Regula falsi, with a bisection after every step that did not halve the bracket.
+// Regula falsi, with a bisection after every step that did not halve the bracket [a, b].
 template <class OnRay>
 double RootFinder::root(const OnRay& function, Point a, Point b) {
     const double sign = b.f > 0 ? 1 : -1;  // f·sign rises through 0 from a to b
@@ -50,7 +49,7 @@ double RootFinder::root(const OnRay& function, Point a, Point b) {
         const double length = b.t - a.t;
         double t = a.t - a.f * (length / (b.f - a.f));
         for (int step = 0; step < 2; ++step) {
-            // Off the ends by a little, so that a root beside one of them is soon bracketed.
+            // t is kept off the ends by a little, so that a root beside one of them is soon bracketed.
             t = std::clamp(t, a.t + 0.5 * settings_.t_tolerance, b.t - 0.5 * settings_.t_tolerance);
             if (!(t > a.t && t < b.t)) return b.t;
             const Point p = evaluate(function, t);

@@ -1,4 +1,4 @@
-// Roots of f(t) = ρ(o + t·d) − ½ on a ray segment; of a field (field.hpp), of f itself.
+// Roots of f(t) = ρ(o + t·d) − ½ on a ray segment. For a field (field.hpp) f is the field itself.
 //
 // A segment is halved until it provably holds at most one root [Lobb §3.4.2, after Kalra & Barr
 // 1989]; the signs at its ends then tell whether it holds one, and regula falsi with interleaved
@@ -6,7 +6,7 @@
 // negligibly short.
 //
 //   t      ray parameter: a world distance where |d| = 1
-//   f      dimensionless
+//   f      dimensionless; a field's f is in the unit that the field chose for the ray
 //   slope  f′ per unit of t, pointing *into* the segment at either end
 #pragma once
 #include <cmath>
@@ -16,66 +16,70 @@
 
 namespace deburr {
 
-/// When a segment counts as holding at most one root.
+/// How it is proved that a segment holds at most one root.
 enum class Criterion {
     exact,  // the least time to a turning point beyond a root, over all functions within the bounds
-    lobb    // eq. 6, turn-around distance; unsound, for reproducing the paper
+    lobb    // eq. 6, turn-around distance; unsound, kept to reproduce the paper
 };
 
+/// f at one end of a segment, and its slope f′ pointing into the segment.
 struct SegmentEnd {
     double f, slope;
 };
 
 /// Least distance from `end` to a turning point of f beyond a root, over every f with |f′| ≤ L and
 /// |f″| ≤ G; infinity where there can be none.
-/// Printed differently: for f = 0⁺ and slope > 0 eq. 6 claims 3|ρ′|/G where (1 + √2)|ρ′|/G is
-/// enough, and so accepts segments that hold two roots.
+/// Printed differently: for f = 0⁺ and slope > 0 eq. 6 claims 3|ρ′|/G, where (1 + √2)|ρ′|/G can be reached; it
+/// therefore accepts segments that hold two roots.
 double min_turning_distance(SegmentEnd end, RayBounds bounds);
 
 /// The same distance as the paper's eq. 6 claims it, turn-around distance included.
 double lobb_turning_distance(SegmentEnd end, RayBounds bounds);
 
-/// Exact: true only if the segment provably holds at most one root; false says nothing.
+/// True only if a segment of this length provably holds at most one root (with Criterion::exact); false says nothing.
 bool at_most_one_root(SegmentEnd start, SegmentEnd end, RayBounds bounds, double length,
                       Criterion criterion = Criterion::exact);
 
+/// What a search has cost: segments that were looked at, segments that were halved, and evaluations of f.
 struct RootCounters {
     std::uint64_t segments = 0, splits = 0, evaluations = 0;
 };
 
 struct RootSettings {
     Criterion criterion = Criterion::exact;
-    double t_tolerance = 1e-14;  // a segment no longer than this is not cut again, and roots are
-                                 // found to within it
+    double t_tolerance = 1e-14;  // in t: a shorter segment is not halved, and roots are found to within it
     double f_tolerance = 1e-9;   // f counts as 0 where |f| provably stays below twice this
 };
 
-/// Exact: whether |f| stays below 2 · `f_tolerance` throughout. In the plane of a flush face f is 0 but for
-/// rounding while the half-spaces beside it vary, so nothing else would end the search there. Chosen:
-/// what is passed over is a ray's dip of 10⁻⁹ r, some 3·10⁻⁵ r long.
+/// True only if |f| provably stays below 2 · `f_tolerance` throughout the segment. In the plane of a flush face f is 0
+/// but for rounding while the half-spaces beside it vary, so nothing else would end the search there. The tolerance is
+/// chosen: with the default a ray may cross the surface and come back unnoticed if it gets no deeper than 10⁻⁹ r, over
+/// a length of some 3·10⁻⁵ r.
 inline bool is_near_zero(SegmentEnd start, SegmentEnd end, RayBounds bounds, double length, double f_tolerance) {
-    // Off the chord by G·length²/8 at most.
+    // f differs from the chord between the ends by G·length²/8 at most.
     return std::abs(start.f) <= f_tolerance && std::abs(end.f) <= f_tolerance &&
            bounds.G * length * length <= 8 * f_tolerance;
 }
 
+/// A crossing of the surface at ray parameter t.
 struct RootCrossing {
     double t;
-    bool entering;  // f > 0 beyond it
+    bool entering;  // f > 0 beyond t
 };
 
+/// Finds roots on rays. `counters` must outlive the finder; every search adds to it.
 class RootFinder {
 public:
     RootFinder(RootSettings settings, RootCounters& counters) : settings_(settings), counters_(counters) {}
 
-    /// All crossings of the surface's level in [t0, t1], in order; sharp half-spaces stay as fix_sharp
-    /// left them. `visit(RootCrossing)` says whether to go on; false if it said no. OnRay is a RayDensity
-    /// or a FieldRay.
+    /// Finds all crossings of the surface's level in [t0, t1] and calls visit(RootCrossing) for each in order of t; the
+    /// search ends early where that returns false, and crossings() then returns false. OnRay is a RayDensity or a
+    /// FieldRay. Sharp half-spaces of a RayDensity count as constant: on the side where fix_sharp() put them.
     template <class OnRay, class Visit>
     bool crossings(const OnRay& function, double t0, double t1, Visit&& visit);
 
-    // f = 0 is not inside, and what rounding makes of it must not be either: sums of a few products
-    // of numbers in [0, 1] are off by an ε each.
+    // |f| up to this counts as 0, which is outside: rounding makes up to an ε of error for each of the few factors and
+    // terms of a density.
     static constexpr double rounding = 32 * epsilon;
 
 private:
@@ -98,7 +102,7 @@ private:
 
 template <class OnRay, class Visit>
 bool RootFinder::crossings(const OnRay& function, double t0, double t1, Visit&& visit) {
-    // Depth first, near half first. Halving a double's range ends long before the stack does.
+    // Depth first, the nearer half first. Halving a double's range ends long before the stack is full.
     Point stack[1100];
     int top = 0;
     Point a = evaluate(function, t0);

@@ -14,7 +14,7 @@ Side combine(SolidOp op, Side a, Side b) {
 
 namespace {
 
-// Sides of all nodes; `of_leaf` says where a leaf's box lies.
+// Sides of the box with respect to all nodes; `of_leaf` returns that of a leaf.
 template <class OfLeaf>
 void classify_nodes(const SolidTree& tree, std::vector<Side>& sides, OfLeaf of_leaf) {
     sides.clear();
@@ -28,7 +28,7 @@ void classify_nodes(const SolidTree& tree, std::vector<Side>& sides, OfLeaf of_l
     }
 }
 
-// Nodes that the root needs once decided subtrees are folded away.
+// Marks the nodes that the root needs once subtrees that do not straddle are folded away.
 void mark_needed(const SolidTree& tree, const std::vector<Side>& sides, std::vector<char>& needed) {
     needed.assign(tree.nodes.size(), false);
     needed.back() = true;
@@ -43,7 +43,7 @@ void mark_needed(const SolidTree& tree, const std::vector<Side>& sides, std::vec
 }  // namespace
 
 SolidTree prune(const SolidTree& tree, const Box& box) {
-    std::vector<Pruned> local(tree.leaves.size());  // of densities
+    std::vector<Pruned> local(tree.leaves.size());  // only for densities
     std::vector<Side> sides;
     classify_nodes(tree, sides, [&](int leaf) {
         const SolidLeaf& of = tree.leaves[leaf];
@@ -87,7 +87,7 @@ SolidTree prune(const SolidTree& tree, const Box& box) {
                 }
             }
             new_index[i] = add({SolidOp::leaf, to_leaf});
-        } else if (side(n.b) != Side::straddling) {  // and does not decide it: a is left
+        } else if (side(n.b) != Side::straddling) {  // b does not decide the operator, so a is left
             new_index[i] = new_index[n.a];
         } else if (side(n.a) != Side::straddling && n.op != SolidOp::subtract) {
             new_index[i] = new_index[n.b];
@@ -106,7 +106,7 @@ void local_sizes(const SolidTree& tree, std::span<const Box> boxes, LocalSolidSi
     };
     thread_local std::vector<Side> sides;
     thread_local std::vector<char> needed;
-    thread_local std::vector<LeafSize> of_leaves;  // leaf after leaf, box after box
+    thread_local std::vector<LeafSize> of_leaves;  // of leaf l in box k at [l · count + k]
     thread_local std::vector<LocalSize> of_density;
     const std::size_t count = boxes.size();
     of_leaves.clear();

@@ -12,14 +12,16 @@ namespace {
 
 using Kind = SolidNode::Kind;
 
+/// A subexpression that is still to be flattened, or an operator whose operands are flattened already.
 struct Task {
-    const SolidNode* node = nullptr;  // null: combine
+    const SolidNode* node = nullptr;  // null: combine the last `count` results by `op`
     Affine map{};
     int material = 0;
     SolidOp op = SolidOp::nothing;
     int count = 0;
 };
 
+/// Whether all half-spaces are finite and have unit normals, that is, whether no placement was singular.
 bool has_planes(const DensityTree& density) {
     for (const HalfSpace& h : density.half_spaces)
         if (!std::isfinite(h.offset) || !std::isfinite(h.radius) || !(std::abs(glm::length(h.normal) - 1) < 0.5))
@@ -29,7 +31,7 @@ bool has_planes(const DensityTree& density) {
 
 bool is_operator(Kind kind) { return kind == Kind::unite || kind == Kind::intersect || kind == Kind::subtract; }
 
-// As in density_tree.cpp, with stacks of its own.
+// Flattens a solid's expression, with stacks of its own as in density_tree.cpp.
 class Flattening {
 public:
     SolidTree run(const SolidNode& root) {
@@ -101,7 +103,7 @@ private:
         tasks_.insert(tasks_.end(), operands.rbegin(), operands.rend());
     }
 
-    // A map that keeps angles carries the parts along; any other carries the field.
+    // A leaf with round parts. A map that keeps angles is applied to the parts; any other is applied to the field.
     void open_round(const SolidNode& node, const Task& task) {
         const double scale = even_scale(task.map);
         const bool keeps_angles =

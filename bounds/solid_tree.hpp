@@ -1,5 +1,4 @@
-// The primary CSG tree [Lobb §2.2, figure 3], flat: rounded densities and fields in world space as
-// leaves.
+// The primary CSG tree [Lobb §2.2, figure 3], flattened: its leaves are rounded densities and fields in world space.
 #pragma once
 #include <vector>
 
@@ -9,18 +8,21 @@
 
 namespace deburr {
 
+/// A leaf: the set ρ > ½ of a density, or the set f > 0 of a field.
 struct SolidLeaf {
-    DensityTree density;  // the leaf is the set ρ > ½; of a field, nothing: a constant 0
+    DensityTree density;  // the constant 0 if the leaf is a field
+    /// Index of the scene's material.
     int material = 0;
-    int line = 0;
-    FieldPtr field = {};  // if not null, the leaf is the set f > 0
+    int line = 0;         // line of the scene, 0 unknown
+    FieldPtr field = {};  // null if the leaf is a density
 };
 
 enum class SolidOp : unsigned char { nothing, everything, leaf, unite, intersect, subtract };
 
+/// A node of the tree; children are indices in SolidTree::nodes.
 struct SolidTreeNode {
     SolidOp op = SolidOp::nothing;
-    int a = -1, b = -1;  // children; leaf: a is its index
+    int a = -1, b = -1;  // children; leaf: a is its index in leaves
 };
 
 struct SolidTree {
@@ -28,21 +30,21 @@ struct SolidTree {
     std::vector<SolidTreeNode> nodes;  // children before parents, the root last; never empty
 
     int root() const { return int(nodes.size()) - 1; }
-    /// The least radius > 0; 0 if all is sharp.
+    /// The least filter radius > 0 of all leaves (a world distance); 0 if everything is sharp.
     double min_radius() const;
-    /// Is there a leaf that is neither a density nor a rounded mesh?
+    /// Whether some leaf is a field other than a rounded density, such as a free form or a sharp mesh.
     bool has_free_form() const;
-    /// The definition: [Lobb figure 4, PointInObject].
+    /// Whether x is in the solid, by the definition [Lobb figure 4, PointInObject].
     bool contains(Vec3 x) const;
 };
 
-/// Thrown when placements that are each regular multiply to a numerically singular map.
+/// Thrown where placements that are each regular compose to a numerically singular map.
 struct SingularPlacement : std::domain_error {
     explicit SingularPlacement(int of_line);
-    int line;  // of the leaf; 0 unknown
+    int line;  // of the leaf in the scene; 0 unknown
 };
 
-/// Throws TooManyHalfSpaces and SingularPlacement.
+/// Flattens a solid. Throws TooManyHalfSpaces, SingularPlacement, and BadRoundPart (density_tree.hpp).
 SolidTree flatten(const Solid& solid);
 
 }  // namespace deburr

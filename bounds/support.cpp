@@ -5,10 +5,11 @@
 namespace deburr {
 namespace {
 
-// Of parts with fewer half-spaces the planes themselves are as quick to look at.
+// Parts with fewer half-spaces get no support: looking at their planes is as quick.
 constexpr int min_half_spaces = 4;
 
-// The part across the unit axis of the k-th coordinate axis, of length 1; 0 where there is none.
+// Unit vector along the part of coordinate axis k that is perpendicular to the unit vector `axis`; 0 if they are
+// parallel.
 Vec3 component_across(Vec3 axis, int k) {
     Vec3 v(0.0);
     v[k] = 1;
@@ -20,7 +21,8 @@ Vec3 component_across(Vec3 axis, int k) {
 
 bool is_intersection(Op op) { return op == Op::product || op == Op::conjunction; }
 
-// A half-space varies up to a radius outside its plane, and an ulp or two.
+// The plane beyond which the half-space (or, with `complement`, its complement) is 0: a filter radius outside of its
+// plane, and a few ulps.
 BoundPlane edge_of(const HalfSpace& h, bool complement) {
     const double reach = h.radius + 4 * epsilon * (std::abs(h.offset) + h.radius);
     return complement ? BoundPlane{-h.normal, reach - h.offset} : BoundPlane{h.normal, h.offset + reach};
@@ -49,7 +51,8 @@ std::vector<HalfSpace> touching_planes(const HalfSpace& part) {
     using Kind = RoundCoordinate::Kind;
     std::vector<HalfSpace> planes;
     const RoundCoordinate& c = *part.round;
-    if (c.across <= 0 || (!c.is_cone() && part.offset < 0)) return planes;  // all but a nappe
+    // empty, or all but a nappe
+    if (c.across <= 0 || (!c.is_cone() && part.offset < 0)) return planes;
     for (int k = 0; k < 3; ++k)
         for (const double side : {1.0, -1.0}) {
             Vec3 normal(0.0);
@@ -68,7 +71,8 @@ std::vector<HalfSpace> touching_planes(const HalfSpace& part) {
 }
 
 void find_supports(DensityTree& tree) {
-    std::vector<char> whole(tree.nodes.size(), true);  // not merely a part of a larger intersection
+    std::vector<char> whole(tree.nodes.size(), true);  // whether the node is not merely an operand of a larger
+                                                       // intersection
     for (const TreeNode& n : tree.nodes)
         if (is_intersection(n.op)) whole[n.a] = whole[n.b] = false;
 
@@ -103,7 +107,8 @@ void find_supports(DensityTree& tree) {
             case Op::convolution: all[i] = take(n.a); continue;
             case Op::product:
             case Op::conjunction: all[i] = intersect(take(n.a), take(n.b)); break;
-            default: all[i] = unite(take(n.a), take(n.b)); break;  // a − b may be negative where b is
+            // also a difference: a − b may be negative where b is not 0
+            default: all[i] = unite(take(n.a), take(n.b)); break;
         }
         if (n.op == Op::constant) continue;
         half_spaces[i] = half_spaces[n.a] + half_spaces[n.b];

@@ -1,12 +1,13 @@
-// Memory of a thread for the values of a tree's nodes, used again and again.
+// Scratch memory of a thread for the values of a tree's nodes.
 #pragma once
 #include <cstddef>
 #include <vector>
 
 namespace deburr {
 
-/// Memory for `count` values, kept from one call to the next in a thread: what is left of a density has few as a rule.
-/// The next call for the same type gets the same memory.
+/// Memory for `count` values of type T, owned by the calling thread and reused: the next call for the same type returns
+/// the same memory, with whatever values the last user left in it. Up to 32 values, as most local densities have, are
+/// not on the heap.
 template <class T>
 T* memory_for(std::size_t count) {
     constexpr std::size_t usual = 32;

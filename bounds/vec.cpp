@@ -3,7 +3,7 @@
 namespace deburr {
 
 Eigensystem eigensystem(Mat3 a) {
-    constexpr int sweeps = 12;  // converges quadratically: six do
+    constexpr int sweeps = 12;  // six are enough, since convergence is quadratic
     Mat3 v(1.0);
     for (int sweep = 0; sweep < sweeps; ++sweep)
         for (int p = 0; p < 2; ++p)
@@ -23,7 +23,7 @@ Eigensystem eigensystem(Mat3 a) {
     return {v, {a[0][0], a[1][1], a[2][2]}};
 }
 
-// Rounding moves an image by no more than this share of what was added up.
+// An image is off by rounding by at most this fraction of the sum of the absolute values of its terms.
 constexpr double image_slack = 16 * epsilon;
 
 Box image(const Affine& map, const Box& box) {
@@ -32,7 +32,7 @@ Box image(const Affine& map, const Box& box) {
         double sum = std::abs(map.shift[row]);
         for (int k = 0; k < 3; ++k) {
             const double m = map.linear[k][row];
-            if (m == 0) continue;  // 0·∞ is no number
+            if (m == 0) continue;  // 0·∞ would be NaN
             to.lo[row] += m * (m > 0 ? box.lo[k] : box.hi[k]);
             to.hi[row] += m * (m > 0 ? box.hi[k] : box.lo[k]);
             for (const double side : {box.lo[k], box.hi[k]})
