@@ -1,33 +1,32 @@
-// Let R be the part of the unit ball where the function is true, and wₚ at a point of plane p the
-// function's value on p's inner side less that on its outer side: −1, 0 or 1. By the divergence
-// theorem
+// Volume and areas of the part R of the unit ball where a Boolean function of planes is true. At a point of plane p let
+// wₚ be the function's value on p's inner side less that on its outer side: −1, 0 or 1. By the divergence theorem
 //
 //     3 vol(R) = Σₚ tₚ Aₚ + S,    Aₚ = ∫ wₚ over p's disc,    S the area of the unit sphere in R.
 //
-// The same once more in p's disc, whose radius is ρₚ: with the second difference wₚq of the
-// function across the chord that q cuts, at the distance d in the disc,
+// The same theorem in p's disc, whose radius is ρₚ, gives Aₚ. With wₚq the second difference of the function across the
+// chord that q cuts, at the distance d from the disc's centre,
 //
 //     2 Aₚ = ρₚ² Θₚ + Σ d · ∫ wₚq along the chord,    Θₚ = ∫ wₚ dθ around the disc.
 //
-// On the sphere take a pole a, the height z = a·y and the longitude φ about it. (1 − z) dφ has the
-// surface's element as its derivative but for the antipole −a, where it misses 4π. Around p's circle,
+// On the sphere take a pole a, the height z = a·y and the longitude φ about a. The form (1 − z) dφ has the surface
+// element as its exterior derivative except at the antipole −a, which contributes 4π. Around p's circle,
 //
 //     (1 − z) dφ = (−tₚ + (tₚ + a·nₚ)/(1 + z)) dθ,    1 + z = 1 + tₚ a·nₚ + ρₚσₚ cos θ,
 //
-// θ counted from where z is greatest, σₚ the length of a along p. The second term is ±dψ, where
-// tan(ψ/2) = √((1 + z_least)/(1 + z_most)) tan(θ/2): ψ is the angle that a stereographic projection
-// from the antipole makes of θ. As (1 + z_least)(1 + z_most) = (tₚ + a·nₚ)²,
+// with θ counted from where z is greatest, and σₚ the length of the component of a along p. The second term is ±dψ,
+// where tan(ψ/2) = √((1 + z_least)/(1 + z_most)) tan(θ/2): ψ is θ under the stereographic projection from the antipole.
+// As (1 + z_least)(1 + z_most) = (tₚ + a·nₚ)²,
 //
 //     S = Σₚ tₚ Θₚ − sign(tₚ + a·nₚ) Ψₚ  +  4π·function(−a),    Ψₚ = ∫ wₚ dψ.
 //
-// Circles are oriented about their normals, which has the inner side to the right: hence the signs.
-// For one plane, Aₚ = π(1 − t²) and S = 2π(1 + t), this is the cubic [Lobb eq. 2].
+// Circles are oriented counter-clockwise about their normals, so the inner side is to the right: hence the signs. For
+// one plane, Aₚ = π(1 − t²) and S = 2π(1 + t), which gives the cubic [Lobb eq. 2].
 //
-// Integrals of wₚ and wₚq are lengths, with a sign, of the parts of a circle or of a chord on which the function is
-// true with p (and q) taken to be true, and to be false. A circle or chord is sent through the function's steps as an
-// interval: a plane that cuts it sends either part its own way, and where a step asks for p, one copy goes on with p
-// true and another, of the other sign, with p false. A part that ends before p (and q) is asked for adds nothing, as
-// the function does not depend on them there; so most parts are short and end soon.
+// The integrals of wₚ and wₚq are signed lengths of the parts of a circle or chord on which the function is true with p
+// (and q) taken to be true, and taken to be false. A circle or chord is sent through the function's steps as an
+// interval: a plane that cuts it splits it, and each part goes its own way; where a step asks for p, one copy continues
+// with p true, and another, of opposite sign, with p false. A part whose evaluation ends before p (and q) is asked for
+// adds nothing, as the function does not depend on them there; so most parts are short and end soon.
 #include "bounds/ball_arrangement.hpp"
 
 #include <algorithm>
@@ -38,11 +37,11 @@ namespace {
 
 constexpr double pi = std::numbers::pi;
 
-// Where the pole may be: the antipole should keep clear of every plane, for ψ turns fast near it.
+// The pole is good enough if the antipole is at this distance from every plane, because ψ turns fast near a plane.
 constexpr double clear_enough = 0.1;
 constexpr int max_poles = 24;
 
-// Points that are spread evenly and lie on nobody's grid: a Fibonacci lattice.
+// The k-th candidate pole: points of a Fibonacci lattice, which are spread evenly and not on any model's grid.
 Vec3 pole(int k) {
     const double z = 1 - (2 * k + 1.0) / max_poles, phi = 0.4142 + 2.399963229728653 * (7 * k % max_poles);
     const double s = std::sqrt(1 - z * z);
@@ -76,7 +75,7 @@ void BallArrangement::choose_pole(const std::vector<BallPlane>& planes) {
         Circle c;
         c.u = a - up * n;
         double sigma = glm::length(c.u);
-        if (sigma < 1e-9) {  // ψ = θ, wherever it is counted from
+        if (sigma < 1e-9) {  // ψ = θ, whatever θ is counted from
             const Vec3 other = std::abs(n.x) < 0.6 ? Vec3(1, 0, 0) : Vec3(0, 1, 0);
             c.u = other - glm::dot(other, n) * n;
             c.u /= glm::length(c.u);
@@ -93,8 +92,8 @@ void BallArrangement::choose_pole(const std::vector<BallPlane>& planes) {
     }
 }
 
-// Every two planes' common chord, found once for both: what rounding does to it must be the same
-// for either, as it may be much where they are nearly parallel.
+// Finds the common chord of every two planes, once for both: its rounding error must be the same for either, as it may
+// be large where they are nearly parallel.
 void BallArrangement::find_chords(const std::vector<BallPlane>& planes) {
     chords_.assign(count_ * count_, {});
     for (std::size_t p = 0; p < count_; ++p)
@@ -103,7 +102,7 @@ void BallArrangement::find_chords(const std::vector<BallPlane>& planes) {
             const Vec3 across = glm::cross(planes[p].normal, planes[q].normal);
             const double s = glm::length(across), c = glm::dot(planes[p].normal, planes[q].normal);
             const double apart = planes[q].t - c * planes[p].t;  // s times the distance in p's disc
-            // As d lies beyond the disc, either disc lies on one side of the other's plane.
+            // If d lies beyond the disc, each disc lies on one side of the other's plane.
             if (std::abs(apart) >= s * circles_[p].radius) {
                 of_p.d = apart;
                 of_q.d = planes[p].t - c * planes[q].t;
@@ -122,11 +121,13 @@ void BallArrangement::find_chords(const std::vector<BallPlane>& planes) {
         }
 }
 
+/// The last step that asks for each plane.
 void BallArrangement::find_last_steps() {
     last_step_.assign(count_, -1);
     for (std::size_t k = 0; k < function_->steps.size(); ++k) last_step_[function_->steps[k].variable] = int(k);
 }
 
+/// Where p's circle is outside of plane q, for planes whose discs meet.
 const BallArrangement::Arc& BallArrangement::arc(std::size_t p, std::size_t q) {
     Arc& arc = arcs_[q];
     if (arc.of_plane == p) return arc;
@@ -144,7 +145,7 @@ const BallArrangement::Arc& BallArrangement::arc(std::size_t p, std::size_t q) {
     return arc;
 }
 
-// Around p's circle: returns Θₚ and adds p's part of S.
+// Integrates around p's circle: returns Θₚ and adds p's terms to S.
 double BallArrangement::add_arcs(const std::vector<BallPlane>& planes, std::size_t p, double& sphere) {
     const Circle& c = circles_[p];
     const auto psi = [&](double theta) {
@@ -172,7 +173,7 @@ double BallArrangement::add_arcs(const std::vector<BallPlane>& planes, std::size
                 piece.step = ch.d >= 0 ? step.if_true : step.if_false;
                 continue;
             }
-            // One value from `from` to `to`, the other before and after.
+            // The function goes one way between `from` and `to`, and the other way before and after.
             const Arc& outside = arc(p, q);
             const double from = outside.wraps ? outside.to : outside.from,
                          to = outside.wraps ? outside.from : outside.to;
@@ -199,8 +200,8 @@ double BallArrangement::add_arcs(const std::vector<BallPlane>& planes, std::size
     return of_theta;
 }
 
-// ∫ wₚq along the chord that q cuts in p's disc. Planes that cut the disc in the same line are crossed together with
-// q; those that the function asks for are left in on_line_.
+// ∫ wₚq along the chord that q cuts in p's disc. Planes that cut the disc in the same line are crossed together with q;
+// on_line_ holds those of them that the function asks for.
 double BallArrangement::chord_length(std::size_t p, std::size_t q) {
     const Chord& ch = chord(p, q);
     double length = 0;
@@ -225,7 +226,7 @@ double BallArrangement::chord_length(std::size_t p, std::size_t q) {
                 piece.step = other.d >= 0 ? step.if_true : step.if_false;
                 continue;
             }
-            const double along = other.my * ch.mx - other.mx * ch.my;  // m of r along the chord
+            const double along = other.my * ch.mx - other.mx * ch.my;  // component along the chord of r's m
             const double across = other.mx * ch.mx + other.my * ch.my;
             const double room = other.d - ch.d * across;
             if (r == q || (!other.counted && std::abs(along) <= one_plane && std::abs(room) <= one_plane)) {
@@ -239,7 +240,7 @@ double BallArrangement::chord_length(std::size_t p, std::size_t q) {
                 piece.step = (piece.of_q == 1) == same ? step.if_true : step.if_false;
                 continue;
             }
-            // Inside where along · y ≤ room.
+            // Inside r where along · y ≤ room, for y along the chord.
             if (std::abs(room) >= std::abs(along) * ch.half) {
                 piece.step = room >= 0 ? step.if_true : step.if_false;
                 continue;
@@ -263,7 +264,8 @@ double BallArrangement::chord_length(std::size_t p, std::size_t q) {
     return length;
 }
 
-// Over the chords in p's disc: Σ d · ∫ wₚq, and the same for the other plane of every chord that no third one is on.
+// Adds ½ Σ d · ∫ wₚq over the chords in p's disc to p's area, and the same term to the other plane's area if the chord
+// is on no third plane.
 void BallArrangement::add_chords(std::size_t p, std::vector<double>& areas) {
     for (std::size_t q = 0; q < count_; ++q) {
         Chord &of_p = chord(p, q), &of_q = chord(q, p);

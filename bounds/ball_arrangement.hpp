@@ -1,4 +1,5 @@
-// How planes cut the unit ball, and the volume and areas of what they cut out.
+// The arrangement of planes in the unit ball: volume and areas of the part of the ball where a Boolean function of the
+// planes is true.
 #pragma once
 #include <vector>
 
@@ -6,46 +7,48 @@
 
 namespace deburr {
 
-/// n·y = t; the side n·y ≤ t is where its variable is true.
+/// The plane n·y = t; its variable is true on the side n·y ≤ t.
 struct BallPlane {
     Vec3 normal;
     double t;
 };
 
-/// Memory that is used again and again.
+/// Keeps its memory, so it is cheap to use again and again; not for several threads at once.
 class BallArrangement {
 public:
-    /// Planes that are distinct and meet the ball, variable by variable of `function`.
-    /// Returns the volume's share, and for each plane the area of its part of the surface: positive
-    /// where what is cut out lies on its inner side.
+    /// The fraction of the ball's volume in which `function` is true, in [0, 1]. planes[v] is variable v of the
+    /// function; planes must be distinct and meet the ball. areas[v] becomes the signed area of plane v's part of the
+    /// true region's surface: positive where the region lies on the plane's inner side.
     double measure(const std::vector<BallPlane>& planes, const BooleanSteps& function, std::vector<double>& areas);
 
 private:
+    /// The circle in which a plane cuts the sphere.
     struct Circle {
-        Vec3 u, v;         // the plane's axes; u leans to the pole
+        Vec3 u, v;         // orthonormal axes in the plane; u leans towards the pole
         double radius;     // of the disc
-        double near, far;  // |distance of the antipole from the plane|; 1 + the height at u
-        int side;          // of the antipole: 1 within
+        double near, far;  // |distance of the antipole from the plane|; 1 + the height of the circle's point at u
+        int side;          // of the plane on which the antipole is: 1 inside, −1 outside
     };
-    // What plane p's disc has of plane q: inside where m·y ≤ d.
+    // How plane q cuts plane p's disc: q's inside is m·y ≤ d.
     struct Chord {
-        double mx = 1, my = 0;  // m in p's axes
-        double d = 0;           // if they do not meet: > 0 inside, else outside
-        double half = 0;        // half its length; 0: they do not meet in the ball
-        bool counted = false;   // its part of p's area is added
+        double mx = 1, my = 0;  // m, a unit vector in p's axes
+        double d = 0;           // if the planes do not meet in the ball: ≥ 0 if the disc is inside q, else negative
+        double half = 0;        // half the chord's length; 0 if the planes do not meet in the ball
+        bool counted = false;   // whether its term is in p's area already
     };
-    // Where p's circle is outside of another plane: from `from` to `to`, past ±π if `wraps`.
+    // The arc of p's circle that is outside of another plane: from `from` to `to`, across ±π if `wraps`.
     struct Arc {
         double from, to;
         bool wraps;
-        std::size_t of_plane;  // the p for which it was found
+        std::size_t of_plane;  // the plane p for which it was found
     };
-    // A part of a chord or of a circle on its way through the function's steps.
+    // A part of a chord or circle that is being sent through the function's steps.
     struct Piece {
         double from, to;
+        /// Index of the next step, or how the evaluation ended.
         int step;
-        int sign;                // of what it adds
-        signed char of_p, of_q;  // what the planes in question were taken to be: 1 true, 0 false, −1 neither yet
+        int sign;                // of its contribution
+        signed char of_p, of_q;  // value that p and q were taken to have: 1 true, 0 false, −1 not asked for yet
     };
 
     void choose_pole(const std::vector<BallPlane>& planes);
@@ -61,13 +64,13 @@ private:
     std::size_t count_ = 0;
     std::vector<Circle> circles_;
     std::vector<Chord> chords_;
-    std::vector<Arc> arcs_;       // of one circle
-    std::vector<int> last_step_;  // that looks at each plane
+    std::vector<Arc> arcs_;       // outside of each plane, of one circle
+    std::vector<int> last_step_;  // for each plane, the last step that asks for it
     std::vector<Piece> pieces_;
-    std::vector<std::size_t> on_line_;  // planes that meet p in the chord in question
+    std::vector<std::size_t> on_line_;  // planes through the chord that was measured last
 };
 
-/// Planes this near to one another, in direction and in distance, count as one.
+/// Planes that differ by less than this, in normal and in distance, count as one plane.
 constexpr double one_plane = 1e-8;
 
 }  // namespace deburr

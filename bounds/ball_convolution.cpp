@@ -11,16 +11,17 @@ namespace {
 
 constexpr double pi = std::numbers::pi;
 
-// Planes are gone through for equal ones in densities that are as small as those of cells are.
+// In densities of at most this many half-spaces, as those of cells are, half-spaces are compared for equal ones.
 constexpr std::size_t max_compared = 64;
-// One plane that a scene placed by two ways.
+// Tolerances within which planes count as one that the scene has placed in two ways.
 constexpr double equal_normals = 1e-13, equal_offsets = 1e-13;
 
+/// How a half-space or node occurs in the function.
 enum Use : char { as_it_is = 1, complemented = 2, both_ways = 3 };
 
 constexpr char unknown = 2;
 
-// Of the share, at the worst.
+// Upper bound of the error of at().
 constexpr double error = 2e-8;
 
 }  // namespace
@@ -32,7 +33,7 @@ BallConvolution::BallConvolution(const DensityTree& tree) {
     if (half_spaces_.size() <= std::size_t(max_tabulated)) drop_idle();
     steps_ = short_circuit(function_);
 
-    // From the root down: whether a node is used as it is, complemented, or both.
+    // From the root down: whether a node is used as it is, complemented, or both ways.
     const auto& nodes = function_.nodes;
     std::vector<char> use(nodes.size(), 0);
     uses_.assign(half_spaces_.size(), 0);
@@ -52,6 +53,7 @@ BallConvolution::BallConvolution(const DensityTree& tree) {
     }
 }
 
+/// Sets function_, half_spaces_ and normals_, with one half-space for those that lie on one plane.
 void BallConvolution::find_equal(const DensityTree& tree) {
     const Mat3 carry = glm::transpose(tree.ball);
     const bool compare = tree.half_spaces.size() <= max_compared;
@@ -87,7 +89,7 @@ void BallConvolution::find_equal(const DensityTree& tree) {
     }
 }
 
-// Half-spaces that make no difference, as where one box's face is inside another box.
+// Drops half-spaces on which the function does not depend, as where one box's face is inside of another box.
 void BallConvolution::drop_idle() {
     std::vector<Literal> literals;
     for (std::size_t i = 0; i < half_spaces_.size(); ++i) literals.push_back({int(i), true});
@@ -114,7 +116,7 @@ void BallConvolution::drop_idle() {
     }
 }
 
-// Planes on which the function does not depend, as where two flush faces leave no trace.
+// Drops planes on which the function does not depend, as where two flush faces leave no trace.
 static void drop_irrelevant(std::vector<BallPlane>& planes, std::vector<std::size_t>& whose, BooleanSteps& steps) {
     const std::vector<char> relevant = relevant_variables(steps, int(planes.size()));
     if (std::find(relevant.begin(), relevant.end(), false) == relevant.end()) return;
@@ -134,7 +136,7 @@ static void drop_irrelevant(std::vector<BallPlane>& planes, std::vector<std::siz
     steps = std::move(left);
 }
 
-// The half-spaces that α leaves open and the function still asks for, as literals of no one but themselves.
+// The steps that are left where `known` half-spaces are 0 or 1; their variables are still the half-spaces.
 void BallConvolution::find_open(const std::vector<char>& known, BooleanSteps& left) const {
     thread_local std::vector<Literal> literals;
     literals.clear();
@@ -145,7 +147,7 @@ void BallConvolution::find_open(const std::vector<char>& known, BooleanSteps& le
 
 double BallConvolution::at(const std::vector<double>& alpha, std::vector<double>& slope) const {
     thread_local std::vector<char> known;
-    thread_local std::vector<Literal> literals;  // of every half-space, by variables that are planes
+    thread_local std::vector<Literal> literals;  // of every half-space: which plane it is
     thread_local std::vector<BallPlane> planes;
     thread_local std::vector<std::size_t> whose;
     thread_local std::vector<double> areas;
@@ -182,7 +184,7 @@ double BallConvolution::at(const std::vector<double>& alpha, std::vector<double>
     }
     if (planes.size() <= std::size_t(max_tabulated)) drop_irrelevant(planes, whose, steps);
     if (planes.empty()) return steps.first == ends_true;
-    if (planes.size() == 1) {  // a half-space's cubic, or its complement's
+    if (planes.size() == 1) {  // the cubic of a half-space or of its complement
         const double side = steps.value([](int) { return false; }) ? -1 : 1, a = side * -planes[0].t;
         slope[whose[0]] = side * profile_slope(a);
         return profile(a);
@@ -216,7 +218,7 @@ Range BallConvolution::range(const Box& box) const {
     for (const HalfSpace& h : half_spaces_) leaves.push_back(density_range(h, box));
     Range all = range(leaves);
     if (!box.finite() || half_spaces_.size() < 2 || all.lo == all.hi) return all;
-    // No slope is more than ¾ per radius.
+    // ρ changes by at most ¾ per radius of the ball.
     const Vec3 center = 0.5 * (box.lo + box.hi), half = 0.5 * (box.hi - box.lo);
     double farthest = 0;
     for (const double y : {-half.y, half.y})
@@ -227,18 +229,17 @@ Range BallConvolution::range(const Box& box) const {
     return {std::max(all.lo, middle - reach), std::min(all.hi, middle + reach)};
 }
 
-// As the ball's centre moves by v, plane p's disc, with the function's step wₚ painted on the plane,
-// moves along the plane by v∥ and its radius ρ grows by −αα′/ρ. So
+// Derivation of bounds(): as the ball's centre moves by v, plane p's disc, on which wₚ is fixed to the plane, moves
+// along the plane by v∥, and its radius ρ grows by −αα′/ρ. So
 //
 //     Aₚ′ = ∮ wₚ (v∥·ν − αα′/ρ) ds    around the disc, ν its outward direction,    |ρ″| ≤ ¾/π Σ |α′ₚ| |Aₚ′|.
 //
-// If wₚ is nowhere negative, |Aₚ′| is most where wₚ is 1 on the arc on which the bracket has one sign:
-// 2ρ|v∥|(√(1 − κ²) + κ arccos(−κ)) for κ = |αα′|/(ρ|v∥|) ≤ 1, which is convex in κ and so at most
-// 2ρ|v∥| + 2(π − 1)|αα′|, and 2π|αα′| for κ ≥ 1. If wₚ has both signs, the two arcs' integrals are
-// added; they differ by 2π|αα′|.
+// If wₚ is nowhere negative, |Aₚ′| is greatest where wₚ is 1 on the arc on which the bracket has one sign: 2ρ|v∥|(√(1 −
+// κ²) + κ arccos(−κ)) for κ = |αα′|/(ρ|v∥|) ≤ 1, which is convex in κ and so at most 2ρ|v∥| + 2(π − 1)|αα′|; and
+// 2π|αα′| for κ ≥ 1. If wₚ has both signs, the integrals over the two arcs are added; they differ by 2π|αα′|.
 //
-// For the share itself: its slope is an integral of v·ν over a part of the sphere, at most π|v|; and
-// term by term, no disc is larger than where its plane comes nearest.
+// L is the lesser of two bounds: the slope is an integral of v·ν over a part of the sphere, which is at most π|v|; and
+// term by term, no disc is larger than where its plane is nearest to the centre.
 RayBounds BallConvolution::bounds(const std::vector<double>& a0, const std::vector<double>& a1,
                                   const std::vector<double>& rate, double speed) const {
     thread_local std::vector<char> known, open;

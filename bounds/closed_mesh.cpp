@@ -47,8 +47,8 @@ ClosedMesh::ClosedMesh(std::vector<Vec3> vertices, std::vector<Corners> triangle
     if (!order_.empty()) build(0, int(order_.size()));
 }
 
-// A triangle without area says nothing of the solid, and has no normal: where its longest edge is another triangle's,
-// that one is split at the corner between.
+// Drops triangles without area, which bound nothing and have no normal: the triangle on the other side of the longest
+// edge is split at the corner opposite to it.
 void ClosedMesh::drop_degenerate() {
     const auto is_flat = [&](const Corners& t) {
         const Vec3 a = vertices_[t[1]] - vertices_[t[0]], b = vertices_[t[2]] - vertices_[t[0]];
@@ -58,7 +58,7 @@ void ClosedMesh::drop_degenerate() {
     std::erase_if(triangles_, [](const Corners& t) { return t[0] == t[1] || t[1] == t[2] || t[2] == t[0]; });
     for (std::size_t round = 0; round < 64; ++round) {
         if (std::none_of(triangles_.begin(), triangles_.end(), is_flat)) return;
-        std::map<std::pair<int, int>, int> owner;  // of directed edges
+        std::map<std::pair<int, int>, int> owner;  // triangle of each directed edge
         for (std::size_t t = 0; t < triangles_.size(); ++t) {
             for (int k = 0; k < 3; ++k) owner[{triangles_[t][k], triangles_[t][(k + 1) % 3]}] = int(t);
         }
@@ -81,8 +81,8 @@ void ClosedMesh::drop_degenerate() {
             for (const int v : other)
                 if (v != a && v != b) d = v;
             touched[t] = touched[at->second] = dropped[t] = dropped[at->second] = true;
-            // Of b → a in the other are left b → c and c → a.
-            if (d == c) continue;  // both are the same, back to back
+            // The edge b → a of the other triangle becomes b → c and c → a.
+            if (d == c) continue;  // both have the same corners, back to back
             added.push_back({b, c, d});
             added.push_back({c, a, d});
         }
@@ -109,7 +109,7 @@ void ClosedMesh::find_planes() {
     }
 }
 
-// Neighbours whose corners all lie in one plane, to what rounding leaves, are one face.
+// Neighbours whose corners all lie in one plane, up to rounding, get that plane.
 void ClosedMesh::join_planes() {
     double scale = 0;
     for (const Vec3& v : vertices_) scale = std::max(scale, largest(v));
@@ -118,7 +118,7 @@ void ClosedMesh::join_planes() {
     std::iota(by_area.begin(), by_area.end(), 0);
     std::sort(by_area.begin(), by_area.end(),
               [&](int a, int b) { return areas_[a] != areas_[b] ? areas_[a] > areas_[b] : a < b; });
-    // From the largest triangle on, whose plane is known best, as far as corners lie in it.
+    // Starting from the largest triangle, whose plane is most exact, faces grow as far as corners lie in the plane.
     std::vector<char> done(triangles_.size(), false);
     std::vector<int> todo;
     int id = 0;
@@ -187,7 +187,7 @@ bool ClosedMesh::reaches(int t, const Box& box, double reach) const {
     const Vec3 center = 0.5 * (box.lo + box.hi), half = 0.5 * (box.hi - box.lo);
     const Vec3 x[3] = {corner(t, 0), corner(t, 1), corner(t, 2)};
     reach += 8 * epsilon * (largest(center) + largest(half) + largest(x[0]));
-    double outside = 0;  // squared distance of the boxes
+    double outside = 0;  // squared distance between the two boxes
     for (int k = 0; k < 3; ++k) {
         const double lo = std::min({x[0][k], x[1][k], x[2][k]}), hi = std::max({x[0][k], x[1][k], x[2][k]});
         const double gap = std::max(lo - box.hi[k], box.lo[k] - hi);
@@ -215,6 +215,7 @@ void ClosedMesh::near(const Box& box, double reach, std::vector<int>& found) con
     std::sort(found.begin() + std::ptrdiff_t(before), found.end());
 }
 
+/// Like visit_near(), but counts triangles of nodes that are within reach as a whole.
 std::size_t ClosedMesh::count_near(const Box& box, double reach) const {
     if (nodes_.empty()) return 0;
     const Box wide = inflated(box, reach * (1 + 8 * epsilon));
@@ -234,7 +235,7 @@ std::size_t ClosedMesh::count_near(const Box& box, double reach) const {
     return count;
 }
 
-// The nearest point of the triangle, by the regions around it [Ericson, Real-Time Collision Detection, §5.1.5].
+// Offers the triangle's nearest point to x, by its Voronoi regions [Ericson, Real-Time Collision Detection, §5.1.5].
 void ClosedMesh::look(Vec3 x, int t, Nearest& best) const {
     const Ball& ball = balls_[t];
     const double away = glm::distance(x, ball.center) - ball.radius;
@@ -270,7 +271,8 @@ Vec3 ClosedMesh::nearest(int triangle, Vec3 x) const {
     return best.point;
 }
 
-// By the pseudonormal of what is nearest [Bærentzen and Aanæs 2005]: the angle-weighted one at a corner.
+// By the sign of the pseudonormal at the nearest point [Bærentzen and Aanæs 2005]; at a corner it is weighted by
+// angles.
 bool ClosedMesh::is_inside(Vec3 x, const Nearest& nearest) const {
     if (nearest.triangle < 0) return false;
     Vec3 normal = planes_[nearest.triangle].normal;

@@ -1,9 +1,8 @@
-// A closed, oriented triangle mesh as the boundary of a solid, made ready for what looks at it near a point: plane of
-// every triangle, its neighbours, and a bounding volume hierarchy.
+// A closed, oriented triangle mesh as the boundary of a solid, prepared for queries near a point: the plane and
+// neighbours of every triangle, and a bounding volume hierarchy.
 //
-// Triangles of one plane that hang together share a plane, so that a face is flat whatever its triangulation. Faces
-// meet in pairs at every edge: where 2 k triangles share one, they are paired so that each pair bounds one wedge of
-// the solid.
+// Connected triangles that lie in one plane share a plane, so a face is flat whatever its triangulation. Triangles are
+// neighbours in pairs: where 2k of them share an edge, they are paired so that each pair bounds one wedge of the solid.
 #pragma once
 #include <array>
 #include <cstdint>
@@ -19,22 +18,24 @@ namespace deburr {
 /// Thrown for a mesh that is not the boundary of a solid.
 struct NotClosed : std::invalid_argument {
     NotClosed(std::size_t count, Vec3 place);
-    std::size_t count;  // of edges that have not as many triangles on one side as on the other
-    Vec3 place;         // middle of one of them
+    std::size_t count;  // number of edges with unequal numbers of triangles in the two directions
+    Vec3 place;         // middle of one of these edges
 };
 
+/// Immutable after construction, and safe to use from several threads.
 class ClosedMesh {
 public:
+    /// Vertex indices of a triangle.
     using Corners = std::array<int, 3>;
 
-    /// One triangle's plane: n·x = offset, n unit and outward; `id` is equal for triangles of one plane that hang
-    /// together.
+    /// The plane n·x = offset of a triangle, with n unit and outward. `id` is equal for connected triangles in one
+    /// plane.
     struct Plane {
         Vec3 normal{0.0};
         double offset = 0;
         int id = 0;
     };
-    /// The triangle on the other side of an edge, and the number of that edge in it.
+    /// The triangle on the other side of an edge, and the number of that edge in it (0 … 2).
     struct Neighbour {
         int triangle = -1;
         int edge = 0;
@@ -44,8 +45,9 @@ public:
         double radius = 0;
     };
 
-    /// Corners run counter-clockwise seen from outside. Triangles whose corners lie on a line are dropped, and what
-    /// they leave is closed by their neighbours. Throws NotClosed.
+    /// Corners run counter-clockwise seen from outside. Triangles without area are dropped, and the gaps that they
+    /// leave are closed by splitting their neighbours. Throws NotClosed if at some edge not as
+    /// many triangles run one way as the other.
     ClosedMesh(std::vector<Vec3> vertices, std::vector<Corners> triangles);
 
     const std::vector<Vec3>& vertices() const { return vertices_; }
@@ -55,44 +57,48 @@ public:
     const Plane& plane(int triangle) const { return planes_[triangle]; }
     double area(int triangle) const { return areas_[triangle]; }
     double perimeter(int triangle) const { return perimeters_[triangle]; }
-    /// Around the triangle.
+    /// A ball that holds the triangle.
     const Ball& ball(int triangle) const { return balls_[triangle]; }
-    /// Across the edge from corner k to corner k + 1.
+    /// The neighbour across the edge from corner k to corner k + 1.
     const Neighbour& across(int triangle, int k) const { return neighbours_[triangle][k]; }
-    /// A number of the edge that both its triangles know it by.
+    /// A number of the edge that both of its triangles have for it.
     int edge_id(int triangle, int k) const { return edges_[triangle][k]; }
+    /// The number of different planes: Plane::id is less than it.
     std::size_t planes() const { return plane_count_; }
     const Box& bounding_box() const { return box_; }
     /// Volume of the solid; negative if the mesh is inside out.
     double volume() const;
 
-    /// Appends the triangles that may come within `reach` of the box, in rising order.
+    /// Appends the triangles that may be within the distance `reach` of the box, in increasing order; none that is
+    /// within it is left out.
     void near(const Box& box, double reach, std::vector<int>& found) const;
-    /// Calls visit(triangle) for the triangles that near() finds, in no order, until it returns false.
+    /// Calls visit(triangle) for the triangles that near() would find, in any order, until visit returns false.
     template <class Visit>
     void visit_near(const Box& box, double reach, Visit visit) const;
-    /// Upper bound of the number of triangles that near() finds, by the hierarchy's boxes alone.
+    /// An upper bound of the number of triangles that near() would find, from the hierarchy's boxes alone.
     std::size_t count_near(const Box& box, double reach) const;
-    /// Whether the triangle may come within `reach` of the box: never false where it does.
+    /// Whether the triangle may be within the distance `reach` of the box; false only if it is not.
     bool reaches(int triangle, const Box& box, double reach) const;
-    /// The point of the triangle that is nearest to x.
+    /// The point of the triangle nearest to x.
     Vec3 nearest(int triangle, Vec3 x) const;
-    /// Whether x is inside; on the surface either is right. `triangles` are all that come within `reach` of x, or more:
-    /// if one does, the nearest tells.
+    /// Whether x is inside; on the surface the answer may be either. `triangles` holds at least all that are within
+    /// `reach` of x. If there are such triangles, the nearest decides; otherwise the whole mesh is searched.
     bool contains(Vec3 x, std::span<const int> triangles, double reach) const;
-    /// Whether x is inside.
+    /// Whether x is inside, from the whole mesh.
     bool contains(Vec3 x) const;
 
 private:
+    /// A node of the bounding volume hierarchy.
     struct Node {
         Box box;
-        int begin = 0, end = 0;  // in order_; a leaf where left < 0
+        int begin = 0, end = 0;  // range in order_; a leaf has left < 0
         int left = -1, right = -1;
     };
+    /// The nearest point of some triangles to a point.
     struct Nearest {
         double square = infinity;
         int triangle = -1;
-        int feature = 0;  // 0 … 2 corner, 3 … 5 edge from corner k − 3, 6 face
+        int feature = 0;  // on the triangle: 0 … 2 at a corner, 3 … 5 on the edge from corner k − 3, 6 inside
         Vec3 point{0.0};
     };
     void drop_degenerate();
@@ -110,7 +116,8 @@ private:
     std::vector<Ball> balls_;
     std::vector<std::array<Neighbour, 3>> neighbours_;
     std::vector<std::array<int, 3>> edges_;
-    std::vector<Vec3> vertex_normals_;  // weighted by angles, not unit
+    std::vector<Vec3> vertex_normals_;  // sums of adjacent normals weighted by their angles, not unit
+    /// Triangles in the order of the hierarchy's leaves.
     std::vector<int> order_;
     std::vector<Node> nodes_;
     std::size_t plane_count_ = 0;
@@ -138,7 +145,8 @@ void ClosedMesh::visit_near(const Box& box, double reach, Visit visit) const {
 
 using ClosedMeshPtr = std::shared_ptr<const ClosedMesh>;
 
-/// The mesh carried along by a regular map; one that mirrors turns its triangles, so that they face outward still.
+/// The image of the mesh under a regular map. If the map mirrors, triangles are reversed so that they still face
+/// outward.
 ClosedMeshPtr transformed(const ClosedMesh& mesh, const Affine& map);
 
 }  // namespace deburr

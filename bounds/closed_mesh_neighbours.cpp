@@ -1,4 +1,4 @@
-// Which triangles of a closed mesh are neighbours across an edge, also where more than two meet in one.
+// Pairs the triangles of a closed mesh at their edges, also where more than two meet in one edge.
 #include <algorithm>
 #include <span>
 #include <tuple>
@@ -10,7 +10,7 @@ namespace deburr {
 namespace {
 
 struct HalfEdge {
-    int lo, hi;  // its vertices by number
+    int lo, hi;  // vertex indices, lo < hi
     bool up;     // it runs from lo to hi
     int triangle, k;
 };
@@ -18,7 +18,7 @@ struct HalfEdge {
 using HalfEdges = std::span<const HalfEdge>;
 using Pairs = std::vector<std::pair<const HalfEdge*, const HalfEdge*>>;
 
-// Sorted by edge, then by triangle.
+// All half-edges, sorted by edge, then by triangle.
 std::vector<HalfEdge> half_edges_of(const std::vector<std::array<int, 3>>& triangles) {
     std::vector<HalfEdge> all;
     for (std::size_t t = 0; t < triangles.size(); ++t)
@@ -32,14 +32,14 @@ std::vector<HalfEdge> half_edges_of(const std::vector<std::array<int, 3>>& trian
     return all;
 }
 
-// How many run up, less those that run down; 0 where the edge is closed.
+// The number of half-edges that run up less that of those that run down; 0 where the edge is closed.
 int balance_of(HalfEdges edge) {
     int balance = 0;
     for (const HalfEdge& e : edge) balance += e.up ? 1 : -1;
     return balance;
 }
 
-// The triangles at an edge by their angle around it, seen along it from lo.
+// The half-edges of one edge, sorted by their triangles' angle around it, seen from `lo` to `hi`.
 std::vector<const HalfEdge*> in_order_around(const ClosedMesh& mesh, HalfEdges edge) {
     const Vec3 lo = mesh.vertices()[edge[0].lo], along = glm::normalize(mesh.vertices()[edge[0].hi] - lo);
     Vec3 x = glm::cross(along, std::abs(along.x) < 0.6 ? Vec3(1, 0, 0) : Vec3(0, 1, 0));
@@ -56,8 +56,9 @@ std::vector<const HalfEdge*> in_order_around(const ClosedMesh& mesh, HalfEdges e
     return around;
 }
 
-// Around the edge, from lo to hi: the solid lies between a triangle that runs up and the next, clockwise, that runs
-// down. A stack of those that run up pairs each with the nearest that runs down behind it, as brackets are.
+// Pairs the triangles around an edge. Looking from lo to hi, the solid lies between a triangle whose half-edge runs up
+// and the next one, clockwise, whose half-edge runs down. So, as brackets are matched, a stack of those that run up
+// pairs each with the nearest behind it that runs down.
 void pair_around(const std::vector<const HalfEdge*>& around, Pairs& pairs) {
     std::vector<std::size_t> stack;
     std::vector<char> paired(around.size(), false);

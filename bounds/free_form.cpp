@@ -1,12 +1,11 @@
-// Range of F over a box, by a Taylor form of second order about the box's middle: in steps u of half
-// the box, each term is c + g·u + uᵀHu + r. The constants, g and H of all terms are added up before
-// they are bounded, so that what cancels in F cancels in the bound; only the remainders r, of third
-// order in the box's size, add up without their signs. With q₀ and g of the quadric, s = its part of
-// second order and w = g·u + s = Q − q₀, a cube is
+// Range of F over a box, by a second-order Taylor form about the box's middle: in steps u of half the box each term is
+// c + g·u + uᵀHu + r. Constants, g and H of all terms are summed before they are bounded, so what cancels in F cancels
+// in the bound; only the remainders r, of third order in the box's size, are added by absolute values. With q₀ and g of
+// the quadric, s its second-order part and w = g·u + s = Q − q₀, a cube is
 //
 //     Q³ = q₀³ + 3q₀²(g·u + s) + 3q₀(g·u)² + r,   r = 3q₀(2(g·u)s + s²) + w³
 //
-// That holds where Q > 0 throughout. A perturbation that begins in the box is 0 … max³ there, which
+// This holds where Q > 0 throughout the box. A perturbation that begins within the box lies in [0, max³] there, which
 // is of third order itself.
 #include "bounds/free_form.hpp"
 
@@ -15,9 +14,9 @@
 namespace deburr {
 namespace {
 
-constexpr double slack = 16 * epsilon;  // as of quadrics; cubes triple it
+constexpr double slack = 16 * epsilon;  // relative rounding error of a quadric; cubing triples it
 
-// What an evaluation costs next to a half-space's density, and a quadric next to that.
+// Cost of an evaluation in half-space densities: of the base and of each perturbation.
 constexpr int cost_base = 2, cost_perturbation = 2;
 
 double cube(double x) { return x * x * x; }
@@ -25,7 +24,7 @@ double positive_cube(double x) { return x > 0 ? cube(x) : 0; }
 
 Range times(double f, Range r) { return f >= 0 ? Range{f * r.lo, f * r.hi} : Range{f * r.hi, f * r.lo}; }
 
-// The quadric over a box that may reach beyond what supports it: only where it is positive counts.
+// Range of Q over the part of the box where Q may be positive; only positive values count.
 Range positive_range(const Perturbation& p, const Box& box) {
     const Box part = intersection(box, p.support);
     if (part.empty()) return {-1, 0};
@@ -35,12 +34,13 @@ Range positive_range(const Perturbation& p, const Box& box) {
     return q;
 }
 
+/// Whether the perturbation may be anything but 0 in the box.
 bool counts(const Perturbation& p, const Box& box) { return p.factor != 0 && positive_range(p, box).hi > 0; }
 
-// Sums of terms over a box, in steps of half of it.
+// Taylor form of a sum of terms over a box, in steps of half the box.
 struct Taylor {
     double constant = 0;
-    Vec3 slope{0.0}, square{0.0}, cross{0.0};  // cross: of yz, xz, xy
+    Vec3 slope{0.0}, square{0.0}, cross{0.0};  // cross: coefficients of yz, xz, xy
     Range rest{0, 0};
 
     Range range() const {
@@ -115,7 +115,7 @@ ValueGradient FreeForm::at(Vec3 x) const {
 
 Range FreeForm::range(const Box& box) const {
     if (!box.finite()) {
-        // A bounded form is not positive outside of its box, which makes all else finite.
+        // A bounded form is not positive outside of its box, and the part inside is finite.
         const Box part = intersection(box, box_);
         if (part.empty()) return {-infinity, 0};
         if (part.finite()) return {-infinity, std::max(0.0, range(part).hi)};
@@ -175,17 +175,17 @@ FieldPtr FreeForm::transformed_by(const Affine& map) const {
     return std::make_shared<FreeForm>(transformed(base_, map), std::move(to));
 }
 
-// F > 0 only where the base is or a perturbation lifts it. Within that, what a search by halving
-// cannot rule out.
+// F > 0 only where the base is positive or a perturbation raises it; of that box, the hull of the parts that a search
+// by halving cannot exclude.
 void FreeForm::find_box() {
     Box all = base_.bounding_box();
     for (const Perturbation& p : perturbations_)
         if (p.factor > 0 && !p.support.empty()) all = all.empty() ? p.support : hull(all, p.support);
     box_ = all;
     if (perturbations_.empty() || !all.finite()) return;
-    // Boxes that may hold some of the set grow the result; those that lie within it already, or are
-    // as small as this share of the whole, are not looked into.
-    constexpr int halvings = 15;  // five an axis
+    // Boxes that may hold some of the set enlarge the result. Boxes inside of it already, or halved so often, are not
+    // halved.
+    constexpr int halvings = 15;  // five for each axis
     struct Open {
         Box box;
         FieldPtr form;

@@ -1,12 +1,12 @@
-// Free forms: a quadric with perturbations [Vyatkin §3.1],
+// Free forms: quadrics with perturbations [Vyatkin §3.1],
 //
 //     F(x) = Q(x) + Σ fᵢ Rᵢ(x),   Rᵢ = Qᵢ³ where Qᵢ ≥ 0, else 0          [Vyatkin eq. 2, 3]
 //
-// A perturbation of factor f > 0 raises a bump where its quadric is, one of f < 0 a dent; as Rᵢ
-// falls to 0 with its second derivative, F stays smooth. Where Qᵢ ≤ 0 throughout a box, or along a
-// segment, the perturbation does not count, so a form of many costs those that reach there.
+// A perturbation of factor f > 0 raises a bump where its quadric is positive, one of f < 0 makes a dent. As Rᵢ falls to
+// 0 together with its second derivative, F stays smooth. Where Qᵢ ≤ 0 throughout a box or segment the perturbation is
+// pruned, so a form of many perturbations costs only those that are near.
 //
-// Along a ray each Q is a quadratic, so F is piecewise a polynomial of degree six.
+// Along a ray each Q is a quadratic polynomial, so F is piecewise a polynomial of degree six.
 #pragma once
 #include <vector>
 
@@ -15,16 +15,18 @@
 
 namespace deburr {
 
+/// A term f·max(0, Q)³ of a free form.
 struct Perturbation {
     double factor = 0;  // f
     Quadric quadric;
-    Box support = quadric.bounding_box();  // 0 outside of it
+    Box support = quadric.bounding_box();  // holds Q > 0: the term is 0 outside of it
 };
 
+/// The set F > 0.
 class FreeForm final : public Field {
 public:
-    /// Scales coefficients, by powers of two, so that the largest of each quadric is near 1; the set
-    /// stays the same.
+    /// Scales F and every quadric by powers of two so that their largest coefficients are near 1; the set stays the
+    /// same.
     FreeForm(const Quadric& base, std::vector<Perturbation> perturbations);
 
     const Quadric& base() const { return base_; }
@@ -45,14 +47,14 @@ public:
     RayBounds bounds(const FieldRay& ray, double t0, double t1) const override;
 
 private:
-    struct Part {};  // of another form
+    struct Part {};  // selects the constructor of a pruned part of another form
     FreeForm(Part, const Quadric& base, std::vector<Perturbation> perturbations, const Box& box)
         : base_(base), perturbations_(std::move(perturbations)), box_(box) {}
     void find_box();
 
     Quadric base_;
     std::vector<Perturbation> perturbations_;
-    Box box_;  // holds F > 0
+    Box box_;  // holds the set F > 0
 };
 
 }  // namespace deburr

@@ -1,11 +1,11 @@
-// A free form along a ray: with u = t − middle, every Q is a + b·u + c·u², and F is
+// A free form along a ray: with u = t − middle every Q is a + b·u + c·u², and F is
 //
 //     F(u) = base(u) + Σ fᵢ max(0, Qᵢ(u))³
 //
-// Over a segment, perturbations that are positive throughout and the base add up to one polynomial
-// of degree six, whose derivatives are bounded by their Bernstein coefficients over the segment: what
-// cancels in F cancels in the bounds. Of one that begins or ends in the segment, with 0 ≤ Q ≤ q and
-// |Q′| ≤ d there, |R′| ≤ 3q²d and |R″| ≤ 6qd² + 3q²|Q″|; q is small once segments are.
+// Over a segment, the base and the perturbations that are positive throughout add up to one polynomial of degree six.
+// Its derivatives are bounded by their Bernstein coefficients over the segment, so what cancels in F cancels in the
+// bounds. For a perturbation that begins or ends in the segment, with 0 ≤ Q ≤ q and |Q′| ≤ d there, |R′| ≤ 3q²d and
+// |R″| ≤ 6qd² + 3q²|Q″|; q is small in short segments.
 #include <algorithm>
 #include <array>
 
@@ -20,22 +20,23 @@ struct Quadratic {
     double slope(double u) const { return b + 2 * u * c; }
 };
 
+/// Q(x + u·d) as a polynomial in u.
 Quadratic along(const Quadric& q, Vec3 x, Vec3 d) {
     const Vec3 Ad = q.A * d;
     return {q.at(x), glm::dot(d, q.b) + 2 * glm::dot(Ad, x - q.center), glm::dot(d, Ad)};
 }
 
-// ray.numbers: middle; the base's a, b, c; then f, a, b, c of each perturbation.
+// ray.numbers holds middle; a, b, c of the base; then f, a, b, c of each perturbation.
 constexpr std::size_t first_perturbation = 4, stride = 4;
 
 Quadratic quadratic(const double* n) { return {n[0], n[1], n[2]}; }
 
 double cube(double x) { return x * x * x; }
 
-// Greatest absolute Bernstein coefficient over [0, 1] of Σ c[k] s^k.
+// The greatest absolute Bernstein coefficient of Σ c[k] s^k over [0, 1].
 template <std::size_t count>
 double bernstein_bound(const std::array<double, count>& c) {
-    static constexpr auto share = [] {  // of power k in coefficient j
+    static constexpr auto share = [] {  // share[j][k]: weight of power k in coefficient j
         std::array<std::array<double, count>, count> table{};
         for (std::size_t j = 0; j < count; ++j) {
             double part = 1;
@@ -55,12 +56,13 @@ double bernstein_bound(const std::array<double, count>& c) {
     return most;
 }
 
-// What a perturbation adds to the unit, where its Q is at most `most` and its terms add up to `magnitude`.
+// What a perturbation adds to the noise scale, if its Q is at most `most` and the absolute terms of Q add up to
+// `magnitude`.
 double noise_scale_of(const Perturbation& p, double most, double magnitude) {
     return 3 * std::abs(p.factor) * most * most * magnitude;
 }
 
-// The largest t where q = 0, or −infinity.
+// The largest t where q = 0; −infinity if there is none.
 double last_root(const Quadratic& q) {
     if (q.c == 0) return q.b == 0 ? -infinity : -q.a / q.b;
     const double discriminant = q.b * q.b - 4 * q.a * q.c;
@@ -74,7 +76,7 @@ double last_root(const Quadratic& q) {
 
 double FreeForm::last_sign_change_bound(Vec3 origin, Vec3 direction) const {
     if (box_.finite()) return leaves_box(box_, origin, direction);
-    // Beyond the last root of every quadric F is one polynomial, whose roots have Cauchy's bound.
+    // Beyond the last root of every quadric F is one polynomial, beyond the bound of whose roots it keeps its sign.
     const Quadratic base = along(base_, origin, direction);
     double last = 0;
     std::array<double, 7> sum{base.a, base.b, base.c, 0, 0, 0, 0};
@@ -91,7 +93,7 @@ double FreeForm::last_sign_change_bound(Vec3 origin, Vec3 direction) const {
     }
     std::size_t degree = 6;
     while (degree > 0 && sum[degree] == 0) --degree;
-    double bound = 0;  // Fujiwara's, tighter than Cauchy's
+    double bound = 0;  // Fujiwara's bound is tighter than Cauchy's
     for (std::size_t k = 0; k < degree; ++k)
         bound = std::max(bound, std::pow(std::abs(sum[k] / sum[degree]), 1.0 / double(degree - k)));
     return std::max(last, 2 * bound);
@@ -151,13 +153,13 @@ ValueSlope FreeForm::at(const FieldRay& ray, double t) const {
 RayBounds FreeForm::bounds(const FieldRay& ray, double t0, double t1) const {
     const auto& n = ray.numbers;
     const double u = t0 - n[0], length = t1 - t0;
-    const auto local = [&](const double* from) {  // over [0, 1]
+    const auto local = [&](const double* from) {  // the quadratic as a function of s in [0, 1]
         const Quadratic q = quadratic(from);
         return Quadratic{q.at(u), q.slope(u) * length, q.c * length * length};
     };
     const Quadratic base = local(&n[1]);
     std::array<double, 7> sum{base.a, base.b, base.c, 0, 0, 0, 0};
-    double M = 0, L = 0, G = 0;  // of perturbations that begin or end
+    double M = 0, L = 0, G = 0;  // of perturbations that begin or end in the segment
     bool cubes = false;
     for (std::size_t i = first_perturbation; i < n.size(); i += stride) {
         const Quadratic q = local(&n[i + 1]);

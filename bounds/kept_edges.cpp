@@ -9,13 +9,13 @@ namespace {
 
 constexpr double end_potential = 8.0 / 15;    // φ₀
 constexpr double least_turn = 0.86602540378;  // cosine of 30°
-// Of k(ρ) = (1 − ρ²/w²)²/w: largest |k′| w², at ρ² = w²/3, and |k″| w³, at ρ = w.
+// For the kernel k(ρ) = (1 − ρ²/w²)²/w: the largest |k′| w², at ρ² = w²/3, and the largest |k″| w³, at ρ = w.
 constexpr double steepest_kernel = 1.5397, most_bent_kernel = 8;
 
 double smooth(double u) { return u * u * (3 - 2 * u); }
 double smooth_slope(double u) { return 6 * u * (1 - u); }
 
-// φ and ∇φ of one edge.
+// Adds φ and ∇φ of one edge.
 void add_potential(const LocalRadius::Segment& e, Vec3 x, double w, double& potential, Vec3& gradient) {
     const Vec3 d = e.to - e.from;
     const double length = glm::length(d);
@@ -23,7 +23,7 @@ void add_potential(const LocalRadius::Segment& e, Vec3 x, double w, double& pote
     const Vec3 along = d / length;
     const double foot = glm::dot(x - e.from, along);
     const Vec3 away = (x - e.from - foot * along) / w;
-    const double q2 = 1 - glm::dot(away, away);  // half of the chord in the ball of radius w, squared
+    const double q2 = 1 - glm::dot(away, away);  // square of half the chord in the ball of radius w, in units of w
     if (!(q2 > 0)) return;
     const double q = std::sqrt(q2);
     const double a = std::clamp(-foot / w, -q, q), b = std::clamp((length - foot) / w, -q, q);
@@ -34,11 +34,12 @@ void add_potential(const LocalRadius::Segment& e, Vec3 x, double w, double& pote
     gradient += (-4 * (across(b) - across(a)) * away + (kernel(a) - kernel(b)) * along) / w;
 }
 
-// At most the length of the part of an edge that lies within w of a box of this half diagonal.
+// Upper bound of the length of the edge's part that is within w of a box whose half diagonal is `half`.
 double length_within(const LocalRadius::Segment& e, double w, double half) {
     return std::min(glm::distance(e.from, e.to), 2 * (w + half));
 }
 
+/// Distance of x from the region, and its gradient.
 double distance(const Box& region, Vec3 x, Vec3& direction) {
     const Vec3 on = glm::clamp(x, region.lo, region.hi);
     const double d = glm::distance(x, on);
@@ -46,7 +47,7 @@ double distance(const Box& region, Vec3 x, Vec3& direction) {
     return d;
 }
 
-// Distances of the box's points from the region.
+// Range of the distances of the box's points from the region.
 Range distances(const Box& region, const Box& box) {
     Vec3 least(0.0), greatest(0.0);
     for (int k = 0; k < 3; ++k) {
@@ -56,13 +57,13 @@ Range distances(const Box& region, const Box& box) {
     return {glm::length(least), glm::length(greatest)};
 }
 
-// One factor S(u) of the radius, over a box.
+// One factor S(u) of the radius over a box: its range, and upper bounds of |S′| and |S″|.
 struct Factor {
     Range value;
     double rate, bend;
 };
 
-// |u′| ≤ rate, |u″| ≤ bend.
+// The factor where u is in this range, |u′| ≤ rate and |u″| ≤ bend.
 Factor factor(Range u, double rate, double bend) {
     u = {std::clamp(u.lo, 0.0, 1.0), std::clamp(u.hi, 0.0, 1.0)};
     if (u.hi <= 0 || u.lo >= 1) return {{smooth(u.lo), smooth(u.hi)}, 0, 0};
@@ -102,12 +103,12 @@ void LocalRadius::near(const Box& box, std::vector<Segment>& found) const {
 LocalRadius::Value LocalRadius::at(Vec3 x, std::span<const Segment> edges) const {
     const double w = kept_.fade;
     double product = 1;
-    Vec3 relative(0.0);  // ∇ of the product, in it
+    Vec3 relative(0.0);  // the gradient of the product
     const auto multiply = [&](double u, Vec3 slope) {
         if (u >= 1) return;
         u = std::max(u, 0.0);
         const double s = smooth(u);
-        // By the product rule, also where a factor is 0.
+        // The product rule in this form holds where a factor is 0, too.
         relative = relative * s + product * smooth_slope(u) * slope;
         product *= s;
     };
@@ -131,8 +132,8 @@ LocalRadius::Bounds LocalRadius::over(const Box& box, std::span<const Segment> e
     for (const Box& region : kept_.regions) {
         const Range d = distances(region, box);
         if (d.lo >= w) continue;
-        // The distance from a box bends by 1/d across a corner or an edge of it, and S′ ≤ 6 u = 6 d/w makes up for
-        // that.
+        // The distance from a box has the second derivative 1/d beside an edge or corner of the box; S′ ≤ 6u = 6d/w
+        // compensates for it.
         Factor f = factor({d.lo / w, d.hi / w}, 1 / w, 0);
         const bool bends = d.hi > 0;
         constexpr double of_corners = 6;

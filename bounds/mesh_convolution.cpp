@@ -9,16 +9,16 @@ namespace {
 
 constexpr double pi = 3.14159265358979323846;
 
-// Where an edge goes through the sphere. Both triangles of the edge know it by the same key.
+// A point where an edge pierces the sphere. Both triangles of the edge have the same key for it.
 struct Piercing {
     int key;
     Vec3 at;  // from the ball's centre, in radii
 };
 
-// The edge from a to b, as it lies in the unit ball: where it enters and where it leaves. Computed from its vertices in
-// one order, whichever triangle asks.
+// The part of the edge from a to b in the unit ball: where it enters and leaves. It is computed with the vertices in
+// one order whichever triangle asks, so that both triangles get the same bits.
 struct Chord {
-    bool inside[2] = {false, false};  // its ends
+    bool inside[2] = {false, false};  // whether each end is in the ball
     bool enters = false, leaves = false;
     Vec3 entry{0.0}, exit{0.0};
 };
@@ -30,7 +30,7 @@ Chord chord_of(Vec3 a, Vec3 b) {
     c.inside[0] = aa < 1;
     c.inside[1] = bb < 1;
     if (c.inside[0] && c.inside[1]) return c;
-    // The point nearest to the centre, and half of the chord.
+    // The edge's point nearest to the centre, and half of the chord in units of d.
     const bool both_out = !c.inside[0] && !c.inside[1];
     if (both_out && !(ad < 0 && -ad < dd)) return c;
     const double s = -ad / dd;
@@ -49,13 +49,14 @@ Chord chord_of(Vec3 a, Vec3 b) {
     return c;
 }
 
-// The sum of angles in (−π, π] whose sines and cosines are given up to a factor > 0.
+// A sum of angles in (−π, π] that are given by their sines and cosines, up to a common factor > 0.
 class AngleSum {
 public:
     void add(double sine, double cosine) {
         const double re = re_ * cosine - im_ * sine, im = re_ * sine + im_ * cosine;
         const bool was_upper = im_ > 0 || (im_ == 0 && re_ > 0), is_upper = im > 0 || (im == 0 && re > 0);
-        // By less than half of a turn to the left from the upper half plane into the lower, or the other way around.
+        // A turn by less than π, to the left from the upper half-plane into the lower, or to the right the other way
+        // round.
         const double size = std::max(std::abs(re), std::abs(im));
         if (!(size > 0)) return;
         const bool left = sine > 0 || (sine == 0 && cosine < 0);
@@ -71,18 +72,18 @@ private:
     int turns_ = 0;
 };
 
-// Memory that evaluations use again and again.
+// Memory that a thread keeps from one evaluation to the next.
 struct Scratch {
     struct Arc {
         int from, to;  // keys
     };
     std::vector<Arc> arcs;
-    AngleSum turn;  // of the solid's border on the sphere, where it passes from one triangle to the next
+    AngleSum turn;  // of the boundary on the sphere, where it passes from one triangle to the next
     std::vector<char> seen;
 };
 
-// Closed curves that the arcs make up; −1 if an arc ends where none begins, since its triangle is not among those that
-// were looked at.
+// The number of closed curves that the arcs make up; −1 if an arc ends where none begins, because its triangle is
+// missing.
 int count_loops(Scratch& scratch) {
     auto& arcs = scratch.arcs;
     std::sort(arcs.begin(), arcs.end(), [](const auto& a, const auto& b) { return a.from < b.from; });
@@ -102,7 +103,7 @@ int count_loops(Scratch& scratch) {
     return loops;
 }
 
-// The part of one triangle that lies in the unit ball around the origin.
+// The part of one triangle in the unit ball around the origin.
 class Sector {
 public:
     Sector(const ClosedMesh& mesh, int t, Vec3 x, double r) : mesh_(mesh), t_(t), normal_(mesh.plane(t).normal) {
@@ -110,17 +111,18 @@ public:
         h_ = (mesh.plane(t).offset - glm::dot(normal_, x)) / r;
     }
 
-    // False if the ball does not meet the triangle.
+    // Computes the part and adds its arcs and turns to `scratch`; false if the ball does not meet the triangle.
     bool find(Scratch& scratch) {
         foot_ = h_ * normal_;
-        square_ = std::max(0.0, 1 - h_ * h_);  // of the circle's radius
+        square_ = std::max(0.0, 1 - h_ * h_);  // of the radius of the circle in which the plane cuts the ball
         int events = 0;
         for (int k = 0; k < 3; ++k) {
             const int l = (k + 1) % 3;
             const ClosedMesh::Corners& v = mesh_.triangles()[t_];
             const bool up = v[k] < v[l];
             Chord c = up ? chord_of(corner_[k], corner_[l]) : chord_of(corner_[l], corner_[k]);
-            // Keys by the direction from the lesser vertex on: 0 enters, 1 leaves.
+            // A key is twice the edge's number, plus 1 where the edge leaves the ball going from the lesser vertex to
+            // the greater.
             const int id = 2 * mesh_.edge_id(t_, k);
             int entry_key = id, exit_key = id + 1;
             if (!up) {
@@ -141,7 +143,7 @@ public:
             any_ = true;
         }
         if (events == 0) {
-            if (any_) return true;  // all of the triangle
+            if (any_) return true;  // all of the triangle is in the ball
             if (square_ == 0) return false;
             for (int k = 0; k < 3; ++k)
                 if (cross(corner_[k] - foot_, corner_[(k + 1) % 3] - foot_) <= 0) return false;
@@ -150,21 +152,23 @@ public:
             twice_area_ = square_ * arcs_;
             return true;
         }
-        // From where the border leaves to where it comes back, around by the circle.
+        // Arcs of the circle, from where the triangle's border leaves the ball to where it comes back.
         for (int i = 0; i < events; ++i) {
             if (event_[i].enters) continue;
             const Event &out = event_[i], &in = event_[(i + 1) % events];
             const double angle = arc(out, in);
             arcs_ += angle;
             twice_area_ += square_ * angle;
-            // Seen with the solid on the left it runs the other way.
+            // With the solid on the left the arc runs the other way.
             scratch.arcs.push_back({in.piercing.key, out.piercing.key});
         }
         return true;
     }
 
+    /// Signed distance of the plane, in radii.
     double h() const { return h_; }
-    double area() const { return 0.5 * twice_area_; }  // in squared radii
+    double area() const { return 0.5 * twice_area_; }  // |D| in squared radii
+    /// The sum of the arcs' angles, and the number of whole circles in the triangle.
     double arcs() const { return arcs_; }
     int loops() const { return loops_; }
 
@@ -180,8 +184,8 @@ private:
         return std::atan2(cross(a - foot_, b - foot_), glm::dot(a - foot_, b - foot_));
     }
 
-    // Counter-clockwise. Where it is short, or nearly all of the circle, the border tells which: beyond the circle the
-    // two go around the same.
+    // The angle of the arc, counter-clockwise. Where it is either short or nearly the whole circle, the triangle's
+    // border tells which: outside of the circle both go around equally far.
     double arc(const Event& out, const Event& in) const {
         const double direct = angle(out.piercing.at, in.piercing.at);
         constexpr double sure = 1e-3;
@@ -198,8 +202,7 @@ private:
         return around > pi ? direct + 2 * pi : direct;
     }
 
-    // Where the solid's border on the sphere passes from this triangle to the next, across edge k at y: its turn to the
-    // left.
+    // Adds the left turn of the solid's boundary on the sphere where it passes at y across edge k to the next triangle.
     void add_turn(int k, Vec3 y, AngleSum& turn) const {
         const ClosedMesh::Plane &here = mesh_.plane(t_), &there = mesh_.plane(mesh_.across(t_, k).triangle);
         if (here.id == there.id) return;
@@ -219,15 +222,15 @@ private:
     int loops_ = 0;
 };
 
-// Sets `v`; false, and something near it, if some triangles that the sphere cuts are not among these.
+// Sets `v`; returns false, with an approximation in `v`, if a triangle that the sphere cuts is missing.
 bool sum_up(const ClosedMesh& mesh, std::span<const int> triangles, Vec3 x, double r, ShareRates& v) {
     thread_local Scratch scratch;
     scratch.arcs.clear();
     scratch.turn = {};
-    double share = 0, heights = 0;  // Σ h |D|
+    double share = 0, heights = 0;  // heights: Σ h |D|
     int loops = 0;
     Vec3 areas(0.0);
-    // What is farther beyond the sphere, or within, than this is not cut by it whatever rounding does.
+    // Triangles farther outside or inside of the sphere than this are not cut by it, whatever rounding does.
     const double rounding = 1e-9 * r + 16 * epsilon * (largest(glm::abs(x)) + r);
     for (const int t : triangles) {
         const ClosedMesh::Ball& ball = mesh.ball(t);
@@ -255,7 +258,7 @@ bool sum_up(const ClosedMesh& mesh, std::span<const int> triangles, Vec3 x, doub
     const int curves = scratch.arcs.empty() ? 0 : count_loops(scratch);
     share = (share - scratch.turn.value()) / (4 * pi) - 0.5 * (loops + std::max(0, curves));
     share -= std::floor(share);
-    // What is left is a multiple of 1, which decides between nothing and all.
+    // The sum is determined up to whole numbers, which matters only between 0 and 1.
     constexpr double near_whole = 1e-7;
     if (share < near_whole || share > 1 - near_whole) {
         const bool in = mesh.contains(x, triangles, r);

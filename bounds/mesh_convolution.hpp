@@ -1,13 +1,13 @@
-// The true convolution of a closed mesh with a ball [Lobb eq. 1]: the share of a ball that lies inside, in closed form
-// [docs/design.md, Closed meshes].
+// The true convolution of a closed mesh with a ball [Lobb eq. 1]: the fraction of a ball's volume that is inside the
+// mesh, in closed form [docs/design.md, Closed meshes].
 //
 // By the divergence theorem, with the ball's centre as the origin, the part of the solid in the ball has the volume
 //
-//     V = ⅓ Σ h |D| + ⅓ r³ Ω       over the triangles; h: signed distance of the plane, D: part of it in the ball
+//     V = ⅓ Σ h |D| + ⅓ r³ Ω       over the triangles; h: signed distance of the plane, D: its part in the ball
 //
-// where Ω, the solid angle of what the sphere's surface holds of the solid, follows from its border by Gauss and
-// Bonnet: arcs of circles, and the angles in which they meet. Nothing here is singular where the centre lies on a face,
-// an edge or a vertex. What that leaves open is a multiple of the whole ball.
+// where Ω is the solid angle of the part of the sphere that is inside the solid. It follows from that part's boundary
+// by the Gauss–Bonnet theorem: from arcs of circles and the angles at which they meet. Nothing here is singular where
+// the centre lies on a face, an edge or a vertex. The theorem leaves a multiple of the whole ball undetermined.
 #pragma once
 #include <span>
 
@@ -16,21 +16,22 @@
 
 namespace deburr {
 
-/// The share of the ball of radius r > 0 around x that is inside the mesh, in [0, 1], and its gradient.
-/// `triangles` are those that reach the ball, or more; where there are none, the share is whether x is inside. Where
-/// the sphere cuts an edge of which one triangle is not among them, all that reach the ball are looked for. Linear in
-/// their number. Off by 10⁻¹² at most, but where the sphere touches a plane within 10⁻⁶ r: 10⁻⁹ there.
+/// The fraction ("share") of the ball of radius r > 0 around x that is inside the mesh, in [0, 1], and its gradient by
+/// x. `triangles` should hold all that reach the ball, and may hold more. If the sphere cuts an edge of which one
+/// triangle is missing, all triangles that reach the ball are searched for; if none reaches it, the share is 1 or 0 by
+/// whether x is inside. Time is linear in the number of triangles. The error is at most 10⁻¹², or 10⁻⁹ where the sphere
+/// touches a plane within 10⁻⁶ r.
 ValueGradient ball_share(const ClosedMesh& mesh, std::span<const int> triangles, Vec3 x, double r);
-/// The share and its gradient, with all triangles of the mesh.
+/// The same, with the triangles that reach the ball found in the mesh.
 ValueGradient ball_share(const ClosedMesh& mesh, Vec3 x, double r);
-/// A share, its gradient, and its rate of change with r, which is −3/(4πr⁴) Σ h |D|.
+/// The share, its gradient by x, and its derivative by r, which is −3/(4πr⁴) Σ h |D|.
 struct ShareRates {
     double value = 0;
     Vec3 gradient{0.0};
     double by_radius = 0;
 };
 ShareRates ball_share_rates(const ClosedMesh& mesh, std::span<const int> triangles, Vec3 x, double r);
-/// The area of the triangle's part that lies in the ball of radius r around x; 0 where r ≤ 0.
+/// The area of the triangle's part in the ball of radius r around x; 0 where r ≤ 0.
 double area_in_ball(const ClosedMesh& mesh, int triangle, Vec3 x, double r);
 
 }  // namespace deburr

@@ -9,17 +9,17 @@
 namespace deburr {
 namespace {
 
-// A share is a sum over triangles: RootFinder::rounding of this bounds what its terms' rounding adds up to.
+// RootFinder::rounding times this bounds the rounding error of a share, which is a sum over triangles.
 constexpr double noise_scale = 64;
 
-constexpr double sharp_radius = 0x1p-26;  // of the mesh's size
+constexpr double sharp_radius = 0x1p-26;  // relative to the mesh's size
 
 constexpr double pi = mesh_pi;
 
-constexpr double steepest = 0.75;  // what the largest disc changes the share by, for each radius
+constexpr double steepest = 0.75;  // the greatest change of a share per radius of movement
 
-// Calls visit(triangle, steepness) with what holds for balls whose centres are within `half` of the center, and within
-// `reach` radii across the directions in which nothing changes.
+// Calls visit(triangle, steepness) with bounds that hold for balls whose centres are within the box center ± half, and
+// within `reach` radii of the center across the directions along which nothing changes.
 template <class Visit>
 void each_steepness(const ClosedMesh& mesh, std::span<const int> triangles, Vec3 center, double r, Vec3 half,
                     double reach, Visit visit) {
@@ -33,8 +33,8 @@ void each_steepness(const ClosedMesh& mesh, std::span<const int> triangles, Vec3
     }
 }
 
-// How far the box reaches from its middle in directions in which the share changes: where all planes have a direction
-// in common it is the same along that.
+// Half the extent of the box center ± half across the direction that all planes have in common, if there is one,
+// because along it the share does not change; in world distances.
 double reach_across(const ClosedMesh& mesh, std::span<const int> triangles, Vec3 half) {
     constexpr double same_direction = 1e-9;  // sine of the angle between normals
     const Vec3 first = mesh.plane(triangles[0]).normal;
@@ -58,8 +58,8 @@ double reach_across(const ClosedMesh& mesh, std::span<const int> triangles, Vec3
     return std::sqrt(square);
 }
 
-// Calls visit(triangle, least, greatest) with what |D| can be, in squared radii, for balls whose centres are within
-// `reach` radii of x: such a ball holds one that is smaller by this, and lies in one that is larger.
+// Calls visit(triangle, least, greatest) with the range of |D|, in squared radii, for balls whose centres are within
+// `reach` radii of x: such a ball holds one around x that is smaller by this, and lies in one that is larger by this.
 template <class Visit>
 void each_area_range(const ClosedMesh& mesh, std::span<const int> triangles, Vec3 x, double r, double reach,
                      Visit visit) {
@@ -86,9 +86,10 @@ MeshField::MeshField(Part, const MeshField& of, std::vector<int> triangles)
       triangles_(std::move(triangles)),
       box_(of.box_) {}
 
-// Cells may be infinite; what is beyond this part of one no triangle reaches.
+// The part of an infinite cell beyond which no triangle reaches.
 Box MeshField::reached(const Box& box) const { return intersection(box, inflated(box_, 2 * radius_)); }
 
+/// The triangles that reach the cell, in increasing order; the span is valid as long as `memory` is unchanged.
 std::span<const int> MeshField::near(const Box& cell, std::vector<int>& memory) const {
     memory.clear();
     const Box box = reached(cell);
@@ -102,7 +103,7 @@ std::span<const int> MeshField::near(const Box& cell, std::vector<int>& memory) 
     return memory;
 }
 
-// Of points that no triangle is near.
+// Whether x is inside; for points that no triangle is near.
 bool MeshField::is_inside(Vec3 x) const { return box_.contains(x) && mesh_->contains(x); }
 
 ValueGradient MeshField::at(Vec3 x) const {
@@ -140,7 +141,7 @@ Range MeshField::range(const Box& box, std::span<const int> triangles) const {
     curvature *= 3 / (4 * pi);
     off = std::min(off, glm::dot(glm::abs(v.gradient), half) + 0.5 * curvature * reach * reach);
     if (reach < 1) {
-        Vec3 lo(0.0), hi(0.0);  // of Σ n |D|
+        Vec3 lo(0.0), hi(0.0);  // range of Σ n |D|
         each_area_range(*mesh_, triangles, center, radius_, reach, [&](int t, double least, double greatest) {
             const Vec3 n = mesh_->plane(t).normal;
             lo += glm::min(n * least, n * greatest);
@@ -156,7 +157,7 @@ Range MeshField::rate_range(const Box& box, Vec3 direction) const {
     thread_local std::vector<int> memory;
     const std::span<const int> found = near(box, memory);
     if (found.empty()) return {0, 0};
-    // Where no triangle faces against the direction the share does not grow, whatever the ball holds of them.
+    // Where no triangle faces against the direction the share does not grow along it, whatever the ball holds of them.
     Range cosine{infinity, -infinity};
     for (const int t : found) {
         const double along = glm::dot(mesh_->plane(t).normal, direction);
@@ -169,13 +170,13 @@ Range MeshField::rate_range(const Box& box, Vec3 direction) const {
     const double rate = glm::dot(ball_share(*mesh_, found, center, radius_).gradient, direction);
     double curvature = 0;
     each_steepness(*mesh_, found, center, radius_, half, reach, [&](int t, const Steepness& s) {
-        // d(∇f·n)/dx = Σ (n·N) ∇|D|, and |∇|D|| ≤ |h| φ + the arcs' sum.
+        // d(∇f·n)/dx = Σ (n·N) ∇|D|, and |∇|D|| ≤ |h| φ + the length of the arcs' sum.
         curvature += std::abs(glm::dot(mesh_->plane(t).normal, direction)) * std::hypot(s.across, s.along);
     });
     const double off = curvature * (3 / (4 * pi)) * reach / radius_;
     Range rates{rate - off, rate + off};
     if (reach < 1) {
-        Range sum;  // of Σ n·direction |D|
+        Range sum;  // range of Σ n·direction |D|
         each_area_range(*mesh_, found, center, radius_, reach, [&](int t, double least, double greatest) {
             const double along = glm::dot(mesh_->plane(t).normal, direction);
             sum.lo += std::min(along * least, along * greatest);
@@ -211,7 +212,7 @@ std::vector<HalfSpace> MeshField::planes() const {
 }
 
 int MeshField::size() const {
-    // A triangle costs about as much as this many half-spaces.
+    // The cost of a triangle in half-spaces.
     constexpr double triangle = 2;
     return int(std::min(1e9, std::max(1.0, triangle * double(triangle_count()))));
 }
@@ -219,7 +220,7 @@ int MeshField::size() const {
 LocalSize MeshField::local_size(const Box& box) const {
     // Of a large box that many triangles reach nothing would be proved by looking at each.
     constexpr std::size_t many = 256;
-    constexpr double large = 4;  // shortest side, in radii
+    constexpr double large = 4;  // shortest side in radii
     const Box seen = reached(box);
     const Vec3 sides = seen.hi - seen.lo;
     if (std::min({sides.x, sides.y, sides.z}) > large * radius_) {

@@ -1,5 +1,6 @@
-// A closed mesh as a field whose f is share − ½: the share of a ball inside it [mesh_convolution.hpp]. Where one plane
-// reaches a box it is a half-space there, and where two meet in one line a wedge: Field::as_density.
+// A closed mesh, rounded by true convolution, as the field f = share − ½, where the share is the fraction of a ball
+// around x that is inside the mesh (mesh_convolution.hpp). Where only one plane reaches a box the field is a half-space
+// there, and where two planes meet in one line it is a wedge: see as_density().
 #pragma once
 #include <optional>
 #include <span>
@@ -10,14 +11,14 @@
 
 namespace deburr {
 
-/// The set share > ½. A radius of 0 stands for one that no picture and no mesh tells from it: 2⁻²⁶ of the mesh's size;
-/// faces and edges are exact.
+/// The set share > ½ for a ball of this radius (a world distance). A radius of 0 stands for 2⁻²⁶ of the mesh's size,
+/// which no picture and no mesh distinguishes from 0; faces and edges stay exact.
 class MeshField final : public Field {
 public:
     MeshField(ClosedMeshPtr mesh, double radius);
 
     const ClosedMesh& mesh() const { return *mesh_; }
-    /// How many triangles may matter here.
+    /// The number of triangles that this field, perhaps a pruned one, looks at.
     std::size_t triangle_count() const { return whole_ ? mesh_->size() : triangles_.size(); }
 
     ValueGradient at(Vec3 x) const override;
@@ -38,7 +39,7 @@ public:
     RayBounds bounds(const FieldRay& ray, double t0, double t1) const override;
 
 private:
-    struct Part {};  // of another
+    struct Part {};  // selects the constructor of a pruned part of another field
     MeshField(Part, const MeshField& of, std::vector<int> triangles);
     Box reached(const Box& box) const;
     std::span<const int> near(const Box& box, std::vector<int>& memory) const;
@@ -56,8 +57,8 @@ private:
     ClosedMeshPtr mesh_;
     double radius_;
     bool sharp_;
-    bool whole_ = true;           // all triangles; else
-    std::vector<int> triangles_;  // those that reach a box
+    bool whole_ = true;           // whether all triangles count; else
+    std::vector<int> triangles_;  // these do, which reach a box
     Box box_;
 };
 

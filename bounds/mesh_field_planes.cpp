@@ -1,4 +1,4 @@
-// Where a mesh is no more than one plane or two near a box, its field is the density of a half-space or of a wedge.
+// The density of a mesh near a box where only one or two of its planes reach: a half-space or a wedge.
 #include <algorithm>
 
 #include "bounds/mesh_field.hpp"
@@ -6,17 +6,18 @@
 namespace deburr {
 namespace {
 
-// Between planes that make a wedge: an error of ε in one moves their edge by ε over the angle.
+// The least angle between two planes that make a wedge: an error of ε in one moves their edge by ε over the angle.
 constexpr double least_angle = 1e-6;
 
+/// Whether both are one plane up to rounding, facing the same way.
 bool same_plane(const ClosedMesh::Plane& a, const ClosedMesh::Plane& b, double scale) {
     if (a.id == b.id) return true;
     return glm::dot(a.normal, b.normal) > 0 && largest(a.normal - b.normal) <= 4 * epsilon &&
            std::abs(a.offset - b.offset) <= 8 * epsilon * scale;
 }
 
-// At least the distance of the box from a convex set whose nearest point to any is `nearest`: from one to the other
-// and back, a few times.
+// An upper bound of the distance between the box and a convex set, whose point nearest to x is nearest(x), by a few
+// alternating projections from `start`.
 template <class Nearest>
 double distance_bound(const Box& box, Vec3 start, Nearest nearest) {
     double distance = infinity;
@@ -29,6 +30,7 @@ double distance_bound(const Box& box, Vec3 start, Nearest nearest) {
     return std::min(distance, glm::distance(on, glm::clamp(on, box.lo, box.hi)));
 }
 
+/// An upper bound of the distance between the box and the segment ab.
 double distance_bound(Vec3 a, Vec3 b, const Box& box) {
     return distance_bound(box, 0.5 * (a + b), [&](Vec3 x) {
         const Vec3 d = b - a;
@@ -38,12 +40,12 @@ double distance_bound(Vec3 a, Vec3 b, const Box& box) {
 
 }  // namespace
 
-// The planes of triangles, as long as they are no more than two.
+// The planes of some triangles, if they are no more than two.
 struct MeshField::NearPlanes {
     const ClosedMesh::Plane *a = nullptr, *b = nullptr;
-    double scale;  // of the mesh's coordinates
+    double scale;  // largest coordinate of the mesh
 
-    // False for a third plane, which is left out.
+    // Adds a plane; false for a third one, which is left out.
     bool add(const ClosedMesh::Plane& plane) {
         if (is_a(plane) || (b && same_plane(plane, *b, scale))) return true;
         if (b) return false;
@@ -62,7 +64,8 @@ std::optional<DensityTree> MeshField::as_density(const Box& cell) const {
     return planes->b ? wedge(box, found, *planes) : one_plane(box, found, *planes->a);
 }
 
-// The planes of all triangles that reach the box, which go to `found` in order; none where they are more than two.
+// The planes of all triangles that reach the box, which are stored in `found` in increasing order; none if they are
+// more than two, or if no triangle reaches.
 std::optional<MeshField::NearPlanes> MeshField::near_planes(const Box& box, std::vector<int>& found) const {
     found.clear();
     const double scale = std::max(largest(box_.lo), largest(box_.hi));
@@ -80,7 +83,7 @@ std::optional<MeshField::NearPlanes> MeshField::near_planes(const Box& box, std:
             if (mesh_->reaches(t, box, radius_) && !add(t)) break;
     }
     if (found.empty() || many) return std::nullopt;
-    // Which plane stands for those that are equal to rounding is told by the triangles' order.
+    // Which of several planes that are equal up to rounding is taken depends on the triangles' order only.
     std::sort(found.begin(), found.end());
     planes = {.scale = scale};
     for (const int t : found)
@@ -90,7 +93,7 @@ std::optional<MeshField::NearPlanes> MeshField::near_planes(const Box& box, std:
 
 HalfSpace MeshField::half_space(const ClosedMesh::Plane& p) const { return {p.normal, p.offset, sharp_ ? 0 : radius_}; }
 
-// Where none of the triangles surely reaches the box there may be nothing.
+// The half-space of the only plane; none if no triangle provably reaches the box, where there may be nothing.
 std::optional<DensityTree> MeshField::one_plane(const Box& box, const std::vector<int>& triangles,
                                                 const ClosedMesh::Plane& plane) const {
     const bool is_reached = std::any_of(triangles.begin(), triangles.end(), [&](int t) {
@@ -103,7 +106,7 @@ std::optional<DensityTree> MeshField::one_plane(const Box& box, const std::vecto
 std::optional<DensityTree> MeshField::wedge(const Box& box, const std::vector<int>& triangles,
                                             const NearPlanes& planes) const {
     const ClosedMesh::Plane &a = *planes.a, &b = *planes.b;
-    // Where planes that are all but one plane meet is not known well enough.
+    // The line in which two nearly equal planes meet is not known well enough.
     if (glm::length(glm::cross(a.normal, b.normal)) < least_angle && glm::dot(a.normal, b.normal) > 0)
         return std::nullopt;
     const std::optional<Op> op = edge_between(box, triangles, planes);
@@ -116,7 +119,8 @@ std::optional<DensityTree> MeshField::wedge(const Box& box, const std::vector<in
     return wedge;
 }
 
-// How two planes meet: in edges that are convex (conjunction) or concave (disjunction), one of which is surely near.
+// How the two planes meet: in edges that are all convex (conjunction) or all concave (disjunction), one of which is
+// provably within reach of the box; else none.
 std::optional<Op> MeshField::edge_between(const Box& box, const std::vector<int>& triangles,
                                           const NearPlanes& planes) const {
     bool convex = false, concave = false, meet = false;

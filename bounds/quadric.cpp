@@ -5,7 +5,7 @@
 namespace deburr {
 namespace {
 
-// A sum of some ten products is off by less than this share of the magnitude.
+// The rounding error of a sum of some ten products is less than this fraction of its magnitude().
 constexpr double slack = 16 * epsilon;
 
 Range product(Range a, Range b) {
@@ -89,7 +89,7 @@ Range Quadric::range(const Box& box) const {
     return {sum.lo - off, sum.hi + off};
 }
 
-// Along the eigenvectors of A the variables part.
+// Along the eigenvectors of A the variables separate.
 Range Quadric::range_everywhere() const {
     const auto [axes, squares] = eigensystem(A);
     const auto rounded = [](double value, double size) { return std::abs(value) <= slack * size ? 0.0 : value; };
@@ -105,8 +105,8 @@ Range Quadric::range_everywhere() const {
     return {rounded(sum.lo, size), rounded(sum.hi, size)};
 }
 
-// Along an axis that A knows nothing of, Q is straight: it bounds the set on one side at most. The
-// other axes have the set's widest cross-section, an ellipse (or ellipsoid, or interval).
+// Along an axis that A does not involve, Q is linear: it bounds the set on one side at most. Along the other axes the
+// box is that of the set's widest cross-section, an ellipse (or ellipsoid, or interval).
 Box Quadric::bounding_box() const {
     Box box = Box::everything();
     int straight = -1, free = 0;
@@ -119,7 +119,7 @@ Box Quadric::bounding_box() const {
         ++free;
     }
     if (free > 1) return box;
-    // Of the axes in A, with the others struck out by −1.
+    // −A restricted to the axes that it involves; the others get 1 on the diagonal.
     Mat3 positive = -A;
     Vec3 linear = b;
     for (int i = 0; i < 3; ++i)
@@ -130,12 +130,12 @@ Box Quadric::bounding_box() const {
     const double diagonal = positive[0][0] * positive[1][1] * positive[2][2];
     const double minor = positive[0][0] * positive[1][1] - positive[0][1] * positive[1][0];
     const double determinant = glm::determinant(positive);
-    // What is infinite at a slant may come out of rounding as something huge.
-    constexpr double slenderest = 1e-12;  // of ellipsoids, squared: ratio of their radii
+    // A set that is infinite at a slant may come out of rounding as a huge finite one.
+    constexpr double slenderest = 1e-12;  // of ellipsoids: square of the ratio of their radii
     if (!(positive[0][0] > 0 && minor > 0 && determinant > slenderest * diagonal)) return box;
     const Mat3 inverse = glm::inverse(positive);
     const Vec3 middle = 0.5 * (inverse * linear);
-    const double top = k + 0.5 * glm::dot(linear, middle);  // of Q
+    const double top = k + 0.5 * glm::dot(linear, middle);  // the greatest value of Q
     if (straight >= 0) {
         const double end = center[straight] - top / b[straight];
         (b[straight] > 0 ? box.lo : box.hi)[straight] = end - slack * (std::abs(end) + std::abs(center[straight]));

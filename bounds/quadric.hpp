@@ -1,38 +1,38 @@
-// Quadrics Q(x) ≥ 0: what Vyatkin's free forms and their perturbations are made of [Vyatkin eq. 1].
+// Quadrics {x : Q(x) > 0}, of which Vyatkin's free forms and perturbations are made [Vyatkin eq. 1].
 #pragma once
 #include "bounds/box_range.hpp"
 #include "bounds/vec.hpp"
 
 namespace deburr {
 
-/// Q(x) = yᵀAy + b·y + k, where y = x − center and A is symmetric; inside where Q > 0.
-/// Printed differently: eq. 1 has no centre. It lets a quadric be moved without the rounding that
-/// expanded coefficients suffer far from the origin.
+/// Q(x) = yᵀAy + b·y + k, where y = x − center and A is symmetric; the set is Q > 0. Printed differently: eq. 1 has no
+/// centre. With one a quadric can be moved without the rounding error that expanded coefficients have far from the
+/// origin.
 struct Quadric {
     Vec3 center{0.0};
     Mat3 A{0.0};
     Vec3 b{0.0};
     double k = 0;
 
+    /// Q and ∇Q at x.
     double at(Vec3 x) const { return value(x - center); }
     Vec3 gradient(Vec3 x) const { return 2.0 * (A * (x - center)) + b; }
-    /// Largest absolute value of a coefficient.
+    /// The largest absolute value of the coefficients A, b and k.
     double largest() const;
-    /// Whether Q is the same everywhere: there is no surface.
+    /// Whether Q is the same everywhere, so that there is no surface.
     bool is_constant() const { return A == Mat3(0.0) && b == Vec3(0.0); }
-    /// Sum of the absolute values of Q's terms, where |y| ≤ reach: Q is rounded by a few ε of
-    /// this sum.
+    /// An upper bound of the sum of the absolute values of Q's terms for |y| ≤ reach (coordinate by coordinate). The
+    /// rounding error of Q is a few ε of it.
     double magnitude(Vec3 reach) const;
-    /// Q over the box, rounding included; sides may be infinite.
+    /// A range that holds Q over the box, rounding errors included; sides may be infinite.
     Range range(const Box& box) const;
-    /// Q over all of space, but for rounding exact: what is within rounding of 0 is 0.
+    /// Range of Q over all of space, exact up to rounding; ends that are within rounding of 0 are 0.
     Range range_everywhere() const;
-    /// Holds the set Q > 0; exact for ellipsoids, and for what is infinite along axes. Where a set
-    /// is infinite at a slant, all of space.
+    /// A box that holds the set Q > 0. It is exact for ellipsoids and for sets that are infinite along coordinate axes
+    /// only; where a set is infinite at a slant, it is all of space.
     Box bounding_box() const;
 
-    /// A box of the size that the coefficients speak of, around the centre; for an infinite set, where
-    /// its shape is to be seen.
+    /// A box around the centre of the size that the coefficients suggest; in an infinite set its shape shows there.
     Box extent() const;
 
     Quadric scaled(double by) const { return {center, by * A, by * b, by * k}; }
@@ -41,20 +41,21 @@ private:
     double value(Vec3 y) const { return glm::dot(y, A * y + b) + k; }
 };
 
-/// x ↦ Q(M⁻¹x).
+/// The quadric x ↦ Q(M⁻¹x); `map` must be regular.
 Quadric transformed(const Quadric& q, const Affine& map);
 
-/// The ten coefficients of eq. 1, in its order: x² y² z² xy xz yz x y z 1.
+/// The quadric with the ten coefficients of eq. 1, in its order: x² y² z² xy xz yz x y z 1.
 Quadric quadric_from(const double (&coefficients)[10]);
 
-/// Quadrics of revolution, as functions of the distance along the axis and the squared distance from it:
-/// Q = k + along·t + along²·t² + across·ρ², where t is in units of `height` and ρ in units of `radius`.
+/// Coefficients of a quadric of revolution, as a function of the height t along the axis, in units of `height`, and the
+/// distance ρ from the axis, in units of `radius`: Q = constant + along·t + along_squared·t² + across_squared·ρ².
 struct Revolution {
     double constant = 0, along = 0, along_squared = 0, across_squared = -1;
 };
+/// The quadric of revolution about the unit vector `axis` through `center`.
 Quadric revolved(const Revolution& revolution, Vec3 center, Vec3 axis, double radius, double height);
 
-/// a·t + b·t² for t in [lo, hi], whose ends may be infinite.
+/// Range of a·t + b·t² for t in [lo, hi], whose ends may be infinite.
 Range parabola_range(double a, double b, double lo, double hi);
 
 }  // namespace deburr

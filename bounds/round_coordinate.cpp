@@ -5,36 +5,38 @@
 namespace deburr {
 namespace {
 
-// Parts of different chains of transforms differ by a few ε; a millionth of a degree is 2·10⁻⁸.
+// Parts that are the same through different chains of transforms differ by a few ε; a millionth of a degree is 2·10⁻⁸.
 constexpr double same_direction = 1e-9, same_length = 1e-11;
 
-// The library's hypot takes five times as long, for the sake of numbers whose squares are none.
+// √(a² + b²). The library's hypot takes five times as long, because it also handles numbers whose squares overflow.
 double length_of(double a, double b) { return std::sqrt(a * a + b * b); }
 
+/// The vector with one coordinate `value` and two that are 0.
 Vec3 component(double Vec3::*of, double value) {
     Vec3 v(0.0);
     v.*of = value;
     return v;
 }
 
-// The number of the coordinate axis along which the unit vector is; −1: none.
+// The number of the coordinate axis that the unit vector lies along; −1 if it is none.
 int coordinate_axis(Vec3 axis) {
     for (int k = 0; k < 3; ++k)
         if (std::abs(axis[k]) == 1) return k;
     return -1;
 }
 
-// Of the interval, the least and the greatest absolute value.
+// Range of the absolute values of the numbers in the interval.
 Range absolute(Range r) {
     if (r.lo > 0) return r;
     if (r.hi < 0) return {-r.hi, -r.lo};
     return {0, std::max(-r.lo, r.hi)};
 }
 
+/// Range of axis·(x − center) over the box.
 Range along(Vec3 axis, Vec3 center, const Box& box) {
     Range t;
     for (int k = 0; k < 3; ++k) {
-        if (axis[k] == 0) continue;  // 0·∞ is no number
+        if (axis[k] == 0) continue;  // 0·∞ would be NaN
         const double a = axis[k] * (box.lo[k] - center[k]), b = axis[k] * (box.hi[k] - center[k]);
         t.lo += std::min(a, b);
         t.hi += std::max(a, b);
@@ -42,11 +44,11 @@ Range along(Vec3 axis, Vec3 center, const Box& box) {
     return t;
 }
 
-// Distance from the origin to the segment between the points m ± g of a plane through it.
+// Distance from the origin to the segment from m − g to m + g.
 double distance_to_side(Vec3 m, Vec3 g) { return distance_to_segment(Vec3(0.0), m - g, m + g); }
 
-// Least distance of a finite box from the axis: its shadow along the axis is a polygon with a side for each direction
-// of its edges, on either side.
+// Least distance of a finite box from the axis. The box's projection along the axis is a polygon with two opposite
+// sides for each direction of the box's edges.
 double least_distance_from_axis(Vec3 axis, Vec3 center, const Box& box) {
     const auto shadow = [&](Vec3 v) { return v - axis * glm::dot(axis, v); };
     const Vec3 middle = shadow(0.5 * (box.lo + box.hi) - center), half = 0.5 * (box.hi - box.lo);
@@ -56,7 +58,7 @@ double least_distance_from_axis(Vec3 axis, Vec3 center, const Box& box) {
     double least = infinity;
     for (int i = 0; i < 3; ++i) {
         const Vec3 normal = glm::cross(axis, edges[i]);
-        Vec3 side(0.0);  // from the middle to the side's
+        Vec3 side(0.0);  // from the projection's middle to the side's middle
         double reach = 0;
         for (int j = 0; j < 3; ++j) {
             if (j == i) continue;
@@ -74,7 +76,7 @@ Vec3 corner(const Box& box, int i) {
     return {(i & 1) != 0 ? box.hi.x : box.lo.x, (i & 2) != 0 ? box.hi.y : box.lo.y, (i & 4) != 0 ? box.hi.z : box.lo.z};
 }
 
-// Of distances from the axis.
+// Range of the distances from the axis over the box; just [0, ∞) for an unbounded box at a slant.
 Range distance_range(Vec3 axis, Vec3 center, const Box& box) {
     double near = 0, far = 0;
     if (const int k = coordinate_axis(axis); k >= 0) {
@@ -166,8 +168,9 @@ Range RoundCoordinate::range(const Box& box) const {
     const Range a = product(across, s), b = product(along, t);
     Range u{a.lo + b.lo, a.hi + b.hi};
     if (coordinate_axis(axis) >= 0 || !box.finite()) return u;
-    // Its gradient is a unit vector, so within a side of the box it is stationary only along lines on the cone that run
-    // on to the side's edges, and within the box only on the axis: edges and axis hold the least and the greatest.
+    // u's gradient is a unit vector. So within a face of the box u is stationary only along lines on the cone, which
+    // run on to the face's edges, and within the box only on the axis: the edges and the axis hold the least and
+    // greatest values.
     u = {infinity, -infinity};
     const auto add = [&](Range r) { u = {std::min(u.lo, r.lo), std::max(u.hi, r.hi)}; };
     RoundOnRay on_edge;
@@ -254,7 +257,7 @@ void RoundOnRay::set(const RoundCoordinate& coordinate, Vec3 origin, Vec3 direct
         across -= axis * climb_;
     }
     square_ = glm::dot(across, across);
-    // Along the axis but for rounding.
+    // The ray is along the axis, up to rounding.
     if (square_ <= 16 * epsilon * epsilon * whole_) square_ = 0;
     nearest_ = square_ > 0 ? -glm::dot(away, across) / square_ : 0;
     const Vec3 foot = away + nearest_ * across;
@@ -300,8 +303,8 @@ Range RoundOnRay::range(double t0, double t1) const {
         return {length_of(p.lo, q.lo), length_of(p.hi, q.hi)};
     }
     Range u{std::min(a, b), std::max(a, b)};
-    // Between the ends it turns where across·s′ = −along·t′: with k = s′ there, at a distance of k √(least/(square
-    // (square − k²))) from the nearest point.
+    // Between the ends u is stationary where across·s′ = −along·t′. With k = s′ there, that is at a distance of k
+    // √(least/(square (square − k²))) from the nearest point.
     const double k = c.across == 0 ? infinity : -c.along * climb_ / c.across;
     if (k * k < square_) {
         const double turn = nearest_ + k * std::sqrt(least_ / (square_ * (square_ - k * k)));
@@ -313,7 +316,7 @@ Range RoundOnRay::range(double t0, double t1) const {
     return u;
 }
 
-// s is convex, so its slope is greatest at an end.
+// s is convex, so |u′| is greatest at an end.
 double RoundOnRay::max_slope(double t0, double t1) const {
     if (coordinate_->kind == RoundCoordinate::Kind::circle) return std::sqrt(whole_);
     return std::max(std::abs(slope(t0)), std::abs(slope(t1)));
@@ -332,7 +335,8 @@ double RoundOnRay::max_curvature(double t0, double t1) const {
 
 RoundOnRay::Crossings RoundOnRay::crossings(double offset) const {
     const RoundCoordinate& c = *coordinate_;
-    // With p = t − nearest: across²·(least + square p²) = (room − rate p)², room − rate p of the sign of across.
+    // With p = t − nearest: across²·(least + square p²) = (room − rate p)², where room − rate p has the sign of
+    // `across`.
     const double rate = c.kind == RoundCoordinate::Kind::point ? 0 : c.along * climb_;
     const double room = c.kind == RoundCoordinate::Kind::point ? offset : offset - c.along * height(nearest_);
     const double k = c.kind == RoundCoordinate::Kind::point ? 1 : c.across;

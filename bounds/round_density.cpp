@@ -8,16 +8,17 @@
 namespace deburr {
 namespace {
 
-// Densities of more parts are evaluated by what is left of them at a point, or beside a ray.
+// Densities of more half-spaces are evaluated by the local density at a point or beside a ray.
 constexpr std::size_t max_ready = 24;
 
-// A torus is intersected at once where it is alone, and makes no product with others: a ray takes as long there as with
-// this many half-spaces more. Measured on a groove in a block.
+// A torus that is alone is intersected in closed form; beside other parts it takes the general search, which takes a
+// ray as long as this many half-spaces more. Measured on a groove in a block.
 constexpr int torus_beside_others = 6;
 
-// A radius, in sizes of the object, that no picture and no mesh tells from 0.
+// A radius, relative to the object's size, that no picture and no mesh distinguishes from 0.
 constexpr double sharp_radius = 0x1p-26;
 
+/// The extent of the tree's surfaces: the largest offset, or center and ring of round parts; never 0.
 double size_of(const DensityTree& tree) {
     double size = 0;
     for (const HalfSpace& h : tree.half_spaces)
@@ -25,9 +26,9 @@ double size_of(const DensityTree& tree) {
     return size > 0 ? size : 1;
 }
 
-// What is left of a density beside a ray.
+// The local density beside the latest ray.
 struct RayState final : FieldRayState {
-    std::optional<LocalDensity> own;  // where the field has none
+    std::optional<LocalDensity> own;  // where the field has none prepared
     RayDensity density;
 };
 
@@ -43,7 +44,7 @@ Range cosine_range(const HalfSpace& h, const Box& box, Vec3 direction) {
         const double cosine = glm::dot(h.normal, direction);
         return {cosine, cosine};
     }
-    // The gradient turns by the distance over the least radius of curvature at most; it is a unit vector.
+    // The unit gradient turns by at most the distance over the least radius of curvature.
     const Vec3 middle = 0.5 * (box.lo + box.hi);
     const RoundCoordinate& c = *h.round;
     const double reach = 0.5 * glm::distance(box.lo, box.hi), here = glm::dot(c.gradient(middle), direction);
@@ -81,7 +82,7 @@ void RoundDensity::make_ready() {
     if (tree_.half_spaces.size() > max_ready) return;
     try {
         local_.emplace(tree_);
-    } catch (const TooEntangled&) {  // what is left of it elsewhere may do
+    } catch (const TooEntangled&) {  // its local densities elsewhere may be simple enough
     }
 }
 
@@ -125,7 +126,7 @@ Range RoundDensity::rate_range(const Box& box, Vec3 direction) const {
         const Range d = distance_range(h, box);
         const double lo = d.lo / h.radius, hi = d.hi / h.radius;
         rho.push_back({profile(hi), profile(lo)});
-        // dρ/dα = −¾(1 − α²) is least where |α| is.
+        // dρ/dα = −¾(1 − α²) is least where |α| is least.
         const double nearest = lo > 0 ? lo : hi < 0 ? hi : 0, farthest = std::max(-lo, hi);
         const Range slope{profile_slope(nearest) / h.radius, profile_slope(farthest) / h.radius};
         rates.push_back(slope.lo == 0 ? Range{0, 0} : product(slope, cosine_range(h, box, direction)));
@@ -161,8 +162,8 @@ std::optional<DensityTree> RoundDensity::as_density(const Box& box) const {
     return left;
 }
 
-// Of a round part alone, planes through its middle, whose scale is its own radius; where it meets others, those that
-// touch it, and the filter's radius.
+// Planes to cut space along for a round part. A part that is alone gets planes through its middle, with its own size as
+// their radius; one that meets others gets planes that touch it, with the filter's radius.
 void RoundDensity::add_planes(const HalfSpace& h, std::vector<HalfSpace>& to) const {
     const RoundCoordinate& c = *h.round;
     const bool alone = tree_.half_spaces.size() == 1;
@@ -232,7 +233,8 @@ double RoundDensity::last_sign_change_bound(Vec3 origin, Vec3 direction) const {
     double last = 0;
     const double speed = glm::length(direction);
     for (const HalfSpace& h : tree_.half_spaces) {
-        // Beyond its filter; of a round part, the last crossing of the filter's edges, or of those of a box around it.
+        // Beyond the last crossing of the filter's edges; for spheres and tori, of a ball around the part and its
+        // filter.
         if (!h.round) {
             const double rate = std::abs(glm::dot(h.normal, direction));
             if (rate > 0) last = std::max(last, (std::abs(h.distance(origin)) + h.radius) / rate);
@@ -266,7 +268,7 @@ void RoundDensity::begin_ray(FieldRay& ray) const {
         density = &*state->own;
     }
     state->density.set(*density, ray.origin, ray.direction);
-    // ρ is off by what coordinates are rounded by, in radii.
+    // The rounding error of ρ is that of coordinates, in filter radii.
     double farthest = 0, least = infinity;
     const double reach =
         largest(ray.origin) + std::max(std::abs(ray.t0), std::abs(ray.t1)) * glm::length(ray.direction);

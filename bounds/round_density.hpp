@@ -1,8 +1,8 @@
-// A density with round parts, as a field: ρ − ½ [docs/design.md, Round primitives].
+// A density with round parts as a field, f = ρ − ½ [docs/design.md, Round primitives].
 //
-// Bounds that are made of planes know nothing of round parts, so such a density is a field of its own. Where only
-// half-spaces are left of it, it is a density of half-spaces again (as_density); where one round part is left, its
-// surface is a sphere, cylinder, cone or torus.
+// Bound CSG is made of planes and knows nothing of round parts, so such a density is a field of its own. Where only
+// half-spaces are left of it, it becomes a density of half-spaces again (as_density()); where one round part is left,
+// its surface is a sphere, cylinder, cone or torus.
 #pragma once
 #include <optional>
 
@@ -11,20 +11,22 @@
 
 namespace deburr {
 
-/// Holds normal_at(x)·direction over the finite box, with a unit direction.
+/// A range that holds normal_at(x)·direction over the finite box; `direction` is a unit vector.
 Range cosine_range(const HalfSpace& h, const Box& box, Vec3 direction);
 
+/// The field of a DensityTree with round parts.
 class RoundDensity final : public Field {
 public:
-    /// Sharp parts of a density that is rounded elsewhere get a radius that no picture tells from 0.
+    /// Sharp parts get a radius too small to be seen in any picture or mesh, because f must be smooth.
     explicit RoundDensity(DensityTree tree);
 
+    /// The tree, with that radius for sharp parts.
     const DensityTree& tree() const { return tree_; }
-    /// Whether some of its parts are sharp, and others rounded.
+    /// Whether some parts are sharp while others are rounded.
     bool has_sharp() const;
-    /// The tree, with radius 0 where a sharp part got another.
+    /// The tree with the radius 0 for parts that were sharp.
     DensityTree as_written() const;
-    /// The pruned density, made ready for evaluation; null where it has too many parts.
+    /// The density prepared for evaluation; null if it has more than 24 half-spaces or its diagrams would be too large.
     const LocalDensity* local() const { return local_ ? &*local_ : nullptr; }
 
     ValueGradient at(Vec3 x) const override;
@@ -46,18 +48,18 @@ public:
     RayBounds bounds(const FieldRay& ray, double t0, double t1) const override;
 
 private:
-    struct Part {};  // of another
+    struct Part {};  // selects the constructor of a pruned part of another field
     RoundDensity(Part, DensityTree tree, const Box& seen, const RoundDensity& of);
     void add_planes(const HalfSpace& part, std::vector<HalfSpace>& to) const;
     void make_ready();
-    // In a density of which a part is rounded.
+    // Whether the half-space is sharp in a density that also has rounded ones.
     bool is_sharp(const HalfSpace& h) const { return h.radius < radius_; }
 
     DensityTree tree_;
     std::optional<LocalDensity> local_;
     double radius_ = 0;
     Box box_;
-    Box seen_ = Box::everything();  // what it was pruned to
+    Box seen_ = Box::everything();  // the box to which it was pruned
 };
 
 }  // namespace deburr

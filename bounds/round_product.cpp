@@ -9,6 +9,7 @@ namespace deburr {
 
 namespace {
 
+/// The surface, unless it is a torus that TorusOnRay does not handle.
 std::optional<RoundSurface> if_crossed_safely(const RoundSurface& surface) {
     const double ring = surface.coordinate.ring, tube = surface.offset;
     if (surface.is_torus() && !(tube >= TorusOnRay::least_tube * ring && tube <= ring)) return std::nullopt;
@@ -20,7 +21,7 @@ std::optional<RoundSurface> if_crossed_safely(const RoundSurface& surface) {
 std::optional<RoundSurface> RoundSurface::of(const LocalDensity& density) {
     if (density.half_spaces().size() != 1 || !density.half_spaces()[0].round) return std::nullopt;
     const HalfSpace& h = density.half_spaces()[0];
-    // ρ = v₀ + (v₁ − v₀)·F.
+    // ρ is affine in the half-space's density F: ρ = v₀ + (v₁ − v₀)·F.
     const Range one[] = {{1, 1}}, zero[] = {{0, 0}};
     const double v1 = density.range(one).lo, v0 = density.range(zero).lo;
     if ((v0 > 0.5) == (v1 > 0.5)) return std::nullopt;
@@ -44,7 +45,7 @@ RoundCrossings RoundSurface::crossings(const Vec3& origin, const Vec3& direction
         const double t = on_ray.t[i];
         if (!(t >= t0 && t <= t1)) continue;
         inside = (ray.slope(t) < 0) != complement;
-        // At t0 itself it may have been counted already.
+        // A crossing at t0 itself may be part of start_inside already.
         if (all.count == 0 && inside == all.start_inside) continue;
         all.at[all.count++] = {t, inside, -1};
     }
@@ -72,7 +73,7 @@ std::optional<RoundProduct> RoundProduct::of(const LocalDensity& density) {
         }
         result.factors_.push_back(h);
     }
-    // The other side of a cone is log-concave together with this side only.
+    // The mirrored side of a cone is log-concave only together with the cone itself.
     for (const HalfSpace& h : result.factors_) {
         if (!h.round || h.round->is_convex()) continue;
         const RoundCoordinate other = h.round->mirrored();
@@ -83,6 +84,7 @@ std::optional<RoundProduct> RoundProduct::of(const LocalDensity& density) {
     return result;
 }
 
+/// The factors of a RoundProduct along a ray.
 class RoundProductRay : public ConvexSearch<RoundProductRay> {
 public:
     RoundProductRay(const RoundProduct& product, const Vec3& origin, const Vec3& direction, std::uint64_t& evaluations)
@@ -107,7 +109,7 @@ public:
             f.inverse_radius = 1 / h.radius;
             if (h.round->is_convex()) clip(f.round, h.offset, number);
         }
-        // Of log P: 2¼ Σ α′² + 1½ Σ α″ at most where all α ≤ 0.
+        // rates_ bounds −(log P)″, which is at most 2¼ Σ α′² + 1½ Σ α″ where all α ≤ 0.
         const double from = std::max(begin(), -1e30), to = std::min(end(), 1e30);
         if (!(from < to)) return;
         for (const Factor& f : factors_) {
@@ -154,14 +156,15 @@ public:
 private:
     struct Factor {
         bool is_round = false;
-        double a = 0, b = 0;  // of a plane's α
+        double a = 0, b = 0;  // of a plane: α = a + b·t
         RoundOnRay round;
         double offset = 0, inverse_radius = 0;
 
         double alpha(double t) const { return is_round ? (round.at(t) - offset) * inverse_radius : a + b * t; }
     };
 
-    // To where a convex coordinate is at most its offset: between its crossings, or on a side of the one.
+    // Clips to where a convex coordinate is at most its offset: between its two crossings, or on one side of the only
+    // one.
     void clip(const RoundOnRay& round, double offset, int number) {
         const RoundOnRay::Crossings c = round.crossings(offset);
         if (c.count == 2) {

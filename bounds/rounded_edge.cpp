@@ -7,17 +7,19 @@ namespace {
 
 using Vec2 = glm::dvec2;
 
+/// The wedge of this dihedral angle, below its edge at the origin.
 Density wedge(double angle) {
     const double c = std::cos(angle / 2), s = std::sin(angle / 2);
     return Density::half_space({c, s, 0}, 0) * Density::half_space({-c, s, 0}, 0);
 }
 
-// From the points of one polyline with x up to `width` to the other.
+// The greatest distance of a point of the polyline `from` with 0 ≤ x ≤ width from the polyline `to`, whose points have
+// the same x.
 double one_way(const std::vector<Vec2>& from, const std::vector<Vec2>& to, double width) {
     double most = 0;
     for (std::size_t i = 0; i < from.size(); ++i) {
         if (from[i].x < 0 || from[i].x > width) continue;
-        // Segments are looked at outwards from the same x, until none can be nearer.
+        // Segments of `to` are visited outwards from the same x, until none can be nearer.
         double least = glm::length(from[i] - to[i]);
         for (std::size_t k = i; k + 1 < to.size() && to[k].x - from[i].x < least; ++k)
             least = std::min(least, distance_to_segment(from[i], to[k], to[k + 1]));
@@ -35,7 +37,7 @@ RoundedEdge::RoundedEdge(double angle)
 
 double RoundedEdge::plane(double x) const { return -std::abs(x) / std::tan(angle_ / 2); }
 
-// Downwards the density rises, to 1 at a radius from both planes.
+// The y at which the density is ½. The density rises downwards, to 1 at a radius from both planes.
 double RoundedEdge::depth(const LocalDensity& density, double x) const {
     double above = plane(x), below = above - 1 / std::sin(angle_ / 2);
     if (density.at({x, above, 0}) >= 0.5 - 1e-15) return above;
@@ -57,7 +59,7 @@ double RoundedEdge::fillet(double x) const {
 
 double distance_between(const SectionCurve& a, const SectionCurve& b, double width, int steps) {
     std::vector<Vec2> of_a, of_b;
-    for (int k = -steps / 4; k <= steps + steps / 4; ++k) {  // for what is nearest may lie beyond either end
+    for (int k = -steps / 4; k <= steps + steps / 4; ++k) {  // beyond the ends, too, where the nearest point may lie
         const double x = width * k / steps;
         of_a.push_back({x, a(std::abs(x))});
         of_b.push_back({x, b(std::abs(x))});

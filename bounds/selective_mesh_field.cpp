@@ -9,12 +9,12 @@
 namespace deburr {
 namespace {
 
-constexpr double noise_scale = 64;       // as of a MeshField
-constexpr double kept_radius = 0x1p-10;  // in radii
+constexpr double noise_scale = 64;       // as for a MeshField
+constexpr double kept_radius = 0x1p-10;  // m, relative to the full radius
 constexpr double unit = 3 / (4 * mesh_pi);
 
-// Bounds of one triangle's sums, for all radii of a range and centres whose signed distances from its plane are within
-// one: in radii.
+// Bounds of one triangle's sums in radii, for all radii in a range and centres whose signed distances from the
+// triangle's plane are in a range. `farthest` is the greatest distance of a point of the triangle from a centre.
 Steepness steepness_of(const ClosedMesh& mesh, int t, Range radius, Range distance, double farthest) {
     const double least =
         distance.lo <= 0 && distance.hi >= 0 ? 0 : std::min(std::abs(distance.lo), std::abs(distance.hi));
@@ -23,15 +23,17 @@ Steepness steepness_of(const ClosedMesh& mesh, int t, Range radius, Range distan
                      greatest / radius.lo, farthest >= radius.lo);
 }
 
-// Largest |ηᵢ|.
+// The largest |ηᵢ|.
 double height(Range radius, Range distance) {
     return std::min(1.0, std::max(std::abs(distance.lo), std::abs(distance.hi)) / radius.lo);
 }
 
-// What is added to bounds of |f′| and |f″| along a direction, from which the triangle's normal has this cosine.
+// Sums for bounds of |f′| and |f″| in a direction that makes angles with the triangles' normals.
 struct Rates {
     double slope = 0, swell = 0, bend = 0;
 
+    /// Adds a triangle. `along` and `across` are the absolute cosine and sine of the angle between its normal and the
+    /// direction, `rate` bounds |r′|.
     void add(const Steepness& s, double eta, double along, double across, double rate) {
         slope += along * s.area;
         swell += eta * s.area;
@@ -44,7 +46,7 @@ struct Rates {
 
 }  // namespace
 
-// What reaches a finite box, and the radius there.
+// The triangles and kept edges that reach a finite box, and bounds of the radius there.
 struct SelectiveMeshField::Local {
     std::vector<int> triangles;
     std::vector<LocalRadius::Segment> edges;
@@ -69,7 +71,7 @@ SelectiveMeshField::SelectiveMeshField(Part, const SelectiveMeshField& of, const
       triangles_(local.triangles),
       edges_(local.edges) {}
 
-// Cells may be infinite; what is beyond this part of one no triangle reaches.
+// The part of an infinite cell beyond which no triangle reaches.
 Box SelectiveMeshField::reached(const Box& box) const {
     return intersection(box, inflated(mesh_->bounding_box(), 2 * radius_->full()));
 }
@@ -131,7 +133,7 @@ Range SelectiveMeshField::range(const Box& seen, const Local& l) const {
     }
     const Range radius = l.radius.radius;
     const double reach = glm::length(half), rate = l.radius.rate;
-    // The steepest that any ball's share is, by its place and by its radius.
+    // Upper bounds of the derivatives of any ball's share, by its place and by its radius, per radius.
     constexpr double by_place = 0.75, by_radius = 3;
     if (reach * (by_place + std::min(by_radius * rate, 1.0)) > 4 * radius.hi) return {-0.5, 0.5};
     const ValueGradient v = at(center, l.triangles, l.edges);
@@ -159,10 +161,10 @@ Range SelectiveMeshField::rate_range(const Box& box, Vec3 direction) const {
     const double reach = glm::length(half);
     const Range radius = l.radius.radius;
     const LocalRadius::Value r = radius_->at(center, l.edges);
-    // r′ along the direction.
+    // The range of r′ along the direction.
     const double middle = glm::dot(r.gradient, direction), off = std::min(2 * l.radius.rate, l.radius.bend * reach);
     const Range swell{std::max(middle - off, -l.radius.rate), std::min(middle + off, l.radius.rate)};
-    Range sum{0, 0};  // of aᵢ (nᵢ·u + ηᵢ r′)
+    Range sum{0, 0};  // range of Σ aᵢ (nᵢ·u + ηᵢ r′)
     for (const int t : l.triangles) {
         const ClosedMesh::Plane& plane = mesh_->plane(t);
         const double greatest_area = area_in_ball(*mesh_, t, center, radius.hi + reach);
@@ -202,7 +204,7 @@ FieldPtr SelectiveMeshField::prune(const Box& box) const {
 std::optional<DensityTree> SelectiveMeshField::as_density(const Box& box) const {
     const Box seen = reached(box);
     if (seen.empty()) return std::nullopt;
-    // One plane is the same plane for smaller balls.
+    // A single plane stays the same plane for smaller balls.
     std::optional<DensityTree> density = full_->as_density(box);
     if (density && density->half_spaces.size() == 1) return density;
     const Local l = local(seen);
@@ -222,7 +224,7 @@ std::vector<HalfSpace> SelectiveMeshField::planes() const {
         ids.push_back(plane.id);
         found.push_back({plane.normal, plane.offset, greatest_});
     }
-    // The radius may change along an edge, too.
+    // The radius may also change along an edge.
     for (int k = 0; k < 3; ++k) {
         if (std::any_of(found.begin(), found.end(), [&](const HalfSpace& h) { return std::abs(h.normal[k]) > 1e-9; }))
             continue;
@@ -234,7 +236,7 @@ std::vector<HalfSpace> SelectiveMeshField::planes() const {
 }
 
 int SelectiveMeshField::size() const {
-    constexpr double triangle = 3;  // in half-spaces
+    constexpr double triangle = 3;  // cost in half-spaces
     return int(std::min(1e9, std::max(1.0, triangle * double(whole_ ? mesh_->size() : triangles_.size()))));
 }
 
@@ -243,7 +245,7 @@ LocalSize SelectiveMeshField::local_size(const Box& box) const {
     const Box seen = reached(box);
     if (seen.empty()) return {{-0.5, -0.5}, 1};
     constexpr std::size_t many = 256;
-    constexpr double large = 4;  // shortest side, in radii
+    constexpr double large = 4;  // shortest side in radii
     const Vec3 sides = seen.hi - seen.lo;
     if (std::min({sides.x, sides.y, sides.z}) > large * radius_->full()) {
         const std::size_t count = mesh_->count_near(seen, radius_->full());
@@ -260,7 +262,7 @@ double SelectiveMeshField::last_sign_change_bound(Vec3 origin, Vec3 direction) c
     return leaves_box(inflated(mesh_->bounding_box(), radius_->full()), origin, direction);
 }
 
-// Triangles as numbers, then the kept edges' coordinates.
+// ray.numbers holds the number of kept edges, their coordinates, then the triangles' numbers.
 void SelectiveMeshField::begin_ray(FieldRay& ray) const {
     ray.noise_scale = noise_scale;
     ray.numbers.clear();

@@ -1,8 +1,8 @@
-// A closed mesh rounded by a radius that varies in space, so that some of its edges stay sharp [kept_edges.hpp]: f =
-// share − ½, with the share of the ball of radius r(x) around x.
+// A closed mesh rounded by a radius r(x) that varies in space, so that some of its edges stay sharp (kept_edges.hpp): f
+// = share − ½ with the share of the ball of radius r(x) around x.
 //
-// Faces stay flat, for half of any ball around their points is inside. Where r is constant it is a MeshField, of that
-// radius or none. Elsewhere, with aᵢ = |Dᵢ|/r², ηᵢ = hᵢ/r, φᵢ the arcs of triangle i, and u a unit vector,
+// Faces stay flat, because half of any ball around a point of a face is inside. Where r is constant the field is a
+// MeshField with that radius. Elsewhere, with aᵢ = |Dᵢ|/r², ηᵢ = hᵢ/r, the arcs φᵢ of triangle i, and a unit vector u,
 //
 //     f′ = −3/(4πr) Σ aᵢ (nᵢ·u + ηᵢ r′)
 //     |f″| ≤ |share″| + 3/(4πr²) Σ (2 |nᵢ·u| |r′| |3aᵢ − φᵢ| + r′² |ηᵢ| |4aᵢ − φᵢ|) + 3/(4πr) |r″| Σ |ηᵢ| aᵢ
@@ -16,11 +16,13 @@
 
 namespace deburr {
 
+/// The set f > 0 above.
 class SelectiveMeshField final : public Field {
 public:
+    /// `radius` is the rounding radius away from what is kept; it falls to 2⁻¹⁰ of that.
     SelectiveMeshField(ClosedMeshPtr mesh, double radius, KeptEdges kept);
 
-    /// The mesh rounded everywhere.
+    /// The mesh rounded by the full radius everywhere.
     const MeshField& full() const { return *full_; }
 
     ValueGradient at(Vec3 x) const override;
@@ -39,12 +41,12 @@ public:
     RayBounds bounds(const FieldRay& ray, double t0, double t1) const override;
 
 private:
-    struct Part {};  // of another
+    struct Part {};  // selects the constructor of a pruned part of another field
     struct Local;
     SelectiveMeshField(Part, const SelectiveMeshField& of, const Local& local);
     /// The triangles and kept edges that reach a finite box.
     Local local(const Box& box) const;
-    /// The field of constant radius that it is there; null if it is none.
+    /// The field of constant radius that this one equals where the radius has these bounds; null if the radius varies.
     std::shared_ptr<const MeshField> constant(const LocalRadius::Bounds& bounds) const;
     Box reached(const Box& box) const;
     Range range(const Box& box, const Local& local) const;
@@ -53,14 +55,15 @@ private:
     ClosedMeshPtr mesh_;
     std::shared_ptr<const LocalRadius> radius_;
     std::shared_ptr<const MeshField> full_, kept_;
-    double greatest_ = 0;  // radius there, of a part
-    Vec3 center_{0.0};     // of its box
-    bool whole_ = true;    // all triangles and edges; else those that reach a box
+    double greatest_ = 0;  // part only: the greatest radius in its box
+    Vec3 center_{0.0};     // part only: centre of its box
+    bool whole_ = true;    // whether all triangles and edges count; else those below, which reach a box
     std::vector<int> triangles_;
     std::vector<LocalRadius::Segment> edges_;
 };
 
-/// The mesh that a field is made of, rounded everywhere; null if it is made of none.
+/// The MeshField with the full radius that a field is made of: a MeshField itself, or that of a SelectiveMeshField;
+/// null for other fields.
 const MeshField* mesh_field_of(const Field* field);
 
 }  // namespace deburr

@@ -11,23 +11,26 @@
 namespace deburr {
 namespace {
 
-// A slanted cylinder or cone has no box of its own, and what cuts it off at a slant has none either: their intersection
-// gets one, which is this share of its size larger than what it holds, so that few cells meet it.
+// A slanted cylinder or cone has no bounding box of its own, and neither has a slanted plane that cuts it. Their
+// intersection is given a box that is larger than it by this fraction of its size, so that few cells contain parts of
+// that box.
 constexpr double around = 1.0 / 64;
 
+/// Whether it is a cylinder or cone whose axis is not a coordinate axis.
 bool is_slanted(const HalfSpace& h) {
     if (!h.round || h.round->kind != RoundCoordinate::Kind::axis) return false;
     const Vec3 axis = h.round->axis;
     return (axis.x != 0) + (axis.y != 0) + (axis.z != 0) > 1;
 }
 
+/// Converts a density into leaves and nodes of a solid tree.
 class Conversion {
 public:
     Conversion(const DensityTree& density, int material, int line, SolidTree& to)
         : density_(density), material_(material), line_(line), to_(to) {}
 
     int run() {
-        // Parts without round ones are leaves of their own.
+        // Subtrees without round parts become leaves of their own.
         std::vector<char> flat(density_.nodes.size(), true), wanted(density_.nodes.size(), false);
         for (std::size_t i = 0; i < flat.size(); ++i) {
             const TreeNode& n = density_.nodes[i];
@@ -60,7 +63,7 @@ public:
     }
 
 private:
-    // The node, cut off where the density ends: nothing is cut off of it.
+    // The node intersected with a box around the density, which removes nothing of it.
     int boxed(int node) {
         const Box box = bounding_box(density_);
         if (box.empty() || !box.finite()) return node;
@@ -101,7 +104,7 @@ private:
         if (!c.is_cone())
             return field(std::make_shared<FreeForm>(revolved({1, 0, 0, -1}, c.center, c.axis, R, 1),
                                                     std::vector<Perturbation>{}));
-        // along²·(t − apex)² > across²·s², on the side of the apex where along·t < R.
+        // The double cone along²·(t − apex)² > across²·s² is cut to the side of the apex where along·t < R.
         const double apex = R / c.along;
         const int cones = field(std::make_shared<FreeForm>(
             revolved({0, 0, c.along * c.along, -c.across * c.across}, c.center + c.axis * apex, c.axis, 1, 1),

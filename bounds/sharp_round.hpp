@@ -1,14 +1,14 @@
-// Sharp densities with round parts, as solids: a sharp density is a set, and its round parts are quadrics and tori.
+// Sharp densities with round parts as solids: a sharp density is a set, whose round parts are quadrics and tori.
 #pragma once
 #include "bounds/solid_tree.hpp"
 
 namespace deburr {
 
-/// Whether the tree has round parts, and none of its parts is rounded.
+/// Whether the tree has round parts and none of its half-spaces has a filter radius > 0.
 bool is_sharp_round(const DensityTree& tree);
 
-/// Adds leaves and nodes that make up the sharp density to the tree; the number of its node. Half-spaces that round
-/// parts are not between stay together.
+/// Appends leaves and nodes that make up the sharp density to `to` and returns the index of their root node. A subtree
+/// without round parts is one leaf.
 int add_sharp_round(const DensityTree& density, int material, int line, SolidTree& to);
 
 }  // namespace deburr

@@ -5,10 +5,10 @@
 
 namespace deburr {
 
-// From the root down, every operand is told where to go on if it is true and if it is false: a conjunction goes on to
-// its second operand only where the first is true. Half-spaces and constants (steps that go one way) are numbered
-// before, so that every operand's first step is known. Both passes keep their own stack: scenes write chains as long as
-// their loops.
+// Every operand is given the steps at which evaluation continues if it is true and if it is false, from the root down:
+// a conjunction continues with its second operand only where the first is true. Half-spaces and constants (steps that
+// always go one way) are numbered first, so that every operand's first step is known. Both passes keep a stack of their
+// own, because scenes write chains as long as their loops.
 BooleanSteps short_circuit(const BooleanFunction& function) {
     const auto& nodes = function.nodes;
     struct Part {
@@ -61,7 +61,7 @@ BooleanSteps short_circuit(const BooleanFunction& function) {
 }
 
 void restrict_to(const BooleanSteps& function, const std::vector<Literal>& variables, BooleanSteps& left) {
-    // Backwards: where each step leads, once steps that decide nothing are passed over.
+    // Backwards: entry[k] is where step k leads, with steps that decide nothing skipped.
     thread_local std::vector<BooleanStep> open;
     thread_local std::vector<int> entry, number;
     const auto& steps = function.steps;
@@ -85,7 +85,7 @@ void restrict_to(const BooleanSteps& function, const std::vector<Literal>& varia
                                : BooleanStep{literal.variable, if_false, if_true};
         entry[k] = k;
     }
-    // Forwards: those that can be reached.
+    // Forwards: the steps that can be reached are numbered.
     left.steps.clear();
     left.first = target(function.first);
     if (left.first < 0) return;
@@ -106,7 +106,7 @@ void restrict_to(const BooleanSteps& function, const std::vector<Literal>& varia
 }
 
 std::vector<char> relevant_variables(const BooleanSteps& function, int count) {
-    // Bit k of word v is the truth of variable v in assignment k; further variables number the words.
+    // Truth tables: bit k of word v is the value of variable v in assignment k; further variables select the word.
     constexpr int in_a_word = 6;
     constexpr std::uint64_t assignments[in_a_word] = {0xaaaaaaaaaaaaaaaa, 0xcccccccccccccccc, 0xf0f0f0f0f0f0f0f0,
                                                       0xff00ff00ff00ff00, 0xffff0000ffff0000, 0xffffffff00000000};
@@ -116,7 +116,7 @@ std::vector<char> relevant_variables(const BooleanSteps& function, int count) {
     if (function.first < 0) return relevant;
 
     const std::size_t words = std::size_t(1) << std::max(0, count - in_a_word);
-    thread_local std::vector<std::uint64_t> tables;  // step after step
+    thread_local std::vector<std::uint64_t> tables;  // of every step, one after the other
     tables.resize(function.steps.size() * words);
     for (std::size_t k = function.steps.size(); k-- > 0;) {
         const BooleanStep& s = function.steps[k];

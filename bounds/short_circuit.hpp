@@ -1,8 +1,8 @@
-// A Boolean function of half-spaces as steps of short-circuit evaluation: each step looks at one variable and says
-// which later step is next, so that most of a function is never looked at.
+// A Boolean function of half-spaces as steps of short-circuit evaluation: each step tests one variable and names the
+// next step, so that most of the function is never looked at.
 //
-// A step goes forward only. So a set of points can be sent through the steps as well as a point: a variable that cuts
-// it sends either part its own way (ball_arrangement.cpp).
+// Steps only go forward. So a set of points can be sent through the steps just as a point can: a variable that cuts the
+// set sends each part its own way (ball_arrangement.cpp).
 #pragma once
 #include <vector>
 
@@ -10,35 +10,38 @@
 
 namespace deburr {
 
-/// A tree: no node is the operand of two.
+/// A Boolean function as an expression tree: no node is an operand of two.
 struct BooleanFunction {
     struct Node {
-        Op op = Op::constant;  // or half_space, complement, conjunction, disjunction
+        Op op = Op::constant;  // constant, half_space, complement, conjunction or disjunction
         int a = -1, b = -1;    // operands; half_space: a is its index; constant: a is 0 or 1
         bool negated = false;  // half_space: its complement is meant
     };
     std::vector<Node> nodes;  // operands first, the root last
 };
 
-/// A truth value, or a variable, or a variable's complement.
+/// A variable, a variable's complement, or a truth value.
 struct Literal {
-    int variable = -1;  // −1: none, and the literal is the value `same`
+    int variable = -1;  // −1: the literal is the truth value `same`
+    /// Whether it is the variable itself rather than its complement.
     bool same = false;
 };
 
+/// The two ways in which an evaluation ends, in place of a step's index.
 constexpr int ends_true = -1, ends_false = -2;
 
+/// Tests one variable.
 struct BooleanStep {
     int variable;
-    int if_true, if_false;  // index of the next step, or how the evaluation ends
+    int if_true, if_false;  // index of the next step, ends_true or ends_false
 };
 
-/// A function's value is found by going from step to step.
+/// A function as steps: its value is found by going from step to step.
 struct BooleanSteps {
     std::vector<BooleanStep> steps;
-    int first = ends_false;  // index of a step, or how the evaluation ends
+    int first = ends_false;  // index of the first step, ends_true or ends_false
 
-    /// The value where `is_true` tells every variable's.
+    /// The function's value, where is_true(v) is that of variable v.
     template <class IsTrue>
     bool value(IsTrue is_true) const {
         int k = first;
@@ -47,16 +50,18 @@ struct BooleanSteps {
     }
 };
 
-/// The steps of a function, whose variables are its half-spaces.
+/// The steps of a function. Its variables are the half-spaces' indices.
 BooleanSteps short_circuit(const BooleanFunction& function);
 
-/// Replaces `left` by what is left of `function` when every variable is the literal with its index: steps that can be
-/// reached and that decide something.
+/// Replaces `left` by what is left of `function` when variables[v] is substituted for every variable v: only steps that
+/// can be reached and that decide something. `left` must not be `function`.
 void restrict_to(const BooleanSteps& function, const std::vector<Literal>& variables, BooleanSteps& left);
 
+/// The most variables that relevant_variables() takes.
 constexpr int max_tabulated = 10;
 
-/// Which of `count` variables, max_tabulated at most, the function's value depends on; found from its truth table.
+/// For each of `count` ≤ max_tabulated variables, whether the function's value depends on it; found from its truth
+/// table.
 std::vector<char> relevant_variables(const BooleanSteps& function, int count);
 
 }  // namespace deburr

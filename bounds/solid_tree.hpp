@@ -32,7 +32,8 @@ struct SolidTree {
     int root() const { return int(nodes.size()) - 1; }
     /// The least filter radius > 0 of all leaves (a world distance); 0 if everything is sharp.
     double min_radius() const;
-    /// Whether some leaf is a field other than a rounded density, such as a free form or a sharp mesh.
+    /// Whether some leaf is a field that is no density (Field::is_density), such as a free form, a sharp torus or a
+    /// mesh whose radius varies.
     bool has_free_form() const;
     /// Whether x is in the solid, by the definition [Lobb figure 4, PointInObject].
     bool contains(Vec3 x) const;

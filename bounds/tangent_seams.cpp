@@ -12,14 +12,14 @@ namespace {
 
 using Kind = RoundCoordinate::Kind;
 
-// Lengths count as equal within this part of the radius: a seam that is off by more is an edge, however small.
+// Lengths count as equal within this fraction of the filter radius; a seam that is off by more is an edge.
 constexpr double same = 1e-6;
-// A bulge of less is not told, in radii.
+// Smaller bulges are not reported; in filter radii.
 constexpr double least_bulge = 0.02;
-// So many points along a line or a circle of contact are looked at.
+// The number of points that are tried along a line or circle of contact.
 constexpr int looked_at = 64;
-// Places of a torus's circle between which the other's coordinate is stationary once at the most, but for tori that
-// nearly touch twice: a multiple of `looked_at`.
+// The number of arcs of a torus's circle; the other surface's coordinate is taken to be stationary at most once in
+// each, which fails only for tori that nearly touch twice. It is a multiple of `looked_at`.
 constexpr int around_tube = 256;
 
 enum class Shape { plane, sphere, cylinder, cone, torus };
@@ -31,6 +31,7 @@ Shape shape_of(const HalfSpace& h) {
     return h.round->is_cone() ? Shape::cone : Shape::cylinder;
 }
 
+/// A unit vector perpendicular to `axis`.
 Vec3 any_across(Vec3 axis) {
     return glm::normalize(glm::cross(axis, std::abs(axis.x) < 0.5 ? Vec3(1, 0, 0) : Vec3(0, 1, 0)));
 }
@@ -39,14 +40,14 @@ Vec3 apex_of(const HalfSpace& cone) {
     return cone.round->center + cone.round->axis * (cone.offset / cone.round->along);
 }
 
-// A line on a cylinder, or the half of one that begins in a cone's apex: there the surface has one normal.
+// A line on a cylinder, or a half-line from a cone's apex; the surface has one normal along it.
 struct Ruling {
     Vec3 from, along;
     bool is_half;
     bool reaches(Vec3 x, double near) const { return !is_half || glm::dot(x - from, along) >= -near; }
 };
 
-// Where a cylinder or cone has this normal, which is at the angle to its axis that its normals have.
+// The ruling of a cylinder or cone along which its normal is `normal`, which must make the right angle with the axis.
 Ruling ruling(const HalfSpace& h, Vec3 normal) {
     const RoundCoordinate& c = *h.round;
     if (!c.is_cone()) return {c.center + h.offset * normal, c.axis, false};
@@ -54,8 +55,9 @@ Ruling ruling(const HalfSpace& h, Vec3 normal) {
     return {apex_of(h), c.along > 0 ? -along : along, true};
 }
 
-// Unit vectors n with n·a = p and n·b = q, where a and b are unit vectors that are not parallel: none, two, or also the
-// one in their plane, if the two are as near to it as rounding may have moved them.
+// The unit vectors n with n·a = p and n·b = q, where a and b are unit vectors that are not parallel. There are none or
+// two; where the two nearly coincide, as rounding may have moved them, the one in the plane of a and b is also
+// returned.
 struct UnitVectors {
     int count = 0;
     Vec3 all[3];
@@ -73,12 +75,13 @@ UnitVectors common_normals(Vec3 a, double p, Vec3 b, double q) {
     return found;
 }
 
-// Where the surfaces of two parts touch: their normals are the same there, or opposite, as those of a wall and of the
-// rod that a fillet is left by.
+// Points where the surfaces of two parts touch: their normals are equal there, or opposite, as those of a wall and of
+// the rod outside of which a fillet remains.
 class Contact {
 public:
     Contact(const Box& box) : middle_(0.5 * (box.lo + box.hi)), reach_(0.5 * glm::distance(box.lo, box.hi)) {}
 
+    /// Points along which the surfaces touch within the box; valid until the next call.
     const std::vector<Vec3>& of(const HalfSpace& first, const HalfSpace& second) {
         points_.clear();
         const HalfSpace *a = &first, *b = &second;
@@ -101,7 +104,7 @@ private:
     bool is_parallel(Vec3 a, Vec3 b) const { return std::abs(glm::dot(a, b)) >= 1 - same; }
 
     void add(Vec3 x) { points_.push_back(x); }
-    // Along the line, as far as the box is.
+    // Adds points of the line within the box's circumscribed ball for which reaches(x).
     template <class Reaches>
     void line(Vec3 x, Vec3 direction, Reaches reaches) {
         const Vec3 nearest = x + direction * glm::dot(direction, middle_ - x);
@@ -110,6 +113,7 @@ private:
             if (reaches(y)) add(y);
         }
     }
+    /// Adds points of the circle.
     void circle(Vec3 center, Vec3 axis, double radius) {
         const Vec3 u = any_across(axis), v = glm::cross(axis, u);
         for (int k = 0; k < looked_at; ++k) {
@@ -118,7 +122,7 @@ private:
         }
     }
 
-    // In what follows the second part's normal is `side` times the first one's.
+    // In the following functions the second part's normal is `side` times that of the first.
 
     void plane(const HalfSpace& p, const HalfSpace& other, double side) {
         const RoundCoordinate& c = *other.round;
@@ -161,7 +165,7 @@ private:
             circle(b.center, c.axis, ball.offset);
     }
 
-    // Cylinders and cones. They touch where they have rulings in one tangent plane, where these cross, or all along.
+    // Two cylinders or cones. They touch where they have rulings in one tangent plane: where these cross, or all along.
     void ruled(const HalfSpace& a, const HalfSpace& b, double side) {
         const RoundCoordinate &p = *a.round, &q = *b.round;
         if (!is_parallel(p.axis, q.axis)) {
@@ -178,7 +182,7 @@ private:
                 rulings(ruling(a, out / apart), ruling(b, side * out / apart), out / apart);
             return;
         }
-        // Cones of one angle: the apex of one is on the other.
+        // Cones of equal angle touch if the apex of one is on the other.
         Vec3 n(0.0);
         if (equal(p.at(apex_of(b)), a.offset))
             n = p.gradient(apex_of(b));
@@ -188,6 +192,7 @@ private:
             rulings(ruling(a, n), ruling(b, side * n), n);
     }
 
+    /// Contact of two rulings in planes with this normal.
     void rulings(const Ruling& p, const Ruling& q, Vec3 normal) {
         const Vec3 between = q.from - p.from;
         if (!equal(glm::dot(normal, between), 0)) return;
@@ -201,8 +206,9 @@ private:
         if (reach(x)) add(x);
     }
 
-    // A surface touches a tube of radius a where, on the tube's circle, its coordinate is stationary and a less than on
-    // the surface, or a more; where it is inside the tube, the coordinate counts from its other side.
+    // A surface touches a tube of radius a where, on the tube's circle, its coordinate is stationary and differs by a
+    // from its value on the surface; where the circle's point is beyond the surface's axis, the mirrored coordinate
+    // counts.
     void tube(const HalfSpace& torus, const HalfSpace& other) {
         if (!other.round) {
             stationary(
@@ -214,12 +220,13 @@ private:
                 torus, [&](Vec3 x) { return c.at(x); }, [&](Vec3 x) { return c.gradient(x); }, other);
         };
         search(*other.round);
-        // Points beyond the other's axis.
+        // The same for points of the circle beyond the other's axis.
         RoundCoordinate beyond = other.round->mirrored();
         beyond.ring = -beyond.ring;
         if (shape_of(other) == Shape::cone || shape_of(other) == Shape::torus) search(beyond);
     }
 
+    /// Calls touch() where the other's coordinate is stationary along the torus's circle.
     template <class Coordinate, class Gradient>
     void stationary(const HalfSpace& torus, Coordinate coordinate, Gradient gradient, const HalfSpace& other) {
         const RoundCoordinate& c = *torus.round;
@@ -259,8 +266,8 @@ private:
         }
     }
 
-    // Where they touch beside x, a point of the torus's circle with this tangent, at which the other's coordinate is
-    // stationary, with this value and gradient.
+    // Adds the points beside x where the two touch. x is a point of the torus's circle with this tangent, at which the
+    // other's coordinate is stationary and has this value and gradient.
     void touch(const HalfSpace& torus, const HalfSpace& other, Vec3 x, Vec3 tangent, double value, Vec3 gradient) {
         const Shape shape = shape_of(other);
         const auto try_normal = [&](Vec3 normal, double moved) {  // of the other
@@ -282,7 +289,8 @@ private:
                 try_normal(is_cone || apart > 0 ? gradient : -gradient, moved);
                 continue;
             }
-            // On the other's axis or circle: across both, or all around where they run on.
+            // x is on the other's axis or circle: the normal is perpendicular to both tangents, or any if both run on
+            // together.
             const Vec3 direction = shape == Shape::torus    ? glm::normalize(glm::cross(c.axis, y))
                                    : shape == Shape::sphere ? tangent
                                                             : c.axis;
@@ -299,13 +307,14 @@ private:
     std::vector<Vec3> points_;
 };
 
+/// Whether one of the half-spaces is h.
 bool is_in(const std::vector<HalfSpace>& all, const HalfSpace& h) {
     return std::any_of(all.begin(), all.end(), [&](const HalfSpace& k) {
         return k.round == h.round && k.offset == h.offset && (h.round || k.normal == h.normal);
     });
 }
 
-// How far from x, along the normal, the density is ½; 0 if there is no such place within a radius.
+// Distance from x, along the normal in either direction, at which the density is ½; 0 if that is farther than a radius.
 double distance_from(const DensityTree& tree, Vec3 x, Vec3 normal, double radius) {
     const double here = tree.at(x) - 0.5, side = here > 0 ? 1 : -1;
     double near = 0, far = radius;
@@ -342,16 +351,17 @@ std::vector<TangentSeam> tangent_seams(const DensityTree& tree, int max_pairs) {
             --max_pairs;
             const double radius = std::min(a.radius, b.radius);
             TangentSeam worst;
-            std::size_t others = all.size();  // half-spaces that vary there
+            std::size_t others = all.size();  // how many half-spaces vary there
             for (const Vec3& x : contact.of(a, b)) {
                 if (!inflated(box, radius).contains(x)) continue;
                 const Vec3 normal = b.normal_at(x);
-                // Both have to bound the solid here.
+                // Both must bound the solid here.
                 const DensityTree here = prune(tree, inflated({x, x}, 1e-3 * radius)).tree;
                 if (!is_in(here.half_spaces, a) || !is_in(here.half_spaces, b)) continue;
                 const double bulge = distance_from(tree, x, normal, radius);
                 if (bulge <= least_bulge * radius) continue;
-                // At the seam's ends it is the rounded edges' distance, too.
+                // At a seam's ends the distance is due to rounded edges, too, so points where fewer half-spaces vary
+                // are preferred.
                 const std::size_t vary = prune(tree, inflated({x, x}, radius)).tree.half_spaces.size();
                 if (std::pair(vary, -bulge) >= std::pair(others, -worst.bulge)) continue;
                 worst = {x, bulge, radius};

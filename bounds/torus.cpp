@@ -7,7 +7,7 @@
 namespace deburr {
 namespace {
 
-// f along a ray is Σ c[k] u^k, u = t − middle. ray.numbers: middle, c[0] … c[4].
+// f along a ray is Σ c[k] u^k with u = t − middle. ray.numbers holds middle, c[0] … c[4].
 constexpr int degree = 4;
 
 double size_of(Vec3 v) { return glm::length(v); }
@@ -77,7 +77,7 @@ ValueSlope Torus::at(const FieldRay& ray, double t) const {
 }
 
 RayBounds Torus::bounds(const FieldRay& ray, double t0, double t1) const {
-    // Around the middle of the segment, by Taylor.
+    // Taylor expansion about the middle of the segment.
     const double u = 0.5 * (t0 + t1) - ray.numbers[0], h = 0.5 * (t1 - t0);
     std::array<double, degree + 1> c;
     for (int k = 0; k <= degree; ++k) c[std::size_t(k)] = ray.numbers[std::size_t(k) + 1];

@@ -1,17 +1,18 @@
-// The inside of a sharp torus, as the field
+// The inside of a sharp torus as the field
 //
 //     f = 4R²s² − (s² + t² + R² − a²)² = (a² − q²)(p² − a²),      q², p² = (s ∓ R)² + t²
 //
-// a polynomial of degree four, with s, the distance from the axis, t, the height along it, R, the radius of the circle,
-// and a ≤ R, that of the tube.
+// a polynomial of degree four. s is the distance from the axis and t the height along it, R the radius of the circle
+// and a ≤ R that of the tube.
 #pragma once
 #include "bounds/field.hpp"
 
 namespace deburr {
 
+/// The set f > 0 above.
 class Torus final : public Field {
 public:
-    /// `axis` is a unit vector; 0 < tube ≤ radius.
+    /// `axis` is a unit vector; 0 < tube ≤ radius. Lengths are world distances.
     Torus(Vec3 center, Vec3 axis, double radius, double tube);
 
     Vec3 center() const { return center_; }

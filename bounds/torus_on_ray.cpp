@@ -6,7 +6,7 @@
 
 namespace deburr {
 
-// Each step is repeated for vectors in raytracer/simd/torus_packet-inl.hpp, operation by operation.
+// Every step is repeated for vectors in raytracer/simd/torus_packet-inl.hpp, operation by operation.
 
 TorusOnRay::TorusOnRay(const RoundCoordinate& circle, double tube, bool complement, const Vec3& o, const Vec3& d,
                        double t0, double t1)
@@ -43,7 +43,7 @@ RoundCrossings TorusOnRay::crossings() const {
     found.start_inside = in != complement_;
     while (from < hi_) {
         const double to = std::min(from + width, hi_), length = to - from, at_to = value(to);
-        // Taylor's coefficients, and with them Bernstein's.
+        // The Bernstein coefficients of f on the segment, from its Taylor coefficients.
         const double square = length * length;
         const double a1 = length * slope(from), a2 = square * (c2_ + 6 * c4_ * (from * from)),
                      a3 = square * length * (4 * c4_ * from);
