@@ -1,6 +1,6 @@
-// A list that grows without moving what is in it: in chunks, none of which is much of the whole. A vector that grows
-// holds up to three times what is in it while it moves. References stay valid. std::deque would do, but that its chunks
-// hold a dozen edges and finding one takes a division.
+// A list that grows without moving its elements, in chunks that are small against the whole, so references stay valid.
+// A vector that grows holds up to three times its elements while it moves them. std::deque would do, except that its
+// chunks hold only a dozen edges and finding one takes a division.
 #pragma once
 #include <cstddef>
 #include <memory>

@@ -19,7 +19,7 @@ std::vector<std::pair<int, int>> crossing_triangles(const Mesh& mesh, const Tria
         std::vector<std::pair<int, int>> pairs;
         std::size_t looked = 0;
     };
-    constexpr std::size_t most = 8192;  // triangles that are looked at by one thread
+    constexpr std::size_t most = 8192;  // triangles that one thread takes at a time
     std::vector<Found> found((mesh.triangles.size() + most - 1) / most);
     in_parallel_ranges(mesh.triangles.size(), most, [&](std::size_t begin, std::size_t end) {
         Found& own = found[begin / most];

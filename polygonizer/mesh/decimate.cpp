@@ -9,11 +9,12 @@
 namespace deburr {
 namespace {
 
-// Triangles of a block: of one that is smaller too much is border.
+// Triangles of a block: too much of a smaller one would be border.
 constexpr std::size_t most_of_block = 10'000;
-constexpr double share_of_blocks = 0.85;  // of all the work, the rest being where they meet
+constexpr double share_of_blocks = 0.85;  // fraction of the work that blocks take, without the places where they meet
 
-// What is known of those that were kept, by their numbers before; `since` for what was put in since.
+// The entries of `known` for elements that were kept, whose old numbers are `numbers`; `since` for elements added
+// since.
 template <class T>
 std::vector<T> kept(const std::vector<int>& numbers, const std::vector<T>& known, T since) {
     std::vector<T> of;
@@ -22,7 +23,7 @@ std::vector<T> kept(const std::vector<int>& numbers, const std::vector<T>& known
     return of;
 }
 
-// Returns how many vertices went.
+// Decimates one block and returns the number of vertices removed.
 std::size_t decimate_block(MeshBlock& block, const FacetJudge& judge, double tolerance, std::span<const Box> dense,
                            CancelFlag cancel) {
     std::vector<int> vertices, normals;
@@ -35,8 +36,8 @@ std::size_t decimate_block(MeshBlock& block, const FacetJudge& judge, double tol
     return gone;
 }
 
-// Blocks of a large mesh by themselves, side by side; returns how many vertices went. `border` gets the vertices where
-// blocks meet.
+// Decimates the blocks of a large mesh concurrently and returns the number of vertices removed. `border` becomes the
+// vertices where blocks meet.
 std::size_t decimate_blocks(Mesh& mesh, std::vector<Origin>& origins, const FacetJudge& judge, double tolerance,
                             const DecimationOptions& options, std::vector<char>& border) {
     std::vector<MeshBlock> blocks = cut_into_blocks(mesh, origins, most_of_block);

@@ -7,14 +7,17 @@
 namespace deburr {
 namespace {
 
+/// A connected component of the mesh's triangles.
 struct Shell {
     double area = 0, volume = 0;
     std::size_t triangles = 0, wrong = 0;
-    Vec3 normals{0.0};      // the sum of its corners'
-    bool one_sheet = true;  // its corners' normals all face the same way, as around no part of a solid
+    Vec3 normals{0.0};      // sum of the corners' normals
+    bool one_sheet = true;  // all corner normals face the same way, as around no part of a solid
+    /// Whether the shell is to be dropped.
     bool goes = false;
 
-    // Volume over area to the power of 1.5 is less than a plate's of 50 by 50 by 1.
+    // Whether the shell is thin: its volume divided by its area to the power 1.5 is less than that of a 50 × 50 × 1
+    // plate.
     bool thin() const { return volume <= 0.01 * area * std::sqrt(area); }
 };
 
@@ -39,22 +42,22 @@ public:
     }
 
     Shell& of(const Triangle& t) { return shells_[joined_.find(t.vertex[0])]; }
-    /// Those without triangles too.
+    /// Indexed by vertices; most entries have no triangles.
     std::vector<Shell>& all() { return shells_; }
 
 private:
-    UnionFind joined_;  // vertices
+    UnionFind joined_;  // of vertices
     std::vector<Shell> shells_;
 };
 
-// Whether there is solid beside the middle of the triangle, no farther than its surface may be.
+// Whether there is solid on either side of the triangle's middle, within a few distances of the surface.
 bool holds_solid(const Mesh& mesh, const Triangle& t, const DistanceField& solid) {
     const Vec3 area = mesh.area_vector(t);
     const double size = glm::length(area);
     if (!(size > 0)) return false;
     Vec3 middle(0.0);
     for (const int v : t.vertex) middle += mesh.positions[v] / 3.0;
-    // Steps grow from a share of the triangle's size to some distances from the surface.
+    // Steps grow from a fraction of the triangle's size to a few distances from the surface.
     constexpr double first_step = 1e-7, growth = 1.5, far = 4, widest = 0.1;
     const double side = std::sqrt(size), away = std::abs(solid.at(middle).distance);
     const double reach = std::min(widest * side, far * away + 2 * first_step * side);
@@ -63,7 +66,7 @@ bool holds_solid(const Mesh& mesh, const Triangle& t, const DistanceField& solid
     return false;
 }
 
-// Numbers in `wrong` go along.
+// Drops the shells that go, renumbers `wrong`, and returns the number of triangles dropped.
 std::size_t drop(Shells& shells, Mesh& mesh, std::vector<Origin>& origins, std::vector<int>& wrong) {
     std::vector<int> new_index;
     std::size_t kept = 0;
@@ -92,7 +95,7 @@ std::size_t drop_flat_shells(Mesh& mesh, std::vector<Origin>& origins, double th
         s.goes = s.thin();
     }
     if (!any_thin) return 0;
-    // A thin shell that holds anything shows it behind one of its first triangles.
+    // A thin shell that holds some of the solid shows it beside one of its triangles.
     for (const Triangle& t : mesh.triangles) {
         Shell& s = shells.of(t);
         if (s.goes && std::abs(s.volume) > thickness * s.area && holds_solid(mesh, t, solid)) s.goes = false;

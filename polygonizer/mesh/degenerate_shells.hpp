@@ -1,4 +1,4 @@
-// Shells of a mesh that bound nothing of the solid: what is left where parts of it only touch, or surfaces
+// Drops shells of a mesh that bound no part of the solid: remains where parts of the solid only touch, or surfaces
 // coincide.
 #pragma once
 #include "polygonizer/mesh/facets.hpp"
@@ -6,13 +6,14 @@
 
 namespace deburr {
 
-/// Drops shells that enclose less than `thickness` times their area, and thin ones without anything of the
-/// solid within. `origins`, one for each triangle, goes along. Returns how many triangles went.
+/// Drops shells whose volume is less than `thickness` times their area, and thin ones that hold nothing of the solid.
+/// `origins`, one for each triangle, is updated. Returns the number of triangles dropped.
 std::size_t drop_flat_shells(Mesh& mesh, std::vector<Origin>& origins, double thickness, const DistanceField& solid);
 
-/// Drops thin shells that consist by half or more of triangles that are `wrong`, which are numbered anew, or have one
-/// and normals that all face the same way: no part of the solid's surface is like that, but chords of surfaces that
-/// coincide are, each time they cross, and four chords of one sheet.
+/// Drops thin shells of which at least half of the triangles are `wrong`, or that have a wrong triangle and corner
+/// normals that all face the same way. No part of a solid's surface is like that, but chords of surfaces that coincide
+/// are, each time they cross, and so are four chords of one sheet. `wrong` is renumbered. Returns the number of
+/// triangles dropped.
 std::size_t drop_wrong_shells(Mesh& mesh, std::vector<Origin>& origins, std::vector<int>& wrong);
 
 }  // namespace deburr

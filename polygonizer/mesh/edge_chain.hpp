@@ -1,4 +1,4 @@
-// Sums of directed edges, as boundaries are.
+// Sums of directed edges, as boundaries of surfaces are.
 #pragma once
 #include <algorithm>
 #include <utility>
@@ -6,13 +6,15 @@
 
 namespace deburr {
 
-/// An edge and the way back cancel.
+/// A sum of directed edges, in which an edge and its reverse cancel.
 class EdgeChain {
 public:
+    /// Adds the edge from vertex a to vertex b, `times` times.
     void add(int a, int b, int times = 1) {
         if (a != b) edges_.push_back({{std::min(a, b), std::max(a, b)}, a < b ? times : -times});
     }
-    /// Edges that do not cancel, with how often each is run through from its first end to its second.
+    /// The edges that do not cancel, as ((lower vertex, higher vertex), times) in order of vertices; `times` is
+    /// negative where the edge runs from the higher vertex to the lower.
     std::vector<std::pair<std::pair<int, int>, int>> rest() {
         std::sort(edges_.begin(), edges_.end());
         std::vector<std::pair<std::pair<int, int>, int>> rest;

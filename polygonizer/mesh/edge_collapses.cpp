@@ -8,22 +8,24 @@ namespace deburr {
 namespace {
 
 constexpr double same_normal = 1e-6;
-// Cosine between two facets' normals at a vertex below which their common edge is a crease.
+// A common edge of two facets is a crease if the cosine between their normals at a vertex is below this.
 constexpr double crease = 0.9;
-// Cosine between a facet and its surface that a collapse must leave.
+// The least cosine between a facet and its surface that a collapse may leave.
 constexpr double upright = 0.8;
-// Height over longest side: facets that are curved get no thinner than this, unless they were.
+// The least ratio of height to longest side that a collapse may leave of curved facets, unless they were thinner
+// before.
 constexpr double slender = 0.02;
-// Facets around one vertex, beyond which a collapse makes it no better to work with.
+// The most facets around a vertex: beyond that a collapse makes the mesh harder to work with.
 constexpr std::size_t max_fan = 20;
 
-// A facet around a vertex, by the edge opposite.
+// A facet around a vertex, represented by its edge opposite to the vertex.
 struct Opposite {
-    int va, vb;       // its ends
+    int va, vb;       // ends of the edge
     Vec3 a, b, area;  // their positions, and the facet's area vector
 };
 
-// The distance from x to the triangle, whose area vector is given, or `enough` if it is no less.
+// The distance from x to the triangle abc, whose area vector is given, or `enough` if the distance is not less than
+// that.
 double distance_to_triangle(Vec3 x, Vec3 a, Vec3 b, Vec3 c, Vec3 area, double enough) {
     const double size = glm::length(area);
     if (size > 0) {
@@ -55,7 +57,7 @@ public:
     }
 
     std::size_t run() {
-        // What costs little goes first, so that what is left can bear more.
+        // First only cheap collapses, so that more are possible afterwards.
         std::size_t gone = 0;
         for (const double share : {0.1, 1.0}) {
             changed_ = first_;
@@ -72,13 +74,14 @@ public:
     void finish(std::vector<int>* vertices, std::vector<int>* normals) { facets_.finish(vertices, normals); }
 
 private:
+    /// A place for a vertex to go to.
     struct Candidate {
-        double error;
-        int to;
-        bool half_way = false;  // both ends of the edge go to the surface at its middle
-        Vec3 x{0.0};            // where that is
+        double error;           // distance of the removed vertex from the new facets
+        int to;                 // the neighbour
+        bool half_way = false;  // both ends of the edge go to the surface near its middle
+        Vec3 x{0.0};            // half_way: the new vertex
     };
-    // What a vertex must stay on.
+    // The planes and lines that a vertex must stay on.
     struct Kind {
         ShortList<Vec3, 4> planes;    // normals of the flat facets around
         ShortList<int, 4> line_ends;  // other ends of edges that must stay lines
@@ -102,10 +105,10 @@ private:
         return gone;
     }
 
-    // What was put in since is not.
+    // Whether the vertex is on the mesh's border; vertices that were added since are not.
     bool is_on_border(int v) const { return std::size_t(v) < options_.border.size() && options_.border[v]; }
 
-    // The normal of a facet that is part of a plane, or 0.
+    // The normal of a facet of which all corners have one normal; else 0.
     Vec3 flat_normal(const Facet& f) const {
         const auto& n = f.triangle.normal;
         const Vec3 a = facets_.normal(n[0]);
@@ -118,8 +121,9 @@ private:
         return facets_.normal(facets_.at(f).triangle.normal[facets_.corner_index(f, v)]);
     }
 
-    // Whether the edge from v to u, of facets f and g, must stay a line of edges: a crease, a border of materials, the
-    // rim of a flat face. Curved facets would spread over a flat face else, tilted by less than the tolerance.
+    // Whether the edge from v to u between facets f and g must stay a line of edges: a crease, a border of materials,
+    // or the border of a flat face. Otherwise curved facets would spread over a flat face, tilted by less than the
+    // tolerance.
     bool is_line(int f, int g, int v) const {
         if ((flat_normals_[f] == Vec3(0.0)) != (flat_normals_[g] == Vec3(0.0))) return true;
         return facets_.at(f).triangle.material != facets_.at(g).triangle.material ||
@@ -151,7 +155,7 @@ private:
         return kind;
     }
 
-    // Where v may go, the nearest to its facets first; false if it must stay.
+    // Finds the places to which v may go, in order of error; false if v must stay.
     bool find_candidates(int v, double tolerance) {
         candidates_.clear();
         const Kind kind = kind_of(v);
@@ -176,12 +180,12 @@ private:
         return !candidates_.empty();
     }
 
-    // The middle of the edge from v to `to`, if both vertices are equally free.
+    // Offers the middle of the edge from v to `to`, if both vertices are equally free.
     void offer_half_way(int v, int to, const Kind& kind, double tolerance) {
-        if (to < v) return;  // it is the same from there
+        if (to < v) return;  // it is offered from the other end
         const Vec3 a = facets_.position(v), b = facets_.position(to);
         Candidate c{0, to, true, 0.5 * (a + b)};
-        // Beside the surface as it still is, the error is not much more than that on it.
+        // At the edge's middle, beside the surface, the error is not much greater than on the surface.
         c.error = error(opposite_, to, a, c.x);
         if (c.error > 2 * tolerance) return;
         const Kind other = kind_of(to);
@@ -193,8 +197,8 @@ private:
         if (c.error <= 2 * tolerance) candidates_.push_back(c);
     }
 
-    // Moves c.x, the middle of the edge from v to c.to, to the surface; false if the edge's ends would be too far from
-    // what is there then.
+    // Moves c.x, the middle of the edge from v to c.to, onto the surface; false if the edge's ends would then be too
+    // far from the new facets.
     bool put_on_surface(int v, Candidate& c, double tolerance) {
         const Vec3 a = facets_.position(v), b = facets_.position(c.to);
         find_opposite(c.to, opposite_of_other_);
@@ -206,6 +210,7 @@ private:
                error(opposite_, c.to, a, c.x) <= tolerance && error(opposite_of_other_, v, b, c.x) <= tolerance;
     }
 
+    /// Sets `edges` to the facets around v.
     void find_opposite(int v, std::vector<Opposite>& edges) const {
         edges.clear();
         for (const int f : facets_.around(v)) {
@@ -217,14 +222,14 @@ private:
         }
     }
 
-    // How far x, where a vertex is, is from what its facets, by the edges opposite, would be with it at y, but for
-    // those at the vertex `to`; infinity where they turn over.
+    // The distance of x, the position of a vertex, from the facets around it as they would be with the vertex at y;
+    // facets at the vertex `to` are left out. Infinity if a facet would turn over.
     static double error(const std::vector<Opposite>& edges, int to, Vec3 x, Vec3 y) {
         double least = infinity;
         for (const Opposite& e : edges) {
             if (e.va == to || e.vb == to) continue;
             const Vec3 area = glm::cross(e.a - y, e.b - y);
-            const double cosine = glm::dot(e.area, area);  // times the lengths of both
+            const double cosine = glm::dot(e.area, area);  // times both lengths
             if (cosine <= 0 || cosine * cosine <= 0.04 * glm::dot(e.area, e.area) * glm::dot(area, area))
                 return infinity;
             least = distance_to_triangle(x, y, e.a, e.b, area, least);
@@ -232,7 +237,7 @@ private:
         return least;
     }
 
-    // Both ends of an edge become a vertex of its own.
+    // The change that merges both ends of the edge from v to `to` into the vertex `middle`.
     std::optional<Change> merge(int v, int to, int middle) {
         auto change = facets_.collapse(v, to);
         if (!change) return {};
@@ -301,6 +306,7 @@ private:
         return false;
     }
 
+    /// Ratio of the triangle's height to its longest side, about.
     double slenderness(const Triangle& t) const {
         double longest2 = 0;
         for (std::size_t k = 0; k < 3; ++k) {
@@ -310,7 +316,7 @@ private:
         return longest2 > 0 ? glm::length(facets_.area_vector(t)) / longest2 : 0;
     }
 
-    // The other end of the longest edge at `to` that is not there yet; −1 if there is none.
+    // The other end of the longest edge at `to` that the change would add; −1 if it adds none.
     int longest_new_edge(const Change& change, int to) const {
         int other = -1;
         double longest2 = 0;
@@ -325,7 +331,7 @@ private:
         return other;
     }
 
-    // Whether the facets that come, around `to`, are shaped and near enough. What costs least is asked of all first.
+    // Whether the new facets around `to` are well shaped and near the surface. The cheapest tests come first.
     bool accept(const Change& change, int v, int to, double tolerance) const {
         if (v == to) return false;
         double thinnest = slender;
@@ -333,7 +339,7 @@ private:
             if (flat_normals_[f] == Vec3(0.0)) thinnest = std::min(thinnest, slenderness(facets_.at(f).triangle));
         for (const Facet& f : change.in)
             if (flat_normal(f) == Vec3(0.0) && slenderness(f.triangle) < thinnest) return false;
-        // Its middle is the place that is most often too far.
+        // The middle of the longest new edge is most often too far from the surface.
         const int longest = longest_new_edge(change, to);
         const Vec3 x = facets_.position(to);
         if (longest >= 0 && !judge_.is_near_between(x, facets_.position(longest), tolerance)) return false;
@@ -343,7 +349,8 @@ private:
         }
         for (const Facet& f : change.in) {
             const auto& t = f.triangle.vertex;
-            // The edge opposite did not change, and the one before is the next of another facet that comes, or old.
+            // The edge opposite to `to` is unchanged, and the edge before `to` is the next edge of another new facet,
+            // or old.
             const std::size_t k = std::size_t(std::find(t.begin(), t.end(), to) - t.begin());
             const int next = t[(k + 1) % 3];
             const Vec3 a = facets_.position(next), b = facets_.position(t[(k + 2) % 3]);
@@ -357,16 +364,16 @@ private:
     const FacetJudge& judge_;
     double tolerance_;
     const CollapseOptions options_;
-    std::size_t left_;                // triangles
-    std::vector<char> first_;         // vertices that are looked at to begin with
-    std::vector<Vec3> flat_normals_;  // of facets; 0: curved
-    // Of the vertex that is looked at.
+    std::size_t left_;                // triangles left
+    std::vector<char> first_;         // vertices to be tried first
+    std::vector<Vec3> flat_normals_;  // by facet; 0: curved
+    // Working data of the vertex that is being tried.
     std::vector<Candidate> candidates_;
     std::vector<Opposite> opposite_, opposite_of_other_;
     std::vector<LeafSurface> pieces_;
     std::size_t planes_ = 0;
-    std::vector<char> changed_;  // vertices whose facets have changed since they were looked at
-    int spare_ = -1;             // a vertex of no facet
+    std::vector<char> changed_;  // vertices whose facets have changed since they were last tried
+    int spare_ = -1;             // a vertex without facets, for the next half-way candidate; −1: none
 };
 
 }  // namespace

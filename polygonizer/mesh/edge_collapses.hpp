@@ -1,9 +1,10 @@
-// Vertices that a mesh does not need to stay within a tolerance of the surface go by edge collapses: onto one of the
-// edge's own vertices, or both onto the surface at its middle. So all vertices stay on the surface.
+// Decimation by edge collapses: a vertex that the mesh does not need to stay within a tolerance of the surface moves
+// onto a neighbour, or both ends of an edge become one vertex on the surface near its middle. So all vertices stay on
+// the surface.
 //
 // Flat faces stay exactly flat, creases and borders of materials stay lines of edges, and the mesh stays closed and
-// outward. What is held against the tolerance: thirteen points of every triangle that a collapse changes, spread over
-// its inside and its edges, and the vertices that go.
+// faces outward. Two things are held to the tolerance: thirteen points of every triangle that a collapse changes, all
+// over its inside and its edges, and the removed vertices.
 #pragma once
 #include <span>
 
@@ -13,21 +14,23 @@
 
 namespace deburr {
 
+/// What a run of collapses must keep, and how it reports. Null pointers and empty spans are allowed.
 struct CollapseOptions {
-    std::span<const Box> dense = {};  // vertices in them stay
-    // By vertex: those that have facets which are not in the mesh stay, and nothing moves onto them. Empty: none.
+    std::span<const Box> dense = {};  // vertices in these boxes stay
+    // By vertex: those with facets outside of this mesh stay, and nothing moves onto them. Empty: there are none.
     std::span<const char> border = {};
-    // By vertex: only vertices of facets at these are looked at, until something has changed. Empty: all are.
+    // By vertex: first only vertices of facets at these are tried, later also those near a change. Empty: all are
+    // tried.
     std::span<const char> around = {};
-    std::size_t enough = 0;  // no fewer triangles than this are wanted
+    std::size_t enough = 0;  // the run ends at this number of triangles
     CancelFlag cancel = nullptr;
     WorkProgress* progress = nullptr;
-    double share_of_phase = 0;  // of the progress, told by and by
+    double share_of_phase = 0;  // the fraction of the progress's phase that the run reports
 };
 
-/// Collapses edges of a mesh, closed but for its border, while its distance from the surface stays below `tolerance`.
-/// Returns how many vertices went. Of those that are left, `vertices` and `normals` get the numbers that they had.
-/// Throws Cancelled.
+/// Collapses edges of a mesh, which is closed except for its border, while it stays within the distance `tolerance` of
+/// the surface. `origins`, one for each triangle, is updated. Returns the number of vertices removed. `vertices` and
+/// `normals` get, for each one that is left, its old number. Throws Cancelled.
 std::size_t collapse_edges(Mesh& mesh, std::vector<Origin>& origins, const FacetJudge& judge, double tolerance,
                            const CollapseOptions& options, std::vector<int>* vertices = nullptr,
                            std::vector<int>* normals = nullptr);

@@ -5,7 +5,7 @@
 namespace deburr {
 namespace {
 
-// A value and what its rounding left over: their sum is exact.
+// A rounded value and its rounding error: value + rest is exact.
 struct Exact {
     double value, rest;
 };
@@ -20,7 +20,7 @@ Exact product(double a, double b) {
     return {value, std::fma(a, b, -value)};
 }
 
-// An exact sum: doubles that do not overlap, the greatest last.
+// An exact sum as doubles that do not overlap, the greatest last.
 template <std::size_t most>
 class Expansion {
 public:
@@ -45,7 +45,7 @@ public:
         add_product(p.rest, c);
         add_product(p.value, c);
     }
-    // Has the sign of the sum.
+    // The greatest term, which has the sign of the sum.
     double leading() const { return size_ > 0 ? terms_[size_ - 1] : 0; }
 
 private:
@@ -53,8 +53,8 @@ private:
     std::size_t size_ = 0;
 };
 
-// With unit roundoff u each difference is off by a factor of 1 + u, each product and sum by one more; the
-// products' sizes are computed with the same roundings. Some u more than first order are for the products of these.
+// With unit roundoff u each difference is off by a factor of 1 + u, and each product and sum by one more; so are the
+// sums of absolute values that they are compared with. The few u beyond first order cover products of these.
 constexpr double roundoff = epsilon / 2;
 constexpr double plane_slack = 4 * roundoff, space_slack = 10 * roundoff;
 
@@ -83,7 +83,7 @@ double orientation(Vec3 a, Vec3 b, Vec3 c, Vec3 d) {
                         std::abs(u.z) * (std::abs(v.x * w.y) + std::abs(v.y * w.x));
     if (std::abs(six) > space_slack * size) return six;
     if (size == 0) return 0;
-    // A difference is exact in two doubles, and the determinant the sum of 6 · 2³ products of three.
+    // Each difference is exact in two doubles, so the determinant is a sum of 6 · 2³ products of three doubles.
     std::array<std::array<Exact, 3>, 3> rows;
     const std::array<Vec3, 3> from{a, b, c};
     for (int i = 0; i < 3; ++i)

@@ -20,7 +20,7 @@
 namespace deburr {
 namespace {
 
-// Of each vertex, for readers that know no colours of faces: that of the largest triangle around it.
+// The material of the largest triangle around each vertex, for readers that know no colours of faces.
 std::vector<int> vertex_materials(const Mesh& mesh) {
     std::vector<int> materials(mesh.positions.size(), 0);
     std::vector<double> largest(mesh.positions.size(), -1);
@@ -145,7 +145,7 @@ std::string encode(const Mesh& mesh, MeshFormat format, const MeshNotes& notes) 
     if (format == MeshFormat::ply) return ply(mesh, notes);
     if (format == MeshFormat::ase) return encode_ase(mesh, notes);
     if (format == MeshFormat::three_mf) return encode_3mf(mesh, notes);
-    Mesh apart = mesh;  // in single precision too
+    Mesh apart = mesh;  // touching parts are separated in single precision, too
     separate_touching(apart, single_precision_step(mesh));
     return format == MeshFormat::stl ? stl(apart) : encode_glb(apart, notes);
 }

@@ -24,10 +24,10 @@ constexpr const char* relations =
     "<Relationship Target=\"/3D/3dmodel.model\" Id=\"rel0\" "
     "Type=\"http://schemas.microsoft.com/3dmanufacturing/2013/01/3dmodel\"/></Relationships>\n";
 
-// Resources have numbers of one list.
+// Materials and objects share one sequence of resource numbers.
 constexpr int materials_id = 1, first_object_id = 2;
 
-// What goes between quotes: valid UTF-8 without what XML 1.0 has no place for [XML §2.2].
+// The text as the value of an XML attribute: valid UTF-8 without characters that XML 1.0 excludes [XML §2.2].
 std::string attribute(const std::string& any) {
     using Json = nlohmann::json;
     const std::string text = Json::parse(Json(any).dump(-1, ' ', false, Json::error_handler_t::replace));
@@ -50,7 +50,7 @@ std::string attribute(const std::string& any) {
     return out;
 }
 
-// Text on its way into the archive.
+// Formats text into the archive's current file, buffered.
 class Text {
 public:
     explicit Text(ZipArchive& archive) : archive_(archive) {}
@@ -71,7 +71,7 @@ private:
     fmt::memory_buffer buffer_;
 };
 
-// Places of the materials in use in the list of materials.
+// Writes the list of the materials in use and returns the index of each in it.
 std::map<int, int> put_materials(Text& text, const Mesh& mesh, const MeshNotes& notes) {
     std::map<int, int> places;
     for (const Triangle& t : mesh.triangles) places[t.material] = 0;

@@ -15,7 +15,7 @@ constexpr const char* identity =
     "\t\t*TM_ROW0 1 0 0\n\t\t*TM_ROW1 0 1 0\n\t\t*TM_ROW2 0 0 1\n\t\t*TM_ROW3 0 0 0\n"
     "\t\t*TM_POS 0 0 0\n\t\t*TM_ROTAXIS 0 0 0\n\t\t*TM_ROTANGLE 0\n\t\t*TM_SCALE 1 1 1\n";
 
-// What the format puts between quotes has no escapes.
+// The text in quotes, in which the format has no escapes.
 std::string quoted(std::string name) {
     std::replace(name.begin(), name.end(), '"', '_');
     return '"' + name + '"';

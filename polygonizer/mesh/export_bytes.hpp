@@ -1,4 +1,4 @@
-// Numbers as binary formats have them: little-endian, IEEE 754. Each is put to the end of a text.
+// Appends numbers to a string as binary formats store them: little-endian, IEEE 754.
 #pragma once
 #include <cstdint>
 #include <cstring>
@@ -33,7 +33,7 @@ inline void put_floats(std::string& out, Vec3 x) {
     for (int k = 0; k < 3; ++k) put(out, float(x[k]));
 }
 
-/// Throws std::length_error where a format has no room for so many.
+/// n in 32 bits. Throws std::length_error if it does not fit.
 inline std::uint32_t count_of(std::size_t n) {
     if (n > std::numeric_limits<std::uint32_t>::max())
         throw std::length_error("a mesh of more than 4 294 967 295 elements does not fit the format");

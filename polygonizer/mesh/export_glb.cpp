@@ -13,14 +13,14 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-// One primitive of a glTF mesh, with a vertex for every pair of position and normal.
+// One primitive of a glTF mesh, with a vertex for every pair of position and normal that occurs.
 struct Primitive {
     std::vector<std::pair<int, int>> vertices;
     std::map<std::pair<int, int>, std::uint32_t> known;
     std::vector<std::uint32_t> indices;
 };
 
-// By solid and material.
+// The mesh's primitives by (solid, material).
 std::map<std::pair<int, int>, Primitive> primitives_of(const Mesh& mesh) {
     std::map<std::pair<int, int>, Primitive> primitives;
     for (const Triangle& t : mesh.triangles) {
@@ -35,7 +35,7 @@ std::map<std::pair<int, int>, Primitive> primitives_of(const Mesh& mesh) {
     return primitives;
 }
 
-// A material of glTF 2.0; the extensions that it uses are added to `used`.
+// A glTF 2.0 material; the extensions that it needs are added to `used`.
 Json glb_material(const MeshNotes& notes, int index, std::set<std::string>& used) {
     const Vec3 c = material_color(notes, index);
     Json material = {{"pbrMetallicRoughness", {{"baseColorFactor", {c.x, c.y, c.z, 1.0}}, {"metallicFactor", 0.0}}}};
@@ -61,7 +61,7 @@ Json glb_material(const MeshNotes& notes, int index, std::set<std::string>& used
     return material;
 }
 
-// The two chunks of a file, as they grow: JSON that describes, and the buffer of numbers.
+// A file as it grows: the JSON chunk that describes it, and the binary chunk.
 class Glb {
 public:
     Glb(const Mesh& mesh, const MeshNotes& notes) : mesh_(mesh), notes_(notes) {
@@ -72,7 +72,7 @@ public:
             json_[list] = Json::array();
     }
 
-    // A node of the scene, with a mesh that has no primitives yet.
+    // Begins a node of the scene, with a mesh that has no primitives yet.
     void begin_solid(int solid) {
         json_["scenes"][0]["nodes"].push_back(json_["nodes"].size());
         json_["nodes"].push_back({{"mesh", json_["meshes"].size()}, {"name", solid_name(notes_, solid)}});
@@ -110,7 +110,7 @@ public:
     }
 
 private:
-    // The constants of WebGL that glTF uses.
+    // WebGL's constants that glTF uses.
     static constexpr int array_buffer = 34962, element_array_buffer = 34963, is_float = 5126, is_uint = 5125;
 
     std::size_t material_number(int material) {
@@ -119,9 +119,11 @@ private:
         return at->second;
     }
 
-    // Each of these three adds an accessor of what it puts into the buffer; the first returns its number.
+    // Each of the following three functions appends data to the buffer and an accessor for it; the first returns its
+    // accessor's index.
     std::size_t add_positions(const Primitive& p) {
-        // Of the numbers as they are written, in single precision all along: GCC 12 leaves the way there and back out.
+        // Minimum and maximum of the numbers as written. They are in single precision throughout, because GCC 12
+        // optimizes the conversion to single precision and back away.
         glm::vec3 lo(infinity), hi(-infinity);
         const std::size_t from = data_.size();
         for (const auto& [v, n] : p.vertices) {
@@ -146,7 +148,7 @@ private:
         add_accessor(from, element_array_buffer, is_uint, p.indices.size(), "SCALAR");
     }
 
-    // Of the buffer from `from` to its end.
+    // Adds an accessor of the buffer from `from` to its end.
     void add_accessor(std::size_t from, int target, int component, std::size_t count, const char* type) {
         json_["bufferViews"].push_back(
             {{"buffer", 0}, {"byteOffset", from}, {"byteLength", data_.size() - from}, {"target", target}});
@@ -160,8 +162,8 @@ private:
     const MeshNotes& notes_;
     Json json_;
     std::string data_;
-    std::map<int, std::size_t> material_of_;  // numbers in the file, of the scene's materials
-    std::set<std::string> extensions_;        // that materials use
+    std::map<int, std::size_t> material_of_;  // index in the file by the scene's material
+    std::set<std::string> extensions_;        // extensions that the materials need
 };
 
 }  // namespace

@@ -32,7 +32,7 @@ std::string encode_mtl(const Mesh& mesh, const MeshNotes& notes) {
     std::string out = "# Deburr\n";
     for (const int m : materials) {
         const Vec3 c = material_color(notes, m);
-        // Illumination model 1: the colour, without highlights.
+        // Illumination model 1: the colour without highlights.
         out += fmt::format("newmtl material_{}\nKa 0 0 0\nKd {} {} {}\nKs 0 0 0\nillum 1\n", m, c.x, c.y, c.z);
     }
     return out;

@@ -8,7 +8,8 @@
 namespace deburr {
 
 double facet_margin(const Mesh& mesh, const SolidTree& solid) {
-    // Rounding moves a surface by less than the radius, and facets of free forms are small against their distance.
+    // Rounding moves a surface by less than the radius; facets of free forms are near their surface compared to their
+    // size.
     double margin = 0;
     for (const SolidLeaf& leaf : solid.leaves) {
         for (const HalfSpace& h : leaf.density.half_spaces) margin = std::max(margin, h.radius);
@@ -48,7 +49,7 @@ FacetJudge::FacetJudge(const SolidTree& solid, const Box& box, double margin)
       one_leaf_(solid.leaves.size() == 1 && solid.nodes.size() == 1),
       surfaces_(solid, box, one_leaf_ ? &solid_ : nullptr) {
     size_ = glm::length(box.hi - box.lo);
-    // Where single precision cannot tell a rounded edge from a sharp one, no file of it can be right.
+    // Where single precision cannot distinguish a rounded edge from a sharp one, no file in it can be right.
     constexpr double of_radius = 0.01, of_size = 1e-4;
     const double radius = solid.min_radius();
     const double farthest = std::max(largest(glm::abs(box.lo)), largest(glm::abs(box.hi)));
@@ -56,7 +57,7 @@ FacetJudge::FacetJudge(const SolidTree& solid, const Box& box, double margin)
 }
 
 FacetShape FacetJudge::shape(const Facets& facets, const Facet& f, double least) const {
-    // Below this ratio of height to longest side a facet is without area.
+    // A facet whose ratio of height to longest side is below this has no area.
     constexpr double no_area = 1e-6;
     if (f.origin.leaf == Origin::wall) return {};
     const Triangle& t = f.triangle;
@@ -71,7 +72,7 @@ FacetShape FacetJudge::shape(const Facets& facets, const Facet& f, double least)
     const Vec3 area = glm::cross(x[1] - x[0], x[2] - x[0]);
     const double twice = glm::length(area);
     if (twice <= no_area * longest * longest) return {-1, -1, 0};
-    // As a file of single precision will have it.
+    // The facet as a file of single precision has it.
     const auto rounded = [&](Vec3 v) { return in_single_ ? Vec3(glm::vec3(v)) : v; };
     const Vec3 single = glm::cross(rounded(x[1]) - rounded(x[0]), rounded(x[2]) - rounded(x[0]));
     const double single_twice = glm::length(single);
@@ -87,7 +88,7 @@ FacetShape FacetJudge::shape(const Facets& facets, const Facet& f, double least)
         const SurfaceSample leaf = one_leaf_ ? o : surfaces_.at({f.origin.leaf}, middle);
         Vec3 own = leaf.normal;
         if (own == Vec3(0.0)) own = glm::length(normals) > 0 ? glm::normalize(normals) : normals;
-        if (glm::dot(own, normals) < 0) own = -own;  // a leaf that is subtracted
+        if (glm::dot(own, normals) < 0) own = -own;  // the leaf is subtracted
         s.own = cosine(own);
     }
     s.cosine = s.own;

@@ -1,4 +1,4 @@
-// How the facets of a mesh lie to the solid that they stand for.
+// Judges how the facets of a mesh lie to the solid that they stand for.
 #pragma once
 #include <array>
 #include <memory>
@@ -10,27 +10,29 @@
 
 namespace deburr {
 
+/// How a facet lies to the surface.
 struct FacetShape {
-    double own = 1;       // cosine to its own surface at its middle; −1 without area
-    double cosine = 1;    // the same, or to the solid's surface that is nearest to the middle if that is less
+    double own = 1;       // cosine of the angle to its own surface at its middle; −1 if it has no area
+    double cosine = 1;    // the lesser of that and the cosine to the surface of the solid nearest to the middle
     double distance = 0;  // of the middle from the solid's surface; 0 where the density is saturated
+    /// Whether the density is saturated at the middle, so that there is no first-order distance.
     bool saturated = false;
 };
 
-/// How far around a facet surfaces matter: from its middle the one that it stands for is nearer.
+/// The distance from a facet's middle within which surfaces matter: the one that the facet stands for is nearer.
 double facet_margin(const Mesh& mesh, const SolidTree& solid);
 
-/// The solid as it is seen from the facets of a mesh: from the middle of each the surface that it stands
-/// for, and all that are nearer.
+/// A DistanceField of the solid for points on the facets of a mesh: it knows the surface that a facet stands for, and
+/// all that are nearer.
 DistanceField field_around(const Mesh& mesh, const SolidTree& solid);
 
-/// Judges facets of any mesh of one solid. One thread at a time may use it.
+/// Judges the facets of any mesh of one solid. Only one thread at a time may use a judge; lend() gives others copies.
 class FacetJudge {
 public:
-    /// `mesh` tells where the surfaces are.
+    /// `mesh` shows where the surfaces are. Keeps a reference to `solid`.
     FacetJudge(const SolidTree& solid, const Mesh& mesh);
-    /// Calls work(judge) with a judge of the same that no other thread has: this one or a copy of it, which is kept.
-    /// What it says does not depend on which of them it is.
+    /// Calls work(judge) with this judge or a copy of it that no other thread is using; copies are kept for reuse. The
+    /// verdicts of all copies are the same. Safe to call from several threads.
     template <class Work>
     void lend(Work work) const {
         const auto back = [this](const FacetJudge* judge) { give_back(judge); };
@@ -40,16 +42,18 @@ public:
     FacetJudge(const FacetJudge&) = delete;
     FacetJudge& operator=(const FacetJudge&) = delete;
 
-    /// Shape of facet f; walls are as they should be. Once its own cosine is found to be below `least`, the rest is not
-    /// looked at.
+    /// The shape of a facet. Walls (Origin::wall) are always good. If the facet's own cosine is below `least`, the
+    /// other members are not computed.
     FacetShape shape(const Facets& facets, const Facet& f, double least = -infinity) const;
-    /// Whether points all over the triangle are within the tolerance of the solid's surface: its middle, those of
-    /// is_near_within, and those of is_near_between on each edge.
+    /// Whether thirteen points all over the triangle are within `tolerance` of the solid's surface: its middle, and the
+    /// points of is_near_within() and of is_near_between() on each edge.
     bool is_near(const std::array<Vec3, 3>& corners, double tolerance) const;
-    /// The same for the three points half-way between the triangle's middle and its corners.
+    /// Whether the three points half-way between the triangle's middle and its corners are within `tolerance` of the
+    /// surface.
     bool is_near_within(const std::array<Vec3, 3>& corners, double tolerance) const;
-    /// The same for the three points that divide the edge from a to b in four.
+    /// Whether the three points that divide the edge from a to b into four are within `tolerance` of the surface.
     bool is_near_between(Vec3 a, Vec3 b, double tolerance) const;
+    /// Whether x is on the solid's surface up to rounding.
     bool on_surface(Vec3 x) const { return std::abs(solid_.at(x).distance) <= 10 * surfaces_.slack(); }
     const DistanceField& solid() const { return solid_; }
     const LeafSurfaces& surfaces() const { return surfaces_; }
@@ -57,7 +61,7 @@ public:
     double size() const { return size_; }
 
 private:
-    // Surfaces farther than `margin` from a facet are none of its business.
+    // Surfaces farther than `margin` from a facet are ignored.
     FacetJudge(const SolidTree& solid, const Box& box, double margin);
 
     const FacetJudge* take() const;
@@ -74,15 +78,15 @@ private:
     double size_;
     mutable std::mutex mutex_;
     mutable std::vector<std::unique_ptr<FacetJudge>> copies_;
-    mutable std::vector<const FacetJudge*> free_{this};  // that no thread has
-    bool in_single_;                                     // facets are judged as single precision rounds them, too
+    mutable std::vector<const FacetJudge*> free_{this};  // judges that no thread is using
+    bool in_single_;  // whether facets are also judged as single precision rounds them
 };
 
-/// Calls work(judge, first, last) for ranges of `count` facets that make up all of them, side by side. A judge is a
-/// thread's own for as long as its range takes.
+/// Calls work(judge, first, last) for ranges that together make up [0, count), concurrently. The judge belongs to the
+/// call for as long as it runs.
 template <class Work>
 void judge_in_parallel(const FacetJudge& judge, std::size_t count, Work work) {
-    constexpr std::size_t most = 4096;  // of a range
+    constexpr std::size_t most = 4096;  // facets in a range
     in_parallel_ranges(count, most, [&](std::size_t first, std::size_t last) {
         judge.lend([&](const FacetJudge& own) { work(own, first, last); });
     });

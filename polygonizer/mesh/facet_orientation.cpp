@@ -3,9 +3,9 @@
 namespace deburr {
 namespace {
 
-// Steps along the line grow from this share of the reach; both ends of it in turn.
+// Steps along the line, to both sides in turn, grow from this fraction of the reach.
 constexpr double first_step = 1e-7, growth = 1.25;
-// Nearer than this to a surface there may be several at once.
+// Nearer to the surface than this fraction of the reach there may be several surfaces at once.
 constexpr double on_surface = 1e-9;
 
 }  // namespace

@@ -7,6 +7,7 @@
 namespace deburr {
 namespace {
 
+/// Normals that differ by less than this are those of one plane.
 constexpr double same_normal = 1e-6;
 
 }  // namespace
@@ -82,7 +83,7 @@ std::optional<Change> Facets::flip(int f, std::size_t k, bool give) const {
 }
 
 std::optional<Change> Facets::collapse(int u, int v) const {
-    // Link condition: u and v have exactly the two opposite vertices in common.
+    // Link condition: u and v have exactly the two opposite vertices as common neighbours.
     const Fan nu = neighbours(u), nv = neighbours(v);
     const auto common =
         std::count_if(nu.begin(), nu.end(), [&](int w) { return std::find(nv.begin(), nv.end(), w) != nv.end(); });
@@ -95,7 +96,7 @@ std::optional<Change> Facets::collapse(int u, int v) const {
         if (std::find(vertex.begin(), vertex.end(), v) != vertex.end()) continue;
         const std::size_t k = std::size_t(corner_index(f, u));
         vertex[k] = v;
-        // In a plane the normal is its own.
+        // A facet of a plane keeps its own normal.
         if (moved.origin.leaf >= 0) moved.triangle.normal[k] = nearest_normal(v, moved);
         change.in.push_back(moved);
     }
@@ -221,14 +222,14 @@ void Facets::finish(std::vector<int>* old_vertices, std::vector<int>* old_normal
     mesh_.normals = std::move(normals);
 }
 
-// Each follows v in one of the facets around it.
+// The vertices that follow v in the facets around it, which are all of its neighbours.
 Facets::Fan Facets::neighbours(int v) const {
     Fan out;
     for (const int f : around(v)) out.push_back(at(f).triangle.vertex[(corner_index(f, v) + 1) % 3]);
     return out;
 }
 
-// Of the normals at v, the one that suits the facet: of its own leaf, if there is one.
+// The normal at v that suits the facet best, if possible one of its own leaf.
 int Facets::nearest_normal(int v, const Facet& f) const {
     Vec3 wanted(0.0);
     for (const int n : f.triangle.normal) wanted += normal(n);
@@ -236,7 +237,7 @@ int Facets::nearest_normal(int v, const Facet& f) const {
     double best_dot = -infinity;
     for (const int other : around(v)) {
         const int n = at(other).triangle.normal[corner_index(other, v)];
-        constexpr double own = 10;  // more than any two normals differ by
+        constexpr double own = 10;  // greater than any difference of two cosines
         const double d = glm::dot(normal(n), wanted) + (at(other).origin.leaf == f.origin.leaf ? own : 0);
         if (d > best_dot) {
             best_dot = d;

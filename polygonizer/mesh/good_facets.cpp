@@ -6,7 +6,7 @@
 namespace deburr {
 
 FacetKey facet_key(const Mesh& mesh, const Triangle& triangle, Origin origin) {
-    // Odd numbers without a pattern: the fractions of the golden ratio, √2 and √3.
+    // Odd numbers without a pattern: fractions of the golden ratio, √2 and √3.
     constexpr std::uint64_t golden = 0x9e3779b97f4a7c15, root2 = 0x6a09e667f3bcc909, root3 = 0xbb67ae8584caa73b;
     FacetKey key{golden, root2 ^ std::uint64_t(std::uint32_t(origin.leaf))};
     const auto add = [&](double x) {
@@ -22,7 +22,7 @@ FacetKey facet_key(const Mesh& mesh, const Triangle& triangle, Origin origin) {
     return key;
 }
 
-// Where the key is, or where it would be.
+// The slot of the key, or the empty one where it belongs.
 std::size_t GoodFacets::place(FacetKey key) const {
     std::size_t at = key.hash() & (keys_.size() - 1);
     while (keys_[at] != nobody && keys_[at] != key) at = (at + 1) & (keys_.size() - 1);

@@ -1,4 +1,4 @@
-// Facets that were found good before, so that what is polygonized again where nothing changed need not be judged again.
+// A set of facets that were found good, so that facets that come again where nothing changed need not be judged again.
 #pragma once
 #include <cstdint>
 #include <vector>
@@ -7,7 +7,7 @@
 
 namespace deburr {
 
-/// 128 bits made of the bits of a facet's corners' positions and normals, and of its leaf.
+/// A 128-bit hash of the bits of a facet's corner positions and normals and of its leaf.
 struct FacetKey {
     std::uint64_t a = 0, b = 0;
     bool operator==(const FacetKey&) const = default;
@@ -15,22 +15,22 @@ struct FacetKey {
 };
 FacetKey facet_key(const Mesh& mesh, const Triangle& triangle, Origin origin);
 
-/// A set of facets by the bits of their corners' positions and normals, and by their leaves: by 128 bits made of these,
-/// which no two facets of any mesh are likely to share.
+/// A set of facets by their 128-bit keys, which two different facets of a mesh are not likely to share.
 class GoodFacets {
 public:
     bool has(const Mesh& mesh, const Triangle& triangle, Origin origin) const {
         return !keys_.empty() && keys_[place(facet_key(mesh, triangle, origin))] != nobody;
     }
-    /// Forgets what there was, and takes all triangles of the mesh but those, which come in rising order.
+    /// Replaces the set by all triangles of the mesh except those in `but`, which is in increasing order.
     void become(const Mesh& mesh, const std::vector<Origin>& origins, const std::vector<int>& but);
 
 private:
+    /// Marks an empty slot.
     static constexpr FacetKey nobody{};
 
     std::size_t place(FacetKey key) const;
 
-    std::vector<FacetKey> keys_;  // a power of two of them, or none
+    std::vector<FacetKey> keys_;  // open-addressing hash table; its size is a power of two, or 0
 };
 
 }  // namespace deburr

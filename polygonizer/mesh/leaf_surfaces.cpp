@@ -27,8 +27,8 @@ SurfaceSample LeafSurfaces::at(const LeafSurface& piece, Vec3 x) const {
 }
 
 bool LeafSurfaces::project(Vec3& x, const std::vector<LeafSurface>& pieces, double reach) const {
-    constexpr int steps = 30;         // of Newton's method, which takes 4
-    constexpr double tangent = 1e-4;  // sine of an angle between surfaces that count as touching
+    constexpr int steps = 30;         // Newton's method usually takes 4
+    constexpr double tangent = 1e-4;  // sine of the angle below which surfaces count as touching
     Vec3 at_x = x;
     double last = infinity;
     for (int step = 0; step < steps; ++step) {

@@ -1,5 +1,5 @@
-// The surfaces that a mesh consists of, one by one: isosurfaces of leaves, and planes. A vertex on a
-// seam lies on two of them at once, at a corner on three.
+// The individual surfaces that a mesh consists of: isosurfaces of leaves, and planes. A vertex on a seam lies on two of
+// them, one at a corner on three.
 #pragma once
 #include <memory>
 #include <vector>
@@ -15,19 +15,21 @@ struct LeafSurface {
     double offset = 0;
 };
 
-/// Not for several threads at once.
+/// The surfaces of a solid's leaves within a box. Not for several threads at once.
 class LeafSurfaces {
 public:
-    /// `only`: the field of the whole solid, if that is one leaf; it must outlive this.
+    /// `only` is the field of the whole solid if that is a single leaf, else null. Keeps references to `solid` and to
+    /// `only`.
     LeafSurfaces(const SolidTree& solid, const Box& box, const DistanceField* only = nullptr);
 
-    /// Signed distance to first order, with its normal: > 0 inside the leaf, or behind the plane.
+    /// Signed distance of x from the surface to first order, and the outward normal; > 0 inside the leaf or behind the
+    /// plane.
     SurfaceSample at(const LeafSurface& piece, Vec3 x) const;
-    /// Moves x to where all pieces meet, by Newton's method with the shortest steps; no farther than
-    /// `reach`. False, and x stays, if that does not lead onto all of them. Pieces that touch each
+    /// Moves x to where all `pieces` meet, by Newton's method with the shortest possible steps, at most by the distance
+    /// `reach`. Returns false and leaves x as it is if that does not lead onto all of them. Pieces that touch each
     /// other there count as one.
     bool project(Vec3& x, const std::vector<LeafSurface>& pieces, double reach) const;
-    /// Distance below which a point is on a surface, for this purpose.
+    /// The distance below which a point counts as on a surface.
     double slack() const { return slack_; }
 
 private:

@@ -13,7 +13,7 @@ struct Corner {
 
 double cross(Vec2 a, Vec2 b) { return a.x * b.y - a.y * b.x; }
 
-// Sine of the least angle; < 0 for triangles that are wrong way round.
+// Sine of the triangle's least angle; negative if the triangle is clockwise.
 double shape(Vec2 a, Vec2 b, Vec2 c) {
     const double ab = glm::distance(a, b), bc = glm::distance(b, c), ca = glm::distance(c, a);
     const double longest = std::max({ab, bc, ca}), shortest = std::min({ab, bc, ca});
@@ -27,6 +27,7 @@ std::vector<Corner> corners_of(const std::vector<int>& loop, const std::vector<V
     return corners;
 }
 
+/// Inserts the loop into the ring by a bridge between the two nearest corners.
 void join(std::vector<Corner>& ring, const std::vector<Corner>& loop) {
     std::size_t from = 0, to = 0;
     double nearest = infinity;
@@ -61,7 +62,7 @@ std::vector<std::array<int, 3>> loop_ears(const std::vector<std::vector<int>>& l
         std::size_t corner, version;
         bool operator<(const Ear& o) const { return std::tie(shape, o.corner) < std::tie(o.shape, corner); }
     };
-    // An edge and the way back cancel: such corners wait until all others are gone, and leave no triangle.
+    // Corners where an edge runs back along itself; they wait until all others are gone, and leave no triangle.
     constexpr double spur = -2;
     std::priority_queue<Ear> ears;
     const auto offer = [&](std::size_t k) {

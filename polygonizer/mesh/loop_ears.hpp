@@ -1,4 +1,4 @@
-// Triangles of loops that no triangulation of the plane has as its edges.
+// Triangulates loops that no triangulation of the plane has as its edges, because they cross.
 #pragma once
 #include <array>
 #include <vector>
@@ -7,8 +7,9 @@
 
 namespace deburr {
 
-/// A disc whose rim are the loops, joined by bridges from each to the nearest corner of those before. Corners are cut
-/// off, the best shaped first, whatever else lies there. `plane_points`: of the loops' vertices.
+/// A disc whose border are the loops, joined by bridges from each loop to the nearest corner of those before. Ears are
+/// cut off, the best shaped first, even if other vertices lie in them. plane_points[i][k] is loops[i][k] in the plane.
+/// Triangles are triples of the loops' vertices.
 std::vector<std::array<int, 3>> loop_ears(const std::vector<std::vector<int>>& loops,
                                           const std::vector<std::vector<Vec2>>& plane_points);
 

@@ -9,7 +9,7 @@ namespace {
 
 struct DirectedEdge {
     int lo, hi;
-    bool forward;  // from lo to hi
+    bool forward;  // runs from lo to hi
     int triangle;
     bool same_edge(const DirectedEdge& o) const { return lo == o.lo && hi == o.hi; }
 };
@@ -87,7 +87,7 @@ Box bounding_box(const Mesh& mesh, const Triangle& triangle) {
 double mean_edge(const Mesh& mesh) {
     double sum = 0;
     for (const Triangle& t : mesh.triangles)
-        for (std::size_t k = 0; k < 3; ++k)  // every edge in both of its triangles
+        for (std::size_t k = 0; k < 3; ++k)  // every edge is counted in both of its triangles
             sum += glm::length(mesh.positions[t.vertex[k]] - mesh.positions[t.vertex[(k + 1) % 3]]);
     return mesh.triangles.empty() ? 0 : sum / (3 * double(mesh.triangles.size()));
 }

@@ -7,7 +7,7 @@
 namespace deburr {
 namespace {
 
-// Hands `visit` the triangles of each block, in rising order.
+// Calls visit(triangles) for each block; the triangles are in increasing order.
 template <class Visit>
 void halve(const std::vector<Vec3>& middles, std::span<int> triangles, std::size_t most, Visit visit) {
     if (triangles.size() <= most) {
@@ -26,7 +26,7 @@ void halve(const std::vector<Vec3>& middles, std::span<int> triangles, std::size
     halve(middles, triangles.subspan(std::size_t(half)), most, visit);
 }
 
-// The numbers that `index` has in a block, which are given out as they are asked for.
+// Numbers a block's elements in the order in which they are first asked for.
 class Numbers {
 public:
     explicit Numbers(std::size_t count) : of_(count, -1) {}
@@ -37,6 +37,7 @@ public:
         }
         return of_[index];
     }
+    /// Makes the object ready for another block.
     void forget(const std::vector<int>& known) {
         for (const int index : known) of_[index] = -1;
     }
@@ -56,7 +57,7 @@ std::vector<MeshBlock> cut_into_blocks(const Mesh& mesh, const std::vector<Origi
     std::vector<int> all(mesh.triangles.size());
     std::iota(all.begin(), all.end(), 0);
     std::vector<MeshBlock> blocks;
-    std::vector<int> block_of(mesh.positions.size(), -1);  // of vertices
+    std::vector<int> block_of(mesh.positions.size(), -1);  // of each vertex: the last block that used it
     std::vector<char> is_shared(mesh.positions.size(), false);
     Numbers vertices(mesh.positions.size()), normals(mesh.normals.size());
     halve(middles, all, most, [&](std::span<const int> triangles) {

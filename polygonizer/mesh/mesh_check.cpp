@@ -11,7 +11,7 @@
 namespace deburr {
 namespace {
 
-// Facets between two looks at the flag that ends the work.
+// Number of facets between two checks of the cancel flag.
 constexpr std::size_t check_interval = 4096;
 
 class Check {
@@ -21,7 +21,7 @@ public:
         for (const SolidLeaf& leaf : solid.leaves)
             for (const HalfSpace& h : leaf.density.half_spaces) radius_ = std::max(radius_, h.radius);
         size_ = largest(box.hi - box.lo);
-        // A surface without a radius is met by its mesh to rounding.
+        // A sharp surface is met by its mesh up to rounding.
         constexpr double of_size = 1e-6, of_radius = 0.5;
         const double wanted = std::isfinite(options.tolerance) ? options.tolerance : of_radius * radius_;
         tolerance_ = std::max({wanted, options.min_tolerance, of_size * size_});
@@ -74,7 +74,7 @@ private:
     }
 
     void facets() {
-        // Facets whose height is below this share of their longest side have no area worth the name.
+        // Facets whose height is below this fraction of their longest side count as having no area.
         constexpr double flat = 1e-9;
         double area_sum = 0;
         for (const Triangle& t : mesh_.triangles) area_sum += glm::length(mesh_.area_vector(t));
@@ -95,7 +95,8 @@ private:
             const bool near = beside_surface(here, normal, x);
             if (!near && !options_.may_lean && !faces_outward(field_, x, here, normal, normals, longest))
                 result_.inward.add(x);
-            // More points of those that are large: a part that is skinned over need not be in the middle.
+            // Large facets are tested at more points: a part of the solid that a facet covers up need not be at its
+            // middle.
             const std::size_t more = std::size_t(twice / area_each);
             for (std::size_t k = 1; k <= more; ++k) {
                 const Vec3 y = point_of(t, k);
@@ -104,7 +105,8 @@ private:
         }
     }
 
-    // Points of a facet, spread evenly (Roberts's sequence: multiples of powers of the plastic number, folded over).
+    // The k-th of a facet's evenly spread points, by Roberts's sequence: multiples of powers of the plastic number,
+    // folded into the triangle.
     Vec3 point_of(const Triangle& t, std::size_t k) const {
         constexpr double plastic = 1.32471795724474602596;
         double u = double(k) / plastic, v = double(k) / (plastic * plastic);
@@ -117,7 +119,8 @@ private:
         return (1 - u - v) * at(t.vertex[0]) + u * at(t.vertex[1]) + v * at(t.vertex[2]);
     }
 
-    // Whether the surface is near and faces as the facet does; else the mesh is looked at on both sides of x.
+    // Whether the surface is near x and faces as the facet does. If it is not near, points on both sides of x are
+    // tested.
     bool beside_surface(const SurfaceSample& here, Vec3 normal, Vec3 x) {
         if (std::abs(here.distance) <= tolerance_) return glm::dot(normal, here.normal) > 0;
         judge(x - tolerance_ * normal, true);
@@ -125,7 +128,7 @@ private:
         return false;
     }
 
-    // Whether x and all that is within the tolerance lie on one side of the surface, as far as a few points tell.
+    // Whether x and everything within the tolerance is on one side of the surface, as far as six points tell.
     bool far_from_surface(Vec3 x, bool inside) const {
         for (int k = 0; k < 3; ++k)
             for (const double step : {-tolerance_, tolerance_}) {
@@ -136,7 +139,8 @@ private:
         return true;
     }
 
-    // Beside a facet the mesh is as expected unless there is another sheet of it; only then it takes to be asked.
+    // Tests a point beside a facet. There the mesh's side is as expected unless another sheet of it is near, so the
+    // winding number is needed only where the solid's side is not as expected.
     void judge(Vec3 x, bool expected) {
         ++result_.points;
         const bool inside = field_.inside(x);
@@ -146,15 +150,16 @@ private:
         (inside ? result_.missing : result_.added).add(x);
     }
 
-    // A part of the box, the solid that matters there, and the facets that may pass it.
+    // A part of the box, the solid pruned to it, and the number of halvings that made it.
     struct Cell {
         Box box;
         std::shared_ptr<const SignedDistance> solid;
         int depth;
     };
 
-    // Cells without facets lie on one side of the mesh, and have to of the solid. What may be on both sides is cut,
-    // and so are cells with facets: first of all those that the surface does not pass.
+    // Tests the parts of the box. Cells without facets lie on one side of the mesh, so they must lie on one side of the
+    // solid. Cells where the solid is undecided are halved, and so are cells with facets; first those where only one of
+    // the two holds.
     void parts() {
         const std::size_t max_cells = min_cells + mesh_.triangles.size() / 8;
         std::queue<Cell> cells, doubtful;
@@ -185,7 +190,8 @@ private:
         (decided == passed ? doubtful : cells).push(std::move(cell));
     }
 
-    // A mesh without a tolerance may pass far from the surface, but not without a facet there.
+    // Tests a cell without facets at x. A mesh without a tolerance may be far from the surface, but not without a facet
+    // near it.
     void judge_part(Vec3 x) {
         ++result_.points;
         const bool inside = field_.inside(x);

@@ -1,10 +1,9 @@
-// Whether a mesh is what it should be: closed, facing outward, crossing itself nowhere, and around just those
-// points that the solid holds.
+// Checks that a mesh is closed, faces outward, does not cross itself, and encloses just the points of the solid.
 //
-// Points are taken where mistakes show: on either side of facets, and in the parts of a box around the solid that no
-// facet passes, which are cut until the solid is known there. Facets that reach into each other by no more than
-// rounding do not cross. What is found is so; that nothing is found proves
-// nothing of parts smaller than the tolerance.
+// Points are tested where mistakes show: on both sides of facets, and in those parts of a box around the solid that no
+// facet passes; parts are halved until the solid is known there. Facets that reach into each other by no more than
+// rounding do not cross. Faults that are reported are real; that none is reported proves nothing about parts smaller
+// than the tolerance.
 #pragma once
 #include "bounds/solid_tree.hpp"
 #include "polygonizer/mesh/cancel.hpp"
@@ -12,40 +11,43 @@
 
 namespace deburr {
 
+/// Lengths are the scene's.
 struct MeshCheckOptions {
-    /// Points nearer to the solid's surface may be on either side of the mesh. Infinity: half of the filter radius
-    /// there, and parts that have no facet within a radius are missed.
+    /// Points nearer to the solid's surface than this may be on either side of the mesh. Infinity stands for half of
+    /// the greatest filter radius; then parts of the solid that have no facet within a radius are reported as missing,
+    /// too.
     double tolerance = infinity;
-    double min_tolerance = 0;  // for what the mesh cannot be finer than
-    /// Facets may face inward where the tolerance cannot tell: those of marching cubes do, in cubes that a thin wall
-    /// passes.
+    double min_tolerance = 0;  // lower limit of the tolerance, below which the mesh cannot be
+    /// Does not report facets that face inward, as those of marching cubes do in cubes that a thin wall passes. Points
+    /// beside such facets are tested all the same.
     bool may_lean = false;
     CancelFlag cancel = nullptr;
 };
 
-/// Faults of one kind: how many there are, and the first of them.
+/// Faults of one kind: their number, and the location of the first.
 struct MeshFault {
     std::size_t count = 0;
     Vec3 location{0.0};
-    int line = 0;  // of the scene, which wrote the part of the solid that is near; 0 unknown
+    int line = 0;  // line of the scene that wrote the nearest part of the solid; 0 unknown
 
     void add(Vec3 x) {
         if (count++ == 0) location = x;
     }
 };
 
+/// The faults of a mesh, and how much was examined.
 struct MeshCheck {
-    MeshFault open;                                 // edges that are not in two facets, once in each direction
-    MeshFault inward;                               // facets
-    MeshFault crossing;                             // pairs of facets
-    MeshFault missing;                              // points that the solid holds, and the mesh does not
-    MeshFault added;                                // points that the mesh holds, and the solid does not
-    std::size_t facets = 0, pairs = 0, points = 0;  // that were looked at
+    MeshFault open;                                 // edges that are not in exactly two facets, once in each direction
+    MeshFault inward;                               // facets that face inward
+    MeshFault crossing;                             // pairs of facets that cross
+    MeshFault missing;                              // points inside the solid and outside of the mesh
+    MeshFault added;                                // points inside the mesh and outside of the solid
+    std::size_t facets = 0, pairs = 0, points = 0;  // numbers of facets, pairs of facets and points that were examined
 
     std::size_t faults() const { return open.count + inward.count + crossing.count + missing.count + added.count; }
 };
 
-/// `box`: around all that there is of the solid, or as far as it is wanted. Throws Cancelled.
+/// Checks the mesh of a solid. `box` holds the whole solid, or the part of it that was meshed. Throws Cancelled.
 MeshCheck check_mesh(const Mesh& mesh, const SolidTree& solid, const Box& box, const MeshCheckOptions& options = {});
 
 }  // namespace deburr

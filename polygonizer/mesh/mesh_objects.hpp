@@ -1,4 +1,5 @@
-// A mesh of several solids, one after the other, for formats that number each solid's vertices by itself.
+// A mesh of several solids as objects one after the other, for file formats that number each object's vertices
+// separately.
 #pragma once
 #include <array>
 #include <vector>
@@ -7,14 +8,15 @@
 
 namespace deburr {
 
-/// Triangles [begin, end) of a mesh, all of one solid, and its own numbers of their vertices.
+/// A run of triangles [begin, end) of the mesh that all belong to one solid, with vertices numbered within the object.
 struct MeshObject {
     std::size_t begin = 0, end = 0;
-    std::vector<int> positions;                 // of the mesh, in the order of their first use
-    std::vector<std::array<int, 3>> triangles;  // places in `positions`
+    std::vector<int> positions;                 // indices in Mesh::positions, in the order of first use
+    std::vector<std::array<int, 3>> triangles;  // indices in `positions`
 };
 
-/// Calls take(MeshObject) for each run of triangles with one solid.
+/// Calls take(MeshObject) for each maximal run of triangles of one solid. A solid whose triangles are not consecutive
+/// becomes several objects.
 template <class Take>
 void for_each_object(const Mesh& mesh, Take take) {
     std::vector<int> number(mesh.positions.size(), -1);

@@ -22,7 +22,7 @@ struct Sum {
     Spread spread() const { return {count ? total / double(count) : 0, max}; }
 };
 
-// A triangle whose height is below this share of its longest side has no area worth the name.
+// A triangle whose height is below this fraction of its longest side counts as having no area.
 constexpr double flat = 1e-9;
 
 void measure_edges(const Mesh& mesh, MeshMetrics& m) {
@@ -31,7 +31,7 @@ void measure_edges(const Mesh& mesh, MeshMetrics& m) {
     for (const Triangle& t : mesh.triangles)
         for (std::size_t k = 0; k < 3; ++k) {
             const int a = t.vertex[k], b = t.vertex[(k + 1) % 3];
-            if (a > b) continue;  // each edge once, as the mesh is closed
+            if (a > b) continue;  // each edge once, because the mesh is closed
             const double length = glm::length(mesh.positions[a] - mesh.positions[b]);
             sum += length;
             squares += length * length;

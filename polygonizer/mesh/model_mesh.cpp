@@ -12,7 +12,8 @@ std::shared_ptr<const ClosedMesh> closed_mesh_of(const SolidTree& solid) {
 
 Mesh mesh_of(const ClosedMesh& model, int material) {
     Mesh mesh;
-    // Corners around a vertex that hang together share one of the mesh's: where the solid touches itself there are two.
+    // Corners around a vertex that are connected share one vertex of the mesh: where the solid touches itself there are
+    // two.
     UnionFind corners(3 * model.size());
     for (std::size_t t = 0; t < model.size(); ++t)
         for (int k = 0; k < 3; ++k) {

@@ -14,11 +14,12 @@ std::vector<int> all_numbers(std::size_t count) {
     return all;
 }
 
-// What was put in since has no number from before.
+// The number before; −1 for elements that were added since.
 int number_of(const std::vector<int>& numbers, int index) {
     return std::size_t(index) < numbers.size() ? numbers[index] : -1;
 }
 
+/// Composes two renumberings: result[k] = numbers[of[k]].
 std::vector<int> composed(const std::vector<int>& numbers, const std::vector<int>& of) {
     std::vector<int> result;
     result.reserve(of.size());
@@ -26,7 +27,7 @@ std::vector<int> composed(const std::vector<int>& numbers, const std::vector<int
     return result;
 }
 
-// Of the same bits, cell, leaf and material.
+// A key of the facet's bits, cell, leaf and material.
 FacetKey source_key(const Mesh& mesh, const Triangle& triangle, Origin origin) {
     FacetKey key = facet_key(mesh, triangle, origin);
     constexpr std::uint64_t golden = 0x9e3779b97f4a7c15;
@@ -68,7 +69,7 @@ void Patches::renumber(const std::vector<int>& facets, const std::vector<int>& v
     normals_ = composed(normals_, normals);
 }
 
-// One run of put_into. Patches go by the sources that stand for them.
+// One run of put_into(). A patch is identified by the source that represents it in joined_.
 class Patches::Insertion {
 public:
     Insertion(const Patches& patches, Mesh& fresh, std::vector<Origin>& fresh_origins, const Mesh& mesh,
@@ -92,16 +93,16 @@ public:
     }
 
 private:
-    // A triangle of what comes of it all.
+    // A triangle of the result.
     struct Piece {
-        int facet;      // of the fresh mesh: this one, or the first one of the patch
-        int kept = -1;  // of the mesh from before; −1: the fresh facet stays
+        int facet;      // of the fresh mesh: this facet, or the first facet of the patch
+        int kept = -1;  // triangle of the old mesh; −1: the fresh facet stays
     };
 
     int patch_of(int source) { return joined_.find(source); }
     void forget(int source) { is_kept_[patch_of(source)] = false; }
 
-    // Which source each fresh facet is. Sources that cannot be told from others are nobody's.
+    // Finds the source that each fresh facet is. Facets with equal keys are no one's source.
     void find_sources() {
         const auto count = patches_.sources_.size();
         std::vector<int> table(std::bit_ceil(2 * count + 1), -1);
@@ -135,8 +136,8 @@ private:
             if (!is_found[s]) forget(int(s));
     }
 
-    // Which vertex and normal of the fresh mesh each one from before is. Where vertices of one place were told apart
-    // otherwise, their patches are not kept.
+    // Finds the vertex and normal of the fresh mesh that each old one is. Where vertices in one place were
+    // distinguished differently, their patches are not kept.
     void match_corners() {
         std::vector<int> before(fresh_.positions.size(), -1);
         for (std::size_t f = 0; f < source_.size(); ++f) {
@@ -162,11 +163,11 @@ private:
 
     bool stays(int facet) { return source_[facet] < 0 || !is_kept_[patch_of(source_[facet])]; }
 
-    // What is kept comes first, as it was, then what stays.
+    // Lists the triangles of the result: those of kept patches first, in their old order, then fresh facets that stay.
     std::vector<Piece> assemble() {
         std::vector<Piece> pieces;
         pieces.reserve(std::max(source_.size(), patches_.source_.size()));
-        std::vector<int> first(is_kept_.size(), -1);  // fresh facet of a patch
+        std::vector<int> first(is_kept_.size(), -1);  // first fresh facet of each patch
         for (int f = int(source_.size()); f-- > 0;)
             if (!stays(f)) first[patch_of(source_[f])] = f;
         for (std::size_t t = 0; t < patches_.source_.size(); ++t)
@@ -177,15 +178,15 @@ private:
         return pieces;
     }
 
-    // The vertex of the fresh mesh; −1: none, for it was put in.
+    // The vertex of the fresh mesh at a corner; −1 if it was added by a change.
     int vertex_of(const Piece& piece, std::size_t corner) {
         if (piece.kept < 0) return fresh_.triangles[piece.facet].vertex[corner];
         const int source = patches_.vertices_[mesh_.triangles[piece.kept].vertex[corner]];
         return source < 0 ? -1 : vertex_[source];
     }
 
-    // An edge within a patch may join two vertices that an edge of facets that stay joins as well: then the patch is
-    // not kept. Whether any was.
+    // Drops patches with an inner edge that joins two vertices which an edge of other facets joins as well. Returns
+    // whether there were any.
     bool drop_double_edges(const std::vector<Piece>& pieces) {
         std::vector<char> is_near(fresh_.positions.size(), false);
         for (const Piece& piece : pieces)
@@ -252,7 +253,7 @@ private:
                 const int source = patches_.vertices_[v];
                 number = source >= 0 ? vertex_[source] : int(fresh_.positions.size());
                 if (source >= 0)
-                    fresh_.positions[number] = mesh_.positions[v];  // a vertex that moved is in the patch's midst
+                    fresh_.positions[number] = mesh_.positions[v];  // vertices that moved are inside of the patch
                 else
                     fresh_.positions.push_back(mesh_.positions[v]);
             }
@@ -279,11 +280,11 @@ private:
     const Mesh& mesh_;
     const std::vector<Origin>& origins_;
     UnionFind joined_;
-    std::vector<char> is_kept_;                    // of patches
-    std::vector<int> source_;                      // of each fresh facet
-    std::vector<int> vertex_, normal_;             // of the fresh mesh, by numbers of the source
-    std::vector<int> first_of_patch_;              // fresh facet
-    std::vector<int> put_vertices_, put_normals_;  // of the fresh mesh, by their numbers before
+    std::vector<char> is_kept_;                    // by patch
+    std::vector<int> source_;                      // of each fresh facet; −1: none
+    std::vector<int> vertex_, normal_;             // numbers in the fresh mesh, by number at the start
+    std::vector<int> first_of_patch_;              // a fresh facet, by patch
+    std::vector<int> put_vertices_, put_normals_;  // numbers in the fresh mesh, by number in the old mesh
 };
 
 Patches Patches::put_into(Mesh& fresh, std::vector<Origin>& fresh_origins, const Mesh& mesh,

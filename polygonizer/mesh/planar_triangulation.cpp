@@ -8,7 +8,7 @@
 namespace deburr {
 namespace {
 
-// Place of a cell on the Hilbert curve through a grid of 2¹⁶ × 2¹⁶.
+// Index of a cell on the Hilbert curve through a grid of 2¹⁶ × 2¹⁶.
 std::uint64_t hilbert(std::uint32_t x, std::uint32_t y) {
     constexpr std::uint32_t half = 1u << 15;
     std::uint64_t hilbert_index = 0;
@@ -70,7 +70,7 @@ void PlanarTriangulation::start(const std::vector<Vec2>& points) {
     const double size = std::max({hi.x - lo.x, hi.y - lo.y, 1e-100});
     const Vec2 middle = lo + 0.5 * (hi - lo);
     const int n = int(points.size());
-    // So far away that circles through two points and one of these are nearly half-planes.
+    // At this distance circles through two points and one of the three are nearly half-planes.
     const double far = 16 * std::max(size, epsilon * (std::abs(middle.x) + std::abs(middle.y)));
     points_.push_back(middle + Vec2(-far, -far));
     points_.push_back(middle + Vec2(3 * far, -far));
@@ -88,7 +88,7 @@ void PlanarTriangulation::start(const std::vector<Vec2>& points) {
     for (const auto& [hilbert_index, v] : order_) insert(v);
 }
 
-// A triangle that holds x. The walk ends in a Delaunay triangulation; this one is that up to rounding.
+// A triangle that holds x. The walk terminates in Delaunay triangulations, which this one is up to rounding.
 int PlanarTriangulation::locate(Vec2 x, int start) const {
     const auto beyond = [&](int t, std::size_t k) {
         return orientation(point(at(t).vertex[k]), point(at(t).vertex[next(k)]), x) < 0;
@@ -153,7 +153,7 @@ void PlanarTriangulation::split_side(Side s, int v) {
     todo_.insert(todo_.end(), {{u, 1}, {s.triangle, 2}, {u + 1, 1}, {o.triangle, 2}});
 }
 
-// Whether the two triangles of a side make a strictly convex quadrilateral.
+// Whether the two triangles of a side form a strictly convex quadrilateral.
 bool PlanarTriangulation::may_flip(Side s) const {
     const Side o = twin(s);
     if (o.triangle < 0) return false;
@@ -162,7 +162,8 @@ bool PlanarTriangulation::may_flip(Side s) const {
     return orient(d, b, c) > 0 && orient(a, d, c) > 0;
 }
 
-// Whether the point across lies within the circle by more than rounding, so that no two flips undo each other.
+// Whether the point across the side is inside the circumcircle by more than rounding, so that no two flips undo each
+// other.
 bool PlanarTriangulation::improves(Side s) const {
     const Side o = twin(s);
     if (o.triangle < 0) return false;
@@ -173,11 +174,11 @@ bool PlanarTriangulation::improves(Side s) const {
     const double size = cc * (std::abs(a.x * b.y) + std::abs(a.y * b.x)) +
                         aa * (std::abs(b.x * c.y) + std::abs(b.y * c.x)) +
                         bb * (std::abs(c.x * a.y) + std::abs(c.y * a.x));
-    constexpr double slack = 8 * epsilon;  // of products of four differences, which are off by ten roundings
+    constexpr double slack = 8 * epsilon;  // products of four differences have about ten roundings
     return aa * bc + bb * ca + cc * ab > slack * size;
 }
 
-// In s's triangle the side becomes the one from the neighbour's apex to its own.
+// Flips the side: in s's triangle it then runs from the neighbour's apex to the triangle's own.
 void PlanarTriangulation::flip(Side s) {
     const Side o = twin(s);
     const auto k = std::size_t(s.k), j = std::size_t(o.k);
@@ -212,13 +213,13 @@ PlanarTriangulation::Side PlanarTriangulation::side(int a, int b) const {
         t = at(t).neighbour[before(k)];
     } while (t != first && t >= 0);
     if (t >= 0) return {};
-    // The turn around one of the three outermost points ends outside; their edges start from others as well.
+    // The turn around an outermost point ends outside; the edges of these points are found from their other ends.
     const Side back = b < int(points_.size()) - 3 ? side(b, a) : Side{};
     return back.triangle < 0 ? back : twin(back);
 }
 
 PlanarTriangulation::ConnectResult PlanarTriangulation::connect(int a, int b) {
-    // The triangle at a that the way leads into.
+    // The triangle at a through which the way leaves.
     const int first = around(a);
     int t = first;
     Side s;
@@ -235,7 +236,7 @@ PlanarTriangulation::ConnectResult PlanarTriangulation::connect(int a, int b) {
         }
         t = at(t).neighbour[before(k)];
     } while (t != first);
-    // Edges from the right to the left of the way, as far as a point on it.
+    // The sides that the way crosses, from right to left, up to b or a point on the way.
     crossed_.clear();
     int end = b;
     while (true) {
@@ -249,7 +250,7 @@ PlanarTriangulation::ConnectResult PlanarTriangulation::connect(int a, int b) {
             end = c;
             break;
         }
-        // In o's triangle: left, right, c.
+        // o's triangle is (left, right, c).
         s = {o.triangle, int(side_of_c < 0 ? before(std::size_t(o.k)) : next(std::size_t(o.k)))};
     }
     for (std::size_t i = 0; i < crossed_.size(); ++i) {

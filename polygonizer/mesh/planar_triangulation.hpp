@@ -1,8 +1,8 @@
-// A triangulation of points in the plane that can be made to contain given segments: Delaunay but for these.
+// A triangulation of points in the plane that can be made to contain given segments: Delaunay except for these.
 //
-// Points are put in one by one along a Hilbert curve, into a triangle that is large enough for all; segments by
-// flips of the edges that they cross [Sloan 1993]. Every decision about sides is exact, so that triangles are
-// counter-clockwise always, whatever the points; which diagonal is the better one need not be.
+// Points are inserted one by one along a Hilbert curve, into a triangle that is large enough for all. Segments are
+// inserted by flips of the edges that they cross [Sloan 1993]. All decisions about sides are exact, so triangles are
+// counter-clockwise for any points; the choice of the better diagonal is subject to rounding.
 #pragma once
 #include <array>
 #include <vector>
@@ -11,40 +11,46 @@
 
 namespace deburr {
 
+/// The triangulation. It keeps its memory when it is started again.
 class PlanarTriangulation {
 public:
+    /// Side k of a triangle runs from corner k to the next corner.
     struct Triangle {
-        std::array<int, 3> vertex;     // side k runs from vertex k to the next
-        std::array<int, 3> neighbour;  // across side k; −1 outside of all
-        std::array<int, 3> mark;       // of side k, the same in the neighbour; −1: the side may be flipped
+        std::array<int, 3> vertex;     // counter-clockwise
+        std::array<int, 3> neighbour;  // triangle across side k; −1: none
+        std::array<int, 3> mark;       // of side k, the same on the neighbour's side; −1: the side may be flipped
     };
+    /// A side of a triangle; triangle = −1: none.
     struct Side {
         int triangle = -1, k = 0;
     };
-    /// The first thing met on the way from one point to another.
+    /// What is met first on the way from one point to another.
     struct ConnectResult {
         enum class End { there, vertex, marked } end = End::there;
-        int vertex = -1;  // up to where the way now is an edge; marked: none
-        Side crossed;     // marked: the side that is in the way
+        int vertex = -1;  // the point up to which the way is now an edge; −1 if `marked`
+        Side crossed;     // `marked`: the side that is in the way
     };
 
-    /// No two points may be the same. Up to three more follow them, the corners of the triangle around all.
+    /// Triangulates the points, no two of which may be equal. Points n, n + 1 and n + 2 are added: the corners of a
+    /// triangle around all.
     void start(const std::vector<Vec2>& points);
 
-    /// Makes an edge of the way from a toward b, up to b, or to the first point on it. Changes nothing where a
-    /// marked edge crosses it before.
+    /// Makes the way from a towards b an edge, up to b or to the first point on it. Changes nothing if a marked side
+    /// crosses it before that point.
     ConnectResult connect(int a, int b);
     /// The side that runs from a to b; its triangle is −1 if there is none.
     Side side(int a, int b) const;
+    /// The mark of a side; −1: none.
     int mark(Side s) const { return at(s.triangle).mark[s.k]; }
+    /// Marks a side, so that it is not flipped, or with −1 removes its mark.
     void set_mark(Side s, int mark);
 
-    /// Flips what is not Delaunay and not marked, between triangles that are both `wanted`.
+    /// Flips sides that are not Delaunay and not marked, between triangles that are both `wanted`.
     void improve(const std::vector<char>& wanted);
 
     const std::vector<Triangle>& triangles() const { return triangles_; }
     Vec2 point(int v) const { return points_[v]; }
-    int around(int v) const { return around_[v]; }  // a triangle
+    int around(int v) const { return around_[v]; }  // a triangle at the point
 
     static std::size_t next(std::size_t k) { return k == 2 ? 0 : k + 1; }
     static std::size_t before(std::size_t k) { return k == 0 ? 2 : k - 1; }

@@ -14,7 +14,7 @@ using TriangleVertices = std::array<int, 3>;
 using ConnectResult = PlanarTriangulation::ConnectResult;
 using Side = PlanarTriangulation::Side;
 
-// The plane of two coordinates that is nearest to being at right angles to the normal.
+// The projection along the coordinate axis nearest to the normal.
 class View {
 public:
     explicit View(Vec3 normal) {
@@ -24,12 +24,13 @@ public:
         y_ = (drop + 2) % 3;
         if (normal[drop] < 0) std::swap(x_, y_);
     }
-    Vec2 operator()(Vec3 x) const { return {x[x_] + 0.0, x[y_] + 0.0}; }  // + 0: of two zeros one
+    Vec2 operator()(Vec3 x) const { return {x[x_] + 0.0, x[y_] + 0.0}; }  // adding 0 turns −0 into 0
 
 private:
     int x_, y_;
 };
 
+/// Triangulates polygons; keeps its memory from one to the next.
 class PolygonWork {
 public:
     void run(const std::vector<std::vector<int>>& loops, const std::vector<Vec3>& positions, Vec3 normal,
@@ -57,23 +58,24 @@ public:
     }
 
 private:
-    // A part of a side: from point a, which is vertex `first` there, to point b. An end in the midst of a side has
-    // the number of a touch in place of a vertex.
+    // A part of a side, from point a, where its vertex is `first`, to point b, where it is `last`. Where the part ends
+    // within the side, the code of a touch stands for the vertex.
     struct Edge {
         int a, b, first, last;
-        int next = -1;  // of those that share an edge of the triangulation
+        int next = -1;  // the next part along the same edge of the triangulation; −1: none
     };
-    // A side that runs through a point.
+    // A place where a side passes through a point.
     struct Touch {
         int point;
-        int vertex = unknown;  // that it touches there; `own`: none, for all that lies to its left there is its own
+        int vertex = unknown;  // the vertex that it touches there; `own`: none, because all that lies left of the side
+                               // there is its own
     };
     static constexpr int unknown = -1, own = -2, first_touch = -3;
     static int touch_code(std::size_t touch) { return first_touch - int(touch); }
     static bool is_touch(int code) { return code <= first_touch; }
     Touch& touch(int code) { return touches_[first_touch - code]; }
 
-    // Of two vertices in one point: the triangle left of which, along its side from corner k, they change.
+    // Two vertices in one point that change from one to the other across side k of the triangle.
     struct Joint {
         int triangle;
         std::size_t k;
@@ -123,7 +125,7 @@ private:
         }
     }
 
-    // Makes edges of all sides; false if they cross so much that there seems to be no end.
+    // Makes edges of all sides; false if they cross so often that there seems to be no end.
     bool connect_all() {
         std::size_t crossings_left = 8 * corners_ + 64;
         std::reverse(constraints_.begin(), constraints_.end());
@@ -151,7 +153,7 @@ private:
         plane_.set_mark(s, int(edges_.size()) - 1);
     }
 
-    // The side is made of two, and gets a triangle on top.
+    // Splits the part of a side at the point and adds the triangle without area.
     void route_through(const Edge& constraint, int point) {
         const int v = touch_code(touches_.size());
         touches_.push_back({point});
@@ -176,7 +178,7 @@ private:
         for (; k >= 0; k = edges_[k].next) route_through(edges_[k], of_a <= of_b ? constraint.a : constraint.b);
     }
 
-    // How often the sides wind around each triangle: 0 far outside, and by one more left of each side.
+    // Finds how often the sides wind around each triangle: 0 far outside, and one more on the left of each side.
     void wind() {
         const auto& triangles = plane_.triangles();
         constexpr int not_yet = std::numeric_limits<int>::min();
@@ -202,7 +204,7 @@ private:
         out_->crosses_itself |= !simple_winding_;
     }
 
-    // How many sides run along this one, less those that run back.
+    // The number of sides that run along this edge, less that of those that run back.
     int along(Side s) const {
         const int from = plane_.triangles()[s.triangle].vertex[s.k];
         int sum = 0;
@@ -234,7 +236,7 @@ private:
         return t.vertex == own ? code : t.vertex == unknown ? vertex_at_[t.point] : t.vertex;
     }
 
-    // A touch of its own is no vertex: the triangles around it, of which one has the side, become others without it.
+    // Removes touches whose vertex is `own`: they are no vertices, so the triangles around them are replaced by others.
     bool drop_touches(const std::vector<Vec3>& positions, const View& view) {
         const auto plane_point = [&](int v) { return is_touch(v) ? points_[touch(v).point] : view(positions[v]); };
         for (std::size_t k = 0; k < touches_.size(); ++k) {
@@ -249,7 +251,8 @@ private:
         return true;
     }
 
-    // The vertex at `point`, or the touch there, of a side along s: of one that leaves, or of one that comes in.
+    // The vertex, or touch, that a side along s has at `point`; of a side that leaves the point, or of one that enters
+    // it.
     int vertex_by(Side s, int point, bool leaves) const {
         int v = vertex_at_[point];
         for (int k = plane_.mark(s); k >= 0; k = edges_[k].next) {
@@ -261,7 +264,8 @@ private:
         return v;
     }
 
-    // Where a turn begins or ends with a touch: either it is all of one side's, or there is what the side touches.
+    // Decides touches x and y between which a wedge at the point lies: either the wedge is one side's own, or the sides
+    // touch a vertex there.
     void settle(int& x, int& y, int point) {
         if (is_touch(x) && x == y) {
             touch(x).vertex = own;
@@ -276,13 +280,13 @@ private:
         }
     }
 
-    // Tells which of several vertices in one point each triangle around it has. Between two sides that is the one
-    // from which the right side leaves. If the left side comes in to another one, a triangle without area joins
-    // both; what the edges between them leave open is filled by triangles within the point.
+    // Determines which of several vertices in one point each triangle around it has: between two sides, the one from
+    // which the right side leaves. If the left side enters at another vertex, a triangle without area joins both; the
+    // edges that then remain open between vertices are filled by triangles within the point.
     void part(int point) {
         struct Spoke {
             int triangle;
-            std::size_t k;  // of the point
+            std::size_t k;  // the point's corner in the triangle
         };
         const auto& triangles = plane_.triangles();
         std::vector<Spoke> fan;
@@ -317,6 +321,7 @@ private:
         fill(open, point);
     }
 
+    /// Closes the open edges between vertices in one point by triangles.
     void fill(EdgeChain& open, int point) {
         const auto edges = open.rest();
         const int apex = vertex_at_[point];
@@ -324,7 +329,7 @@ private:
             if (ends.first != apex && ends.second != apex) emit({apex, ends.first, ends.second}, times);
     }
 
-    // Whether the triangles' edges cancel but for the sides.
+    // Whether the triangles' edges cancel except for the loops.
     bool covers(const std::vector<std::vector<int>>& loops) const {
         EdgeChain chain;
         for (const TriangleVertices& t : out_->triangles)
@@ -337,14 +342,14 @@ private:
     PlanarTriangulation plane_;
     PolygonTriangles* out_ = nullptr;
     std::size_t corners_ = 0;
-    std::vector<std::pair<std::pair<double, double>, int>> found_;  // places and corners
+    std::vector<std::pair<std::pair<double, double>, int>> found_;  // places and corners, sorted
     std::vector<Vec2> points_;
-    std::vector<int> point_of_;                              // a corner
-    std::vector<int> vertex_at_;                             // a point: the first of those
-    std::vector<char> several_;                              // whether there are more
-    std::vector<Edge> sides_, constraints_, edges_, still_;  // still: between vertices in one place
+    std::vector<int> point_of_;                              // by corner
+    std::vector<int> vertex_at_;                             // by point: the first vertex there
+    std::vector<char> several_;                              // by point: whether there are more vertices
+    std::vector<Edge> sides_, constraints_, edges_, still_;  // still_: between vertices in one point
     std::vector<Touch> touches_;
-    std::vector<char> touched_;  // a point
+    std::vector<char> touched_;  // by point: whether a side passes through it
     bool simple_winding_ = true;
     std::vector<int> winding_, todo_;
     std::vector<char> within_;

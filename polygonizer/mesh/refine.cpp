@@ -9,8 +9,8 @@
 namespace deburr {
 namespace {
 
-// Changes that lead from a facet of the mesh that was given to one that may still be changed. Each split halves an edge
-// and quarters its distance, so tolerances of any use are met long before.
+// The greatest number of changes from a facet of the given mesh to one that may still be changed. Each split halves an
+// edge and quarters its distance, so that any useful tolerance is met long before.
 constexpr int max_generation = 24;
 
 class Refinement {
@@ -26,7 +26,7 @@ public:
         generation_.resize(facets_.size(), 0);
     }
 
-    // What is to be done, as far as the mesh that was given tells.
+    // Queues the facets of the given mesh that are far from the surface.
     void open_far() {
         std::vector<char> far(facets_.size(), false);
         judge_in_parallel(judge_, facets_.size(), [&](const FacetJudge& judge, std::size_t first, std::size_t last) {
@@ -55,7 +55,7 @@ public:
         int t = 0;
         for (std::size_t f = 0; f < facets_.size(); ++f)
             if (facets_.alive(int(f))) order[f] = t++;
-        // Others have come in the place of some.
+        // Other facets may have taken the place of some.
         sort_once(stuck_);
         for (const int f : stuck_)
             if (facets_.alive(f) && is_far(judge_, f, edges_)) left.push_back(order[f]);
@@ -71,7 +71,8 @@ private:
 
     static double distance(const FacetJudge& judge, Vec3 x) { return std::abs(judge.solid().at(x).distance); }
 
-    // Of points along the edge from the surface: an edge along an S has its middle on it.
+    // The greatest distance of three points along the edge from the surface: the middle of an edge along an S is on the
+    // surface.
     static double distance(const FacetJudge& judge, Vec3 a, Vec3 b) {
         double farthest = 0;
         for (const double share : {0.25, 0.5, 0.75})
@@ -79,8 +80,8 @@ private:
         return farthest;
     }
 
-    // Whether points of the facet are too far from the surface; then `edges` are its edges, the one that needs a vertex
-    // most first.
+    // Whether points of the facet are too far from the surface; then `edges` are its edges, ordered by how much they
+    // need a vertex.
     bool is_far(const FacetJudge& judge, int f, Edge (&edges)[3]) const {
         const Triangle& t = facets_.at(f).triangle;
         if (good_ && good_->has(mesh_, t, facets_.at(f).origin)) return false;
@@ -89,7 +90,7 @@ private:
             x[k] = facets_.position(t.vertex[k]);
             n[k] = facets_.normal(t.normal[k]);
         }
-        // A triangle of the surface's own vertices is nearer to the surface than its edges are long.
+        // A triangle whose vertices are on the surface is nearer to it than its edges are long.
         const double longest = std::max({glm::length(x[0] - x[1]), glm::length(x[1] - x[2]), glm::length(x[2] - x[0])});
         if (longest <= 2 * tolerance_) return false;
         double farthest = 0, max_turn = 0;
@@ -111,7 +112,7 @@ private:
                 farthest = std::max(farthest, distance(judge, 0.5 * (x[k] + middle)));
         }
         if (farthest <= tolerance_) return false;
-        // Where the middle is far from the surface and no edge is, the normals tell along which edge it turns.
+        // Where the middle is far from the surface and no edge is, the edge along which the normals turn most is taken.
         if (std::max({edges[0].distance, edges[1].distance, edges[2].distance}) < 0.5 * tolerance_)
             edges[turns_most].distance = farthest;
         std::sort(std::begin(edges), std::end(edges), [](const Edge& a, const Edge& b) {
@@ -120,7 +121,8 @@ private:
         return true;
     }
 
-    // Whether the other diagonal of the two facets at the edge is much nearer to the surface; then it takes its place.
+    // Replaces the edge by the other diagonal of its two facets if that is much nearer to the surface; returns whether
+    // it did.
     bool flip(int f, const Edge& edge) {
         const Triangle& t = facets_.at(f).triangle;
         const int a = t.vertex[edge.k], b = t.vertex[(edge.k + 1) % 3], c = t.vertex[(edge.k + 2) % 3];
@@ -145,7 +147,7 @@ private:
         return true;
     }
 
-    // The edges that are far themselves, along the way of the greatest curvature first.
+    // Flips or splits one of the facet's edges that are far themselves, in order of curvature; false if nothing helped.
     bool improve(int f) {
         for (const Edge& edge : edges_)
             if (edge.distance > 0.5 * tolerance_ && flip(f, edge)) return true;
@@ -157,7 +159,7 @@ private:
         return false;
     }
 
-    // Whether a facet's longest side is many times its height, so that it leans for little.
+    // Whether the facet is so slender that it may lean while it stays near the surface.
     bool is_sliver(const Triangle& t) const {
         constexpr double slender = 0.2;  // height over longest side
         double longest2 = 0;
@@ -168,8 +170,8 @@ private:
         return glm::length(facets_.area_vector(t)) < slender * longest2;
     }
 
-    // No facet leans farther from its surface than the worst did, unless all are upright. Slivers may lean: those that
-    // a split raises are flipped or collapsed later.
+    // Whether no new facet leans farther from its surface than the worst old one did, or all are upright. Slivers may
+    // lean: those that a split raises are flipped or collapsed later.
     bool is_better(const Change& change) const {
         constexpr double upright = 0.5, sliver = 0.01;  // cosines
         double limit = upright;
@@ -187,7 +189,7 @@ private:
     const Mesh& mesh_;
     const GoodFacets* good_;
     std::deque<int> open_;
-    std::vector<int> generation_;  // of facets
+    std::vector<int> generation_;  // by facet: the number of changes that led to it
     std::vector<int> stuck_;
     Edge edges_[3];
 };

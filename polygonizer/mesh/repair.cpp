@@ -10,28 +10,28 @@
 namespace deburr {
 namespace {
 
-// Below `leaning`, a cosine between a facet and the surface at its middle, it counts as wrong; what
-// replaces it must do better, and may be so much farther from the surface as `farther` says, in
-// distances before and in lengths of its longest side.
+// Limits of one stage of repair. A facet is wrong if the cosine between it and the surface at its middle is below
+// `leaning`. The facets that replace it must reach `better`, and may be farther from the surface than it by the factor
+// `farther`, or by `of_longest` of its longest side.
 struct Limits {
     double leaning, better, farther, of_longest;
-    double near;  // of a surface, in lengths of the longest side
-    bool unfold;  // by collapses that may leave more wrong facets, if less of their area faces inward
+    double near;  // distance at which a surface counts as near, relative to the longest side
+    bool unfold;  // whether collapses may leave more wrong facets if less of their area faces inward
 };
-// First all that lean are helped, then those that face inward at any price.
+// First all facets that lean are mended, then those that face inward, at any price.
 constexpr Limits gentle{0.2, 0.25, 2, 1e-3, 0, false}, last_resort{0.05, 0.06, 5, 2e-2, 2e-2, true};
-// Where surfaces run closer together than any facet is small, mending one makes two that need it. So
-// there are this many splits, more for every wrong facet, and this many tries for each.
-// Where few facets are wrong, three tries for each are enough.
+// Where surfaces are nearer to each other than any facet is small, mending one facet makes two that need it. So the
+// numbers of splits and of tries are limited. The limit of splits grows with the number of wrong facets.
 constexpr std::size_t max_splits = 80, more_splits = 8, splits_at_all = 4000, max_tries = 16;
 
 // How good a set of facets is.
 struct Verdict {
     int wrong = 0;
     double worst = 1, distance = 0;
-    double inverted = 0;  // area that faces inward, twice
+    double inverted = 0;  // twice the area that faces inward
 };
 
+/// One repair of a mesh.
 class Repair {
 public:
     Repair(Mesh& mesh, std::vector<Origin>& origins, const FacetJudge& judge, double tolerance, Patches* patches)
@@ -72,8 +72,8 @@ public:
 
     LeafSurface piece(const Facet& f) const { return surface_of(facets_, f); }
 
-    // Vertex u onto v, if v lies on all surfaces that meet at u, or at the last so near to them that
-    // facets may stand for one or the other.
+    // Moves vertex u onto v if v lies on all surfaces that meet at u, or is no farther than `near` from them, in the
+    // last resort, so that facets may stand for either surface.
     std::optional<Change> collapse(int u, int v, double near) const {
         for (const int f : facets_.around(u)) {
             const SurfaceSample o = surfaces_.at(piece(facets_.at(f)), facets_.position(v));
@@ -97,7 +97,8 @@ public:
         return facets_.star(f, vertex, facets_.add_normal(n));
     }
 
-    // Whether the facet is no farther than `near` from the surface of the one beyond its edge k.
+    // Whether the facet's corner opposite to edge k is no farther than `near` from the surface of the facet across that
+    // edge.
     bool lies_beyond(int f, std::size_t k, double near) const {
         const Triangle& t = facets_.at(f).triangle;
         const int other = facets_.across(t.vertex[k], t.vertex[(k + 1) % 3]);
@@ -111,7 +112,7 @@ public:
         return glm::length(facets_.position(t.vertex[k]) - facets_.position(t.vertex[(k + 1) % 3]));
     }
 
-    // The best change that leaves fewer wrong facets.
+    // The best change that leaves fewer wrong facets; none if there is none.
     std::optional<Change> straighten(int f, std::size_t& splits_left, RepairStatistics& statistics) {
         const double longest = std::max({length(f, 0), length(f, 1), length(f, 2)});
         std::optional<Change> best;
@@ -121,7 +122,7 @@ public:
         const auto offer = [&](std::optional<Change> change, std::size_t& count) {
             if (!change) return;
             const Verdict was = before(*change), is = after(*change);
-            // A fold may have to be unrolled step by step. What has no area may not become a fold.
+            // A fold may have to be unrolled step by step. A facet without area may not become a fold.
             constexpr double less = 0.999, min_fold = 0.01;
             const bool may_add = limits_.unfold && &count == &statistics.collapses;
             const bool unrolls =
@@ -153,7 +154,7 @@ public:
         return best;
     }
 
-    // A vertex where the facet is farthest from its surface: in the middle of an edge, or its own.
+    // Puts a vertex where the facet is farthest from its surface: at the middle of an edge, or of the facet.
     std::optional<Change> refine(int f, RepairStatistics& statistics) {
         std::optional<Change> best;
         double most = min_sag();
@@ -183,7 +184,7 @@ public:
         return judge_.is_near({facets_.position(v[0]), facets_.position(v[1]), facets_.position(v[2])}, tolerance_);
     }
 
-    // Whether facets would be beyond the tolerance where none was.
+    // Whether the change brings facets beyond the tolerance where no facet was.
     bool is_farther(const Change& change) const {
         return std::isfinite(tolerance_) &&
                !std::all_of(change.in.begin(), change.in.end(), [&](const Facet& f) { return is_near(f); }) &&
@@ -201,7 +202,7 @@ public:
         std::size_t& splits_left = *splits_left_;
         std::size_t tries_left = max_tries * todo.size();
         std::unordered_set<int> waiting(todo.begin(), todo.end());
-        // Facets that nothing helped are asked again after others have changed.
+        // Facets that nothing helped are tried again after others have changed.
         std::vector<int> stuck;
         constexpr int max_rounds = 6;
         bool changed = true;
@@ -234,7 +235,7 @@ public:
 
     bool on_surface(Vec3 x) const { return judge_.on_surface(x); }
 
-    // To the gradients where the vertex now is.
+    // Turns the normals at a moved vertex to the gradients there.
     void turn_normals(int v) {
         for (const int f : facets_.around(v)) {
             const Facet& facet = facets_.at(f);
@@ -245,7 +246,8 @@ public:
         }
     }
 
-    // Where surfaces run closer together than chords are to them, one is as good as the other.
+    // Moves x onto the solid's surface. Where surfaces are nearer to each other than chords are to them, any of them
+    // will do.
     bool onto_solid(Vec3& x, double reach) const {
         const Vec3 start = x;
         constexpr int steps = 30;
@@ -259,14 +261,15 @@ public:
         return on_surface(x);
     }
 
-    // Whether no surface meets the vertex, or all that do meet it were found good.
+    // Whether all facets around the vertex were found good or are walls.
     bool is_well_known(int v) const {
         return std::ranges::all_of(facets_.around(v),
                                    [&](int f) { return facets_.at(f).origin.leaf == Origin::wall || is_good(f); });
     }
     bool is_good(int f) const { return std::size_t(f) < good_.size() && good_[f] && !changed_[f]; }
 
-    // Vertices beside the surface go to where the surfaces around them meet. Before any facet is judged.
+    // Moves vertices that are off the surface to where the surfaces around them meet. To be called before any facet is
+    // judged.
     void mend_vertices(RepairStatistics& statistics) {
         const auto vertices = std::size_t(facets_.vertices());
         beside_.assign(vertices, false);
@@ -310,7 +313,7 @@ public:
         });
     }
 
-    // Learns the shapes of all facets but good ones; none may have changed but by its vertices.
+    // Computes the shapes of all facets that are not good; no facet may have changed except by its vertices.
     void judge_all() {
         judge_in_parallel(judge_, facets_.size(), [&](const FacetJudge& judge, std::size_t first, std::size_t last) {
             for (std::size_t f = first; f < last; ++f)
@@ -318,7 +321,7 @@ public:
         });
     }
 
-    // Drops what is no longer used, and says what is still wrong or has a vertex beside the surface.
+    // Drops unused vertices and lists what is still wrong.
     void finish(RepairStatistics& statistics) {
         int t = 0;
         statistics.numbers.assign(given_, -1);
@@ -345,13 +348,13 @@ private:
         }
         return fresh;
     }
-    // Vertices that were put in to mend are on the surface.
+    // Vertices that were added are on the surface.
     bool is_beside(int v) const { return std::size_t(v) < beside_.size() && beside_[v]; }
 
     double nearly_on_surface() const { return std::min(1e-7 * judge_.size(), 5e-7); }
     double shortest() const { return 1e-5 * judge_.size(); }
     double min_sag() const { return 1e-7 * judge_.size(); }
-    // Not again what was there before: a vertex that was put in to mend stays.
+    // Vertices that were added are not collapsed, or the mesh would become what it was before.
     bool made(int vertex) const { return vertex >= first_made_; }
 
     static int corner_index(const Facet& f, int vertex) {
@@ -364,11 +367,12 @@ private:
     double tolerance_;
     const DistanceField& solid_;
     const LeafSurfaces& surfaces_;
-    std::vector<std::optional<FacetShape>> shapes_;  // of the facets, where known
-    std::vector<char> good_;                         // facets that were so before; empty: none
-    std::vector<char> changed_;                      // facets that came, or have a vertex that was moved
-    std::size_t given_;                              // facets at first
+    std::vector<std::optional<FacetShape>> shapes_;  // where known
+    std::vector<char> good_;                         // facets that were given as good; empty: none
+    std::vector<char> changed_;                      // facets that are new or have a vertex that moved
+    std::size_t given_;                              // number of facets at the start
     std::vector<char> beside_;                       // vertices that nothing brought onto the surface
+    /// Vertices from this number on were added.
     int first_made_;
     Limits limits_ = gentle;
     std::optional<std::size_t> splits_left_;

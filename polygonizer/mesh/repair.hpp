@@ -1,28 +1,30 @@
-// What is left to mend in a closed mesh: facets without area or facing inward, and vertices beside
-// the surface. It is done by edge flips, collapses and splits that keep it a closed 2-manifold; new
-// vertices are roots on the surfaces that meet there.
+// Mends a closed mesh: facets without area or facing inward, and vertices off the surface. It uses edge flips,
+// collapses and splits, which keep the mesh a closed 2-manifold; new vertices are roots on the surfaces that meet
+// there.
 //
-// Facets come out wrong where the isosurface grazes a cell's face or edge, so that roots lie close
-// together; where two outlines in a plane, each a chain of chords, cross; and where two surfaces are
-// nearer to each other than the mesh is to either. The first needs an edge less, the others more.
+// Facets are wrong where the isosurface grazes a cell's face or edge, so that roots lie close together; where two
+// outlines in a plane, each a chain of chords, cross; and where two surfaces are nearer to each other than the mesh is
+// to either. The first need an edge less, the others more edges.
 #pragma once
 #include "polygonizer/mesh/facet_judge.hpp"
 #include "polygonizer/mesh/good_facets.hpp"
 
 namespace deburr {
 
+/// What a repair has done, and what is left to do.
 struct RepairStatistics {
-    std::size_t flips = 0, collapses = 0, splits = 0, moves = 0;
-    std::vector<int> left;     // triangles for which nothing helped
-    std::vector<int> changed;  // triangles that came, or have a vertex that was moved
-    std::vector<int> numbers;  // of the triangles that were given: as they are now, or −1 where they went or changed
-    double farthest = 0;       // distance of a triangle's middle from the surface, in the end
+    std::size_t flips = 0, collapses = 0, splits = 0,
+                moves = 0;     // numbers of changes; moves: of vertices moved onto the surface
+    std::vector<int> left;     // triangles for which nothing helped, or with a vertex that is still off the surface
+    std::vector<int> changed;  // triangles that are new or have a vertex that moved
+    std::vector<int> numbers;  // for each given triangle its number now, or −1 if it is gone or changed
+    double farthest = 0;  // greatest distance of a triangle's middle from the surface afterwards, `good` ones excluded
 };
 
-/// Only the last resort makes facets that are farther from the surface than the tolerance, where none was.
-/// Without splits the mesh stays as fine as it is: where surfaces cross at almost no angle, halves of what is
-/// wrong are wrong again. `good` facets need not be mended; how far they are from the surface is not told. `patches` of
-/// the mesh follow.
+/// Mends the mesh; `origins`, one for each triangle, is updated. Only the last resort makes facets that are farther
+/// than `tolerance` from the surface where none was. Without `may_split` no edge is split: where surfaces cross at
+/// almost no angle, halves of bad facets are bad facets again. Facets in `good`, if given, are taken to be good.
+/// `patches` of the mesh follow the changes.
 RepairStatistics repair(Mesh& mesh, std::vector<Origin>& origins, const FacetJudge& judge, double tolerance = infinity,
                         bool may_split = true, const GoodFacets* good = nullptr, Patches* patches = nullptr);
 

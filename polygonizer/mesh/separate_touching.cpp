@@ -14,7 +14,7 @@ using Key = std::array<float, 3>;
 
 Key key_of(Vec3 x) { return {float(x.x) + 0.0f, float(x.y) + 0.0f, float(x.z) + 0.0f}; }  // −0 is 0
 
-// Vertices in use that share their position in single precision with another.
+// Vertices in use that have the same position in single precision as another.
 std::vector<int> shared(const Mesh& mesh, const std::vector<char>& used) {
     std::vector<std::pair<Key, int>> keys;
     for (std::size_t v = 0; v < mesh.positions.size(); ++v)
@@ -29,12 +29,13 @@ std::vector<int> shared(const Mesh& mesh, const std::vector<char>& used) {
     return found;
 }
 
+/// The surroundings of a vertex.
 struct Around {
-    Vec3 inward{0.0};  // unit, or 0
-    double shortest = infinity;
+    Vec3 inward{0.0};            // unit, or 0
+    double shortest = infinity;  // length of its shortest edge
 };
 
-// Where to move each of the vertices, from the corners of their triangles.
+// The direction in which each of the vertices is to move, from the corners of its triangles.
 std::vector<Around> surroundings(const Mesh& mesh, const std::vector<int>& vertices) {
     std::vector<int> new_index(mesh.positions.size(), -1);
     for (std::size_t k = 0; k < vertices.size(); ++k) new_index[vertices[k]] = int(k);
@@ -68,7 +69,7 @@ std::vector<Around> surroundings(const Mesh& mesh, const std::vector<int>& verti
     return around;
 }
 
-// Of single precision, at the largest coordinate: what is moved so far in any direction has another position.
+// A distance that changes a position in single precision, in whatever direction it is moved.
 double few_steps(const Mesh& mesh) {
     double largest = 0;
     for (const Vec3& x : mesh.positions)
@@ -77,7 +78,7 @@ double few_steps(const Mesh& mesh) {
     return steps * largest * double(std::numeric_limits<float>::epsilon());
 }
 
-// Whether every facet that comes faces as its corners' normals do.
+// Whether every new facet faces as its corners' normals do.
 bool keeps_facing(const Facets& facets, const Change& change) {
     return std::all_of(change.in.begin(), change.in.end(), [&](const Facet& f) {
         const Vec3 area = facets.area_vector(f.triangle);
@@ -92,8 +93,8 @@ double single_precision_step(const Mesh& mesh) { return std::max(min_separation,
 
 std::size_t merge_close(Mesh& mesh) {
     const auto coincide = [&](int u, int v) { return key_of(mesh.positions[u]) == key_of(mesh.positions[v]); };
-    // Facets of a few steps of single precision face anywhere once they are rounded. Far from the origin these steps
-    // are as large as what the mesh is there to show; then a file of single precision is wrong anyway.
+    // Facets of the size of a few steps of single precision may face anywhere once they are rounded. Far from the
+    // origin such steps are as large as the mesh's details, and a file of single precision is wrong in any case.
     constexpr double of_size = 1e-6;
     const Box box = bounding_box(mesh);
     const double least = std::min(few_steps(mesh), box.empty() ? 0 : of_size * largest(box.hi - box.lo));
@@ -133,15 +134,15 @@ std::size_t separate_touching(Mesh& mesh, double step) {
         for (const int v : touching) x.push_back(mesh.positions[v]);
         return x;
     }();
-    // A second and third time by other amounts, for those whose parts lean the same way.
+    // A second and third time by other amounts, for vertices whose parts lean in the same direction.
     constexpr double shares[] = {0.75, 1.0, 0.5};
     std::vector<int> left = touching;
     for (std::size_t round = 0; round < std::size(shares) && !left.empty(); ++round) {
         for (std::size_t k = 0; k < left.size(); ++k) {
             const std::size_t at =
                 std::size_t(std::lower_bound(touching.begin(), touching.end(), left[k]) - touching.begin());
-            if (at == touching.size() || touching[at] != left[k]) continue;  // came to lie on one that does not move
-            // From the second time on every other one of those that still coincide.
+            if (at == touching.size() || touching[at] != left[k]) continue;  // it coincides with one that does not move
+            // From the second round on every other one of those that still coincide.
             if (round > 0 && k % 2 == 0) continue;
             const double length = std::min(step * shares[round], max_edge_share * around[at].shortest);
             mesh.positions[left[k]] = start[at] + around[at].inward * length;

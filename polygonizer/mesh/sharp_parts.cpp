@@ -9,7 +9,7 @@
 namespace deburr {
 namespace {
 
-constexpr std::size_t max_leaves = 256;  // that one density may turn into
+constexpr std::size_t max_leaves = 256;  // that one density may become
 
 struct Kinds {
     bool sharp = false, rounded = false;
@@ -42,8 +42,8 @@ class Separation {
 public:
     explicit Separation(SolidTree& to) : to_(to), leaves_before_(to.leaves.size()) {}
 
-    /// Root of the density's set; −1 if it would take too many leaves. Leaves with round parts are densities until
-    /// finish().
+    /// Adds the density's set and returns its root node, or −1 if it would take too many leaves. Until finish() is
+    /// called, leaves with round parts are densities.
     int run(SolidLeaf leaf) {
         if (to_.leaves.size() - leaves_before_ > max_leaves) return -1;
         if (const auto* round = dynamic_cast<const RoundDensity*>(leaf.field.get()); round && round->has_sharp()) {
@@ -67,7 +67,8 @@ public:
         return decide(leaf);
     }
 
-    /// Makes fields of what has round parts. A sharp round part is given a radius, as its surface is the same for any.
+    /// Turns leaves with round parts into fields. A sharp round part gets a radius, because its surface is the same for
+    /// any.
     void finish() {
         for (std::size_t k = leaves_before_; k < to_.leaves.size(); ++k) {
             SolidLeaf& leaf = to_.leaves[k];
@@ -80,7 +81,8 @@ public:
     }
 
 private:
-    // The filter of a round part alone stays clear of where its coordinate has no gradient.
+    // A radius with which the filter of a round part that is alone stays clear of points where the coordinate has no
+    // gradient.
     static double harmless_radius(const HalfSpace& h) {
         const double room = h.round->kind == RoundCoordinate::Kind::circle ? h.round->ring - h.offset : infinity;
         return 0.5 * std::min(std::abs(h.offset), room);
@@ -99,7 +101,7 @@ private:
         }
         const HalfSpace plane = leaf.density.half_spaces[sharp];
         const auto with = [&](double value) {
-            for (std::size_t i = 0; i < ranges.size(); ++i)  // the same plane may be there twice
+            for (std::size_t i = 0; i < ranges.size(); ++i)  // the same plane may occur twice
                 if (same_plane(leaf.density.half_spaces[i], plane)) ranges[i] = {value, value};
             return run({prune(leaf.density, ranges).tree, leaf.material, leaf.line});
         };
@@ -126,7 +128,8 @@ private:
         return add({op, a, b});
     }
 
-    // What remains on both sides of a sharp plane is one leaf, whose surface goes on from one to the other.
+    // Adds a leaf, or finds an equal one: what is equal on both sides of a sharp plane is one leaf, whose surface runs
+    // on across the plane.
     int add(const SolidLeaf& leaf) {
         std::size_t k = leaves_before_;
         while (k < to_.leaves.size() &&

@@ -1,12 +1,12 @@
-// ρ is a whole number k at every point, so with T(a, k) = {a ≥ k}
+// The density ρ is a whole number at every point, so with T(a, k) = {a ≥ k}
 //
 //     T(a + b, k) = ⋃ⱼ T(a, j) ∩ T(b, k − j)
 //     T(a − b, k) = ⋃ⱼ T(a, j) \ T(b, j − k + 1)
-//     T(a · b, k) = ⋃ T(a, i) ∩ T(b, j) over i, j > 0 with i·j ≥ k, and the same of −a and −b   (k > 0)
-//     T(a · b, k) = complement of T(−a · b, 1 − k)                                               (k ≤ 0)
+//     T(a · b, k) = ⋃ T(a, i) ∩ T(b, j) over i, j > 0 with i·j ≥ k, united with the same for −a and −b   (k > 0)
+//     T(a · b, k) = complement of T(−a · b, 1 − k)                                                   (k ≤ 0)
 //
-// where j runs over what a can be. T(a, k) is everything where k is no more than the least a can be, and
-// nothing beyond the greatest.
+// where j runs over the values that a can have. T(a, k) is everything if k is at most a's least value, and nothing if
+// it is greater than a's greatest value.
 #include "polygonizer/mesh/sharp_set.hpp"
 
 #include <algorithm>
@@ -17,8 +17,9 @@ namespace deburr {
 namespace {
 
 constexpr std::size_t max_nodes = 20'000;
-constexpr int nothing = -1, everything = -2, too_many = -3;  // in place of a node
+constexpr int nothing = -1, everything = -2, too_many = -3;  // codes in place of a node
 
+/// Converts a density into the set T(ρ, 1).
 class Conversion {
 public:
     explicit Conversion(const DensityTree& from) : from_(from) {
@@ -43,12 +44,12 @@ public:
         }
     }
 
-    /// No nodes if it would take too many.
+    /// The set; without nodes if it would take too many.
     DensityTree run() {
         int root = least(from_.root(), 1, false);
         if (to_.nodes.size() > max_nodes) return {};
         if (root < 0 || root != to_.root()) {
-            // The root is last.
+            // The root must be the last node.
             if (root < 0)
                 to_.nodes.push_back({Op::constant, -1, -1, root == everything ? 1.0 : 0.0});
             else
@@ -67,7 +68,7 @@ private:
         return negated ? Whole{-r.hi, -r.lo} : r;
     }
 
-    // T(±node, k)
+    // T(±node, k) as a node, or a code.
     int least(int node, int k, bool negated) {
         const Whole r = range(node, negated);
         if (k <= r.lo) return everything;
@@ -94,7 +95,7 @@ private:
             case Op::difference: {
                 const bool minus = n.op == Op::difference;
                 const Whole a = range(n.a, false), b = range(n.b, minus);
-                // With more of a than the first, b could be anything, and with less than the last nothing.
+                // With a greater than `first` b could be anything, and with a less than `last` b could be nothing.
                 const int first = std::clamp(k - b.lo, a.lo, a.hi), last = std::clamp(k - b.hi, a.lo, a.hi);
                 for (int j = first; j >= last; --j)
                     set = unite(set, intersect(least(n.a, j, false), least(n.b, k - j, minus)));
@@ -112,14 +113,14 @@ private:
         return set;
     }
 
-    // Where ±a and ±b are positive and their product is at least k.
+    // The set where ±a and ±b are positive and their product is at least k.
     int product(const TreeNode& n, int k, bool negated) {
         int set = nothing;
         for (int i = 1; i <= range(n.a, negated).hi; ++i)
             set = unite(set, intersect(least(n.a, i, negated), least(n.b, (k + i - 1) / i, negated)));
         return set;
     }
-    // Where the product is at most −k.
+    // The set where the product is at most −k.
     int negative_product(const TreeNode& n, int k) {
         int set = nothing;
         for (const bool negated : {false, true})
@@ -159,10 +160,10 @@ private:
 
     const DensityTree& from_;
     DensityTree to_;
-    std::vector<Whole> range_;  // of ρ, node by node
+    std::vector<Whole> range_;  // of ρ, by node
     std::map<std::pair<int, int>, int> known_;
     std::map<std::tuple<int, int, int>, int> made_;
-    int node_ = 0;  // that is being converted
+    int node_ = 0;  // the node that is being converted
 };
 
 }  // namespace

@@ -1,5 +1,5 @@
-// A list that is short as a rule: it allocates only beyond `usual` values. A subdivision has thousands. It stands in
-// for boost::container::small_vector: Boost is too heavy a dependency of the libraries for one class.
+// A list that is usually short: it allocates memory only beyond `usual` elements. A subdivision has thousands of such
+// lists. It replaces boost::container::small_vector, because Boost would be too heavy a dependency for one class.
 #pragma once
 #include <algorithm>
 #include <cstdint>
@@ -95,7 +95,7 @@ private:
     std::uint32_t size_ = 0, room_ = usual;
     union {
         T few_[usual];  // while room_ is `usual`
-        T* more_;       // when it is more
+        T* more_;       // once room_ is greater
     };
 };
 

@@ -4,7 +4,7 @@ namespace deburr {
 namespace {
 
 constexpr double same_normal = 1e-6;
-// Cosine between a facet and its surface below which a collapse is not worth it.
+// The least cosine between a facet and its surface that a collapse may leave.
 constexpr double upright = 0.8;
 
 class Thinning {
@@ -22,7 +22,7 @@ public:
     }
 
 private:
-    // The normal of a facet that has one throughout, or 0.
+    // The normal of a facet whose corners all have one; else 0.
     Vec3 normal_of(int f) const {
         const auto& n = facets_.at(f).triangle.normal;
         const Vec3 a = facets_.normal(n[0]);
@@ -32,7 +32,7 @@ private:
     }
     bool flat(int f) const { return normals_[f] != Vec3(0.0); }
 
-    // Whether v is on the border of one flat face, between the two neighbours in rim_ and in line with them.
+    // Whether v is on the border of one flat face, in line with its two neighbours on that border, which become rim_.
     bool straight(int v) {
         Vec3 plane(0.0);
         bool bent = false;
@@ -84,7 +84,7 @@ private:
     Facets facets_;
     const FacetJudge& judge_;
     double farthest_;
-    std::vector<Vec3> normals_;  // of flat facets; of the others 0
+    std::vector<Vec3> normals_;  // by facet: its normal if it is flat, else 0
     int rim_[2];
 };
 

@@ -3,7 +3,7 @@
 namespace deburr {
 namespace {
 
-// Not inlined: g++ 12 vectorizes pairs of conversions to single precision and back into none (-O2, SLP).
+// Not inlined, because g++ 12 (-O2, SLP) vectorizes pairs of conversions to single precision and back into nothing.
 [[gnu::noinline]] float single(double x) { return float(x); }
 
 }  // namespace

@@ -12,7 +12,7 @@ int quadrilateral_diagonal(const std::array<Vec2, 4>& x) {
         const std::size_t l = (k + 1) % 4, m = (k + 2) % 4, n = (k + 3) % 4;
         return orientation(x[k], x[l], x[m]) > 0 && orientation(x[m], x[n], x[k]) > 0;
     };
-    // Sine of the least angle of the better one of a diagonal's triangles.
+    // Sine of the least angle of the better shaped triangle beside the diagonal.
     const auto shape = [&](std::size_t k) {
         const auto sine = [&](std::size_t i, std::size_t j, std::size_t l) {
             const double ab = glm::distance(x[i], x[j]), bc = glm::distance(x[j], x[l]), ca = glm::distance(x[l], x[i]);

@@ -11,16 +11,16 @@ SurfaceSample negated(SurfaceSample o) { return {-o.distance, -o.normal, o.leaf,
 SurfaceSample least(const SurfaceSample& a, const SurfaceSample& b) { return b.distance < a.distance ? b : a; }
 SurfaceSample greatest(const SurfaceSample& a, const SurfaceSample& b) { return b.distance > a.distance ? b : a; }
 
-// ρ − ½, where rounding lets a point be told from the level: where ρ is flat as well, on the ridge between
-// two surfaces that touch, its share in the slope would make it a distance.
+// ρ − ½, or 0 where rounding does not distinguish ρ from the level. On the ridge between two surfaces that touch, where
+// ρ is flat, a rounding error divided by the slope would become a distance.
 double above_level(double rho) {
     constexpr double rounding = 8 * epsilon;
     const double f = rho - 0.5;
     return std::abs(f) <= rounding ? 0 : f;
 }
 
-// A sharp density is a polyhedron: ∨ is a union, ∧ an intersection; + - * are what is left of legal ones
-// that were too large to be converted.
+// A sharp density is a polyhedron: ∨ is a union and ∧ an intersection; + * - remain only in legal densities that were
+// too large for sharp_set().
 SurfaceSample sharp_at(const DensityTree& tree, Vec3 x) {
     thread_local std::vector<SurfaceSample> done;
     done.clear();
@@ -40,7 +40,7 @@ SurfaceSample sharp_at(const DensityTree& tree, Vec3 x) {
             case Op::conjunction: o = least(at(n.a), at(n.b)); break;
             case Op::difference: o = least(at(n.a), negated(at(n.b))); break;
             case Op::complement: o = negated(at(n.a)); break;
-            case Op::convolution: break;  // is never sharp
+            case Op::convolution: break;  // a convolution is never sharp
         }
         done.push_back(o);
     }
@@ -65,7 +65,7 @@ const LocalDensity& SignedDistance::density(std::size_t leaf) const {
     return *density;
 }
 
-// Of the sign that leaf_at(x).distance has.
+// A number with the sign of leaf_at(x).distance.
 double SignedDistance::leaf_value(std::size_t leaf, Vec3 x) const {
     if (sharp_[leaf]) return sharp_at(solid_.leaves[leaf].density, x).distance;
     if (const Field* field = solid_.leaves[leaf].field.get()) {
@@ -78,7 +78,7 @@ double SignedDistance::leaf_value(std::size_t leaf, Vec3 x) const {
 bool SignedDistance::inside(Vec3 x) const {
     if (solid_.nodes.size() == 1 && solid_.nodes[0].op == SolidOp::leaf)
         return leaf_value(std::size_t(solid_.nodes[0].a), x) > 0;
-    thread_local std::vector<double> done;  // of the sign that at(x).distance has there
+    thread_local std::vector<double> done;  // numbers with the sign of at(x).distance
     done.clear();
     for (const SolidTreeNode& n : solid_.nodes) {
         const auto of = [&](int child) { return done[child]; };
@@ -173,7 +173,7 @@ SurfaceSample SignedDistance::at(Vec3 x) const {
 
 namespace {
 
-// Root search on the line along the normal; `field` has at() and inside().
+// Root search on the line through x along the normal; Field is SignedDistance or DistanceField.
 template <class Field>
 double search_along_normal(const Field& field, Vec3 x, double reach) {
     const SurfaceSample here = field.at(x);
@@ -207,7 +207,7 @@ std::size_t SignedDistance::half_spaces() const {
     return count;
 }
 
-// A surface in the wall between two boxes must be seen from both.
+// The margin is positive, so that a surface in the wall between two boxes is seen from both.
 DistanceField::DistanceField(const SolidTree& solid, const Box& box, double margin)
     : root_(std::make_unique<Node>(box, std::make_shared<const SignedDistance>(solid), nullptr)),
       margin_(std::max(margin, 1e-6 * glm::length(box.hi - box.lo))) {}
@@ -215,28 +215,28 @@ DistanceField::DistanceField(const SolidTree& solid, const Box& box, double marg
 double DistanceField::distance_along_normal(Vec3 x, double reach) const { return search_along_normal(*this, x, reach); }
 
 const SignedDistance& DistanceField::near(Vec3 x) const {
-    // Boxes stop where splitting pays no more, or does not help. Where very many half-spaces vary together, the nearest
+    // A box is not split if that does not pay or does not help. Where very many half-spaces vary together, the nearest
     // have to do.
     constexpr std::size_t few = 8, many = 40;
-    constexpr std::size_t large = 512;  // of more, copies of nearly all of them would take too much memory
+    constexpr std::size_t large = 512;  // of more half-spaces, copies of nearly all would take too much memory
     constexpr int max_depth = 40;
-    constexpr double min_margin = 0.05;  // of the margin
-    // Of the half-spaces of the box that was split three times, once along each axis: what is left for more to pay.
+    constexpr double min_margin = 0.05;  // relative to the margin
+    // The greatest fraction of half-spaces left after three splits, once along each axis, with which splitting goes on.
     constexpr double most_left = 0.6;
-    // Of the half-spaces of the box that is split: where more are left, the half is told of all of them.
+    // If more than this fraction of the half-spaces is left in the half, it shares those of the box that is split.
     constexpr double nearly_all = 0.9;
     const Box& all = root_->box;
-    // What is in the wall between two boxes belongs to the lower one, whichever was asked for last.
+    // A point in the wall between two boxes belongs to the lower one, whichever box was used last.
     const auto belongs_to = [&](const Box& box) {
         for (int k = 0; k < 3; ++k)
             if (x[k] > box.hi[k] || x[k] < box.lo[k] || (x[k] == box.lo[k] && box.lo[k] > all.lo[k])) return false;
         return true;
     };
     if (last_ && belongs_to(last_->box)) return *last_->solid;
-    // Points that are asked for one after the other lie near each other: the way leads by the box around both.
+    // Consecutive points are usually near each other, so the search starts at the smallest box around both.
     Node* node = last_ ? last_ : root_.get();
     while (node->parent && !belongs_to(node->box)) node = node->parent;
-    // What is beyond the box sees what is nearest in it: the whole solid at once may be too much to evaluate.
+    // A point outside of the box gets the surfaces nearest in it, because the whole solid may be too much to evaluate.
     const Vec3 y = glm::clamp(x, all.lo, all.hi);
     while (node->depth < max_depth && node->half_spaces > few) {
         const Vec3 size = node->box.hi - node->box.lo;

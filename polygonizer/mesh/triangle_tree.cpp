@@ -9,7 +9,7 @@ namespace {
 
 constexpr int leaf_size = 4;
 
-// Whether the way from x to x + d·[0, 1] meets the box; d has no component that is 0.
+// Whether the segment from x to x + d meets the box; no component of d is 0.
 bool meets(const Box& box, Vec3 x, Vec3 d) {
     double lo = 0, hi = 1;
     for (int k = 0; k < 3; ++k) {
@@ -17,7 +17,7 @@ bool meets(const Box& box, Vec3 x, Vec3 d) {
         lo = std::max(lo, std::min(a, b));
         hi = std::min(hi, std::max(a, b));
     }
-    constexpr double slack = 16 * epsilon;  // of differences and quotients
+    constexpr double slack = 16 * epsilon;  // rounding of differences and quotients
     return lo <= hi + slack * (1 + std::abs(hi));
 }
 
@@ -58,7 +58,7 @@ void TriangleTree::build(int first, int count) {
 std::optional<int> TriangleTree::winding(Vec3 x) const {
     const Box all = box();
     if (all.empty() || !all.contains(x)) return 0;
-    // Through the thin of the mesh, and in another direction where that hits an edge.
+    // Along the mesh's thinnest extent, and in another direction where that hits an edge.
     const Vec3 size = all.hi - all.lo;
     const int axis = size.x <= size.y && size.x <= size.z ? 0 : size.y <= size.z ? 1 : 2;
     constexpr std::array<Vec2, 5> leans{Vec2{0.0718, 0.0431}, Vec2{-0.0613, 0.0877}, Vec2{0.0391, -0.0967},
@@ -75,14 +75,15 @@ std::optional<int> TriangleTree::winding(Vec3 x) const {
     return std::nullopt;
 }
 
-// None where the way from x to `far`, which is outside, meets a vertex or an edge.
+// The winding number by the crossings of the segment from x to `far`, which is outside; none if it meets a vertex or
+// edge.
 std::optional<int> TriangleTree::winding(Vec3 x, Vec3 far) const {
     const Vec3 d = far - x;
     int sum = 0;
     for (std::size_t at = 0; at < nodes_.size();) {
         const Node& n = nodes_[at];
         if (!meets(n.box, x, d)) {
-            // To what follows the node: children lie within its range of nodes.
+            // Skips the node's children, which follow it.
             std::size_t skip = at;
             while (nodes_[skip].second >= 0) skip = std::size_t(nodes_[skip].second);
             at = skip + 1;
@@ -112,12 +113,12 @@ namespace {
 
 using TrianglePositions = std::array<Vec3, 3>;
 
-// The sign of x, or 0 where x is no more than the slack, by the unit that it is measured in.
+// The sign of x, or 0 if |x| ≤ slack · unit.
 int sign(double x, double slack = 0, double unit = 1) { return std::abs(x) <= slack * unit ? 0 : x > 0 ? 1 : -1; }
 
 double twice_area(const TrianglePositions& t) { return glm::length(glm::cross(t[1] - t[0], t[2] - t[0])); }
 
-// Whether the segment passes through the triangle from one side to the other, within.
+// Whether the segment passes from one side of the triangle to the other through its interior.
 bool pierces(Vec3 p, Vec3 q, const TrianglePositions& t, double slack) {
     const double area = twice_area(t), length = glm::distance(p, q);
     const int from = sign(orientation(t[0], t[1], t[2], p), slack, area);
@@ -129,7 +130,7 @@ bool pierces(Vec3 p, Vec3 q, const TrianglePositions& t, double slack) {
     return side(0) != 0 && side(0) == side(1) && side(0) == side(2);
 }
 
-// Of triangles in one plane: no side of either has the other one beyond it.
+// Whether two triangles in one plane overlap: no side of either has the other triangle beyond it.
 bool overlap(const TrianglePositions& s, const TrianglePositions& t, double slack) {
     const Vec3 normal = glm::abs(glm::cross(s[1] - s[0], s[2] - s[0]));
     const int drop = greatest_axis(normal);
@@ -149,7 +150,8 @@ bool overlap(const TrianglePositions& s, const TrianglePositions& t, double slac
     return !parts(s, t) && !parts(t, s);
 }
 
-// Where the triangle meets the plane through the other's corners, along a direction in both planes.
+// The interval in which the triangle meets the plane through the other triangle, measured along a direction in both
+// planes.
 std::array<double, 2> along_line(const TrianglePositions& t, const TrianglePositions& plane, Vec3 direction) {
     const Vec3 normal = glm::cross(plane[1] - plane[0], plane[2] - plane[0]);
     std::array<double, 2> found{infinity, -infinity};
@@ -163,10 +165,10 @@ std::array<double, 2> along_line(const TrianglePositions& t, const TrianglePosit
     return found;
 }
 
-// Of triangles each of which reaches through the other's plane: whether they have a piece of its line in common. That
-// is so without an edge that pierces where they meet along lines from edge to edge.
+// Whether two triangles, each of which reaches through the other's plane, have a piece of the planes' common line in
+// common. That happens without an edge that pierces where they meet along a line from edge to edge.
 bool share_a_line(const TrianglePositions& a, const TrianglePositions& b, double slack) {
-    constexpr double least_share = 1e-6;  // of the shorter piece, and of the sine of their angle
+    constexpr double least_share = 1e-6;  // relative to the shorter piece, and to the sine of the planes' angle
     const Vec3 na = glm::cross(a[1] - a[0], a[2] - a[0]), nb = glm::cross(b[1] - b[0], b[2] - b[0]);
     const Vec3 line = glm::cross(na, nb);
     const double length = glm::length(line);
@@ -191,7 +193,8 @@ bool triangles_cross(const Mesh& mesh, const Triangle& s, const Triangle& t, dou
         b[k] = mesh.positions[t.vertex[k]];
         for (const int v : t.vertex) shared += v == s.vertex[k];
     }
-    // Of two that share an edge, or of which one does not reach through the other's plane, only a plane can be shared.
+    // Triangles that share an edge, or of which one does not reach through the other's plane, can only overlap in one
+    // plane.
     const auto reaches_through = [slack](const TrianglePositions& plane, const TrianglePositions& of, bool& flat) {
         const double area = twice_area(plane);
         int least = 1, most = -1;

@@ -9,9 +9,10 @@
 namespace deburr {
 namespace {
 
-// Cosine between a facet and the surface, below which it leans: as after repair's last resort.
+// A facet leans if the cosine between it and the surface is below this, as after repair's last resort.
 constexpr double upright = 0.05;
 
+/// One round of changes.
 class Untangling {
 public:
     Untangling(MendedMesh& m, const FacetJudge& judge, double reach)
@@ -31,7 +32,8 @@ public:
     std::size_t changes() const { return changes_; }
 
 private:
-    // Makes the best change of the facet's edges, if there is one. Facets near one that changed wait for the next time.
+    // Makes the best change of the facet's edges, if there is one. Facets near one that changed wait for the next
+    // round.
     void help(int f) {
         std::optional<Change> best;
         int best_gain = 0;
@@ -39,7 +41,7 @@ private:
             if (!change || !untouched(*change)) return;
             const std::optional<int> after = faults_after(*change);
             if (!after) return;
-            // As many faults in fewer facets are a step, too.
+            // As many faults among fewer facets are a step forward, too.
             const int fewer = int(change->out.size()) - int(change->in.size());
             const int gain = 4 * (faults_before(*change) - *after) + fewer;
             if (gain <= best_gain) return;
@@ -55,7 +57,7 @@ private:
             }
         };
         offer_edges(f);
-        if (!best)  // or of the facets around
+        if (!best)  // else of the facets around it
             for (const int v : facets_.at(f).triangle.vertex)
                 for (const int g : facets_.around(v)) offer_edges(g);
         if (!best) return;
@@ -76,7 +78,7 @@ private:
                             [&](const Box& other) { return !intersection(box, other).empty(); });
     }
 
-    // Facets of the mesh that cross one which is not among `out`.
+    // The number of the mesh's facets that cross t, without those in `out`.
     int crossings(const Triangle& t, const std::vector<int>& out) const {
         int count = 0;
         tree_.visit(bounding_box(mesh_, t), [&](int other) {
@@ -101,7 +103,7 @@ private:
             count += crossings(triangle(f), change.out) + (judge_.shape(facets_, facets_.at(f)).cosine < upright);
         return count;
     }
-    // None where a facet would be too far from the surface.
+    // The number of faults after the change; none if a facet would be too far from the surface.
     std::optional<int> faults_after(const Change& change) const {
         int count = 0;
         for (const Facet& f : change.in) {
@@ -138,7 +140,7 @@ void find_faults(MendedMesh& m, const FacetJudge& judge, CancelFlag cancel) {
 std::size_t untangle(MendedMesh& m, const FacetJudge& judge, double reach, CancelFlag cancel) {
     constexpr std::size_t max_faults = 1000;  // a mesh with more is wrong as a whole
     if (m.wrong.size() > max_faults) return 0;
-    constexpr int max_rounds = 60, patience = 12;  // rounds, in all and without fewer faults
+    constexpr int max_rounds = 60, patience = 12;  // rounds in all, and rounds without progress
     std::size_t changes = 0, least = m.leaning + m.others;
     for (int round = 0, last = 0; round < max_rounds && round - last <= patience && !m.wrong.empty(); ++round) {
         const std::size_t made = Untangling(m, judge, reach).changes();

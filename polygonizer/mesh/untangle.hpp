@@ -1,8 +1,8 @@
-// The last resort for facets that cross: edges fewer.
+// A last resort for facets that cross: fewer edges.
 //
-// Where sharp surfaces meet at almost no angle, or three in almost one line, points that lie on the right surfaces are
-// joined by facets that fold over one another, at whatever size of the cells. There a mesh that leaves out some of the
-// points is as good, as they are closer together than anyone asked for.
+// Where sharp surfaces meet at almost no angle, or three in almost one line, points on the correct surfaces are joined
+// by facets that fold over each other, whatever the size of the cells. A mesh that leaves out some of these points is
+// as good, because they are closer together than any tolerance.
 #pragma once
 #include "polygonizer/mesh/cancel.hpp"
 #include "polygonizer/mesh/facet_judge.hpp"
@@ -10,9 +10,10 @@
 
 namespace deburr {
 
-/// Collapses and flips edges of `m`'s facets that lean, face inward or cross, as long as each change leaves fewer of
-/// them, or as many among fewer facets, and no new facet's middle is farther from the surface than `reach`. Brings the
-/// faults of `m` up to date, and returns the number of changes. The mesh stays closed. Throws Cancelled.
+/// Collapses and flips edges of `m`'s facets that lean, face inward or cross, as long as each change leaves fewer
+/// faults, or as many among fewer facets, and no new facet's middle is farther from the surface than `reach`. Updates
+/// the faults in `m`, and returns the number of changes. The mesh stays closed. Throws Cancelled. A mesh with more than
+/// 1000 faults is left unchanged.
 std::size_t untangle(MendedMesh& m, const FacetJudge& judge, double reach, CancelFlag cancel);
 
 }  // namespace deburr

@@ -1,4 +1,4 @@
-// How far a piece of work is whose end nobody knows before: phases take shares of what is left.
+// Progress of work whose amount nobody knows beforehand: each phase takes a fraction of what is left.
 #pragma once
 #include <algorithm>
 #include <functional>
@@ -6,25 +6,25 @@
 
 namespace deburr {
 
-/// From 0 to 1, and never back; safe from many threads.
+/// Progress from 0 to 1, which never decreases. Safe to use from several threads.
 class WorkProgress {
 public:
-    /// `done` is told what share of the whole was done since the last time; empty: nobody asks.
+    /// `done` is called with the fraction of the whole that was done since its last call; it may be empty.
     explicit WorkProgress(std::function<void(double share)> done) : done_(std::move(done)) {}
 
-    /// The phase before is over; the next one takes this share of what is left.
+    /// Ends the current phase and begins one that takes this fraction of the remaining work.
     void begin(double share_of_rest) {
         const std::lock_guard lock(mutex_);
         reach(end_);
         end_ = reached_ + share_of_rest * (1 - reached_);
         begin_ = reached_;
     }
-    /// This share of the phase is done, beside what was done of it before.
+    /// Reports that another fraction `share` of the current phase is done.
     void advance(double share) {
         const std::lock_guard lock(mutex_);
         reach(std::min(end_, reached_ + share * (end_ - begin_)));
     }
-    /// All is done.
+    /// Reports that all work is done.
     void finish() {
         const std::lock_guard lock(mutex_);
         reach(1);

@@ -11,10 +11,11 @@
 namespace deburr {
 namespace {
 
-// The year counts from 1980; month and day from 1 [APPNOTE 4.4.6].
+// The year counts from 1980, month and day from 1 [APPNOTE 4.4.6].
 constexpr uLong first_day = 1u << 21 | 1u << 16;
 
-// A file in memory, as minizip asks for files: it writes, and goes back to mend the sizes that it did not know.
+// A file in memory behind minizip's interface: minizip writes, and seeks back to fill in sizes that it did not know
+// before.
 struct Memory {
     std::string bytes;
     std::size_t at = 0;
@@ -36,7 +37,7 @@ zlib_filefunc64_def functions_for(Memory& target) {
     f.zwrite_file = [](void* self, void*, const void* from, uLong size) {
         try {
             memory(self).write(static_cast<const char*>(from), size);
-        } catch (const std::bad_alloc&) {  // it must not pass through functions of C
+        } catch (const std::bad_alloc&) {  // an exception must not pass through C functions
             return uLong(0);
         }
         return size;
@@ -60,7 +61,7 @@ zlib_filefunc64_def functions_for(Memory& target) {
 struct ZipArchive::Output {
     Memory memory;
     zipFile file = nullptr;
-    bool is_open = false;  // a file in the archive
+    bool is_open = false;  // whether a file of the archive is open
 };
 
 ZipArchive::ZipArchive() : output_(std::make_unique<Output>()) {

@@ -1,4 +1,4 @@
-// A ZIP archive in memory, by minizip. Its bytes depend on what is put in and on zlib alone: all files are dated
+// Writes a ZIP archive in memory, by minizip. Its bytes depend on the content and on zlib alone: all files are dated
 // 1980-01-01, the first day that the format knows.
 #pragma once
 #include <memory>
@@ -7,6 +7,7 @@
 
 namespace deburr {
 
+/// An archive under construction. Throws std::bad_alloc where memory runs out.
 class ZipArchive {
 public:
     ZipArchive();
@@ -14,11 +15,11 @@ public:
     ZipArchive(const ZipArchive&) = delete;
     ZipArchive& operator=(const ZipArchive&) = delete;
 
-    /// Begins a file; what is added goes there until the next one begins. Throws std::length_error if the last one
-    /// has 4 GiB or more.
+    /// Begins a file of the archive, to which add() appends until the next begin(). Throws std::length_error if the
+    /// previous file has 4 GiB or more.
     void begin(const std::string& name);
     void add(std::string_view bytes);
-    /// Ends the archive and returns its bytes. Throws as begin().
+    /// Completes the archive and returns its bytes; call it once, last. Throws as begin() does.
     std::string finish();
 
 private:
