@@ -14,6 +14,7 @@ namespace {
 
 bool is_within(const Box& a, const Box& b) { return a.empty() || (b.contains(a.lo) && b.contains(a.hi)); }
 
+/// The solid intersected with the box.
 SolidTree cut_off(SolidTree solid, const Box& box) {
     SolidTree wall = flatten(Solid::sharp(Density::box(box.lo, box.hi)));
     const int root = solid.root();
@@ -24,7 +25,7 @@ SolidTree cut_off(SolidTree solid, const Box& box) {
     return solid;
 }
 
-// What is polygonized: without leaves if there is nothing.
+// The solid within the box; a tree without leaves if there is nothing in it.
 SolidTree part_within(const SolidTree& mixed, const Box& box) {
     if (box.empty()) return {};
     SolidTree solid = separate_sharp(mixed);
@@ -60,8 +61,8 @@ Mesh octree(const SolidTree& mixed, const Box& box, const OctreeOptions& options
     *statistics = {};
     OctreePolygonization polygonization(numbered, box, options, edge);
     MendedMesh best;
-    // What repair cannot help needs smaller cells around it. Sharp walls part in the end, however thin; where rounded
-    // surfaces taper to where they touch, smaller cells find as many that cross.
+    // Facets that repair cannot help need smaller cells around them. Sharp walls part at last, however thin; where
+    // rounded surfaces taper to a contact, smaller cells leave as many facets that cross.
     const int max_mending_rounds = solid.min_radius() > 0 || solid.has_free_form() ? 4 : 8;
     constexpr double worth_another = 0.8;
     for (int round = 0; round < max_mending_rounds; ++round) {
@@ -69,7 +70,7 @@ Mesh octree(const SolidTree& mixed, const Box& box, const OctreeOptions& options
         Mesh mesh = polygonization.run(*statistics, origins);
         const FacetJudge judge(solid, mesh);
         MendedMesh now = mended(std::move(mesh), std::move(origins), judge, infinity, options.cancel);
-        // Where surfaces touch, smaller cells leave as many.
+        // Where surfaces touch, smaller cells leave as many faults.
         const bool helped = now.others > 0 || double(now.leaning) < worth_another * double(best.leaning);
         const bool more = helped && !now.wrong.empty() && polygonization.cut_around(now.mesh, now.wrong);
         if (now.is_better_than(best)) best = std::move(now);

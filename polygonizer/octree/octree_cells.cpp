@@ -6,22 +6,22 @@
 namespace deburr {
 namespace {
 
-// Planes of models lie at round numbers; a grid that is off them by no simple fraction of a cell has
-// no corners on them. Nothing but neatness depends on it.
+// Planes of models lie at round coordinates. A grid that is offset from them by no simple fraction of a cell has no
+// corners on them. Only neatness depends on it.
 constexpr double off_round[3] = {0.3819660113, 0.2360679775, 0.4142135624};
 
-// Cells are tested with this margin, in their sides, so that a corner that is shared by a cell on
-// one side and one that the surface may pass has the side of the former, rounding or not.
+// Cells are tested with this margin, relative to their side, so that a corner shared by a cell on one side and a cell
+// that the surface may pass has the side of the former despite rounding.
 constexpr double margin = 1e-6;
 
-// What is evaluated in a cell sees the surface this far around it, in sides of the wanted cells: the
-// middle of a triangle need not be in the cell that its surface passes.
+// A cell evaluates the solid pruned to this distance around it, in sides of the wanted cells: the middle of a triangle
+// need not be in the cell that its surface passes.
 constexpr double sight = 0.5;
 
-// Pruning costs more than it saves where no more than this is left.
+// With no more half-spaces than this pruning costs more than it saves.
 constexpr std::size_t few = 2;
 
-// Three coordinates share 64 bits, and two of these say an edge's axis (octree.cpp).
+// Three coordinates fit into 64 bits, with two bits to spare for an edge's axis (octree_polygonization.cpp).
 constexpr int max_levels = 20;
 
 std::uint64_t key_of(const GridPoint& c) {
@@ -33,7 +33,7 @@ std::uint64_t key_of(const GridPoint& c) {
 CellTree::CellTree(const SolidTree& solid, const Box& box, double edge, int spare, CancelFlag cancel,
                    std::size_t max_open)
     : cancel_(cancel), max_open_(max_open), edge_(edge) {
-    // One cell more on either side, so that the surface is nowhere near the root's walls.
+    // One more cell on either side keeps the surface away from the root's walls.
     const double cells = std::ceil(largest(box.hi - box.lo) / edge) + 3;
     level_ = int(std::min(std::ceil(std::log2(cells)), 1024.0));
     if (level_ + spare > max_levels) throw std::length_error("too many cells");

@@ -1,12 +1,11 @@
-// The octree that surface points are looked for in [Vyatkin §3.2].
+// The octree in which surface points are searched for [Vyatkin §3.2].
 //
-// A cube around the object is cut into eight again and again; a part that provably lies on one side
-// of the surface is let go, what is left at the wanted level are the cells that the surface may pass.
-// What the solid is over a cell is pruned on the way down, as the paper halves the coefficients of
-// its equation (4), so that a cell evaluates only what reaches it.
+// A cube around the object is cut into eight, recursively. A part that is provably on one side of the surface is not
+// cut; what is left at the wanted level are the cells that the surface may pass. The solid is pruned to the cell on the
+// way down, as the paper halves the coefficients of its equation (4), so a cell evaluates only what matters in it.
 //
-// Corners have whole coordinates in units of the finest cell that may ever be; each is evaluated
-// once, so that all cells agree on its side.
+// Corners have integer coordinates in units of the finest possible cell. Each corner is evaluated once, so all cells
+// agree on its side.
 #pragma once
 #include <array>
 #include <cstdint>
@@ -19,21 +18,24 @@
 
 namespace deburr {
 
+/// A corner of the finest grid, in units.
 using GridPoint = std::array<int, 3>;
 
+/// A cell of the octree.
 struct OctreeCell {
     GridPoint at;       // lower corner
-    int size;           // in units
+    int size;           // length of a side in units
     int children = -1;  // the first of eight; −1: a leaf
-    int solid = 0;      // what to evaluate in it
-    bool open = false;  // the surface may pass
+    int solid = 0;      // index of the pruned solid to evaluate in it (CellTree::solid)
+    bool open = false;  // whether the surface may pass it
 };
 
+/// The octree of a solid in a box. Not for several threads at once.
 class CellTree {
 public:
-    /// Cells of side `edge`, where the surface is; they may be split `spare` times more.
-    /// Throws std::length_error past max_cells, or past `max_open` leaves that the surface may pass, and Cancelled; so
-    /// does split().
+    /// Makes cells of side `edge` where the surface may be; they can be split `spare` more times. Throws
+    /// std::length_error for more than max_cells cells or more than `max_open` leaves that the surface may pass, and
+    /// Cancelled; so does split().
     CellTree(const SolidTree& solid, const Box& box, double edge, int spare, CancelFlag cancel = nullptr,
              std::size_t max_open = max_cells);
 
@@ -41,28 +43,35 @@ public:
 
     const std::vector<OctreeCell>& cells() const { return cells_; }
     const OctreeCell& cell(int i) const { return cells_[i]; }
-    /// Cuts a leaf into eight; false if it is as small as may be.
+    /// Cuts a leaf into eight; false, without a change, if it is as small as possible.
     bool split(int leaf);
-    /// The cell that holds the unit cube at this corner: the leaf, or one of this size above it; −1
-    /// beyond the root.
+    /// The cell that holds the unit cube at this corner: the leaf, or the cell of at least this size (in units) above
+    /// it; −1 outside of the root.
     int find(const GridPoint& unit, int size = 1) const;
+    /// The leaf that holds x, or the one nearest to it.
     int find(Vec3 x) const;
 
+    /// A grid corner in world space.
     Vec3 position(const GridPoint& c) const { return origin_ + unit_ * Vec3(c[0], c[1], c[2]); }
     Box box(const OctreeCell& c) const {
         return {position(c.at), position({c.at[0] + c.size, c.at[1] + c.size, c.at[2] + c.size})};
     }
+    /// Length of a unit in world space.
     double unit() const { return unit_; }
+    /// Side of the wanted cells in world space.
     double edge() const { return edge_; }
+    /// 2^level wanted cells are as long as the root.
     int level() const { return level_; }
+    /// The solid pruned to a cell and what is near it.
     const SignedDistance& solid(const OctreeCell& c) const { return *solids_[c.solid]; }
-    /// The part of the solid that matters in and around the octree's leaf at x.
+    /// The solid pruned to the leaf at x and what is near it.
     const SignedDistance& solid(Vec3 x) const { return solid(cell(find(x))); }
-    /// The part of the solid that matters in the box.
+    /// The solid pruned to the box and what is near it.
     std::shared_ptr<const SignedDistance> solid(const Box& box) const;
-    /// > 0 inside; evaluated in the leaf `by` if it is not known.
+    /// The signed distance at a grid corner, > 0 inside. It is evaluated in the leaf `by` unless it is known.
     double value(const GridPoint& c, const OctreeCell& by);
 
+    /// The number of evaluations of a range so far.
     std::size_t range_tests = 0;
 
 private:

@@ -5,24 +5,24 @@
 namespace deburr {
 namespace {
 
-// How much a hard edge may turn where it is as fine as the cells: 12°, as a circle of 30 edges.
+// The greatest turn of a hard edge that is as fine as the cells: 12°, as in a circle of 30 edges.
 constexpr double wanted_turn = 0.21;
-// No s(P) is below this share of a cell.
+// The least s(P), in cells.
 constexpr double min_length = 0.25;
 // Printed differently: "√2·|PQ| > [s(P) + s(Q)]/2" divides edges that are shorter than wanted. With
 // √2 on the other side, halves are as much shorter than wanted as the whole was longer.
 constexpr double too_long = 1.4142135623730951;
-// A point S that has to go farther than this share of the edge to find the hard edge is not on it.
+// A point S that has to move farther than this, relative to the edge, is not on the hard edge.
 constexpr double reach = 0.3;
-// A length is brought near to what is wanted in a few halvings, or never.
+// A length comes near to the wanted one in a few halvings, or never.
 constexpr int max_rounds = 8;
-// An end of an edge that is nearer to the hard edge than this share of it moves there, if it can.
+// An end of an edge that is nearer to the hard edge than this, relative to the edge, moves there if it can.
 constexpr double near_end = 1.2;
-// Cosine to what it was that a triangle may turn to where its point moves; chamfers turn by 45°.
+// The least cosine of the angle by which a triangle may turn where its point moves; chamfers turn by 45°.
 constexpr double min_turn_cosine = 0.3;
-// And to the face that all its points lie on, if there is one.
+// The same for the angle to the face that all points of the triangle are on, if there is one.
 constexpr double min_face_cosine = 0.5;
-// Height over longest side of a triangle that is not worth making.
+// The least ratio of height to longest side of a triangle that is made.
 constexpr double min_height = 1e-3;
 
 // The triangles around points.
@@ -45,6 +45,7 @@ private:
     std::vector<int> triangles_;
 };
 
+/// One round of moving points to hard edges.
 class Following {
 public:
     Following(PointMesh& mesh, const CellTree& tree, double hard_cosine)
@@ -56,7 +57,7 @@ public:
         return count;
     }
 
-    // Triangles whose points lie on three hard edges, and have no face in common.
+    // Divides triangles whose points are on three hard edges and have no face in common: they cut off a corner.
     std::size_t corners() {
         std::size_t count = 0;
         const std::size_t before = mesh_.triangles.size();
@@ -77,6 +78,7 @@ public:
     }
 
 private:
+    /// Whether an edge passes from one face to another beside the hard edge: its points have no face in common.
     bool bends(int p, int q) const {
         const SurfacePoint &a = mesh_.point(p), &b = mesh_.point(q);
         if (a.faces.size() == 1 && b.faces.size() == 1)
@@ -87,7 +89,7 @@ private:
         return true;
     }
 
-    // Calls `accept` with the normals of the faces that all points of the triangle lie on.
+    // Whether accept(normal) is true for one of the faces that all points of the triangle are on.
     template <class Accept>
     bool any_face(const TriangleVertices& t, Accept accept) const {
         for (const Face& f : mesh_.point(t[0]).faces) {
@@ -103,7 +105,7 @@ private:
         return any_face(t, [](Vec3) { return true; });
     }
 
-    // Whether a triangle may become this one, given its area vector before.
+    // Whether a triangle may become this one, given its former area vector.
     bool may_become(const TriangleVertices& t, Vec3 before) const {
         const Vec3 now = mesh_.area_vector(t);
         double longest = 0;
@@ -155,7 +157,7 @@ private:
         for (const int* t = fans_.begin(v); t != fans_.end(v); ++t) touched_[*t] = true;
     }
 
-    // Whether a point, which is a corner then, lies on all faces of another and on more.
+    // Whether a point is a corner of all faces of the other point and of more.
     bool lies_on_all(const SurfacePoint& corner, const SurfacePoint& other) const {
         return corner.faces.size() > other.faces.size() &&
                std::all_of(other.faces.begin(), other.faces.end(), [&](const Face& f) {
@@ -188,9 +190,10 @@ private:
     const CellTree& tree_;
     double hard_cosine_;
     Fans fans_;
-    std::vector<char> touched_;  // by what this round has done
+    std::vector<char> touched_;  // triangles that this round has changed
 };
 
+/// Division of hard edges to the wanted length.
 class Division {
 public:
     Division(PointMesh& mesh, const CellTree& tree, double hard_cosine)

@@ -7,13 +7,14 @@
 namespace deburr {
 namespace {
 
-// Cosine between a triangle and the surface below which the cells around it are cut further: 75°.
+// The least cosine between a triangle and the surface; below it, 75°, the cells around it are cut further.
 constexpr double min_cosine = 0.25;
-// The same for its distance, in lengths of its longest side: such a triangle closes what goes on.
+// The greatest distance from the surface relative to the longest side: a triangle beyond it closes a surface that goes
+// on.
 constexpr double off = 0.45;
-// A sliver leans for other reasons, which cutting does not help: repair.hpp.
+// Slivers leave leaning to repair.hpp, because cutting cells does not help them.
 constexpr double sliver = 0.005;  // height over longest side
-// Two triangles that face as their points do, to this cosine, are as good as two others.
+// Triangles that face as their points do, to this cosine, are good enough not to be compared.
 constexpr double alike = 0.95;
 
 }  // namespace
@@ -43,8 +44,8 @@ Standing LeaningTriangles::standing(const TriangleVertices& t) const {
     return s;
 }
 
-// Whether the surface passes within the tolerance, on the normal of a triangle, where a density of a smaller radius
-// is saturated.
+// Whether the surface passes within the tolerance of the triangle along its normal. It serves where a density of a
+// smaller radius is saturated.
 bool LeaningTriangles::passes_near(Vec3 middle, Vec3 area) const {
     const double size = glm::length(area);
     if (!std::isfinite(tolerance_) || !(size > 0)) return false;
@@ -53,8 +54,8 @@ bool LeaningTriangles::passes_near(Vec3 middle, Vec3 area) const {
     return tree_.solid(beyond).inside(beyond) != in;
 }
 
-// Whether the points of a triangle say all there is to say about how it stands: smooth, and
-// facing as it does.
+// The least cosine between the triangle and the normals at its points, which says enough if all are smooth; −1 if one
+// is hard.
 double LeaningTriangles::cosine_to_points(const TriangleVertices& t) const {
     const Vec3 area = mesh_.area_vector(t);
     double least = 1;

@@ -1,5 +1,5 @@
-// How triangles of the octree's mesh stand to the surface: which of them lean from it or are too far off, so that cells
-// around them are to be cut further, and which diagonal of a quadrilateral leans less.
+// Judges how triangles of the octree's mesh lie to the surface: which of them lean from it or are too far off, so that
+// the cells around them are to be cut further, and which diagonal of a quadrilateral leans less.
 #pragma once
 #include <vector>
 
@@ -8,21 +8,22 @@
 
 namespace deburr {
 
-/// A triangle as it stands to the surface at its middle: the cosine between their normals, and their distance.
+/// How a triangle lies to the surface at its middle: the cosine of the angle between their normals, and their distance.
 struct Standing {
     double cosine = 1, distance = 0;
 };
 
+/// Finds triangles that lean.
 class LeaningTriangles {
 public:
-    /// Keeps references to a mesh and to the tree whose cells it is of, both of which may change. `tolerance`: largest
-    /// distance of a triangle's middle from the surface; infinity: any. `has_forms`: the solid has free forms.
+    /// Keeps references to the mesh and to the tree that it is made from; both may change. `tolerance` is the greatest
+    /// distance of a triangle's middle from the surface, or infinity. `has_forms` says that the solid has free forms.
     LeaningTriangles(const PointMesh& mesh, const CellTree& tree, double tolerance, bool has_forms)
         : mesh_(mesh), tree_(tree), tolerance_(tolerance), has_forms_(has_forms) {}
 
-    /// Whether the cells around this triangle are to be cut further.
+    /// Whether the cells around this triangle should be cut further.
     bool leans(const TriangleVertices& triangle) const;
-    /// Whether the diagonal from the first point of a quadrilateral is better than the other.
+    /// Whether the diagonal from the first point of a quadrilateral is better than the other one.
     bool first_diagonal(const std::vector<int>& q) const;
 
 private:

@@ -6,11 +6,13 @@
 namespace deburr {
 namespace {
 
+/// A crossing on the border of the face between two leaves.
 struct InFace {
     int a, b;  // leaves, a < b
     int crossing;
 };
 
+/// A segment, once for each of its two leaves.
 struct Segment {
     int leaf, from, to;  // crossings
     int face;            // number of the segment, the same in both leaves
@@ -30,7 +32,7 @@ public:
     }
 
 private:
-    // Edges of a leaf that no smaller cell has a part of, and no leaf before it.
+    // Finds crossings on those edges of the leaf of which no smaller cell has a part, and no earlier leaf has the edge.
     void find_crossings(int leaf) {
         const OctreeCell c = tree_.cell(leaf);
         for (int axis = 0; axis < 3; ++axis) {
@@ -49,6 +51,7 @@ private:
         }
     }
 
+    /// Sets the leaves around the crossing; false if it is a smaller or an earlier leaf's.
     bool leaves_around(EdgeCrossing& x, int leaf) {
         const std::size_t u = std::size_t(x.axis + 1) % 3, v = std::size_t(x.axis + 2) % 3;
         constexpr int side_u[4] = {-1, 0, 0, -1}, side_v[4] = {-1, -1, 0, 0};
@@ -67,7 +70,7 @@ private:
         return owner;
     }
 
-    // Crossings on the border of each face between two leaves, joined in pairs.
+    // Joins the crossings on the border of every face between two leaves in pairs.
     void join_in_faces() {
         std::vector<InFace> all;
         for (std::size_t i = 0; i < linking_.crossings.size(); ++i) {
@@ -98,8 +101,8 @@ private:
         ++faces_;
     }
 
-    // Four crossings and more: the side of the face's middle says which arcs of its border are cut
-    // off [Vyatkin §2.5, face center sampling].
+    // Joins four crossings or more: the side of the face's middle decides which arcs of the border are cut off [Vyatkin
+    // §2.5, face center sampling].
     void join_many(std::vector<InFace> face) {
         const OctreeCell &a = tree_.cell(face[0].a), &b = tree_.cell(face[0].b);
         const OctreeCell& small = a.size <= b.size ? a : b;
@@ -109,7 +112,7 @@ private:
         const std::size_t u = (axis + 1) % 3, v = (axis + 2) % 3;
         GridPoint corner = small.at;
         if (small.at[axis] + small.size == other.at[axis]) corner[axis] += small.size;
-        // Place along the border, from the lower corner along u; and whether it enters the solid.
+        // Position along the border, from the lower corner along u, and whether the border enters the solid there.
         struct On {
             int along, crossing;
             bool enters;
@@ -208,7 +211,7 @@ private:
     CellTree& tree_;
     Linking linking_;
     std::vector<Segment> segments_;
-    std::vector<int> loop_of_;  // of each segment, two
+    std::vector<int> loop_of_;  // two loops for each segment
     int faces_ = 0;
 };
 

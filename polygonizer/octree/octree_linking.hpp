@@ -1,31 +1,32 @@
-// Linking of surface points into polygons [Vyatkin §3.3].
+// Links surface points to polygons [Vyatkin §3.3].
 //
-// The paper walks along the border of the horizontal and of the vertical cross-section through a
-// point to its neighbours, and joins four points A, B, C, D that are each other's neighbours to a
-// quadrilateral. In an octree the cross-sections are the planes between its cells, and the walk from
-// one point to the next passes through the face that two cells share. So:
+// The paper walks from a point to its neighbours along the border of the horizontal and the vertical cross-section
+// through the point, and joins four points A, B, C, D that are each other's neighbours to a quadrilateral. In an octree
+// the cross-sections are the planes between its cells, and the walk from one point to the next passes through the face
+// that two cells share. So:
 //
-//   crossing   an edge between cells of which one end is inside and the other outside
-//   segment    of the border of a cross-section, in the face of two cells, from crossing to crossing
-//   loop       of segments around a cell: one sheet of the surface passes here, so one surface point
-//   polygon    around a crossing: the points of the three or four cells there, in turn
+//   crossing   an edge between cells with one end inside and the other outside
+//   segment    of the border of a cross-section, in the face between two cells, from crossing to crossing
+//   loop       segments around a cell: one sheet of the surface passes here, so there is one surface point
+//   polygon    around a crossing: the points of the three or four cells there, in order
 //
-// Printed differently: the paper has one point a cell, and so joins sheets that meet in one (that is
-// where its meshes are not manifolds), misses what the walk does not close (its holes), and finds
-// each polygon once from every point of it. Here two segments end at every crossing in a cell, so
-// loops close; a polygon belongs to a crossing, so it is there once; and it faces where the crossing
-// leaves the solid.
+// Printed differently: the paper has one point in a cell. So it joins sheets that meet in one (where its meshes are not
+// manifolds), misses polygons that the walk does not close (its holes), and finds every polygon once from each of its
+// points. Here two segments end at every crossing in a cell, so loops close; a polygon belongs to a crossing, so it
+// occurs once; and it faces where the crossing leaves the solid.
 #pragma once
 #include "polygonizer/octree/octree_cells.hpp"
 
 namespace deburr {
 
+/// An edge between cells with one end inside and the other outside.
 struct EdgeCrossing {
-    GridPoint lo;      // of the edge's ends
-    int axis, length;  // in units
+    GridPoint lo;      // lower end
+    int axis, length;  // direction, 0 … 2, and length in units
+    /// Whether the lower end is inside.
     bool low_inside;
-    std::array<int, 4> leaves;  // around it, counter-clockwise seen from where the axis points to
-    std::array<int, 4> loops;   // of these leaves, that pass this crossing
+    std::array<int, 4> leaves;  // leaves around it, counter-clockwise seen from the end that the axis points to
+    std::array<int, 4> loops;   // the loop of each of these leaves that passes this crossing
 
     GridPoint hi() const {
         GridPoint c = lo;
@@ -34,25 +35,27 @@ struct EdgeCrossing {
     }
 };
 
+/// A closed sequence of segments around a leaf: one sheet of the surface in it.
 struct Loop {
     int leaf;
-    int begin, end;  // in Linking::around
+    int begin, end;  // range in Linking::around
 };
 
-/// Two segments in one face that join the same two loops: the edge between the loops' points is
-/// there twice, and has to be told apart by a point in the middle of this one.
+/// Two segments in one face that join the same two loops. The edge between the loops' points would occur twice, so one
+/// of the two gets a point in the middle, that of this segment.
 struct DoubleSegment {
     int loop_a, loop_b, crossing_a, crossing_b;
 };
 
+/// The crossings and loops of an octree.
 struct Linking {
     std::vector<EdgeCrossing> crossings;
     std::vector<Loop> loops;
-    std::vector<int> around;  // crossings of the loops, in turn
+    std::vector<int> around;  // crossings of all loops, in order around each
     std::vector<DoubleSegment> doubles;
 };
 
-/// Throws std::logic_error where a loop does not close.
+/// Links the octree's crossings. Throws std::logic_error where a loop does not close.
 Linking link(CellTree& tree);
 
 }  // namespace deburr

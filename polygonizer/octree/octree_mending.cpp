@@ -15,9 +15,9 @@
 namespace deburr {
 namespace {
 
-// An edge that is not between two triangles that run through it in turn, for the message.
+// The middle of an edge that is not between two triangles of opposite directions, for the message.
 std::optional<Vec3> first_fault(const Mesh& mesh) {
-    std::vector<std::array<int, 3>> edges;  // ends in order, and direction
+    std::vector<std::array<int, 3>> edges;  // lower end, higher end, direction
     for (const Triangle& t : mesh.triangles)
         for (std::size_t k = 0; k < 3; ++k) {
             const auto [lo, hi] = std::minmax(t.vertex[k], t.vertex[(k + 1) % 3]);
@@ -41,11 +41,11 @@ MendedMesh mended(Mesh mesh, std::vector<Origin> origins, const FacetJudge& judg
     MendedMesh m;
     m.mesh = std::move(mesh);
     m.origins = std::move(origins);
-    std::vector<std::pair<int, int>> pairs;  // that cross
-    constexpr int max_unfoldings = 3;        // what is unfolded may lie on the next
+    std::vector<std::pair<int, int>> pairs;  // pairs that cross
+    constexpr int max_unfoldings = 3;        // an unfolded facet may lie on the next one
     for (int round = 0; round < max_unfoldings; ++round) {
         m.wrong = repair(m.mesh, m.origins, judge, tolerance).left;
-        // Where a wall is thinner than the cells, facets on its two sides face as they should and cross.
+        // Where a wall is thinner than the cells, facets on its two sides are upright and cross.
         pairs = crossing_triangles(m.mesh, TriangleTree(m.mesh), cancel);
         if (pairs.empty() || unfold(m.mesh, m.origins, judge, pairs) == 0) break;
     }
@@ -59,7 +59,7 @@ MendedMesh mended(Mesh mesh, std::vector<Origin> origins, const FacetJudge& judg
 MendedMesh thinned_out(const MendedMesh& fine, const SolidTree& solid, double tolerance, CancelFlag cancel,
                        WorkProgress* progress) {
     constexpr int max_thinnings = 4;
-    constexpr double at_points = 0.85;  // of the tolerance, at the points that collapses look at
+    constexpr double at_points = 0.85;  // relative to the tolerance, at the points that collapses test
     const FacetJudge judge(solid, fine.mesh);
     std::vector<Box> dense;
     for (int round = 0; round < max_thinnings; ++round) {

@@ -1,4 +1,4 @@
-// What becomes of an octree's mesh once its cells are cut: facets are turned, unfolded and thinned out.
+// Mends an octree's mesh once its cells are cut: facets are turned, unfolded and decimated.
 #pragma once
 #include "polygonizer/mesh/cancel.hpp"
 #include "polygonizer/mesh/facet_judge.hpp"
@@ -7,15 +7,15 @@
 
 namespace deburr {
 
-/// The mesh, as far as it can be mended without smaller cells.
+/// The mesh, mended as far as is possible without smaller cells, and its remaining faults. Throws Cancelled.
 MendedMesh mended(Mesh mesh, std::vector<Origin> origins, const FacetJudge& judge, double tolerance, CancelFlag cancel);
 
-/// The mesh with fewer triangles, within the tolerance; around what that makes wrong it stays as it was.
+/// The mesh decimated within the tolerance. Around faults that this causes the mesh stays as it was. Throws Cancelled.
 MendedMesh thinned_out(const MendedMesh& fine, const SolidTree& solid, double tolerance, CancelFlag cancel,
                        WorkProgress* progress);
 
-/// Throws OpenMeshError, with counts and a place, unless each edge is between two triangles that run through it in
-/// turn and each point has one fan.
+/// Throws OpenMeshError, with counts and a place, unless every edge is between two triangles that run through it in
+/// opposite directions and every point has one fan.
 void throw_unless_closed(const Mesh& mesh);
 
 }  // namespace deburr

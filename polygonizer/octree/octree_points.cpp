@@ -10,8 +10,8 @@ struct TangentPlane {
     double offset;
 };
 
-// The shortest x with the least sum of (n·x − offset)²; directions in which the planes say less than
-// this share of what they say in the clearest are left alone.
+// The shortest x with the least sum of (n·x − offset)². Directions whose eigenvalue is below this fraction of the
+// greatest are left out, as the planes say too little about them.
 Vec3 nearest_to_all(const std::vector<TangentPlane>& planes, double min_share) {
     Mat3 a(0.0);
     Vec3 b(0.0);
@@ -27,24 +27,25 @@ Vec3 nearest_to_all(const std::vector<TangentPlane>& planes, double min_share) {
     return x;
 }
 
-// A distance below this share of a cell is none.
+// Distances below this, relative to the cell, count as 0.
 constexpr double on_surface = 1e-13;
-// As good as on the surface, where rounding stops Newton's method.
+// Distances that are accepted where rounding stops Newton's method.
 constexpr double nearly_on_surface = 1e-9;
 constexpr int max_steps = 30;
 
 double size_of(const Box& cell) { return glm::length(cell.hi - cell.lo); }
 
+/// x moved into the cell, a little off its walls.
 Vec3 clamped(Vec3 x, const Box& cell) {
     constexpr double inward = 1e-3;
     const Vec3 by = inward * (cell.hi - cell.lo);
     return glm::clamp(x, cell.lo + by, cell.hi - by);
 }
 
-// Where all pieces are 0, by Gauss and Newton's method.
+// The point where all pieces are 0, by the Gauss–Newton method; none if there is none within the box.
 std::optional<Vec3> meeting_point(const SignedDistance& solid, const std::vector<SmoothPiece>& pieces, Vec3 x,
                                   const Box& within) {
-    // Two tangent planes that bend by 1° share all but this much of what they say.
+    // The eigenvalue of two tangent planes at an angle of 1° is more than this fraction of the greatest.
     constexpr double min_share = 1e-5;
     const double size = size_of(within);
     std::vector<TangentPlane> planes(pieces.size());
@@ -72,6 +73,7 @@ bool is_hard(const std::vector<Face>& faces, double hard_cosine) {
     return false;
 }
 
+/// The point where the pieces meet, if they meet at a hard edge.
 std::optional<SurfacePoint> hard_point(const SignedDistance& solid, const std::vector<SmoothPiece>& pieces, Vec3 from,
                                        const Box& within, double hard_cosine) {
     const auto x = meeting_point(solid, pieces, from, within);
@@ -82,13 +84,14 @@ std::optional<SurfacePoint> hard_point(const SignedDistance& solid, const std::v
     return point;
 }
 
-// The surface's pieces at the crossings, each once.
+// What the surface is at the crossings.
 struct Seen {
     std::vector<SmoothPiece> pieces;
-    std::vector<Face> faces;  // of the crossings
+    std::vector<Face> faces;  // of all crossings
     std::vector<TangentPlane> planes;
 };
 
+/// Adds the surface at the crossing x; planes are relative to `origin`.
 void see(const SignedDistance& solid, Vec3 x, Vec3 origin, Seen& seen) {
     const SurfaceSample o = solid.at(x);
     if (o.leaf < 0 || o.normal == Vec3(0.0)) return;
@@ -99,8 +102,8 @@ void see(const SignedDistance& solid, Vec3 x, Vec3 origin, Seen& seen) {
     seen.planes.push_back({o.normal, glm::dot(o.normal, x - origin)});
 }
 
-// The tip of a cone, where its tangent planes meet. It may stick out of the cell that the cone's last
-// crossings are in, into one that it crosses no edge of.
+// The tip of a cone, where its tangent planes meet. It may stick out of the cell with the cone's last crossings, into a
+// cell none of whose edges the cone crosses.
 std::optional<SurfacePoint> tip_point(const SignedDistance& solid, const Box& cell, Vec3 mean, const Seen& seen) {
     const Vec3 x = mean + nearest_to_all(seen.planes, 0);
     const double size = size_of(cell);
@@ -109,11 +112,11 @@ std::optional<SurfacePoint> tip_point(const SignedDistance& solid, const Box& ce
     if (!inflated(cell, cell.hi.x - cell.lo.x).contains(x) ||
         !(std::abs(solid.at(x).distance) < nearly_on_surface * size))
         return std::nullopt;
-    return SurfacePoint{x, seen.faces};  // it faces all ways at once
+    return SurfacePoint{x, seen.faces};  // a tip faces all ways at once
 }
 
-// From x in the cell to the surface, by Newton's method; if that leads out of the cell, straight to
-// the nearest end of a crossing on the other side.
+// Moves `start` from the cell to the surface by Newton's method; if that leaves the cell, along the line to the nearest
+// end of a crossing on the other side.
 Vec3 taken_to_surface(const SignedDistance& solid, const Box& cell, const std::vector<CrossingPoint>& crossings,
                       Vec3 start) {
     const double size = size_of(cell);
@@ -142,8 +145,8 @@ Face face_of(const SignedDistance& solid, const SurfaceSample& there) {
 }
 
 Vec3 surface_root(const SignedDistance& solid, Vec3 inside, Vec3 outside) {
-    // Illinois's method, which keeps the root between its points; halving where it dawdles or a
-    // density is saturated.
+    // The Illinois method, which keeps the root bracketed, with bisection every fourth step and where a density is
+    // saturated.
     const Vec3 d = outside - inside;
     double t0 = 0, t1 = 1;
     double f0 = solid.at(inside).distance, f1 = solid.at(outside).distance;
@@ -185,7 +188,7 @@ SurfacePoint surface_point(const SignedDistance& solid, const Box& cell, const s
             tip && (tip_may_stick_out || cell.contains(tip->position)))
             return *tip;
     if (bent) {
-        // Below this share of the planes' agreement lies what a hard edge of some 10° leaves open.
+        // What a hard edge of some 10° leaves open has an eigenvalue below this fraction of the greatest.
         constexpr double min_share = 0.01;
         start = clamped(mean + nearest_to_all(seen.planes, min_share), cell);
         if (seen.pieces.size() > 1) {
@@ -209,6 +212,7 @@ SurfacePoint surface_point(const SignedDistance& solid, const Box& cell, const s
 
 namespace {
 
+/// The pieces that pass within `tolerance` of x.
 std::vector<SmoothPiece> pieces_through(const SignedDistance& solid, const std::vector<SmoothPiece>& all, Vec3 x,
                                         double tolerance) {
     std::vector<SmoothPiece> through;
@@ -230,7 +234,7 @@ std::optional<SurfacePoint> meeting_near(const SignedDistance& solid, Vec3 x, co
     return point && glm::length(point->position - x) <= reach ? point : std::nullopt;
 }
 
-// Points on a hard edge are that near to both pieces, in lengths of the edge of the mesh.
+// A point is on a piece if it is nearer to it than this, relative to the mesh's edge.
 constexpr double on_piece = 1e-7;
 
 }  // namespace

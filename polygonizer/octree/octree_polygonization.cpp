@@ -11,11 +11,11 @@ namespace deburr {
 namespace {
 
 constexpr double radians = 0.017453292519943295;
-// How often a cell may be cut further than its level: for triangles that lean, and where they cross.
+// How often a cell may be cut further than its level: around triangles that lean, and where facets cross.
 constexpr int max_rounds = 4;
-// Where a sheet is thinner than cells, smaller ones spread from where it is seen.
+// Where a sheet is thinner than cells, smaller cells spread from where it was found.
 constexpr int max_thin_rounds = 8;
-// Points nearer than this, in cells, are one.
+// Points nearer than this, in cells, are the same.
 constexpr double same_place = 1e-6;
 
 }  // namespace
@@ -40,9 +40,9 @@ Mesh OctreePolygonization::run(OctreeStatistics& statistics, std::vector<Origin>
     return mesh_.mesh(origins);
 }
 
-// Makes the mesh, and cuts cells around what is wrong with it, until there is nothing or cells are small enough.
+// Makes the mesh and cuts cells around its faults, until there are none or cells are small enough.
 void OctreePolygonization::refine(OctreeStatistics& statistics) {
-    // Each halving of cells quarters distances; what leans still is left to repair.
+    // Each halving of cells quarters distances; triangles that still lean are left to repair.
     for (int round = 1;; ++round) {
         ++statistics.rounds;
         if (options_.progress) options_.progress->begin(0.5);
@@ -51,7 +51,7 @@ void OctreePolygonization::refine(OctreeStatistics& statistics) {
         place_points();
         make_triangles();
         std::vector<int> leaves;
-        // After repair, cells are cut further for thin forms only.
+        // After a repair, cells are cut further only for thin forms.
         if ((has_forms_ ? round : int(statistics.rounds)) <= max_rounds) find_leaning(leaves);
         bool changed = split(leaves);
         if (looks_for_thin_ && round <= max_thin_rounds) changed |= split_unseen(tree_, linking_, mesh_);
@@ -93,7 +93,7 @@ bool OctreePolygonization::split(std::vector<int>& leaves) {
     return changed;
 }
 
-// Before one of `count` that are half of a round's work.
+// Called before each of `count` steps that make up half of a round's work.
 void OctreePolygonization::go_on(std::size_t count) {
     throw_if_cancelled(options_.cancel);
     constexpr int at_once = 256;
@@ -105,7 +105,7 @@ CrossingPoint OctreePolygonization::ends(const EdgeCrossing& x) const {
     return {x.low_inside ? lo : hi, x.low_inside ? hi : lo, {}};
 }
 
-// Where the surface passes between these ends of the edge, as an open cell there sees it.
+// The point where the surface passes between the ends of the edge, evaluated in an open cell there.
 Vec3 OctreePolygonization::place(const EdgeCrossing& x, const CrossingPoint& ends) const {
     int leaf = x.leaves[0];
     for (const int other : x.leaves)
@@ -113,6 +113,7 @@ Vec3 OctreePolygonization::place(const EdgeCrossing& x, const CrossingPoint& end
     return surface_root(tree_.solid(tree_.cell(leaf)), ends.inside, ends.outside);
 }
 
+/// Sets crossings_, reusing those of the last round.
 void OctreePolygonization::place_crossings() {
     std::unordered_map<std::uint64_t, CrossingPoint> known = std::move(known_crossings_);
     known_crossings_.clear();
@@ -133,10 +134,11 @@ void OctreePolygonization::place_crossings() {
     }
 }
 
+/// Puts a point into each loop.
 void OctreePolygonization::place_points() {
     mesh_ = {};
     std::vector<CrossingPoint> around;
-    std::vector<std::size_t> tips;  // that stick out of their cells
+    std::vector<std::size_t> tips;  // points that stick out of their cells
     const auto make_point = [&](const Loop& loop, bool tip_may_stick_out) {
         around.clear();
         for (int i = loop.begin; i < loop.end; ++i) around.push_back(crossings_[linking_.around[i]]);
@@ -149,7 +151,7 @@ void OctreePolygonization::place_points() {
         if (!tree_.box(tree_.cell(loop.leaf)).contains(mesh_.points.back().position))
             tips.push_back(mesh_.points.size() - 1);
     }
-    // A tip is one cell's, its own if that has found it.
+    // A tip belongs to one cell: its own, if that has found it.
     for (const std::size_t i : tips) {
         const auto same = [&](const SurfacePoint& p) {
             return &p != &mesh_.points[i] && p.hard() &&
@@ -160,8 +162,8 @@ void OctreePolygonization::place_points() {
     }
 }
 
-// Points of the polygon around a crossing, outward; where an edge between loops is there twice,
-// with the point in its middle, and begun there.
+// The points of the polygon around a crossing, counter-clockwise seen from outside. Where an edge between loops occurs
+// twice, the point in its middle is inserted, and the polygon begins there.
 void OctreePolygonization::polygon_around(int crossing, std::vector<int>& polygon, std::size_t& middles) {
     const EdgeCrossing& x = linking_.crossings[crossing];
     polygon.clear();
@@ -186,7 +188,7 @@ void OctreePolygonization::polygon_around(int crossing, std::vector<int>& polygo
     }
 }
 
-// The middles of edges that are there twice, after the points of the loops.
+// Adds the middles of edges that occur twice, after the points of the loops.
 void OctreePolygonization::add_middles_of_doubles() {
     doubles_at_.clear();
     for (std::size_t d = 0; d < linking_.doubles.size(); ++d)
@@ -223,9 +225,9 @@ void OctreePolygonization::make_triangles() {
     }
 }
 
-// The diagonal of a quadrilateral is from its first point. Where the edge between two larger cells
-// is crossed twice, because it has smaller ones on its sides, two quadrilaterals have a diagonal
-// in common; only one may take it.
+// Rotates a quadrilateral so that its diagonal is from its first point. Where the edge between two larger cells is
+// crossed twice, because there are smaller cells beside it, two quadrilaterals have a diagonal in common, and only one
+// may take it.
 void OctreePolygonization::choose_diagonal(std::vector<int>& q, int crossing) {
     if (!leaning_.first_diagonal(q)) std::rotate(q.begin(), q.begin() + 1, q.end());
     const auto& leaves = linking_.crossings[crossing].leaves;
@@ -234,7 +236,7 @@ void OctreePolygonization::choose_diagonal(std::vector<int>& q, int crossing) {
     if (diagonals_.insert(std::minmax(q[0], q[2])).second) return;
     std::rotate(q.begin(), q.begin() + 1, q.end());
     if (diagonals_.insert(std::minmax(q[0], q[2])).second) return;
-    // Neither is free: the crossing itself is a point between them.
+    // Neither diagonal is free: the crossing itself becomes a point between them.
     const SignedDistance& solid = tree_.solid(crossings_[crossing].position);
     const int middle = int(mesh_.points.size());
     const Vec3 x = crossings_[crossing].position;

@@ -1,4 +1,4 @@
-// Makes an octree's mesh: cells are cut, their crossings linked and made triangles, round by round, until none leans.
+// Makes an octree's mesh: cells are cut, their crossings linked and triangulated, in rounds, until no triangle leans.
 #pragma once
 #include <cstdint>
 #include <map>
@@ -14,19 +14,20 @@
 
 namespace deburr {
 
-// How much smaller than those of its level cells may become.
+// How many times cells may be halved below the octree's level.
 constexpr int spare_levels = 6;
 
+/// The octree and its mesh, round by round.
 class OctreePolygonization {
 public:
-    /// `edge`: side of a cell. Keeps references to the solid, each of whose leaves has its number for a line, and to
-    /// the options.
+    /// `edge` is the side of a cell. Keeps references to the solid, in which every leaf's `line` must be its number,
+    /// and to the options.
     OctreePolygonization(const SolidTree& solid, const Box& box, const OctreeOptions& options, double edge);
 
-    /// The mesh, and where in the solid each of its triangles is from. Can be asked for again once cells were cut.
+    /// The mesh, and the origin of each triangle. It may be called again once cells were cut. Throws Cancelled.
     Mesh run(OctreeStatistics& statistics, std::vector<Origin>& origins);
 
-    /// Cuts the cells around these triangles; false if they are as small as may be.
+    /// Cuts the cells around these triangles; false if all are as small as possible.
     bool cut_around(const Mesh& mesh, const std::vector<int>& triangles);
 
 private:
@@ -48,17 +49,18 @@ private:
     double hard_cosine_;
     CellTree tree_;
     bool has_forms_;
-    // In the first run, of free forms; gaps between touching polyhedra taper to nothing.
+    // Whether thin parts are still searched for: in the first run, of free forms. Gaps between touching polyhedra taper
+    // to nothing.
     bool looks_for_thin_;
     int gone_on_ = 0;
     Linking linking_;
-    std::multimap<int, int> doubles_at_;  // of crossings
+    std::multimap<int, int> doubles_at_;  // index in Linking::doubles by crossing
     std::vector<CrossingPoint> crossings_;
     std::unordered_map<std::uint64_t, CrossingPoint> known_crossings_;
     PointMesh mesh_;
     LeaningTriangles leaning_;
-    std::vector<int> crossing_of_;             // of each triangle
-    std::set<std::pair<int, int>> diagonals_;  // taken, where they may be asked for twice
+    std::vector<int> crossing_of_;             // by triangle
+    std::set<std::pair<int, int>> diagonals_;  // diagonals taken, where two quadrilaterals may share one
 };
 
 }  // namespace deburr

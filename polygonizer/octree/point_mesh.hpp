@@ -1,4 +1,4 @@
-// A mesh in the making: its points know all the faces that meet in them.
+// A mesh under construction, whose points know all faces that meet in them.
 #pragma once
 #include <array>
 
@@ -7,8 +7,10 @@
 
 namespace deburr {
 
+/// Indices in PointMesh::points.
 using TriangleVertices = std::array<int, 3>;
 
+/// The mesh under construction.
 struct PointMesh {
     std::vector<SurfacePoint> points;
     std::vector<TriangleVertices> triangles;
@@ -16,7 +18,7 @@ struct PointMesh {
 
     const SurfacePoint& point(int v) const { return points[v]; }
     Vec3 position(int v) const { return point(v).position; }
-    /// Twice the area, outward.
+    /// A vector along the outward normal whose length is twice the area.
     Vec3 area_vector(const TriangleVertices& t) const {
         return glm::cross(position(t[1]) - position(t[0]), position(t[2]) - position(t[0]));
     }
@@ -29,20 +31,20 @@ struct PointMesh {
 
     /// An edge between two triangles.
     struct Edge {
-        int p, q;         // as `left` runs
+        int p, q;         // in the direction of `left`
         int left, right;  // triangles
     };
-    /// The edges pq for which `wanted(p, q)` is true, in the order of their ends.
+    /// The edges pq, p < q, for which wanted(p, q) is true, in order of their ends.
     template <class Wanted>
     std::vector<Edge> edges(Wanted wanted) const;
 
-    /// A point on the edge makes two triangles of each at it; the new ones come last.
+    /// Puts a point on an edge, which makes two of each of its triangles; the new triangles come last.
     void divide(const Edge& e, SurfacePoint point);
-    /// A point within a triangle makes three of it.
+    /// Puts a point into a triangle, which makes three of it.
     void divide(int triangle, SurfacePoint point);
 
-    /// Every corner of a triangle takes the normal, of those at its point, that suits it best.
-    /// `origins` tells the leaf of each triangle; its cell is 0, or both are −1 on a plane.
+    /// The finished mesh. Every corner of a triangle gets the normal of its point that suits the triangle best.
+    /// `origins` becomes the origin of each triangle: its leaf and cell 0, or both −1 on a plane.
     Mesh mesh(std::vector<Origin>& origins) const;
 
 private:

@@ -7,10 +7,10 @@
 namespace deburr {
 namespace {
 
-// Of a sheet that is seen in part, in cells: thinner is what tapers to an edge or a place of contact.
+// The least thickness of a sheet that is searched for, in cells: thinner ones taper to an edge or a contact.
 constexpr double thinnest = 0.25;
 
-// A leaf with a part of the surface that none of its points stands for, since it is thinner.
+// A leaf with a part of the surface for which it has no point because the part is too thin.
 struct Unseen {
     int leaf;
     double thickness;
@@ -39,15 +39,14 @@ public:
     }
 
 private:
-    // Of a leaf; the end if it has none.
+    // The first loop of a leaf; end() if it has none.
     std::vector<Loop>::const_iterator first_loop(int leaf) const {
         const auto before = [](const Loop& l, int wanted) { return l.leaf < wanted; };
         const auto loop = std::lower_bound(linking_.loops.begin(), linking_.loops.end(), leaf, before);
         return loop != linking_.loops.end() && loop->leaf == leaf ? loop : linking_.loops.end();
     }
 
-    // Whether a point of the mesh in this leaf, no farther than so many of its sides from x, faces as
-    // the surface does there.
+    // Whether a point of the mesh in this leaf, at most `far` of its sides from x, faces as the surface does at x.
     bool sees(int leaf, Vec3 x, Vec3 normal, double far) const {
         constexpr double alike_enough = 0.5;  // a cosine
         for (auto loop = first_loop(leaf); loop != linking_.loops.end() && loop->leaf == leaf; ++loop) {
@@ -59,6 +58,7 @@ private:
         return false;
     }
 
+    /// Splits a leaf, recursively, to cells no longer than `side`; false if nothing changed.
     bool split_to(int leaf, double side) {
         const OctreeCell c = tree_.cell(leaf);
         if (c.children < 0 && (!c.open || tree_.unit() * c.size <= side || !tree_.split(leaf))) return false;
@@ -67,7 +67,7 @@ private:
         return changed;
     }
 
-    // From a point through the solid, or over a gap, to the next surface.
+    // Probes from a point through the solid, and across a gap, to the next surface.
     void probe_across(int leaf, const SurfacePoint& p, std::vector<Unseen>& unseen) const {
         const double side = tree_.unit() * tree_.cell(leaf).size;
         const SignedDistance& solid = tree_.solid(tree_.cell(leaf));
@@ -93,8 +93,8 @@ private:
         }
     }
 
-    // To the surface from the middle of a leaf whose corners say nothing of it. What pokes into it
-    // from a neighbour is seen there.
+    // Probes from the middle of a leaf whose corners show no surface to the surface. Parts that reach into the leaf
+    // from a neighbour are found there.
     void probe_inside(int leaf, std::vector<Unseen>& unseen) const {
         const OctreeCell& c = tree_.cell(leaf);
         if (first_loop(leaf) != linking_.loops.end()) return;

@@ -8,10 +8,10 @@
 namespace deburr {
 namespace {
 
-// Cosine between a facet that comes and its surface.
+// The least cosine between a new facet and its surface.
 constexpr double upright = 0.2;
 
-// Facet f, which shares the edge with the other, given to the other's surface.
+// The change that gives facet f, which shares an edge with `other`, to the surface of `other`.
 std::optional<Change> given_beyond(const Facets& facets, const FacetJudge& judge, int f, int other) {
     const Triangle& t = facets.at(f).triangle;
     for (std::size_t k = 0; k < 3; ++k) {
