@@ -11,17 +11,16 @@
 namespace deburr {
 namespace {
 
-// Corner k of a cube lies at (k & 1, k >> 1 & 1, k >> 2 & 1). Faces counter-clockwise from outside.
+// Corner k of a cube is at (k & 1, k >> 1 & 1, k >> 2 & 1). Faces run counter-clockwise seen from outside.
 constexpr int face_corners[6][4] = {{0, 4, 6, 2}, {1, 3, 7, 5}, {0, 1, 5, 4}, {2, 6, 7, 3}, {0, 2, 3, 1}, {4, 5, 7, 6}};
 
-// Samples of the solid on a grid of corners, block by block, so that a block evaluates only what
-// matters there.
+// Signed distances at the corners of a grid, sampled block by block, so that a block evaluates only what matters in it.
 class Grid {
 public:
     Grid(const SignedDistance& solid, const Box& box, double side, CancelFlag cancel, WorkProgress* progress)
         : side_(side) {
         for (int k = 0; k < 3; ++k) {
-            // The outermost corners are outside: they lie beyond the box.
+            // The outermost corners lie beyond the box and count as outside.
             n_[k] = std::max(1, int(std::ceil((box.hi[k] - box.lo[k]) / side))) + 3;
             origin_[k] = 0.5 * (box.lo[k] + box.hi[k]) - 0.5 * side * (n_[k] - 1);
         }
@@ -43,14 +42,14 @@ public:
     int size(int axis) const { return n_[axis]; }
     Vec3 corner(int x, int y, int z) const { return origin_ + side_ * Vec3(x, y, z); }
 
-    /// > 0 inside.
+    /// The signed distance at a corner, > 0 inside.
     double value(int x, int y, int z) const {
         if (x == 0 || y == 0 || z == 0 || x + 1 == n_[0] || y + 1 == n_[1] || z + 1 == n_[2]) return -infinity;
         const Block& b = block_at(x, y, z);
         if (b.values.empty()) return b.all;
         return b.values[((z % block) * block + y % block) * block + x % block];
     }
-    /// Whether cubes that begin in this block may hold a surface.
+    /// Whether cubes whose lowest corner is in this block may hold a part of the surface.
     bool is_open(int bx, int by, int bz) const {
         const double first = blocks_[index(bx, by, bz)].all;
         for (int k = 0; k < 8; ++k) {
@@ -59,7 +58,7 @@ public:
             const Block& b = blocks_[index(x, y, z)];
             if (!b.values.empty() || b.all != first) return true;
         }
-        // A block inside still borders on the outermost corners.
+        // A block inside may border on the outermost corners.
         return first > 0 &&
                (bx == 0 || by == 0 || bz == 0 || bx + 2 >= blocks_x_ || by + 2 >= blocks_y_ || bz + 2 >= blocks_z_);
     }
@@ -68,7 +67,7 @@ public:
 
 private:
     struct Block {
-        double all = 0;  // of every corner, if there are no values
+        double all = 0;  // value at every corner if `values` is empty
         std::vector<double> values;
     };
     std::size_t index(int x, int y, int z) const {
@@ -96,6 +95,7 @@ private:
     std::vector<Block> blocks_;
 };
 
+/// One run of marching cubes.
 class March {
 public:
     March(const SolidTree& solid, const Box& box, double side, CancelFlag cancel, WorkProgress* progress)
@@ -125,7 +125,7 @@ public:
     }
 
 private:
-    // Edges of the grid by their lower corner and axis.
+    // Number of a grid edge, given by its lower corner and axis.
     std::size_t edge_key(int x, int y, int z, int axis) const {
         return ((std::size_t(z) * std::size_t(grid_.size(1)) + std::size_t(y)) * std::size_t(grid_.size(0)) +
                 std::size_t(x)) *
@@ -133,6 +133,7 @@ private:
                std::size_t(axis);
     }
 
+    /// The vertex on the edge from corner a to corner b of the cube at (x, y, z).
     int vertex_on(int x, int y, int z, int a, int b) {
         if (a > b) std::swap(a, b);
         const int axis = (b ^ a) == 1 ? 0 : (b ^ a) == 2 ? 1 : 2;
@@ -141,14 +142,14 @@ private:
         if (!is_new) return it->second;
         Vec3 lo = grid_.corner(ax, ay, az), hi = lo;
         hi[axis] += side_;
-        // Inside the box the root; on its wall where the solid leaves it.
+        // The root if it is in the box; on the box's wall where the solid leaves it.
         const bool low_in = grid_.value(ax, ay, az) > 0;
         const auto [t0, t1] = bisected([&](double t) {
             Vec3 p = lo;
             p[axis] += side_ * t;
             return inside(p) == low_in;
         });
-        // Off the corners by so little that it does not matter, so that no triangle vanishes.
+        // Vertices keep a negligible distance from corners, so that no triangle vanishes.
         constexpr double nudge = 1e-7;
         const double t = std::clamp(0.5 * (t0 + t1), nudge, 1 - nudge);
         Vec3 p = lo;
@@ -171,12 +172,12 @@ private:
             inside += v[k] > 0;
         }
         if (inside == 0 || inside == 8) return;
-        // Segments on the faces, the solid on their right seen from outside the cube.
+        // Segments on the cube's faces, with the solid on their right seen from outside of the cube.
         std::vector<std::pair<int, int>> segments;
-        std::vector<std::pair<int, int>> on_faces;  // vertex, face
+        std::vector<std::pair<int, int>> on_faces;  // vertex and face
         for (int f = 0; f < 6; ++f) {
             const int* c = face_corners[f];
-            int out[2], in[2], outs = 0, ins = 0;  // crossings that leave, enter the solid
+            int out[2], in[2], outs = 0, ins = 0;  // crossings where the face's border leaves and enters the solid
             for (int k = 0; k < 4; ++k) {
                 const int a = c[k], b = c[(k + 1) % 4];
                 if ((v[a] > 0) == (v[b] > 0)) continue;
@@ -189,11 +190,11 @@ private:
             }
             if (outs == 1) segments.push_back({in[0], out[0]});
             if (outs != 2) continue;
-            // Going round, a corner inside lies between in[i] and out[j]. Joined corners inside
-            // share the middle; parted ones are cut off one by one.
+            // Around the face, a corner inside lies between in[i] and out[j]. If corners inside are joined they share
+            // the middle of the face; otherwise each is cut off separately.
             const bool first_in = v[c[0]] > 0;
             const double p = v[c[0]] * v[c[2]], q = v[c[1]] * v[c[3]];
-            const bool joined = (first_in ? p : q) > (first_in ? q : p);  // saddle above 0
+            const bool joined = (first_in ? p : q) > (first_in ? q : p);  // the saddle is above 0
             // out[0] comes before in[0] if corner 0 is inside.
             const int own_in[2] = {first_in ? in[1] : in[0], first_in ? in[0] : in[1]};
             for (int k = 0; k < 2; ++k) segments.push_back({joined ? own_in[1 - k] : own_in[k], out[k]});
@@ -213,10 +214,10 @@ private:
         }
     }
 
-    // `values`: of the corners of the cube at this place.
+    // Fills a loop by triangles. `values` are those at the corners of the cube at `at`.
     void fill(const std::vector<int>& loop, const std::vector<std::pair<int, int>>& on_faces,
               const std::array<int, 3>& at, const double* values) {
-        // No diagonal may lie in a face of the cube, where the neighbour may have it too.
+        // No diagonal may lie in a face of the cube, because the neighbour may have it, too.
         const auto share_face = [&](int a, int b) {
             for (const auto& [va, fa] : on_faces)
                 if (va == a && std::find(on_faces.begin(), on_faces.end(), std::pair{b, fa}) != on_faces.end())
@@ -224,7 +225,7 @@ private:
             return false;
         };
         const std::size_t n = loop.size();
-        // The first fan that faces outward as its corners do, or else the one that does best.
+        // The first fan that faces outward as its corners do, or else the best one.
         std::size_t best = n;
         double most = -infinity;
         for (std::size_t apex = 0; apex < n && most <= 0; ++apex) {
@@ -252,7 +253,7 @@ private:
         for (std::size_t k = 0; k < n; ++k) triangle(middle, loop[k], loop[(k + 1) % n]);
     }
 
-    // Places of [0, 1] next to one another, of which the first is still as 0 is, and the second no more.
+    // Two adjacent numbers of [0, 1], the first of which still satisfies `as_first`, as 0 does, and the second no more.
     template <class AsFirst>
     static std::pair<double, double> bisected(AsFirst as_first) {
         double t0 = 0, t1 = 1;
@@ -266,8 +267,8 @@ private:
 
     bool inside(Vec3 x) const { return box_.contains(x) && field_.inside(x); }
 
-    // A point of the surface in the cube, near the middle of the loop: on the normal there, or where that leads out of
-    // the cube, to facets that are not to be crossed, on the way to the nearest corner on the other side.
+    // A point of the surface in the cube near the middle of the loop: on the normal there; if that leaves the cube,
+    // where other facets may be crossed, on the way to the nearest corner on the other side.
     Vec3 middle_of(const std::vector<int>& loop, const std::array<int, 3>& at, const double* values) const {
         Vec3 center(0.0);
         for (const int v : loop) center += mesh_.positions[v] / double(loop.size());
@@ -287,7 +288,7 @@ private:
         return center + t0 * (*nearest - center);
     }
 
-    // Cosine between a triangle and its corners' normals, times how long these are together; 0 without area.
+    // The cosine between a triangle and the sum of its corners' normals, times that sum's length; 0 if it has no area.
     double outwardness(int a, int b, int c) const {
         const auto x = [&](int v) { return mesh_.positions[v]; };
         const auto normal = [&](int v) { return mesh_.normals[v]; };
