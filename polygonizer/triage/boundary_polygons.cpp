@@ -13,6 +13,8 @@ BoundaryPolygons::BoundaryPolygons(const Subspace& subspace, const SolidTree& so
     number_vertices();
 }
 
+/// The material of the polygon: that of its leaf, or else of a leaf that has the inner and outer cell on different
+/// sides.
 int BoundaryPolygons::material(int face, int inner, int outer) const {
     if (solid_.leaves.empty()) return 0;
     if (const int leaf = subspace_.leaf_of(face); leaf >= 0) return solid_.leaves[leaf].material;
@@ -69,7 +71,7 @@ int BoundaryPolygons::half_edge(int polygon, int edge) const {
     return -1;
 }
 
-// Twins bound the same wedge of the solid around their edge.
+// Makes half-edges twins that bound the same wedge of the solid around their edge.
 void BoundaryPolygons::pair() {
     twin_.assign(steps_.size(), -1);
     for (std::size_t h = 0; h < steps_.size(); ++h) {

@@ -1,22 +1,25 @@
 // The polygons between cells inside and cells outside, joined to a closed surface.
 //
-// Around every edge the polygons that bound one wedge of the solid are twins there, and a mesh
-// vertex is a cycle of polygon corners joined that way: a 2-manifold, whatever touches.
+// Around every edge, the two polygons that bound one wedge of the solid are twins. A mesh vertex is a cycle of polygon
+// corners joined by twins, so the surface is a 2-manifold, whatever touches.
 #pragma once
 #include "polygonizer/mesh/facets.hpp"
 #include "polygonizer/triage/subspace.hpp"
 
 namespace deburr {
 
+/// A face between a cell inside and a cell outside, or outside of the complex.
 struct Polygon {
-    int face, inner, outer;  // cells on either side
-    int leaf;                // −1: on a plane; Origin::wall: beside a cell that was not polygonized
+    int face, inner, outer;  // face of the complex; the cells on its two sides
+    int leaf;  // leaf whose isosurface it is; −1: on a plane; Origin::wall: beside a cell that was not polygonized
     int material;
-    int first = 0, count = 0;  // its half-edges
+    int first = 0, count = 0;  // its range of half-edges
     Vec3 normal{0.0};          // unit, outward
+    /// The plane of the polygon is normal·x = offset.
     double offset = 0;
 };
 
+/// The half-edge structure of the polygons, a base for surface extraction. Keeps references to its arguments.
 class BoundaryPolygons {
 protected:
     BoundaryPolygons(const Subspace& subspace, const SolidTree& solid);
@@ -34,8 +37,9 @@ protected:
     const CellComplex& complex_;
     const SolidTree& solid_;
     std::vector<Polygon> polygons_;
-    std::vector<CellComplex::Step> steps_;    // half-edges, polygon by polygon
-    std::vector<int> owner_, twin_, vertex_;  // of a half-edge; vertex_: where it starts
+    std::vector<CellComplex::Step> steps_;    // step of each half-edge, polygon after polygon
+    std::vector<int> owner_, twin_, vertex_;  // by half-edge: its polygon; its twin; the vertex where it starts
+    /// By mesh vertex.
     std::vector<Vec3> positions_;
 
 private:
@@ -46,7 +50,7 @@ private:
     void number_vertices();
 
     bool one_material_ = true;
-    std::vector<int> polygon_of_;  // of a face
+    std::vector<int> polygon_of_;  // by face of the complex; −1: none
 };
 
 }  // namespace deburr

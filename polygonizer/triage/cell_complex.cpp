@@ -11,7 +11,7 @@ namespace deburr {
 CellComplex::CellComplex(const Box& box, double least_distance) : tolerance(least_distance) {
     for (int k = 0; k < 8; ++k)
         vertices.push_back({k & 1 ? box.hi.x : box.lo.x, k & 2 ? box.hi.y : box.lo.y, k & 4 ? box.hi.z : box.lo.z});
-    // Counter-clockwise seen from inside, so that the box's cell is the front one.
+    // The sides run counter-clockwise seen from inside, so that the box's cell is the front one.
     constexpr int sides[6][4] = {{0, 1, 3, 2}, {4, 6, 7, 5}, {0, 4, 5, 1}, {2, 3, 7, 6}, {0, 2, 6, 4}, {1, 5, 7, 3}};
     std::map<std::pair<int, int>, int> known;
     cells.emplace_back();
@@ -69,7 +69,7 @@ Vec3 CellComplex::area_vector(int face) const {
 
 namespace {
 
-// Some of the numbers below `count`, each once, and a number's place among them.
+// A subset of the numbers below `count`, and the place of each number in it.
 class Numbers {
 public:
     explicit Numbers(std::size_t count) : place_(count, -1) {}
@@ -84,7 +84,7 @@ public:
         for (std::size_t k = 0; k < all_.size(); ++k) place_[all_[k]] = int(k);
     }
     const std::vector<int>& all() const { return all_; }
-    /// −1 for a number that is not there.
+    /// The place of a number; −1 if it is not in the subset.
     int operator[](int number) const { return place_[number]; }
 
 private:
@@ -152,7 +152,7 @@ bool CellComplex::is_sound() const {
             if (c != outside && std::count(cells[c].begin(), cells[c].end(), int(f)) != 1) return false;
     }
     for (std::size_t c = 0; c < cells.size(); ++c) {
-        std::map<int, int> uses;  // of an edge; the sum of its directions, ×100
+        std::map<int, int> uses;  // by edge: number of uses, plus 100 times the sum of their directions
         for (const int f : cells[c])
             for (const Step s : faces[f].loop) uses[s >> 1] += 1 + ((s & 1) == (faces[f].front == int(c)) ? 100 : -100);
         for (const auto& [edge, sum] : uses)
@@ -218,7 +218,7 @@ int CellComplex::split_cell(int cell, std::span<const Step> loop, int seed, std:
     const int fresh = int(cells.size());
     cells.emplace_back();
 
-    // What the loop cuts off on the side of the seed becomes the new cell's.
+    // The faces that the loop cuts off on the side of the seed move to the new cell.
     rim_.resize(edges.size(), 0);
     ++rim_stamp_;
     for (Step s : loop) rim_[s >> 1] = rim_stamp_;
@@ -240,7 +240,7 @@ int CellComplex::split_cell(int cell, std::span<const Step> loop, int seed, std:
         old.end());
     cells[fresh] = std::move(moved);
 
-    // What was put in last is the first to be asked for.
+    // Steps are searched for from the last one, because recent ones are needed most often.
     struct Known {
         int from, to;
         Step step;

@@ -1,4 +1,4 @@
-// A plane cuts a cell: by a vertex on each edge that it crosses, an edge across each face, and a face across the cell.
+// Cuts a cell by a plane: a vertex on each edge that it crosses, an edge across each face, and a face across the cell.
 #include <algorithm>
 #include <cassert>
 
@@ -6,6 +6,7 @@
 
 namespace deburr {
 
+/// Sets side_ of the cell's vertices and reach_ of its faces; false if the cell does not have vertices on both sides.
 bool CellComplex::classify(int cell, const Plane& plane) {
     side_.resize(vertices.size());
     bool above = false, below = false;
@@ -31,10 +32,10 @@ const CellComplex::Reach& CellComplex::reach_of(int face) const {
     return *std::find_if(reach_.begin(), reach_.end(), [&](const Reach& r) { return r.face == face; });
 }
 
-// Whether the cut is one simple loop: every face is crossed not at all or in two places, and these
-// places, an edge or a vertex each, are joined to a single ring.
+// Whether the cut is one simple loop: every face is crossed not at all or in two places, each an edge or a vertex, and
+// these places are joined to a single ring.
 bool CellComplex::cut_is_simple(int cell) {
-    auto& links = joins_;  // places: ~edge crossed, or vertex
+    auto& links = joins_;  // places: ~edge if it is crossed, or vertex
     links.clear();
     for (const Reach& reach : reach_) {
         if (!reach.above) continue;
@@ -71,7 +72,7 @@ bool CellComplex::cut_is_simple(int cell) {
         }
     }
     if (links.size() < 3) return false;
-    // A ring: walk it.
+    // Walks along the ring.
     int at = links[0].to;
     links[0].used = true;
     std::size_t walked = 1;
@@ -90,7 +91,7 @@ bool CellComplex::cut_is_simple(int cell) {
     return walked == links.size();
 }
 
-// Puts a vertex on each edge of the cell that the plane crosses.
+// Puts a vertex on every edge of the cell that the plane crosses.
 void CellComplex::split_crossed_edges(const Plane& plane) {
     for (const Reach& reach : reach_) {
         if (!reach.above || !reach.below) continue;
@@ -108,7 +109,7 @@ void CellComplex::split_crossed_edges(const Plane& plane) {
     }
 }
 
-// Splits a face that has vertices on both sides, and keeps its own number below.
+// Splits a face with vertices on both sides; the part below keeps the face's number. Returns the part above.
 int CellComplex::split_crossed_face(int face) {
     const auto& loop = faces[face].loop;
     int from = -1, to = -1;  // the half with the positive side runs from `from` to `to`
@@ -122,7 +123,8 @@ int CellComplex::split_crossed_face(int face) {
     return split_face(face, from, to);
 }
 
-// Splits the faces that the plane crosses. Returns one above it, and in `ring` the edges of the cut, in no order.
+// Splits the faces that the plane crosses. Returns a face above the plane; `ring` becomes the edges of the cut, in no
+// order.
 int CellComplex::split_crossed_faces(int cell, List<8>& ring) {
     int above = -1;
     for (const Reach& reach : reach_) {
@@ -134,7 +136,7 @@ int CellComplex::split_crossed_faces(int cell, List<8>& ring) {
         }
         above = reach.face;
         for (Step s : faces[reach.face].loop) {
-            // No face that was halved has an edge on the plane, so all that meet here are known.
+            // No face that was split has an edge on the plane, so both faces at this edge are in reach_.
             if (side_[start(s)] != 0 || side_[end(s)] != 0) continue;
             if (!reach_of(across(s >> 1, reach.face, cell)).above) ring.push_back(s);
         }
@@ -142,7 +144,7 @@ int CellComplex::split_crossed_faces(int cell, List<8>& ring) {
     return above;
 }
 
-// Puts the steps of a ring one behind the other.
+// Orders the steps of a ring so that each starts where the one before ends.
 void CellComplex::order(List<8>& ring) const {
     for (std::size_t k = 0; k + 1 < ring.size(); ++k)
         for (std::size_t j = k + 1; j < ring.size(); ++j) {
@@ -153,8 +155,8 @@ void CellComplex::order(List<8>& ring) const {
         }
 }
 
-// Whether the ring runs as the loop of the cell's face above the cut does at the ring's first edge, seen from the cell.
-// That is combinatorial, not a matter of a sliver's area.
+// Whether, at the ring's first edge, the ring runs as the loop of the cell's face above the cut does, seen from the
+// cell. That is decided combinatorially, not by the area of what may be a sliver.
 bool CellComplex::runs_with_upper_face(int cell, const List<8>& ring) const {
     const int upper_face = [&] {
         for (int f : edges[ring[0] >> 1].faces) {
@@ -168,7 +170,7 @@ bool CellComplex::runs_with_upper_face(int cell, const List<8>& ring) const {
     bool along = false;
     for (Step s : faces[upper_face].loop)
         if (s >> 1 == ring[0] >> 1) along = s == ring[0];
-    // Seen from the new cell, its faces' loops run counter-clockwise where it is the front cell.
+    // Seen from the new cell, a face's loop runs counter-clockwise if the cell is its front cell.
     return along == (faces[upper_face].front == cell);
 }
 
@@ -180,7 +182,7 @@ int CellComplex::cut(int cell, const Plane& plane) {
     order(ring);
     VertexList polygon;
     for (Step s : ring) polygon.push_back(start(s));
-    // The new face's loop must run against the loop of the face above it.
+    // The new face's loop must run opposite to that of the face above it.
     if (runs_with_upper_face(cell, ring)) std::reverse(polygon.begin(), polygon.end());
     return split_cell(cell, ring, above, {&polygon, 1});
 }

@@ -26,7 +26,7 @@ Mesh cell_mesh(const CellComplex& complex, int cell, double scale, Vec3 offset) 
             if (is_new) mesh.positions.push_back(middle + scale * (complex.vertices[v] - middle) + offset);
             loop.push_back(at->second);
         }
-        // Loops run counter-clockwise seen from the front cell.
+        // Loops run counter-clockwise seen from the front cell, so those of a front cell are reversed.
         Vec3 area = complex.area_vector(face);
         if (complex.faces[face].front == cell) {
             std::reverse(loop.begin(), loop.end());
@@ -57,7 +57,7 @@ DensityClass cell_class(const Subdivision& subdivision, int cell, int leaf, cons
         ranges.push_back(range);
     }
     const Range rho = density_range(density, ranges);
-    // A corner on an outer plane has a density of rounding's making only.
+    // At a corner on an outer plane ρ differs from 0 or 1 by rounding only.
     if (side == Side::outside) return rho.hi > on_level ? DensityClass::low : DensityClass::zero;
     return rho.lo < 1 - on_level ? DensityClass::high : DensityClass::one;
 }

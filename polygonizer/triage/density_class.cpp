@@ -1,6 +1,5 @@
-// Ends of op's interval follow from ends of a's and b's, as every operator is monotone in each
-// operand; the result's upper end is open if an operand's end that it needs is. Where the operator
-// cuts at 0 or 1 the end is reached.
+// The ends of a result's interval follow from those of a and b, because every operator is monotone in each operand. The
+// upper end is open if an end that it comes from is open, except where the operator clamps at 0 or 1.
 #include "polygonizer/triage/density_class.hpp"
 
 #include <cassert>
@@ -15,7 +14,7 @@ ClassInterval combine(Op op, ClassInterval a, ClassInterval b) {
             const double hi = a.hi * b.hi;
             return {a.lo * b.lo, hi, hi > 0 && (a.open_above || b.open_above)};
         }
-        // The greatest difference is from b's least, which every class reaches.
+        // The greatest difference comes from b's least value, which every class reaches.
         case Op::difference: return {a.lo - b.hi, a.hi - b.lo, a.open_above};
         case Op::conjunction: {
             const ClassInterval& less = b.hi < a.hi || (b.hi == a.hi && b.open_above) ? b : a;
@@ -75,7 +74,7 @@ DensityClass class_of(ClassInterval i) {
 DensityClass combine(Op op, DensityClass a, DensityClass b) { return table_of(op)[std::size_t(a)][std::size_t(b)]; }
 
 DensityClass complement(DensityClass a) {
-    // 1 − low is (½, 1], inside high; 1 − high is [0, ½], whose end low does not reach.
+    // 1 − low is (½, 1], which is within high; 1 − high is [0, ½], whose upper end low does not contain.
     switch (a) {
         case DensityClass::zero: return DensityClass::one;
         case DensityClass::low: return DensityClass::high;

@@ -1,5 +1,5 @@
-// What is known of ρ over a region, and on which side of the surface that puts it: half-space by half-space,
-// density by density, and of the solid that they make up.
+// Ranges of ρ over a region, and the side of the surface on which they put it: by half-space, by density, and for the
+// solid that these make up.
 #pragma once
 #include <vector>
 
@@ -8,9 +8,10 @@
 
 namespace deburr {
 
-// ρ ranges this near to ½ count as ending there: they come from α = 0 to within a few ε.
+// ρ ranges that end this near to ½ count as ending there: their ends come from α = 0 up to a few ε.
 inline constexpr double level_slack = 1e-12;
 
+/// Where a region lies with respect to the set ρ > ½, with the slack.
 inline Side classify_with_slack(Range rho) {
     if (rho.hi <= 0.5 + level_slack) return Side::outside;
     if (rho.lo >= 0.5 - level_slack) return Side::inside;
@@ -19,14 +20,15 @@ inline Side classify_with_slack(Range rho) {
 
 inline bool is_classified_with_slack(Range rho) { return classify_with_slack(rho) != Side::straddling; }
 
-// Distances that a vertex snapped to h or h ± r should have had.
+// The distance from a plane; one within `tolerance` of h or h ± r is that exactly, because a vertex was snapped to it.
 inline double snapped(double distance, double radius, double tolerance) {
     for (const double plane : {-radius, 0.0, radius})
         if (std::abs(distance - plane) <= tolerance) return plane;
     return distance;
 }
 
-// ρ between two distances: the least is at the greater of them. A sharp one is constant on either closed side.
+// Range of the half-space's density between two distances; the least is at the greater distance. A sharp half-space is
+// constant on either closed side of its plane.
 inline double min_rho(const HalfSpace& h, double hi, double tolerance) {
     hi = snapped(hi, h.radius, tolerance);
     return h.radius > 0 ? profile(hi / h.radius) : hi > 0 ? 0.0 : 1.0;
@@ -39,9 +41,11 @@ inline Range rho_between(const HalfSpace& h, double lo, double hi, double tolera
     return {min_rho(h, hi, tolerance), max_rho(h, lo, tolerance)};
 }
 
+/// Whether the half-space's density varies over a region with this range.
 inline bool varies(Range rho) { return rho.hi != 0 && rho.lo != 1; }
 
-// Folds decided leaves away; `solid` keeps children before parents, the root last.
+// Folds leaves and operators that are decided away, and returns the side of the solid. `solid` has children before
+// parents and the root last; it becomes empty if the root is decided.
 template <class SideOfLeaf>
 Side fold(std::vector<SolidTreeNode>& solid, SideOfLeaf side_of_leaf) {
     if (solid.size() == 1 && solid[0].op == SolidOp::leaf) {

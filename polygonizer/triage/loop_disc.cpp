@@ -9,7 +9,7 @@
 namespace deburr {
 namespace {
 
-// Cosine between a flat rim and the surface below which the rim is not taken for the surface.
+// The least cosine between a flat rim and the surface at which the rim's plane is taken for the surface.
 constexpr double along = 0.5;
 
 Vec3 area_vector(const std::vector<Vec3>& rim) {
@@ -18,18 +18,19 @@ Vec3 area_vector(const std::vector<Vec3>& rim) {
     return sum;
 }
 
+/// Whether the rim lies in the plane with this normal, within the tolerance.
 bool is_flat(const std::vector<Vec3>& rim, Vec3 normal, double tolerance) {
     for (const Vec3& x : rim)
         if (std::abs(glm::dot(x - rim[0], normal)) > tolerance) return false;
     return true;
 }
 
-// Strips across a swept surface [Triage §4.5.2]: its rulings run along `sweep`, so the loop is cut
-// at every place of the profile where it has a vertex, from one end of the profile to the other.
-// False if the loop runs back and forth along the profile.
+// Strips across a swept surface [Triage §4.5.2]. Its rulings run along `sweep`, so the loop is cut at every position
+// along the profile where it has a vertex, from one end of the profile to the other. False if the loop runs back and
+// forth along the profile.
 bool strips(const std::vector<Vec3>& rim, Vec3 sweep, double tolerance, Disc& disc) {
     const int n = int(rim.size());
-    // Place along the profile: across the sweep, along the chord between the profile's ends.
+    // Position along the profile: perpendicular to the sweep, along the chord between the profile's ends.
     Vec3 chord(0.0);
     for (int i = 0; i < n; ++i)
         for (int j = 0; j < i; ++j) {
@@ -44,7 +45,7 @@ bool strips(const std::vector<Vec3>& rim, Vec3 sweep, double tolerance, Disc& di
     const int low = int(std::min_element(u.begin(), u.end()) - u.begin());
     const int high = int(std::max_element(u.begin(), u.end()) - u.begin());
     const double slack = 4 * tolerance + 1e-9 * (u[high] - u[low]);
-    // Both ways from a lowest vertex to a highest one.
+    // The two ways around the loop from a lowest vertex to a highest one.
     const auto walk = [&](int step, std::vector<int>& side) {
         for (int i = low;; i = (i + step + n) % n) {
             if (!side.empty() && u[i] < u[side.back()] - slack) return false;
@@ -55,8 +56,8 @@ bool strips(const std::vector<Vec3>& rim, Vec3 sweep, double tolerance, Disc& di
     std::vector<int> right, left;
     if (!walk(1, right) || !walk(-1, left)) return false;
 
-    CellComplex::VertexList line{low};  // what the faces so far end at, from left to right
-    std::size_t i = 1, j = 1;           // the next ones
+    CellComplex::VertexList line{low};  // where the faces so far end, from left to right
+    std::size_t i = 1, j = 1;           // the next vertices on the right and on the left
     const auto level = [&](int v) { return u[v]; };
     const double top = level(high) - slack;
     while (true) {
@@ -83,8 +84,8 @@ bool strips(const std::vector<Vec3>& rim, Vec3 sweep, double tolerance, Disc& di
     }
 }
 
-// The centroid, moved along the gradient to the surface, within the walls; where the rim lies in a
-// plane that the surface does not follow, across that plane.
+// Moves the rim's centroid along the gradient to the surface, within the walls; where the rim is in a plane that the
+// surface does not follow, perpendicular to that plane. False if no surface is found.
 bool displaced_centroid(const std::vector<Vec3>& rim, bool flat, const LocalDensity& density,
                         const std::vector<Wall>& walls, double tolerance, Vec3& center) {
     const Vec3 c = std::accumulate(rim.begin(), rim.end(), Vec3(0.0)) / double(rim.size());
@@ -128,14 +129,14 @@ bool displaced_centroid(const std::vector<Vec3>& rim, bool flat, const LocalDens
     return false;
 }
 
-// Whether the rim's plane faces the way the surface does at its middle.
+// Whether the rim's plane faces as the surface does at the rim's middle.
 bool follows(const std::vector<Vec3>& rim, const LocalDensity& density) {
     const Vec3 c = std::accumulate(rim.begin(), rim.end(), Vec3(0.0)) / double(rim.size());
     const Vec3 area = area_vector(rim), g = density.gradient_at(c).gradient;
     return glm::dot(area, g) >= along * glm::length(area) * glm::length(g);
 }
 
-// Whether the rim lies near a plane that the surface is near to, and faces like, at the rim's middle.
+// Whether the rim lies near a plane to which the surface at the rim's middle is near and nearly parallel.
 bool is_nearly_flat(const std::vector<Vec3>& rim, Vec3 area, const LocalDensity& density, double slack) {
     const double size = glm::length(area);
     if (!(size > 0)) return false;
@@ -149,7 +150,7 @@ bool is_nearly_flat(const std::vector<Vec3>& rim, Vec3 area, const LocalDensity&
     return std::abs(here.value - 0.5) <= near * slope && glm::dot(normal, here.gradient) >= upright * slope;
 }
 
-// The fan about a corner of the rim whose worst triangle leans least.
+// Spans the rim by the fan about that corner whose worst triangle leans least.
 void fan_about_corner(const std::vector<Vec3>& rim, const LocalDensity& density, Disc& disc) {
     const int n = int(rim.size());
     int best = 0;

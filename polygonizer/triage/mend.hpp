@@ -1,4 +1,4 @@
-// The last repair of a mesh by triage, and its verdict.
+// Repairs a mesh by triage for the last time, and judges it.
 #pragma once
 #include "polygonizer/mesh/cancel.hpp"
 #include "polygonizer/mesh/facet_judge.hpp"
@@ -6,8 +6,9 @@
 
 namespace deburr {
 
-/// Repairs the mesh, drops shells of it that are wrong, and looks for crossing facets and, with a finite tolerance, for
-/// those farther than that. What is wrong is sorted. `may_split`: repairs may put vertices in. Throws Cancelled.
+/// Repairs the mesh, drops wrong shells, and finds facets that cross and, with a finite tolerance, facets that are
+/// farther from the surface than that. MendedMesh::wrong is sorted. `may_split` allows the repair to add vertices.
+/// Throws Cancelled.
 MendedMesh mend(Mesh mesh, std::vector<Origin> origins, const FacetJudge& judge, double tolerance, bool may_split,
                 CancelFlag cancel);
 

@@ -53,8 +53,8 @@ LevelPlanes level_planes(const LocalDensity& density, Range s, double tolerance)
             if (knot > s.lo && knot < s.hi) knots.push_back(knot);
     }
     std::sort(knots.begin(), knots.end());
-    // Between knots ρ is a polynomial of low degree. Near them is where a plane is displaced a
-    // little from its half-space's own.
+    // Between knots ρ is a polynomial of low degree. Samples are denser near knots, because a level plane is often
+    // displaced only a little from its half-space's own plane.
     constexpr double shares[] = {0, 0.02, 0.1, 0.3, 0.5, 0.7, 0.9, 0.98, 1};
     LevelPlanes result;
     double last_s = 0;

@@ -1,6 +1,6 @@
-// A local density whose half-spaces are all parallel is a function of one coordinate, and its
-// isosurface is planes. One half-space of the papers' legal densities gives its own plane h; flush
-// faces of an illegal sum give the plane that they are moved out to.
+// Local densities whose half-spaces are all parallel: they are functions of one coordinate, and their isosurfaces are
+// planes. A legal density of one half-space has the plane h itself; flush faces of an illegal sum have the plane to
+// which they are moved outward.
 #pragma once
 #include <vector>
 
@@ -9,23 +9,24 @@
 
 namespace deburr {
 
-/// False also where there is no half-space at all.
+/// Whether all half-spaces are parallel; false if there are none, and for rounded meshes.
 bool is_parallel_family(const LocalDensity& density);
 
-/// Least and greatest n·x.
+/// Range of n·x over the points.
 Range extent_along(Vec3 normal, const std::vector<Vec3>& points);
 
+/// The planes where ρ passes ½.
 struct LevelPlanes {
     std::vector<Plane> planes;  // where ρ passes ½
-    bool inside = false;        // if there is none: which side all is on
+    bool inside = false;        // if there are no planes: whether everything is inside
 };
 
-/// Level planes of a parallel family with s.lo < n·x < s.hi, where n is its first half-space's
-/// normal. Those within `tolerance` of an end are none.
+/// The level planes of a parallel family with s.lo < n·x < s.hi, where n is the normal of its first half-space. Planes
+/// within `tolerance` of an end are left out.
 LevelPlanes level_planes(const LocalDensity& density, Range s, double tolerance);
 
-/// Whether all normals lie in a plane but are not parallel: then the surface is swept along
-/// `direction`.
+/// Whether all normals are perpendicular to one direction but not all parallel: then the surface is swept along
+/// `direction`, a unit vector that is set.
 bool is_swept(const LocalDensity& density, Vec3& direction);
 
 }  // namespace deburr

@@ -9,12 +9,12 @@
 namespace deburr {
 namespace {
 
-// A triangle, and the way out at its corners.
+// A triangle with the outward normals at its corners.
 struct Part {
     Vec3 x[3], normal[3];
 };
 
-// Of each cell the most needed.
+// Keeps the most urgent cut of each cell.
 void worst_of_each(std::vector<Cut>& cuts) {
     std::sort(cuts.begin(), cuts.end(),
               [](const Cut& a, const Cut& b) { return a.cell != b.cell ? a.cell < b.cell : a.error > b.error; });
@@ -31,8 +31,8 @@ Part part_of(const Mesh& mesh, const Triangle& t) {
     return part;
 }
 
-// Halves the edge of the triangle along which the surface's normal turns most; along a sweep it
-// does not turn.
+// The plane that halves the edge of the triangle along which the surface's normal turns most; it does not turn along a
+// sweep.
 Plane halving(const Part& part, const LocalDensity& density) {
     double most = -1;
     Plane plane{};
@@ -52,11 +52,11 @@ Plane halving(const Part& part, const LocalDensity& density) {
     return plane;
 }
 
-// Whether the triangle leans too far from the surface, or is too far from it; then `distance` is how far.
+// Whether the triangle leans too far from the surface or is too far from it; `distance` becomes its distance.
 bool is_wrong(const Part& part, const LocalDensity& density, double tolerance, double& distance) {
-    // Cosine between a triangle and the surface below which its cell is halved: 75°.
+    // The least cosine between a triangle and the surface, 75°; below it the cell is halved.
     constexpr double min_cosine = 0.25;
-    // A sliver leans for other reasons, which halving does not help: repair.hpp.
+    // Slivers leave leaning to repair.hpp, because halving does not help them.
     constexpr double sliver = 0.005;  // height over longest side
     Vec3 normal(0.0), center(0.0);
     double longest2 = 0;
@@ -131,7 +131,7 @@ std::vector<Cut> cells_to_halve(const Subspace& subspace, double tolerance) {
             area = -area;
         }
         const double size = glm::length(area);
-        const double outward = subspace.side(inner, leaf) == Side::outside ? 1 : -1;  // along the gradient
+        const double outward = subspace.side(inner, leaf) == Side::outside ? 1 : -1;  // direction along the gradient
         for (const auto& t : triangles_of(loop, complex.vertices, size > 0 ? area / size : Vec3(0.0))) {
             Part part;
             for (std::size_t k = 0; k < 3; ++k) {

@@ -1,29 +1,30 @@
-// Which cells of a subdivision to halve, so that what is polygonized in them comes near enough to the
-// surface [Triage §8, refinement by curvature].
+// Selects the cells of a subdivision to halve, so that what is polygonized in them comes near enough to the surface
+// [Triage §8, refinement by curvature].
 #pragma once
 #include "polygonizer/mesh/facets.hpp"
 #include "polygonizer/triage/subspace.hpp"
 
 namespace deburr {
 
+/// A cell and the plane that halves it.
 struct Cut {
     int cell;
-    double error;  // how much it is needed
+    double error;  // the greater, the more urgent
     Plane plane;
 };
 
-/// Cells whose part of the mesh leans too far from the surface's normal. One cut for each.
+/// Cells whose triangles lean too far from the surface; one cut for each.
 std::vector<Cut> cells_to_halve(const Mesh& mesh, const std::vector<Origin>& origins, const Subdivision& subdivision);
 
-/// The cells of these triangles. One cut for each.
+/// The cells that these triangles came from; one cut for each.
 std::vector<Cut> cells_to_halve(const Mesh& mesh, const std::vector<Origin>& origins, const std::vector<int>& triangles,
                                 const Subdivision& subdivision);
 
-/// Cells whose polygons in a subspace, all of it or a part, lean too far, or are farther than `tolerance` from the
-/// surface. One cut for each.
+/// Cells of the subdivision whose polygons in a subspace lean too far or are farther than `tolerance` from the surface;
+/// one cut for each.
 std::vector<Cut> cells_to_halve(const Subspace& subspace, double tolerance);
 
-/// The cells that triangles came from, and those of their neighbours.
+/// The cells that these triangles and those at their edges came from; one cut for each.
 std::vector<Cut> cells_around(const Mesh& mesh, const std::vector<Origin>& origins, const std::vector<int>& triangles,
                               const Subdivision& subdivision);
 

@@ -13,7 +13,7 @@ namespace {
 
 constexpr std::size_t max_local_rounds = 5;
 
-// Across the longest side of the cell's box.
+// The plane through the middle of the cell's box, across its longest side.
 Plane middle_plane(const CellComplex& complex, int cell) {
     Box box;
     for (const int v : complex.vertices_of(cell)) box = hull(box, Box{complex.vertices[v], complex.vertices[v]});
@@ -24,8 +24,8 @@ Plane middle_plane(const CellComplex& complex, int cell) {
     return plane;
 }
 
-// Makes the cuts, `or_middle`: through a cell's middle where its cut passes it by. The cells on both sides of those
-// that could be made.
+// Makes the cuts; with `or_middle` a cell that its cut misses is cut through its middle. Returns the cells on both
+// sides of the cuts that could be made.
 std::vector<int> halve(Subdivision& subdivision, const std::vector<Cut>& cuts, bool or_middle = false) {
     std::vector<int> halves;
     for (const Cut& cut : cuts)
@@ -68,7 +68,7 @@ std::vector<int> wrong_before_decimation(Mesh& mesh, std::vector<Origin>& origin
                                          double tolerance, const std::vector<int>& left, CancelFlag cancel,
                                          const GoodFacets* good, Patches* patches) {
     RepairStatistics repaired = repair(mesh, origins, judge, at_points * tolerance, true, good, patches);
-    // The others are near: `refine` looked at them.
+    // The other triangles are near, because refine() tested them.
     std::vector<int> far = repaired.changed;
     for (const int t : left)
         if (repaired.numbers[t] >= 0) far.push_back(repaired.numbers[t]);
@@ -87,12 +87,12 @@ std::vector<Cut> without_neighbours(std::vector<Cut> cuts, const std::vector<Cut
     return cuts;
 }
 
-// A part of the mesh by itself.
+// The mesh of some cells.
 struct LocalRounds::Part {
     Mesh mesh;
     std::vector<Origin> origins;
 
-    // Those of the triangles that lie in it as in the whole mesh: they touch no wall.
+    // Those of the triangles that are as in the mesh of the whole solid, because they touch no wall.
     std::vector<int> asked(const std::vector<int>& triangles) const {
         std::vector<char> on_wall(mesh.positions.size(), false);
         for (std::size_t t = 0; t < origins.size(); ++t)
@@ -125,10 +125,10 @@ LocalRounds::Part LocalRounds::part_around(const std::vector<int>& cells) const 
     return part;
 }
 
-// Makes the cuts, and halves what comes of them where it is farther from the surface than splits of edges could mend:
-// there sheets lie close together.
+// Makes the cuts, and halves the resulting cells where they are farther from the surface than splits of edges could
+// mend: sheets of the surface are close together there.
 std::vector<int> LocalRounds::halve_coarse(const std::vector<Cut>& cuts, double tolerance) const {
-    // Of the tolerance; splits of edges begin there.
+    // In tolerances; nearer triangles are left to splits of edges.
     constexpr double coarse = 5;
     constexpr std::size_t max_rounds = 24;
     std::vector<int> halves = halve(subdivision_, cuts), all = halves;

@@ -8,9 +8,10 @@
 namespace deburr {
 namespace {
 
-// A unit direction in which ρ falls at all of the points where it changes at all; false if none was found.
+// Finds a unit direction in which ρ falls at all corners and the centre where it changes at all; false if none was
+// found.
 bool falling_direction(const LocalDensity& density, const std::vector<Vec3>& corners, Vec3& direction) {
-    thread_local std::vector<Vec3> down;  // unit
+    thread_local std::vector<Vec3> down;  // unit directions of steepest descent
     down.clear();
     Vec3 center(0.0), sum(0.0);
     const auto ask = [&](Vec3 x) {
@@ -25,8 +26,8 @@ bool falling_direction(const LocalDensity& density, const std::vector<Vec3>& cor
         center += x / double(corners.size());
     }
     ask(center);
-    // The perceptron's rule: what is least in agreement is added. A few steps find the direction where the fan of
-    // gradients is not nearly a half-space wide.
+    // The perceptron rule: the direction that agrees least is added. A few steps find a direction unless the gradients
+    // span nearly a half-space.
     constexpr int steps = 12;
     for (int k = 0; k < steps; ++k) {
         const double length = glm::length(sum);
@@ -47,7 +48,7 @@ bool falling_direction(const LocalDensity& density, const std::vector<Vec3>& cor
     return false;
 }
 
-// Whether the field only falls in the direction, over the box: by its rate over the whole of it, or over its eighths.
+// Whether the field provably only falls in the direction over the box: by its rate over all of it, or over its eighths.
 bool falls(const Field& field, const Box& box, Vec3 direction, int depth) {
     const Range rate = field.rate_range(box, direction);
     if (rate.hi <= 0) return true;
@@ -84,14 +85,14 @@ bool is_simple(const LocalDensity& density, const std::vector<Vec3>& corners, do
             continue;
         }
         if (h.radius == 0) return false;
-        // dρ/dα = −¾(1 − α²) is least where |α| is.
+        // dρ/dα = −¾(1 − α²) is least where |α| is least.
         const double lo = s.lo / h.radius, hi = s.hi / h.radius;
         const double nearest = lo > 0 ? lo : hi < 0 ? hi : 0, farthest = std::max(-lo, hi);
         const Range slope{profile_slope(nearest), profile_slope(farthest)};
         const double rate = glm::dot(h.normal, direction) / h.radius;
         rates.push_back(rate > 0 ? Range{slope.lo * rate, slope.hi * rate} : Range{slope.hi * rate, slope.lo * rate});
     }
-    // Where opposite walls cancel, their rates are rounded.
+    // Where opposite walls cancel, the sum of their rates is off by rounding.
     double steepest = 0;
     for (const Range& rate : rates) steepest = std::max({steepest, -rate.lo, rate.hi});
     return density.rate_range(rho, rates).hi <= 1e-12 * steepest;

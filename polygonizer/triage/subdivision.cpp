@@ -11,7 +11,7 @@ namespace deburr {
 
 namespace {
 
-// What a field's planes are asked for: where to cut.
+// The planes of a field as a tree, to choose cuts from.
 DensityTree planes_of(const Field& field) {
     DensityTree tree = DensityTree::constant(0);
     tree.half_spaces = field.planes();
@@ -40,25 +40,25 @@ Subdivision::Subdivision(const SolidTree& solid, const Box& box, const Subdivisi
     subdivide(0);
 }
 
-// Of corners_, along a normal.
+// The range of corners_ along a normal.
 Range Subdivision::extent(Vec3 normal) {
     for (const AlongNormal& e : along_normals_) {
         if (e.normal == normal) return e.along;
         if (e.normal == -normal) return {-e.along.hi, -e.along.lo};
     }
     const Range along = extent_along(normal, corners_);
-    constexpr std::size_t usual = 8;  // normals; what has more would look for them too long
+    constexpr std::size_t usual = 8;  // more normals would take too long to search
     if (along_normals_.size() < usual) along_normals_.push_back({normal, along});
     return along;
 }
 
-// Rounding is monotone: the least of differences is the difference from the least.
+// Rounding is monotone, so the least of the differences is the difference from the least.
 Range Subdivision::distances(const HalfSpace& h) {
     const Range s = extent(h.normal);
     return {s.lo - h.offset, s.hi - h.offset};
 }
 
-// ρ of the half-spaces over corners_, to ranges_.
+// Sets ranges_ to the ranges of the half-spaces' densities over corners_.
 void Subdivision::range_over_cell(const std::vector<HalfSpace>& half_spaces) {
     ranges_.clear();
     for (const HalfSpace& h : half_spaces) {
@@ -67,11 +67,11 @@ void Subdivision::range_over_cell(const std::vector<HalfSpace>& half_spaces) {
     }
 }
 
-// A rounded mesh within corners_: a density of half-spaces as soon as few of its planes reach.
+// A rounded mesh in the current cell: a density of half-spaces as soon as few of its planes reach.
 OpenLeaf Subdivision::localize_field(const OpenLeaf& leaf, Side& side) {
     Box box;
     for (const Vec3& x : corners_) box = hull(box, Box{x, x});
-    // What touches the cell within rounding does not reach it; but vertices may lie beside it by as much.
+    // Triangles that touch the cell within rounding do not count; but vertices may lie beside it by as much.
     const Vec3 half = 0.5 * (box.hi - box.lo), slack = glm::min(Vec3(4 * complex.tolerance), half);
     const Box around = inflated(box, 4 * complex.tolerance);
     box = {box.lo + slack, box.hi - slack};
@@ -95,7 +95,7 @@ OpenLeaf Subdivision::localize_field(const OpenLeaf& leaf, Side& side) {
     return local;
 }
 
-// The leaf within corners_.
+// The leaf in the current cell.
 OpenLeaf Subdivision::localize(const OpenLeaf& leaf, Side& side) {
     if (leaf.field) return localize_field(leaf, side);
     range_over_cell(leaf.tree->half_spaces);
@@ -107,7 +107,7 @@ OpenLeaf Subdivision::localize(const OpenLeaf& leaf, Side& side) {
         local.tree = std::make_shared<DensityTree>(std::move(pruned.tree));
         local.density = nullptr;
     }
-    // Part of a cell that was small enough, or that nothing more divides: small enough too.
+    // The leaf was evaluated in a cell around this one, so its local density is small enough here, too.
     if (!local.density && (leaf.density || local.tree->half_spaces.size() <= 2 * many))
         local.density = std::make_shared<LocalDensity>(*local.tree);
     if (local.density) {
@@ -180,14 +180,14 @@ bool Subdivision::halve(int cell, const Plane& plane) {
     refused_.push_back(refused_[cell]);
     node_of.push_back(add_node(parent, upper));
     node_of[cell] = add_node(parent, cell);
-    // A node without a cell is asked only for its classified leaves. Its copy of the solid may be large.
+    // A node without a cell is only asked for its classified leaves, and its copies may be large.
     nodes[parent].open = {};
     nodes[parent].solid = {};
     return true;
 }
 
 void Subdivision::subdivide(int cell) {
-    // Of the work that a cell is: a half each for what it is cut into.
+    // A cell and the fraction of the work that it stands for; each half gets half of it.
     struct Task {
         int cell;
         double share;
@@ -214,7 +214,7 @@ void Subdivision::subdivide(int cell) {
         visit(current_);
         Plane plane{};
         if (!choose(nodes[at], plane)) {
-            // Cells of a filter that reaches all over the object stay large, with many half-spaces.
+            // Cells of a filter that reaches across the object stay large, with many half-spaces.
             for (OpenLeaf& leaf : nodes[at].open) {
                 if (!leaf.density) leaf.density = density_of(leaf);
                 left_ += 1 + leaf.tree->half_spaces.size();

@@ -1,4 +1,4 @@
-// By which plane a cell is cut next: the one that leaves the fewest half-spaces to deal with.
+// Chooses the plane by which a cell is cut next: the one that leaves the fewest half-spaces to deal with.
 #include <algorithm>
 
 #include "bounds/decision_diagram.hpp"
@@ -9,8 +9,8 @@
 
 namespace deburr {
 
-// Half-spaces left to deal with on one side of a plane with this offset and the normal that reach_ was
-// turned to; 0 where the solid is decided.
+// The number of half-spaces left on one side of the plane with this offset and the normal that reach_ is turned to; 0
+// if the solid is decided there.
 double Subdivision::cost(const PartitionNode& node, double offset, bool above) {
     std::size_t first = 0;
     double left = 0;
@@ -48,7 +48,7 @@ double Subdivision::cost(const PartitionNode& node, double offset, bool above) {
     return left;
 }
 
-// Makes ready for planes of this normal.
+// Prepares cost() for planes with this normal.
 void Subdivision::turn(const PartitionNode& node, Vec3 normal) {
     if (normal == -turned_to_)
         for (Reach& reach : reach_) reach.along = -reach.along;
@@ -74,7 +74,7 @@ bool Subdivision::is_refused(const Plane& plane) const {
     return false;
 }
 
-// The cell that is looked at, by its size against the filter.
+// Measures the current cell against the filter.
 Subdivision::Extents Subdivision::extents(const PartitionNode& node) const {
     Extents e;
     for (const Vec3& x : corners_) e.box = hull(e.box, Box{x, x});
@@ -83,7 +83,7 @@ Subdivision::Extents Subdivision::extents(const PartitionNode& node) const {
         e.half_spaces += leaf.tree->half_spaces.size();
         e.all_small &= leaf.density != nullptr;
         for (const HalfSpace& h : leaf.tree->half_spaces) {
-            // A rounded mesh is the same along a direction only where all of its planes have it exactly.
+            // A rounded mesh is constant along a direction only if all of its planes contain that exactly.
             constexpr double exactly = 1e-9;
             const Vec3 n = glm::abs(h.normal);
             across += leaf.field ? Vec3(n.x > exactly, n.y > exactly, n.z > exactly) : n;
@@ -99,7 +99,8 @@ Subdivision::Extents Subdivision::extents(const PartitionNode& node) const {
             e.width = along.hi - along.lo;
             e.widest = {h.normal, 0.5 * (along.lo + along.hi)};
         }
-    // Where many meet, a cut along an axis that few of their normals have leaves most of them to both sides.
+    // Where many half-spaces meet, a cut across an axis that few of their normals have leaves most of them on both
+    // sides.
     constexpr double least_weight = 0.25;
     Vec3 weighed = size;
     if (e.half_spaces > many)
@@ -110,14 +111,14 @@ Subdivision::Extents Subdivision::extents(const PartitionNode& node) const {
     return e;
 }
 
-// Every leaf that is open is simple throughout the cell.
+// Whether every open leaf is simple throughout the cell.
 bool Subdivision::is_simple_cell(const PartitionNode& node) const {
     return std::all_of(node.open.begin(), node.open.end(), [&](const OpenLeaf& leaf) {
         return leaf.density && is_simple(*leaf.density, corners_, complex.tolerance);
     });
 }
 
-// Some leaf that is open has corners of the cell on either side.
+// Whether some open leaf has corners of the cell on both sides of its surface.
 bool Subdivision::shows_surface(const PartitionNode& node) const {
     return std::any_of(node.open.begin(), node.open.end(), [&](const OpenLeaf& leaf) {
         if (!leaf.density) return false;
@@ -127,7 +128,7 @@ bool Subdivision::shows_surface(const PartitionNode& node) const {
     });
 }
 
-// Makes densities that were put off ready to be evaluated; false if one is too entangled, and smaller cells are needed.
+// Prepares densities that were put off; false if a diagram would be too large, so that smaller cells are needed.
 bool Subdivision::make_densities(PartitionNode& node) {
     for (OpenLeaf& leaf : node.open) try {
             if (!leaf.density) leaf.density = density_of(leaf);
@@ -140,14 +141,14 @@ bool Subdivision::make_densities(PartitionNode& node) {
 bool Subdivision::choose(PartitionNode& node, Plane& plane) {
     Extents cell = extents(node);
     // Where many half-spaces vary together in a cell that is not much larger than their filters, few of their planes
-    // would part flat faces from the rest, and all of them together cut it into many.
+    // would separate flat faces from the rest, and all of them together would cut it into many cells.
     constexpr double small = 4;  // in radii, across any of the planes: two filters
-    // A model's round parts have a plane for each of their facets, which part nothing.
+    // Round parts of a mesh model have a plane for every facet, which separates nothing.
     constexpr std::size_t many_of_mesh = 2;
     const bool is_small = std::min(cell.width, largest(cell.box.hi - cell.box.lo)) <= small * cell.radius;
     const bool of_mesh =
         std::any_of(node.open.begin(), node.open.end(), [](const OpenLeaf& l) { return l.field != nullptr; });
-    // Where very many half-spaces reach everywhere, no cell of such a size has few of them.
+    // Where very many half-spaces reach everywhere, no cell of that size has few of them.
     if (!cell.all_small && !of_mesh && is_small && cell.radius < infinity) cell.all_small = make_densities(node);
     const bool crowded = cell.half_spaces > (of_mesh ? many_of_mesh : many);
     if (cell.all_small && crowded && is_small && is_simple_cell(node)) return false;
@@ -155,11 +156,11 @@ bool Subdivision::choose(PartitionNode& node, Plane& plane) {
     if ((crowded || !cell.all_small) && choose_neutral(node, cell, plane)) return true;
     if (!cell.all_small) return false;
     if (choose_own(node, plane)) return true;
-    // No plane is left. A part of the surface that the cell's corners do not tell of may lie whole within.
+    // No plane is left. A part of the surface that the cell's corners do not show may lie wholly within.
     return !shows_surface(node) && !is_simple_cell(node) && choose_neutral(node, cell, plane);
 }
 
-// Makes ready for cost().
+// Sets reach_ for cost().
 void Subdivision::reach_of(const PartitionNode& node) {
     reach_.clear();
     turned_to_ = Vec3(0.0);
@@ -170,14 +171,15 @@ void Subdivision::reach_of(const PartitionNode& node) {
         }
 }
 
-// Of a cell that is large against the filter, a parallel plane at ±r beyond which much of it is decided. Without such
-// planes a rod of many sides that lies across the axes would be cut into as many cells as it is long in its width.
+// Chooses, for a cell that is large against the filter, a parallel plane at ±r beyond which much of the cell is
+// decided. Without such planes a rod of many sides at a slant would be cut into as many cells as its length has of its
+// width.
 bool Subdivision::choose_outer(const PartitionNode& node, const Extents& cell, Plane& plane) {
     constexpr double large = 64;            // in radii
-    constexpr double least_share = 0.25;    // of the cell's extent along the plane's normal
-    constexpr std::size_t max_count = 128;  // half-spaces for which this is tried
+    constexpr double least_share = 0.25;    // relative to the cell's extent along the plane's normal
+    constexpr std::size_t max_count = 128;  // greatest number of half-spaces for which this is tried
     if (!(cell.size > large * cell.radius) || cell.half_spaces > max_count) return false;
-    PartitionNode ready = node;  // densities that are put off stay so
+    PartitionNode ready = node;  // a copy, so that densities that were put off stay so
     if (!cell.all_small && !make_densities(ready)) return false;
     reach_of(ready);
     double most = least_share;
@@ -197,7 +199,7 @@ bool Subdivision::choose_outer(const PartitionNode& node, const Extents& cell, P
     return most > least_share;
 }
 
-// A plane of the half-spaces in the cell, or one of their parallels at ±r.
+// Chooses a plane of the half-spaces in the cell, or one of their parallels at ±r.
 bool Subdivision::choose_own(const PartitionNode& node, Plane& plane) {
     candidates_.clear();
     const auto consider = [&](const Plane& p, Range s, double bias) {
@@ -238,12 +240,13 @@ bool Subdivision::choose_own(const PartitionNode& node, Plane& plane) {
     return true;
 }
 
-// Across the longest side of the cell, at a half-space's own plane if one is near the middle.
+// Chooses a plane across the longest side of the cell; that of a half-space, if one is near the middle.
 bool Subdivision::choose_neutral(const PartitionNode& node, const Extents& cell, Plane& plane) const {
-    // That may hold several sheets, though only of a surface that its corners tell of: or of one that is lost.
+    // A cell of the smallest size may hold several sheets, but only of a surface that its corners show; any other part
+    // is so small that it is given up.
     constexpr double smallest_seen = 1, smallest_unseen = 0.125;  // in radii
     constexpr double sharp_smallest = 1e5;                        // in tolerances
-    // A cell whose longest side is so many times its greatest width across planes lies along a sweep.
+    // A cell whose longest side exceeds its greatest width across planes by this factor lies along a sweep.
     constexpr double slender = 4;
     const bool is_slender = cell.width > 0 && cell.size > slender * cell.width;
     const double size = is_slender ? cell.width : cell.size, radius = cell.radius;

@@ -8,7 +8,7 @@
 namespace deburr {
 
 Vec3 root_between(const LocalDensity& density, Vec3 a, double fa, Vec3 b, double fb) {
-    // Regula falsi with interleaved bisection [Triage §4.4.1], as the Illinois method.
+    // Regula falsi with interleaved bisection [Triage §4.4.1], in the form of the Illinois method.
     double ta = 0, tb = 1;
     double wa = fa, wb = fb;
     int kept = 0;
@@ -41,7 +41,7 @@ Subspace::Subspace(const Subdivision& subdivision, double slack)
     begin();
 }
 
-// What lies beside the cells tells them on which side of a leaf their rims are.
+// The cells beside the given ones are included, because they tell on which side of a leaf the borders are.
 Subspace::Subspace(const Subdivision& subdivision, std::span<const int> cells, double slack)
     : subdivision_(subdivision),
       undivided_(subdivision.complex.with_neighbours(cells)),
@@ -70,7 +70,7 @@ double Subspace::slack_in(int cell) const {
 }
 
 void Subspace::polygonize() {
-    std::vector<std::pair<int, int>> open;  // leaf, and undivided cell
+    std::vector<std::pair<int, int>> open;  // leaf and undivided cell
     for (const int c : open_)
         for (const OpenLeaf& o : subdivision_.nodes[subdivision_.node_of[undivided_[c]]].open)
             open.push_back({o.leaf, c});
@@ -94,7 +94,7 @@ Side Subspace::side(int cell, int leaf) const {
     return subdivision_.side(origin(cell), leaf);
 }
 
-// With respect to leaf_, before the first cell is spanned.
+// The side with respect to leaf_, as it was before the first cell is spanned.
 Side Subspace::side_now(int cell) {
     if (cell == CellComplex::outside) return Side::straddling;
     Sign known = sides_.at(cell);
@@ -128,7 +128,7 @@ bool Subspace::inside(int cell) const {
 void Subspace::cut_by(int leaf, const std::vector<int>& open) {
     leaf_ = leaf;
     for (Signs* signs : {&vertex_signs_, &edge_signs_, &face_labels_, &sides_}) signs->forget();
-    std::vector<std::pair<int, int>> to_split;  // face, open cell
+    std::vector<std::pair<int, int>> to_split;  // face and open cell
     for (const int c : open)
         for (const int f : complex_.cells[c]) {
             if (face_labels_.at(f) != Sign::unknown) continue;
@@ -162,7 +162,7 @@ Subspace::Sign Subspace::vertex_sign(int vertex, const LocalDensity& density) {
     return sign;
 }
 
-// What cells say of an edge holds; only where all around it are undecided its ends are asked.
+// What decided cells around an edge say holds; only if all are undecided its ends are evaluated.
 Subspace::Sign Subspace::edge_sign(int edge, const LocalDensity& density) {
     bool in = false, out = false;
     const auto& e = complex_.edges[edge];
@@ -199,7 +199,7 @@ void Subspace::split_edges(int face, const LocalDensity& density) {
     }
 }
 
-// Loops where faces of the cell inside and outside meet, simple, counter-clockwise seen from inside.
+// Sets loops_: the simple loops where faces of the cell inside and outside meet, counter-clockwise seen from inside.
 void Subspace::find_loops(int cell) {
     loops_.clear();
     borders_.clear();
@@ -218,7 +218,7 @@ void Subspace::find_loops(int cell) {
         while (at && !at->used) {
             at->used = true;
             path_.push_back(at);
-            // Around the end of the step through faces outside, to the next border.
+            // Goes around the end of the step through faces outside to the next border.
             const int v = complex_.end(at->step);
             int f = at->outer, e = at->step >> 1;
             for (int turns = 0; turns < 10000; ++turns) {
@@ -233,7 +233,7 @@ void Subspace::find_loops(int cell) {
             at = nullptr;
             for (Border& b : borders_)
                 if (b.step >> 1 == e) at = &b;
-            // A vertex seen before closes a loop of its own.
+            // A vertex that was met before closes a loop of its own.
             for (std::size_t k = 0; k < path_.size(); ++k) {
                 if (complex_.start(path_[k]->step) != v) continue;
                 Loop& loop = loops_.emplace_back();

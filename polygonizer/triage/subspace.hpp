@@ -1,17 +1,16 @@
-// Subspace polygonization [Triage §4.4]: the isosurface ρ = ½ of one rounded density cuts the cells
+// Subspace polygonization [Triage §4.4]: the isosurface ρ = ½ of one rounded density after the other cuts the cells
 // that planes left undecided, until every cell is inside or outside of it.
 //
-// Everything is decided where it is shared, so neighbours cannot disagree:
-//   edge   its ends' signs; a root splits it [§4.4.1]. An edge between inside and outside cells, or
-//          along the surface, has no sign of its own, and a vertex on the surface never has one:
-//          no vertex is classified against ½ + ε (§6.4), so no surface is missed there
-//   face   segments join the places where its rim changes sign, by the class of their centroid
-//          [§4.4.2], and are refined once [§4.4.3]
-//   cell   where faces inside and outside meet is a set of simple loops; each is spanned by a disc:
-//          flat, or strips along a swept surface [§4.5.2], or a fan about a displaced centroid
-//          [§4.4.4]
-// The surface itself is read off later, between cells inside and cells outside (surface.hpp). So it
-// is closed even where a sign was wrong or a disc ill-shaped.
+// Every decision is made where it is shared, so neighbours cannot disagree:
+//   edge   its ends' signs decide; a root splits it [§4.4.1]. An edge between inside and outside cells, or
+//          along the surface, has no sign of its own, and a vertex on the surface never has one: no vertex
+//          is classified against ½ + ε (§6.4), so no surface is missed there
+//   face   segments join the points where the sign changes along its border, by the class of their
+//          centroid [§4.4.2], and are refined once [§4.4.3]
+//   cell   the faces inside and outside meet in a set of simple loops; each is spanned by a disc: flat, or
+//          strips along a swept surface [§4.5.2], or a fan about a displaced centroid [§4.4.4]
+// The surface itself is extracted later, between cells inside and cells outside (surface.hpp). So it is closed even
+// where a sign was wrong or a disc ill-shaped.
 #pragma once
 #include <optional>
 
@@ -20,53 +19,58 @@
 
 namespace deburr {
 
-// |ρ − ½| below which a point is on the surface whatever the slope: rounding leaves 10⁻¹⁵, and
-// where the slope is that of one half-space, ¾/r, it is a distance of 1.3·10⁻¹⁰ r.
+// A point with |ρ − ½| at most this is on the surface, whatever the slope. Rounding errors are 10⁻¹⁵; with the slope of
+// one half-space, ¾/r, it is a distance of 1.3·10⁻¹⁰ r.
 constexpr double on_level = 1e-10;
 
+/// A copy of a subdivision's cells that is cut by isosurfaces.
 class Subspace {
 public:
-    /// Keeps a reference to the subdivision, and cuts a copy of its cells.
-    /// Segments and discs that are nearer to the surface than `slack` at their middles, and lean little, stay flat,
-    /// where only one leaf is undecided: surfaces of several may touch.
+    /// Prepares all cells of the subdivision, to which it keeps a reference. Where only one leaf is undecided, segments
+    /// and discs stay flat if they lean little and their middles are nearer to the surface than `slack`; surfaces of
+    /// several leaves may touch, and are refined always.
     explicit Subspace(const Subdivision& subdivision, double slack = 0);
-    /// Of some cells of the subdivision, in rising order, only: what it costs does not depend on how many there are
-    /// besides. The surface is right in cells whose neighbours are included, too.
+    /// Prepares only these cells, in increasing order, at a cost that does not depend on the number of others. The
+    /// surface is right in cells all of whose neighbours are included.
     Subspace(const Subdivision& subdivision, std::span<const int> cells, double slack = 0);
-    /// Cuts by the isosurfaces of all leaves.
+    /// Cuts the cells by the isosurfaces of all leaves.
     void polygonize();
 
     const CellComplex& complex() const { return complex_; }
-    /// Whether the cell is inside the solid; right after polygonize(), but for cells that were not polygonized.
+    /// Whether the cell is inside the solid. Valid after polygonize(), in cells that were polygonized.
     bool inside(int cell) const;
-    /// Whether all that matters in the cell was cut, or nothing does. What is outside of a part of the cells was not.
+    /// Whether the cell was cut by all that matters in it, or nothing matters. Outside of the complex: whether all
+    /// cells were.
     bool is_polygonized(int cell) const { return cell == CellComplex::outside ? whole_ : is_cut_[root_[cell]]; }
-    /// The leaf whose isosurface the face is a part of; -1 for faces on planes.
+    /// The leaf whose isosurface the face is part of; −1 for faces on planes.
     int leaf_of(int face) const { return leaf_of_face_[face]; }
-    /// Side of the leaf throughout the cell; straddling where it was never asked.
+    /// The side of the leaf throughout the cell; straddling if it is undecided or does not matter.
     Side side(int cell, int leaf) const;
-    /// The undivided cell of the subdivision that the cell was cut from.
+    /// The cell of the subdivision from which the cell was cut.
     int origin(int cell) const { return undivided_[root_[cell]]; }
-    /// The leaf where the cell was cut from, if it was undecided there.
+    /// The leaf in the cell of the subdivision from which the cell was cut, if it was undecided there; else null.
     const OpenLeaf* open(int cell, int leaf) const { return subdivision_.open(origin(cell), leaf); }
 
 private:
     using Step = CellComplex::Step;
     enum class Sign : signed char { below = -1, none = 0, above = 1, unknown = 2 };
-    struct Border {  // where a face outside and one inside meet
+    struct Border {  // an edge between a face outside and a face inside
         Step step;
         int outer, inner;
         bool used;
     };
+    /// A simple loop on the border of a cell.
     struct Loop {
         CellComplex::List<12> steps;
         int seed;  // a face on the inner side
     };
+    /// A leaf's side throughout a cell, found by cutting.
     struct Resolved {
         int leaf;
         Side side;
     };
-    // Signs with respect to leaf_: forgotten all at once when the next leaf's turn comes.
+    // Signs with respect to leaf_, of vertices, edges, faces or cells. They are all forgotten at once for the next
+    // leaf.
     class Signs {
     public:
         Sign at(int i) const {
@@ -106,21 +110,21 @@ private:
     int owner(int face, std::span<const int> family) const;
 
     const Subdivision& subdivision_;
-    std::vector<int> undivided_;  // of a cell that was there first: the subdivision's
+    std::vector<int> undivided_;  // of a first cell: its number in the subdivision
     CellComplex complex_;
     double slack_;
-    bool whole_;                // all cells are cut
-    std::vector<char> is_cut_;  // a cell that was there first is cut, or decided
+    bool whole_;                // whether all cells are to be cut
+    std::vector<char> is_cut_;  // of a first cell: whether it is to be cut, or decided
     int leaf_ = 0;
     std::vector<int> leaf_of_face_;
-    std::vector<int> open_;                         // cells that were there first, and are cut
-    std::vector<int> root_;                         // of a cell: the one that it was cut from
-    std::vector<int> next_of_root_;                 // of a cell: another that was cut from the same, or −1
+    std::vector<int> open_;                         // first cells that are to be cut
+    std::vector<int> root_;                         // of a cell: the first cell from which it was cut
+    std::vector<int> next_of_root_;                 // of a cell: another one cut from the same first cell, or −1
     std::vector<ShortList<Resolved, 2>> resolved_;  // by cell
     Signs vertex_signs_, edge_signs_, face_labels_;
-    Signs sides_;  // of cells: above, below, none for straddling
+    Signs sides_;  // of cells; none: straddling
 
-    // Of the cell or face that is being looked at.
+    // Working data of the current cell or face.
     std::vector<Border> borders_;
     std::vector<Border*> path_;
     std::vector<Loop> loops_;
@@ -133,7 +137,7 @@ private:
     mutable std::vector<char> in_;
 };
 
-/// Point between a and b at which φ = ρ − ½ changes its sign. Precondition: φ has different signs at a and b.
+/// A point between a and b where φ = ρ − ½ changes its sign. fa and fb are φ at a and b, and must have different signs.
 Vec3 root_between(const LocalDensity& density, Vec3 a, double fa, Vec3 b, double fb);
 
 }  // namespace deburr

@@ -6,14 +6,14 @@
 
 namespace deburr {
 
-// Joins the places where the rim changes sign by segments [Triage §4.4.2].
+// Joins the points where the sign changes along the face's border by segments [Triage §4.4.2].
 void Subspace::split_face(int face, const LocalDensity& density) {
     const auto& loop = complex_.faces[face].loop;
     const std::size_t n = loop.size();
     auto& signs = rim_signs_;
     signs.clear();
     for (const Step s : loop) signs.push_back(edge_signs_.at(s >> 1));
-    // An edge along the surface takes the sign before it.
+    // An edge along the surface takes the sign of the edge before it.
     const auto first = std::find_if(signs.begin(), signs.end(), [](Sign s) { return s != Sign::none; });
     if (first == signs.end()) {
         Vec3 centroid(0.0);
@@ -23,7 +23,7 @@ void Subspace::split_face(int face, const LocalDensity& density) {
     }
     const std::size_t offset = std::size_t(first - signs.begin());
     auto& changes = changes_;  // vertices
-    auto& after = after_;      // of each change
+    auto& after = after_;      // the sign after each change
     changes.clear();
     after.clear();
     Sign current = *first;
@@ -53,7 +53,7 @@ void Subspace::split_face(int face, const LocalDensity& density) {
         if (a == b) continue;
         const std::optional<Vec3> between = refine(rest, a, b, density);
         if (!between) {
-            // An arc of the rim that is as straight as the segment would leave a face of no area.
+            // If the border between a and b is as straight as the segment, a face without area would result.
             const auto& l = complex_.faces[rest].loop;
             const Vec3 xa = complex_.vertices[a], d = complex_.vertices[b] - xa;
             bool straight = true;
@@ -74,8 +74,8 @@ void Subspace::split_face(int face, const LocalDensity& density) {
     }
 }
 
-// A point of the surface near the segment's middle, in the face [Triage §4.4.3]; none if the segment
-// is straight, or none is found.
+// A point of the surface in the face, near the segment's middle [Triage §4.4.3]; none if the segment is straight
+// enough, or if no such point is found.
 std::optional<Vec3> Subspace::refine(int face, int a, int b, const LocalDensity& density) const {
     const Vec3 xa = complex_.vertices[a], xb = complex_.vertices[b];
     const Vec3 middle = 0.5 * (xa + xb);
@@ -89,12 +89,13 @@ std::optional<Vec3> Subspace::refine(int face, int a, int b, const LocalDensity&
     const Vec3 area = complex_.area_vector(face);
     if (glm::length(area) <= 0) return {};
     const Vec3 normal = glm::normalize(area);
-    // Along the gradient; in a swept surface up to a slide along it, so that every face that
-    // crosses the sweep has its point at the same place of the profile.
+    // The search runs along the gradient; in a swept surface it is shifted along the sweep, so that all faces that
+    // cross the sweep have their points at the same position of the profile.
     Vec3 line = here.gradient - normal * glm::dot(normal, here.gradient), sweep;
     if (is_swept(density, sweep) && std::abs(glm::dot(sweep, normal)) > 0.1)
         line = here.gradient - sweep * (glm::dot(normal, here.gradient) / glm::dot(normal, sweep));
-    // Where the segment runs along the rim the gradient may lead out of the face: then across it.
+    // If the segment runs along the face's border, the gradient may lead out of the face; then the search runs across
+    // the segment.
     const Vec3 across = glm::cross(normal, xb - xa);
     for (const Vec3 direction : {line, across}) {
         if (glm::length(direction) <= 1e-9 * (direction == line ? slope : length)) continue;
@@ -106,9 +107,9 @@ std::optional<Vec3> Subspace::refine(int face, int a, int b, const LocalDensity&
     return {};
 }
 
-// A point of this leaf's surface on faces that belong to the surfaces of leaves before it, moved to
-// where the surfaces meet: the faces are flat, and near theirs only. Faces on planes keep it in
-// their plane. The point stays where it is if that leads farther than `reach`.
+// Moves a point of this leaf's surface on faces of earlier leaves' surfaces to where the surfaces meet, because such
+// faces are flat and only near their surfaces. Faces on planes keep the point in their planes. The point stays where it
+// is if it would move farther than `reach`.
 Vec3 Subspace::on_seam(std::span<const int> faces, Vec3 start, double reach, const LocalDensity& density) const {
     const bool seam = std::any_of(faces.begin(), faces.end(),
                                   [&](int f) { return leaf_of_face_[f] >= 0 && leaf_of_face_[f] != leaf_; });
@@ -136,7 +137,7 @@ Vec3 Subspace::on_seam(std::span<const int> faces, Vec3 start, double reach, con
     const std::size_t count = surfaces.size() + planes.size();
     if (surfaces.size() < 2 || count > 3) return start;
     Vec3 x = start;
-    constexpr int steps = 20;  // of Newton's method, which takes 4
+    constexpr int steps = 20;  // Newton steps; 4 are usually enough
     for (int step = 0; step < steps; ++step) {
         Vec3 rows[3] = {Vec3(0.0), Vec3(0.0), Vec3(0.0)}, right(0.0);
         std::size_t k = 0;
@@ -153,9 +154,9 @@ Vec3 Subspace::on_seam(std::span<const int> faces, Vec3 start, double reach, con
             right[int(k)] = glm::dot(n, start - x);
             ++k;
         }
-        if (k == 2) rows[2] = glm::cross(rows[0], rows[1]);  // the shortest step
+        if (k == 2) rows[2] = glm::cross(rows[0], rows[1]);  // makes the step the shortest one
         const double size = std::abs(glm::determinant(Mat3(rows[0], rows[1], rows[2])));
-        constexpr double tangent = 1e-4;  // where surfaces touch rather than cross
+        constexpr double tangent = 1e-4;  // surfaces at a smaller angle touch rather than cross
         if (size < tangent) return start;
         const Vec3 move = glm::inverse(glm::transpose(Mat3(rows[0], rows[1], rows[2]))) * right;
         x += move;
@@ -165,7 +166,8 @@ Vec3 Subspace::on_seam(std::span<const int> faces, Vec3 start, double reach, con
     return x;
 }
 
-// The surface nearest to `middle` on a line in the face: ahead if it is there, else behind.
+// Finds the surface nearest to `middle` on a line in the face: ahead if it is there, else behind; false if there is
+// none.
 bool Subspace::search(int face, Vec3 middle, Vec3 line, Vec3 normal, double length, const LocalDensity& density,
                       Vec3& root) const {
     const double f = density.at(middle) - 0.5;
@@ -196,7 +198,7 @@ bool Subspace::search(int face, Vec3 middle, Vec3 line, Vec3 normal, double leng
                 continue;
             }
             root = root_between(density, last, flast, x, fx);
-            if (std::abs(reach - glm::dot(root - middle, line)) <= 1e-6 * length) break;  // on the rim
+            if (std::abs(reach - glm::dot(root - middle, line)) <= 1e-6 * length) break;  // on the face's border
             return true;
         }
     }

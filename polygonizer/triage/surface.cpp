@@ -10,13 +10,13 @@
 namespace deburr {
 namespace {
 
-// Pairs of vertices, hashed.
+// A hash set of pairs of vertices.
 class EdgeSet {
 public:
     using Ends = std::pair<int, int>;
 
     bool has(Ends ends) const { return !slots_.empty() && slots_[slot_of(ends)] == ends; }
-    /// False if they are there already.
+    /// Adds a pair; false if it is in the set already.
     bool add(Ends ends) {
         if (2 * (count_ + 1) > slots_.size()) grow();
         Ends& slot = slots_[slot_of(ends)];
@@ -31,7 +31,8 @@ private:
 
     std::size_t slot_of(Ends ends) const {
         const std::uint64_t key = std::uint64_t(ends.first) << 32 | std::uint32_t(ends.second);
-        constexpr std::uint64_t golden = 0x9e3779b97f4a7c15;  // 2⁶⁴ by the golden ratio: spreads neighbours
+        // 2⁶⁴ divided by the golden ratio: spreads neighbouring keys
+        constexpr std::uint64_t golden = 0x9e3779b97f4a7c15;
         std::size_t at = std::size_t((key * golden) >> 32) & (slots_.size() - 1);
         while (slots_[at] != empty && slots_[at] != ends) at = (at + 1) & (slots_.size() - 1);
         return at;
@@ -43,10 +44,11 @@ private:
             if (ends != empty) slots_[slot_of(ends)] = ends;
     }
 
-    std::vector<Ends> slots_;  // a power of two of them
+    std::vector<Ends> slots_;  // their number is a power of two
     std::size_t count_ = 0;
 };
 
+/// One extraction of a mesh.
 class Extraction : BoundaryPolygons {
 public:
     Extraction(const Subspace& subspace, const SolidTree& solid) : BoundaryPolygons(subspace, solid) {}
@@ -60,6 +62,7 @@ public:
     }
 
 private:
+    /// Whether all corners of p lie in the plane of the other polygon.
     bool in_plane(const Polygon& p, const Polygon& plane) const {
         for (int h = p.first; h < p.first + p.count; ++h)
             if (std::abs(glm::dot(plane.normal, positions_[vertex_[h]]) - plane.offset) > flat_slack()) return false;
@@ -67,6 +70,7 @@ private:
     }
     double flat_slack() const { return 0.1 * complex_.tolerance; }
 
+    /// Merges neighbouring flat polygons of one plane, leaf and material into groups.
     void join_flat() {
         group_ = UnionFind(polygons_.size());
         for (std::size_t h = 0; h < steps_.size(); ++h) {
@@ -81,9 +85,10 @@ private:
         }
     }
 
+    /// Whether the half-edge is between two groups.
     bool is_border(int h) { return group_.find(owner_[h]) != group_.find(owner_[twin_[h]]); }
 
-    // Half-edges between groups, each with the next one around its group.
+    // Links every half-edge between groups with the next one around its group.
     void trace() {
         next_.assign(steps_.size(), -1);
         before_.assign(steps_.size(), -1);
@@ -99,7 +104,7 @@ private:
     static std::pair<int, int> ends(int a, int b) { return std::minmax(a, b); }
     int head(int h) const { return vertex_[next_[h]]; }
 
-    // Whether a half-edge leads from where h starts to the vertex.
+    // Whether a half-edge between groups leads to `vertex` from the vertex where h starts.
     bool is_joined(int h, int vertex) const {
         int at = h;
         do {
@@ -109,20 +114,20 @@ private:
         return false;
     }
 
-    // Takes out vertices on a straight line between two groups.
+    // Removes vertices on a straight line between two groups.
     void straighten() {
         std::vector<int> degree(positions_.size(), 0);
         for (std::size_t h = 0; h < steps_.size(); ++h)
             if (next_[h] >= 0) ++degree[vertex_[h]];
         for (std::size_t h = 0; h < steps_.size(); ++h) {
-            // h runs from a to v, n from v to b; their twins back.
+            // h runs from a to v and n from v to b; their twins run back.
             if (next_[h] < 0) continue;
             while (true) {
                 const int n = next_[h], v = vertex_[n];
                 const int a = vertex_[h], b = head(n);
                 const int hb = twin_[h], nb = twin_[n];
                 if (degree[v] != 2 || a == b || next_[nb] != hb) break;
-                if (next_[next_[n]] == int(h)) break;  // a triangle stays one
+                if (next_[next_[n]] == int(h)) break;  // a triangle keeps its corners
                 if (next_[next_[hb]] == nb) break;
                 const Vec3 line = positions_[b] - positions_[a];
                 const Vec3 x = positions_[v] - positions_[a];
@@ -130,7 +135,7 @@ private:
                 if (along <= 0 || along >= length2) break;
                 if (glm::length(x - line * (along / length2)) > flat_slack()) break;
                 if (is_joined(int(h), b)) break;
-                // h and nb stay, and become each other's twins: a to b, and b to a.
+                // h and nb are kept and become twins: h from a to b, nb from b to a.
                 next_[h] = next_[n];
                 before_[next_[h]] = int(h);
                 next_[nb] = next_[hb];
@@ -143,7 +148,7 @@ private:
         }
     }
 
-    // Two edges between the same vertices: all but the first get a vertex in the middle.
+    // If several edges join the same two vertices, all but the first get a vertex in the middle.
     void separate_double_edges() {
         std::vector<int> doubles;
         for (std::size_t h = 0; h < steps_.size(); ++h) {
@@ -163,13 +168,13 @@ private:
         }
     }
 
-    // The middle of two vertices, moved to the surface of either polygon if it is bent.
+    // The middle of two vertices, moved to the surface of one of their polygons if that is curved.
     Vec3 middle_of(int a, int b, int p, int q) const {
         Vec3 x = 0.5 * (positions_[a] + positions_[b]);
         const Polygon& polygon = polygons_[polygons_[p].leaf >= 0 ? p : q];
         const LocalDensity* density = density_of(polygon);
         if (!density) return x;
-        constexpr int steps = 20;  // of Newton's method, which takes 4 where the surface is near
+        constexpr int steps = 20;  // Newton steps; 4 are enough where the surface is near
         const Vec3 start = x;
         const double reach = glm::length(positions_[a] - positions_[b]);
         for (int k = 0; k < steps; ++k) {
@@ -201,7 +206,7 @@ private:
         return fresh;
     }
 
-    // A diagonal between two vertices that have an edge already gets a vertex in the middle.
+    // A diagonal between two vertices that are joined already gets a vertex in the middle.
     void separate_double_diagonals(std::vector<std::array<int, 3>>& triangles) {
         if (triangles.size() < 2) return;
         auto& uses = uses_;
@@ -221,9 +226,9 @@ private:
                 const int a = triangles[i][k], b = triangles[i][(k + 1) % 3], c = triangles[i][(k + 2) % 3];
                 const auto key = ends(a, b);
                 const auto use = std::lower_bound(uses.begin(), uses.end(), std::pair{key, 0});
-                if (use == uses.end() || use->first != key || use->second < 2) continue;  // the border itself
+                if (use == uses.end() || use->first != key || use->second < 2) continue;  // an edge of the border
                 if (use->second == 2 && !borders_.has(key) && !diagonals_.has(key)) continue;
-                // The other triangle of this diagonal: it runs the other way.
+                // The other triangle at this diagonal runs along it in the opposite direction.
                 for (std::size_t j = i + 1; j < triangles.size(); ++j) {
                     auto& t = triangles[j];
                     std::size_t m = 0;
@@ -244,11 +249,11 @@ private:
             if (count >= 2) diagonals_.add(key);
     }
 
-    // Of a vertex in the group that is being built.
+    // A vertex of the group that is being built.
     struct Corner {
         int group = -1;
-        int polygon = -1;  // whose corner it is
-        int normal = -1;   // in the mesh
+        int polygon = -1;  // a polygon that has it as a corner
+        int normal = -1;   // number in the mesh
     };
     const Corner& corner(int v) const { return corners_[v]; }
     void set_corner(int v, int polygon) {
@@ -256,10 +261,10 @@ private:
         if (corners_[v].group != building_) corners_[v] = {building_, polygon, -1};
     }
 
-    // Of a vertex in the mesh. Its normals are a list.
+    // A vertex of the mesh. Its normals are a linked list.
     struct MeshVertex {
         int number = -1, first_normal = -1;
-        // What a normal was made of last.
+        // The latest normal, and the density that it came from.
         const LocalDensity* density = nullptr;
         bool subtracted = false;
         int normal = -1;
@@ -277,7 +282,7 @@ private:
         const Vec3 g = density ? density->gradient_at(positions_[v]).gradient : Vec3(0.0);
         const double length = glm::length(g);
         if (!(length > 1e-12)) return c.normal = normal_number(v, p.normal, mesh);
-        // The gradient points into the solid, or out of it where the leaf is subtracted.
+        // The gradient points into the leaf, which is out of the solid where the leaf is subtracted.
         c.normal = normal_number(v, g * ((subtracted ? 1.0 : -1.0) / length), mesh);
         at.density = density;
         at.subtracted = subtracted;
@@ -296,7 +301,7 @@ private:
     }
 
     Mesh build(std::vector<Origin>* origins) {
-        std::vector<std::pair<int, int>> rings;  // group, and a half-edge
+        std::vector<std::pair<int, int>> rings;  // group and a half-edge
         std::vector<char> done(steps_.size(), false);
         for (std::size_t h = 0; h < steps_.size(); ++h) {
             if (next_[h] < 0 || done[h]) continue;
@@ -305,7 +310,7 @@ private:
         }
         std::sort(rings.begin(), rings.end());
         Mesh mesh;
-        // A polygon of n corners is n − 2 triangles.
+        // A polygon of n corners becomes n − 2 triangles.
         const auto corners = std::size_t(std::ranges::count_if(next_, [](int n) { return n >= 0; }));
         const std::size_t triangles_expected = corners - std::min(corners, 2 * rings.size());
         mesh.triangles.reserve(triangles_expected);
@@ -356,14 +361,14 @@ private:
         return mesh;
     }
 
-    UnionFind group_;                                        // polygons
+    UnionFind group_;                                        // of polygons
     std::vector<int> next_, before_;                         // around a group; −1: within it
-    EdgeSet borders_, diagonals_;                            // edges of polygons; of triangles within
-    int building_ = -1;                                      // a group
-    std::vector<std::pair<std::pair<int, int>, int>> uses_;  // of edges, in its triangles
+    EdgeSet borders_, diagonals_;                            // edges of polygons; diagonals within them
+    int building_ = -1;                                      // the group that is being built
+    std::vector<std::pair<std::pair<int, int>, int>> uses_;  // edges of its triangles with numbers of uses
     std::vector<Corner> corners_;
     std::vector<MeshVertex> mesh_vertices_;
-    std::vector<int> next_normal_;  // at the same vertex
+    std::vector<int> next_normal_;  // the next normal at the same vertex
 };
 
 }  // namespace

@@ -26,7 +26,7 @@ Box polygonization_box(const SolidTree& solid) {
     for (int k = 0; k < 3; ++k)
         if (std::isfinite(box.hi[k] - box.lo[k])) size = std::max(size, box.hi[k] - box.lo[k]);
     if (size == 0) size = 1;
-    // A side that is infinite ends this many sizes away from what is finite.
+    // An infinite side is placed this many sizes away from what is finite.
     constexpr double reach = 10;
     for (int k = 0; k < 3; ++k) {
         const bool lo = std::isfinite(box.lo[k]), hi = std::isfinite(box.hi[k]);
@@ -46,13 +46,14 @@ Box polygonization_box(const SolidTree& solid) {
 
 namespace {
 
-// Of a tolerance, what is polygonized in cells that thinning out would make flat again.
+// The fraction of a tolerance within which cells are polygonized as flat, because decimation would make them flat
+// again.
 constexpr double of_slack = 0.4;
 
-// Instead of `at_points` for a mesh that is to be looked at, whose normals have to be right between its vertices.
+// Replaces `at_points` for a mesh for pictures, whose normals have to be right between its vertices.
 constexpr double at_points_of_picture = 0.2;
 
-// Adds boxes around the triangle's corners, as large as its shortest edge.
+// Appends boxes around the triangle's corners, each as large as its shortest edge.
 void add_corners(const Mesh& mesh, const Triangle& triangle, std::vector<Box>& boxes) {
     Vec3 x[3];
     for (std::size_t k = 0; k < 3; ++k) x[k] = mesh.positions[triangle.vertex[k]];
@@ -62,11 +63,11 @@ void add_corners(const Mesh& mesh, const Triangle& triangle, std::vector<Box>& b
 
 constexpr std::size_t max_mending_rounds = 8, max_fine_rounds = 6;
 
-// One solid's way to a mesh, round by round. Each whole round polygonizes all cells, after some were halved. Where
-// nothing changed since the round before, facets stay as they were refined and mended then.
+// The rounds that lead to the mesh of one solid. Every whole round polygonizes all cells, after some were halved. Where
+// nothing has changed since the round before, facets stay as they were refined and mended.
 class Triage {
 public:
-    /// `solid` has its sharp leaves apart.
+    /// No leaf of `solid` is both sharp and rounded (sharp_parts.hpp).
     Triage(const SolidTree& solid, const Box& box, const TriageOptions& options)
         : options_(options),
           solid_(solid),
@@ -74,7 +75,7 @@ public:
           near_((options.decimate ? at_points : at_points_of_picture) * options.tolerance),
           slack_(thin_out_ ? of_slack * options.tolerance : 0),
           subdivision_(solid, box, subdivision_options()),
-          // Where surfaces nearly touch, halves of what is too far may be too far for ever.
+          // A limit of cells, because where surfaces nearly touch, halves of cells may stay too far for ever.
           local_(subdivision_, solid, slack_, 8 * subdivision_.complex.cells.size() + 20'000, options.cancel) {}
 
     Mesh run() {
@@ -95,7 +96,7 @@ public:
     }
 
 private:
-    // Shares of what is left, as they are with most models.
+    // Begins a phase of the progress. Fractions of what is left are those of most models.
     void begin(double share) const {
         if (options_.progress) options_.progress->begin(share);
     }
@@ -115,13 +116,13 @@ private:
         ++rounds_;
     }
 
-    // Of rounds in which cells are halved.
+    // The number of rounds left in which cells may be halved.
     std::size_t rounds_left() const {
         const std::size_t max_rounds = std::isfinite(options_.tolerance) ? 6 : 5;
         return max_rounds > rounds_ && local_.may_halve() ? max_rounds - rounds_ : 0;
     }
 
-    // Without a tolerance: cuts cells whose triangles lean. Whether any were.
+    // Without a tolerance: cuts cells whose triangles lean. Returns whether any was cut.
     bool cut_leaning() {
         if (rounds_left() == 0 || std::isfinite(options_.tolerance)) return false;
         const std::size_t times = local_.cut_leaning(cells_to_halve(mesh_, origins_, subdivision_), rounds_left());
@@ -129,7 +130,7 @@ private:
         return times > 0;
     }
 
-    // Refines the mesh within its cells, and cuts those where that does not help. Whether any were cut.
+    // Refines the mesh within its cells, and cuts cells where that does not help. Returns whether any was cut.
     bool refine() {
         if (!judge_) judge_.emplace(solid_, mesh_);
         drop_flat_shells(mesh_, origins_, 10 * subdivision_.complex.tolerance, judge_->solid());
@@ -143,12 +144,12 @@ private:
                                : Patches(mesh_, origins_);
             refined_.reset();
             left = deburr::refine(mesh_, origins_, *judge_, near_, options_.cancel, &good_, &patches);
-            // What halves do not help is looked at again when all is done, by the tolerance itself.
+            // Triangles that halving does not help are judged again at the end, by the tolerance itself.
             if (rounds_left() > 0) far = local_.hopeful_far(cells_to_halve(mesh_, origins_, left, subdivision_));
         }
         if (thin_out_) {
-            // Facets that lean are mended first, while there are small ones to do it with. Smaller cells for those that
-            // cannot be mended cost less before the rest is thinned out, as long as they help.
+            // Facets that lean are mended first, while there are small facets to mend them with. Smaller cells for
+            // those that cannot be mended cost less before the rest is decimated, as long as they help.
             wrong = wrong_before_decimation(mesh_, origins_, *judge_, options_.tolerance, left, options_.cancel, &good_,
                                             &patches);
         }
@@ -156,7 +157,7 @@ private:
         const bool cut =
             !far.empty() && local_.cut_far(far, *judge_, near_, left.size(), thin_out_ ? options_.tolerance : infinity);
         bool mended = mend_cells(std::move(around_wrong), wrong.size());
-        // Planes may pass by all the cells that were to be cut. A mesh that is thinned out would be wrong there.
+        // Planes may miss all cells that were to be cut. A decimated mesh would be wrong there.
         if (!far.empty() && !cut && !mended) mended = mend_cells(cuts_around(wrong, {}), wrong.size());
         mending_ += mended;
         const bool again = cut || mended;
@@ -169,7 +170,7 @@ private:
         return again;
     }
 
-    // Around triangles of wrong_before_decimation, but not beside the cells of `others`.
+    // Cuts around triangles found by wrong_before_decimation(), except beside the cells of `others`.
     std::vector<Cut> cuts_around(const std::vector<int>& wrong, const std::vector<Cut>& others) const {
         if (wrong.empty() || mending_ >= max_fine_rounds || !local_.may_halve()) return {};
         return without_neighbours(local_.hopeful_wrong(cells_around(mesh_, origins_, wrong, subdivision_)), others,
@@ -179,14 +180,14 @@ private:
         return !cuts.empty() && local_.mend(std::move(cuts), *judge_, options_.tolerance, wrong);
     }
 
-    // What was refined and is not wrong is good.
+    // Facets of the refined mesh that are not wrong are good.
     void know_good() {
         if (!refined_) return;
         good_.become(refined_->mesh, refined_->origins, refined_->wrong);
         local_.know(good_);
     }
 
-    // Thins the mesh out and repairs it. What that cannot help needs smaller cells around it; false if such were made.
+    // Decimates and repairs the mesh. Facets that this cannot help need smaller cells; false if such were made.
     bool finish() {
         if (thin_out_) {
             begin(0.8);
@@ -205,8 +206,8 @@ private:
         return false;
     }
 
-    // Repairs the mesh with and, if that is not enough, without splits; cuts are what would help each. Whether facets
-    // cross in either.
+    // Repairs the mesh with splits and, if that is not enough, without; `cuts` become the cuts that would help each.
+    // Returns whether facets cross in either.
     bool mend_both_ways(std::vector<Cut> (&cuts)[2]) {
         begin(0.3);
         bool crosses = false;
@@ -220,28 +221,28 @@ private:
         return crosses;
     }
 
-    // A whole round's mesh before it was thinned out.
+    // The mesh of a whole round before it was decimated.
     struct Refined {
         Mesh mesh;
         std::vector<Origin> origins;
         std::vector<int> wrong = {};
-        Patches patches = {};  // that it came by
+        Patches patches = {};  // the patches that led to it
     };
 
     const TriageOptions& options_;
     const SolidTree& solid_;
     const bool thin_out_;
-    const double near_, slack_;  // for refine; of a Subspace
+    const double near_, slack_;  // distance that refine() allows; slack of Subspace
     Subdivision subdivision_;
     LocalRounds local_;
-    Mesh mesh_;  // of the round
+    Mesh mesh_;  // of the current round
     std::vector<Origin> origins_;
     MendedMesh best_;
     std::optional<FacetJudge> judge_;
-    std::optional<Refined> refined_;  // the last one
-    GoodFacets good_;                 // of its mesh
+    std::optional<Refined> refined_;  // of the last round
+    GoodFacets good_;                 // in the mesh of refined_
     std::size_t rounds_ = 0, whole_rounds_ = 0, mending_ = 0;
-    std::vector<Box> dense_;  // where a mesh that was thinned out was wrong
+    std::vector<Box> dense_;  // where a decimated mesh was wrong
 };
 
 }  // namespace

@@ -1,4 +1,5 @@
-// Triage polygonization of a solid [Triage].
+// Triage polygonization of a solid: planes cut space into cells, the isosurface cuts undecided cells, and the mesh
+// between cells inside and outside is refined and mended [Triage].
 #pragma once
 #include "bounds/solid_tree.hpp"
 #include "polygonizer/mesh/cancel.hpp"
@@ -8,32 +9,31 @@
 
 namespace deburr {
 
+/// Settings of triage(). Lengths are the scene's.
 struct TriageOptions {
-    /// Largest distance between mesh and surface that is accepted; infinity: the paper's one
-    /// refinement of each edge.
+    /// The greatest accepted distance between mesh and surface. Infinity: the paper's one refinement of each edge.
     double tolerance = infinity;
-    /// Whether a mesh with a tolerance is thinned out within it. Pictures of meshes want its normals dense instead.
+    /// Whether a mesh with a tolerance is decimated within it. Meshes for pictures need dense normals instead.
     bool decimate = true;
-    /// Looked at between the rounds of refinement.
+    /// Checked between and within rounds of refinement.
     CancelFlag cancel = nullptr;
-    /// Half-spaces that may be left in open cells.
+    /// The greatest number of half-spaces in undecided cells.
     std::size_t max_half_spaces = SubdivisionOptions{}.max_half_spaces;
-    /// Told how far the work is; it is never finished here. Null: nobody asks.
+    /// Advanced by the work, never finished; may be null.
     WorkProgress* progress = nullptr;
 };
 
+/// What the mesh was made of.
 struct TriageStatistics {
-    std::size_t cells = 0, open_cells = 0;  // open: polygonized by subspace polygonization
-    std::size_t rounds = 1;                 // of refinement
+    std::size_t cells = 0, open_cells = 0;  // open cells are polygonized by the isosurface
+    std::size_t rounds = 1;                 // rounds in which all cells were polygonized
 };
 
-/// A closed, oriented 2-manifold mesh of the solid. What leaves `box` is cut off by it. Throws Cancelled, and
-/// TooManyCells.
+/// A closed, oriented 2-manifold mesh of the part of the solid within `box`. Throws Cancelled and TooManyCells.
 Mesh triage(const SolidTree& solid, const Box& box, const TriageOptions& options = {},
             TriageStatistics* statistics = nullptr);
 
-/// The box to polygonize a solid in: around it, with a margin; infinite sides are brought to
-/// finite ones.
+/// The box in which to polygonize a solid: its bounding box with a margin, and infinite sides replaced by finite ones.
 Box polygonization_box(const SolidTree& solid);
 
 }  // namespace deburr
