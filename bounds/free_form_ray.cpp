@@ -56,7 +56,7 @@ double bernstein_bound(const std::array<double, count>& c) {
     return most;
 }
 
-// What a perturbation adds to the noise scale, if its Q is at most `most` and the absolute terms of Q add up to
+// A perturbation's contribution to the noise scale, if its Q is at most `most` and the absolute terms of Q add up to
 // `magnitude`.
 double noise_scale_of(const Perturbation& p, double most, double magnitude) {
     return 3 * std::abs(p.factor) * most * most * magnitude;

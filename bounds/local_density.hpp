@@ -79,7 +79,7 @@ public:
     /// Range of the rate at which ρ changes in some direction over a region, given for each of half_spaces() the range
     /// of its density there and of the rate at which that changes in the direction. It is sound. Where enlarging a
     /// half-space can only enlarge the Boolean function's set, or only shrink it, the sign of its contribution is kept.
-    /// Of a true convolution only signs are known: each end of the range is then 0 or infinite.
+    /// For a true convolution only signs are known: each end of the range is then 0 or infinite.
     Range rate_range(std::span<const Range> half_spaces, std::span<const Range> rates) const;
 
 private:

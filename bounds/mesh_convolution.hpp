@@ -22,7 +22,7 @@ namespace deburr {
 /// whether x is inside. Time is linear in the number of triangles. The error is at most 10⁻¹², or 10⁻⁹ where the sphere
 /// touches a plane within 10⁻⁶ r.
 ValueGradient ball_share(const ClosedMesh& mesh, std::span<const int> triangles, Vec3 x, double r);
-/// The same, with the triangles that reach the ball found in the mesh.
+/// The share and its gradient as above; the triangles that reach the ball are searched for in the mesh.
 ValueGradient ball_share(const ClosedMesh& mesh, Vec3 x, double r);
 /// The share, its gradient by x, and its derivative by r, which is −3/(4πr⁴) Σ h |D|.
 struct ShareRates {

@@ -218,7 +218,7 @@ int MeshField::size() const {
 }
 
 LocalSize MeshField::local_size(const Box& box) const {
-    // Of a large box that many triangles reach nothing would be proved by looking at each.
+    // A large box that many triangles reach gets the trivial range: looking at each triangle would hardly prove more.
     constexpr std::size_t many = 256;
     constexpr double large = 4;  // shortest side in radii
     const Box seen = reached(box);

@@ -83,7 +83,7 @@ std::optional<MeshField::NearPlanes> MeshField::near_planes(const Box& box, std:
             if (mesh_->reaches(t, box, radius_) && !add(t)) break;
     }
     if (found.empty() || many) return std::nullopt;
-    // Which of several planes that are equal up to rounding is taken depends on the triangles' order only.
+    // Of several planes that are equal up to rounding the first is taken; sorting makes that the same in every call.
     std::sort(found.begin(), found.end());
     planes = {.scale = scale};
     for (const int t : found)

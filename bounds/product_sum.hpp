@@ -1,6 +1,6 @@
 // Densities multiplied out, ρ = c + Σ wₖ Pₖ with few products Pₖ of half-spaces and convex round parts, and where a ray
-// crosses ρ = ½. Edges and corners that are not a product themselves have this form, above all the rim of a hole (P −
-// Q).
+// crosses ρ = ½. Edges and corners that are not a product themselves have this form, above all the rim of a hole,
+// P − Q.
 //
 // Along a ray log Pₖ is concave (convex_density.hpp, round_product.hpp), so ℓ = Pₖ′/Pₖ falls: between two points a < b
 //

@@ -33,7 +33,7 @@ struct SegmentEnd {
 /// therefore accepts segments that hold two roots.
 double min_turning_distance(SegmentEnd end, RayBounds bounds);
 
-/// The same distance as the paper's eq. 6 claims it, turn-around distance included.
+/// The value that the paper's eq. 6 claims for that distance, turn-around distance included; it may be too large.
 double lobb_turning_distance(SegmentEnd end, RayBounds bounds);
 
 /// True only if a segment of this length provably holds at most one root (with Criterion::exact); false says nothing.

@@ -241,7 +241,7 @@ int SelectiveMeshField::size() const {
 }
 
 LocalSize SelectiveMeshField::local_size(const Box& box) const {
-    // Of a large box that many triangles reach nothing would be proved by looking at each.
+    // A large box that many triangles reach gets the trivial range: looking at each triangle would hardly prove more.
     const Box seen = reached(box);
     if (seen.empty()) return {{-0.5, -0.5}, 1};
     constexpr std::size_t many = 256;

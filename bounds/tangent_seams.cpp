@@ -220,7 +220,7 @@ private:
                 torus, [&](Vec3 x) { return c.at(x); }, [&](Vec3 x) { return c.gradient(x); }, other);
         };
         search(*other.round);
-        // The same for points of the circle beyond the other's axis.
+        // Points of the circle beyond the other's axis have the mirrored coordinate.
         RoundCoordinate beyond = other.round->mirrored();
         beyond.ring = -beyond.ring;
         if (shape_of(other) == Shape::cone || shape_of(other) == Shape::torus) search(beyond);
@@ -355,7 +355,7 @@ std::vector<TangentSeam> tangent_seams(const DensityTree& tree, int max_pairs) {
             for (const Vec3& x : contact.of(a, b)) {
                 if (!inflated(box, radius).contains(x)) continue;
                 const Vec3 normal = b.normal_at(x);
-                // Both must bound the solid here.
+                // Both half-spaces must bound the solid here.
                 const DensityTree here = prune(tree, inflated({x, x}, 1e-3 * radius)).tree;
                 if (!is_in(here.half_spaces, a) || !is_in(here.half_spaces, b)) continue;
                 const double bulge = distance_from(tree, x, normal, radius);

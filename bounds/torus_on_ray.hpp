@@ -9,9 +9,9 @@
 // f is off by rounding in proportion to 4R²s², and its slope is 8aRs.
 //
 // Ferrari's closed form was not chosen: it needs cube roots and cosines, which vector instructions do not compute to
-// the same bits, and it loses half of the digits where two roots are close. On 200,000 whole rays around a tube of 0.35
-// R it is off by 2·10⁻⁶ R at worst, this method by 2·10⁻¹⁵ R; it takes 120 ns a ray, this method 175 ns for all roots.
-// Around a tube of 0.02 R, which most rays miss, they take 120 ns and 70 ns.
+// the same bits, and it loses half of the digits where two roots are close. On 200,000 whole rays around a tube of
+// 0.35 R it is off by 2·10⁻⁶ R at worst, this method by 2·10⁻¹⁵ R; it takes 120 ns a ray, this method 175 ns for all
+// roots. Around a tube of 0.02 R, which most rays miss, they take 120 ns and 70 ns.
 //
 //   R, a    radii of the circle and of the tube, a ≤ R
 //   s, h    distance from the axis, height along it

@@ -24,7 +24,7 @@ public:
     struct Side {
         int triangle = -1, k = 0;
     };
-    /// What is met first on the way from one point to another.
+    /// How far connect() came on the way from one point to another.
     struct ConnectResult {
         enum class End { there, vertex, marked } end = End::there;
         int vertex = -1;  // the point up to which the way is now an edge; −1 if `marked`

@@ -13,8 +13,8 @@ namespace deburr {
 
 /// What a repair has done, and what is left to do.
 struct RepairStatistics {
-    std::size_t flips = 0, collapses = 0, splits = 0,
-                moves = 0;     // numbers of changes; moves: of vertices moved onto the surface
+    /// Numbers of edges flipped, collapsed and split, and of vertices moved onto the surface.
+    std::size_t flips = 0, collapses = 0, splits = 0, moves = 0;
     std::vector<int> left;     // triangles for which nothing helped, or with a vertex that is still off the surface
     std::vector<int> changed;  // triangles that are new or have a vertex that moved
     std::vector<int> numbers;  // for each given triangle its number now, or −1 if it is gone or changed

@@ -134,7 +134,8 @@ std::size_t separate_touching(Mesh& mesh, double step) {
         for (const int v : touching) x.push_back(mesh.positions[v]);
         return x;
     }();
-    // A second and third time by other amounts, for vertices whose parts lean in the same direction.
+    // Vertices whose parts lean in the same direction coincide again after a move; a second and a third round move them
+    // by other amounts.
     constexpr double shares[] = {0.75, 1.0, 0.5};
     std::vector<int> left = touching;
     for (std::size_t round = 0; round < std::size(shares) && !left.empty(); ++round) {
@@ -142,7 +143,7 @@ std::size_t separate_touching(Mesh& mesh, double step) {
             const std::size_t at =
                 std::size_t(std::lower_bound(touching.begin(), touching.end(), left[k]) - touching.begin());
             if (at == touching.size() || touching[at] != left[k]) continue;  // it coincides with one that does not move
-            // From the second round on every other one of those that still coincide.
+            // From the second round on, every other one of those that still coincide moves.
             if (round > 0 && k % 2 == 0) continue;
             const double length = std::min(step * shares[round], max_edge_share * around[at].shortest);
             mesh.positions[left[k]] = start[at] + around[at].inward * length;

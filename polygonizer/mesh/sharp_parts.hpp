@@ -11,8 +11,8 @@
 
 namespace deburr {
 
-/// The same solid with no leaf both sharp and rounded. Not promised for a density of which more than 256 leaves would
-/// result: it stays as it is.
+/// Returns the same solid as a tree none of whose leaves is both sharp and rounded. A density that would become more
+/// than 256 leaves is the exception: it stays as it is.
 SolidTree separate_sharp(const SolidTree& solid);
 
 }  // namespace deburr

@@ -53,9 +53,9 @@ private:
     std::vector<Node> nodes_;
 };
 
-/// Whether the interiors of two triangles meet in more than a point or an edge that they share. It is exact for slack =
-/// 0; otherwise triangles that reach into each other by no more than the length `slack` do not cross. Triangles that
-/// touch do not cross; triangles that overlap in one plane do.
+/// Whether the interiors of two triangles meet in more than a point or an edge that they share. It is exact for
+/// slack = 0; otherwise triangles that reach into each other by no more than the length `slack` do not cross. Triangles
+/// that touch do not cross; triangles that overlap in one plane do.
 bool triangles_cross(const Mesh& mesh, const Triangle& s, const Triangle& t, double slack = 0);
 
 }  // namespace deburr

@@ -20,7 +20,8 @@ constexpr int max_rounds = 8;
 constexpr double near_end = 1.2;
 // The least cosine of the angle by which a triangle may turn where its point moves; chamfers turn by 45°.
 constexpr double min_turn_cosine = 0.3;
-// The same for the angle to the face that all points of the triangle are on, if there is one.
+// The least cosine of the angle to the face that all points of the triangle are on, if there is one; it applies instead
+// of min_turn_cosine.
 constexpr double min_face_cosine = 0.5;
 // The least ratio of height to longest side of a triangle that is made.
 constexpr double min_height = 1e-3;

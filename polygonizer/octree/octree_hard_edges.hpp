@@ -8,7 +8,7 @@
 //   S      the point that divides an edge PQ that is too long, S = (s(P)·Q + s(Q)·P)/(s(P) + s(Q)),
 //          moved to where the two surfaces meet
 //
-// Both kinds of division make two triangles of each of the two at the edge.
+// Both kinds of division make two triangles of each of the two triangles at the edge.
 #pragma once
 #include "polygonizer/octree/octree_cells.hpp"
 #include "polygonizer/octree/point_mesh.hpp"

@@ -84,7 +84,7 @@ std::optional<SurfacePoint> hard_point(const SignedDistance& solid, const std::v
     return point;
 }
 
-// What the surface is at the crossings.
+// The surface's pieces, faces and tangent planes at the crossings of a cell.
 struct Seen {
     std::vector<SmoothPiece> pieces;
     std::vector<Face> faces;  // of all crossings
@@ -188,7 +188,8 @@ SurfacePoint surface_point(const SignedDistance& solid, const Box& cell, const s
             tip && (tip_may_stick_out || cell.contains(tip->position)))
             return *tip;
     if (bent) {
-        // What a hard edge of some 10° leaves open has an eigenvalue below this fraction of the greatest.
+        // Two planes at an angle θ have eigenvalues in the ratio tan²(θ/2), which is about this at 11°: flatter hard
+        // edges say too little about the direction across them.
         constexpr double min_share = 0.01;
         start = clamped(mean + nearest_to_all(seen.planes, min_share), cell);
         if (seen.pieces.size() > 1) {

@@ -23,8 +23,8 @@ struct Wall {
     Vec3 normal;
     double offset;
 };
-/// Spans the loop `rim` on the isosurface, which has at least 3 points and runs counter-clockwise seen from inside (ρ >
-/// ½), by a disc. A centre, if it needs one, stays between the walls of the cell. A disc whose rim and middle are
+/// Spans the loop `rim` on the isosurface, which has at least 3 points and runs counter-clockwise seen from inside
+/// (ρ > ½), by a disc. A centre, if it needs one, stays between the walls of the cell. A disc whose rim and middle are
 /// nearer to one plane than `slack`, and than max_sag of its size, is flat. Points within `tolerance` of a plane count
 /// as on it.
 void span_loop(const std::vector<Vec3>& rim, const LocalDensity& density, const std::vector<Wall>& walls,

@@ -92,7 +92,7 @@ struct LocalRounds::Part {
     Mesh mesh;
     std::vector<Origin> origins;
 
-    // Those of the triangles that are as in the mesh of the whole solid, because they touch no wall.
+    // Returns those of `triangles` that touch no wall, and so are as in the mesh of the whole solid.
     std::vector<int> asked(const std::vector<int>& triangles) const {
         std::vector<char> on_wall(mesh.positions.size(), false);
         for (std::size_t t = 0; t < origins.size(); ++t)

@@ -162,7 +162,8 @@ Subspace::Sign Subspace::vertex_sign(int vertex, const LocalDensity& density) {
     return sign;
 }
 
-// What decided cells around an edge say holds; only if all are undecided its ends are evaluated.
+// The decided cells around an edge determine its sign: none if they disagree. Only if all are undecided, the edge's
+// ends are evaluated.
 Subspace::Sign Subspace::edge_sign(int edge, const LocalDensity& density) {
     bool in = false, out = false;
     const auto& e = complex_.edges[edge];
