@@ -13,7 +13,8 @@ struct BallPlane {
     double t;
 };
 
-/// Keeps its memory, so it is cheap to use again and again; not for several threads at once.
+/// Measures arrangements. The object keeps its memory, so it is cheap to use again and again; several threads must not
+/// use it at once.
 class BallArrangement {
 public:
     /// The fraction of the ball's volume in which `function` is true, in [0, 1]. planes[v] is variable v of the

@@ -82,7 +82,7 @@ Pruned prune_further(const DensityTree& tree, const std::vector<Range>& half_spa
 /// The range of ρ, and how many half-spaces prune() would leave.
 struct LocalSize {
     Range range;
-    int half_spaces = 0;  // that prune() would leave
+    int half_spaces = 0;
 };
 
 /// The range of ρ over the box and the size of its local density, at less cost than prune().

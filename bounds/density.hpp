@@ -25,8 +25,9 @@ class Density {
 public:
     /// The half-space n·x ≤ d. `normal` points outward and may have any length but 0; d is divided by the same length.
     static Density half_space(Vec3 normal, double offset);
-    /// A half-space that is moved outward by its filter radius when it is rounded, so that its density is 1 where n·x ≤
-    /// d, rounded or not. It bounds sets that have no bounds of their own, and changes nothing of what lies within.
+    /// A half-space that is moved outward by its filter radius when it is rounded, so that its density is 1 wherever
+    /// n·x ≤ d, rounded or not. It bounds sets that have no bounds of their own, and changes nothing of what lies
+    /// within.
     static Density cover(Vec3 normal, double offset);
     /// The set where the coordinate is at most `offset` > 0: a ball, an infinite cylinder, a torus, or a nappe of a
     /// cone.

@@ -57,8 +57,8 @@ private:
     ClosedMeshPtr mesh_;
     double radius_;
     bool sharp_;
-    bool whole_ = true;           // whether all triangles count; else
-    std::vector<int> triangles_;  // these do, which reach a box
+    bool whole_ = true;           // whether all triangles count
+    std::vector<int> triangles_;  // if not: those that count, which are all that reach some box
     Box box_;
 };
 

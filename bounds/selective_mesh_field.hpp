@@ -1,5 +1,5 @@
-// A closed mesh rounded by a radius r(x) that varies in space, so that some of its edges stay sharp (kept_edges.hpp): f
-// = share − ½ with the share of the ball of radius r(x) around x.
+// A closed mesh rounded by a radius r(x) that varies in space, so that some of its edges stay sharp (kept_edges.hpp):
+// f = share − ½ with the share of the ball of radius r(x) around x.
 //
 // Faces stay flat, because half of any ball around a point of a face is inside. Where r is constant the field is a
 // MeshField with that radius. Elsewhere, with aᵢ = |Dᵢ|/r², ηᵢ = hᵢ/r, the arcs φᵢ of triangle i, and a unit vector u,
@@ -57,7 +57,7 @@ private:
     std::shared_ptr<const MeshField> full_, kept_;
     double greatest_ = 0;  // part only: the greatest radius in its box
     Vec3 center_{0.0};     // part only: centre of its box
-    bool whole_ = true;    // whether all triangles and edges count; else those below, which reach a box
+    bool whole_ = true;    // whether all triangles and edges count; if not, those below do, which reach its box
     std::vector<int> triangles_;
     std::vector<LocalRadius::Segment> edges_;
 };

@@ -33,7 +33,7 @@ struct RoundCrossings {
 class TorusOnRay {
 public:
     // The thinnest tube, relative to the circle's radius: thinner ones are lost in f's rounding.
-    static constexpr double least_tube = 0x1p-12;  // of the circle's radius
+    static constexpr double least_tube = 0x1p-12;
     // The ray is searched inside a ball that is larger by this factor than the one around the torus.
     static constexpr double larger = 1 + 0x1p-20;
     // Newton's method on f ends with a step shorter than this, in radii of the tube: then a step on the distance, which
