@@ -35,7 +35,7 @@ struct OctreeOptions {
     WorkProgress* progress = nullptr;  // advanced by the work, never finished
 };
 
-/// What the octree was made of. Cells are leaves of the octree.
+/// How much work the mesh took. Cells are leaves of the octree.
 struct OctreeStatistics {
     int level = 0;  // 2^level cells of the side `edge` are as long as the root
     double edge = 0;

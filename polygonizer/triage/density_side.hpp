@@ -44,7 +44,7 @@ inline Range rho_between(const HalfSpace& h, double lo, double hi, double tolera
 /// Whether the half-space's density varies over a region with this range.
 inline bool varies(Range rho) { return rho.hi != 0 && rho.lo != 1; }
 
-// Folds leaves and operators that are decided away, and returns the side of the solid. `solid` has children before
+// Folds away the leaves and operators that are decided, and returns the side of the solid. `solid` has children before
 // parents and the root last; it becomes empty if the root is decided.
 template <class SideOfLeaf>
 Side fold(std::vector<SolidTreeNode>& solid, SideOfLeaf side_of_leaf) {

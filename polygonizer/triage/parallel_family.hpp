@@ -15,7 +15,7 @@ bool is_parallel_family(const LocalDensity& density);
 /// Range of n·x over the points.
 Range extent_along(Vec3 normal, const std::vector<Vec3>& points);
 
-/// The planes where ρ passes ½.
+/// The result of level_planes().
 struct LevelPlanes {
     std::vector<Plane> planes;  // where ρ passes ½
     bool inside = false;        // if there are no planes: whether everything is inside

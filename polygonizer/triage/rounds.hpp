@@ -66,9 +66,9 @@ public:
     /// such triangles of the halves, as long as they become fewer. Returns whether any cell was cut.
     bool mend(std::vector<Cut> cuts, const FacetJudge& judge, double tolerance, std::size_t wrong);
 
-    /// The cuts of cells for which cut_far() was not tried in vain, nor for a cell beside them.
+    /// The cuts without those of cells for which, or beside which, cut_far() was tried in vain.
     std::vector<Cut> hopeful_far(std::vector<Cut> cuts) const { return hopeful(std::move(cuts), far_given_up_); }
-    /// The cuts of cells for which mend() was not tried in vain, nor for a cell beside them.
+    /// The cuts without those of cells for which, or beside which, mend() was tried in vain.
     std::vector<Cut> hopeful_wrong(std::vector<Cut> cuts) const { return hopeful(std::move(cuts), wrong_given_up_); }
 
 private:

@@ -23,7 +23,7 @@ struct TriageOptions {
     WorkProgress* progress = nullptr;
 };
 
-/// What the mesh was made of.
+/// How much work the mesh took.
 struct TriageStatistics {
     std::size_t cells = 0, open_cells = 0;  // open cells are polygonized by the isosurface
     std::size_t rounds = 1;                 // rounds in which all cells were polygonized
