@@ -70,7 +70,7 @@ void PlanarTriangulation::start(const std::vector<Vec2>& points) {
     const double size = std::max({hi.x - lo.x, hi.y - lo.y, 1e-100});
     const Vec2 middle = lo + 0.5 * (hi - lo);
     const int n = int(points.size());
-    // At this distance circles through two points and one of the three are nearly half-planes.
+    // At this distance circles through two points and one of the three added corners are nearly half-planes.
     const double far = 16 * std::max(size, epsilon * (std::abs(middle.x) + std::abs(middle.y)));
     points_.push_back(middle + Vec2(-far, -far));
     points_.push_back(middle + Vec2(3 * far, -far));

@@ -71,8 +71,8 @@ private:
 
     static double distance(const FacetJudge& judge, Vec3 x) { return std::abs(judge.solid().at(x).distance); }
 
-    // The greatest distance of three points along the edge from the surface: the middle of an edge along an S is on the
-    // surface.
+    // The greatest distance of three points along the edge from the surface. The middle alone would not do: along an S
+    // it is on the surface.
     static double distance(const FacetJudge& judge, Vec3 a, Vec3 b) {
         double farthest = 0;
         for (const double share : {0.25, 0.5, 0.75})

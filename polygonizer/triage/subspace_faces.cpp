@@ -1,4 +1,4 @@
-// What the isosurface does in the faces between cells: segments, and the points that refine them.
+// Cuts the faces between cells by the isosurface: by segments, and by the points that refine them.
 #include <algorithm>
 
 #include "polygonizer/triage/parallel_family.hpp"
