@@ -123,8 +123,11 @@ bool Subdivision::shows_surface(const PartitionNode& node) const {
     return std::any_of(node.open.begin(), node.open.end(), [&](const OpenLeaf& leaf) {
         if (!leaf.density) return false;
         bool above = false, below = false;
-        for (const Vec3& x : corners_) (leaf.density->at(x) > 0.5 ? above : below) = true;
-        return above && below;
+        for (const Vec3& x : corners_) {
+            (leaf.density->at(x) > 0.5 ? above : below) = true;
+            if (above && below) return true;
+        }
+        return false;
     });
 }
 
@@ -252,9 +255,11 @@ bool Subdivision::choose_neutral(const PartitionNode& node, const Extents& cell,
     const double size = is_slender ? cell.width : cell.size, radius = cell.radius;
     const int axis = cell.axis;
     const Box& box = cell.box;
-    if (radius == infinity ? size <= sharp_smallest * complex.tolerance
-                           : size <= (shows_surface(node) ? smallest_seen : smallest_unseen) * radius)
+    if (radius == infinity) {
+        if (size <= sharp_smallest * complex.tolerance) return false;
+    } else if (size <= smallest_unseen * radius || (size <= smallest_seen * radius && shows_surface(node))) {
         return false;
+    }
     if (is_slender) {
         plane = cell.widest;
         return !is_refused(plane);
