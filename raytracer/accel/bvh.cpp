@@ -6,9 +6,9 @@
 namespace deburr {
 namespace {
 
-// How far off a ray in single precision can be, where coordinates are at most 1: its origin and the
-// boxes are rounded by 2⁻²⁵, differences of the two by 2⁻²⁴; reciprocal, direction and product each
-// stretch a distance of at most 2√3 by 2⁻²⁴. That is 12·2⁻²⁴ at most.
+// Bound of the error of a ray in single precision where coordinates are at most 1: its origin and the boxes are rounded
+// by 2⁻²⁵, their differences by 2⁻²⁴; reciprocal, direction and product each change a distance of at most 2√3 by a
+// factor of 1 ± 2⁻²⁴. That is at most 12·2⁻²⁴.
 constexpr double slack = 0x1p-19;
 
 }  // namespace
@@ -22,13 +22,13 @@ Bvh8::Bvh8(const Builder& from, int root) {
     if (root == Builder::nothing) return;
     box_ = from.parts_[root].box;
     frame_ = BoxFrame(box_);
-    if (collapse(from, root, 0) < 0) {  // one item alone
+    if (collapse(from, root, 0) < 0) {  // a single item
         nodes_.push_back(node_of(from, {root}));
         nodes_[0].child[0] = ~from.parts_[root].a;
     }
 }
 
-// The largest of the children is opened until there are eight, or items only.
+// Opens the child with the largest surface until there are eight, or until all are items.
 std::int32_t Bvh8::collapse(const Builder& from, int root, int depth) {
     const auto part = [&](int i) -> const Builder::Part& { return from.parts_[i]; };
     if (part(root).b < 0) return ~part(root).a;

@@ -1,9 +1,8 @@
-// A tree of boxes, eight to a node: which of many boxes a ray may meet, nearest first.
+// An eight-wide bounding volume hierarchy (BVH): finds which of many boxes a ray may meet, nearest first.
 //
-// Boxes are kept in single precision, and so is the ray: it only has to find every box that the exact
-// ray touches. For that both are measured from the middle of the outermost box, in units of its half
-// largest side, the ray starts where it enters that box, and every box is larger by what rounding can
-// make of the numbers that are left.
+// Boxes and rays are kept in single precision, because the tree only has to find every box that the exact ray touches.
+// For that, coordinates are measured from the middle of the outermost box in units of half its longest side, the ray is
+// started where it enters that box, and every box is enlarged by more than single precision can be off there.
 #pragma once
 #include <cstdint>
 #include <vector>
@@ -14,31 +13,35 @@
 
 namespace deburr {
 
-/// Frame in which boxes and rays are measured, so that single precision is enough: coordinates in
-/// `around` are −1 … 1.
+/// The frame in which boxes and rays are measured so that single precision is enough: coordinates inside `around` are
+/// in −1 … 1.
 struct BoxFrame {
     BoxFrame() = default;
     explicit BoxFrame(const Box& around);
 
     Vec3 to_local(const Vec3& x) const { return (x - middle) * per_unit; }
-    /// A distance in these units, rounded up; 0 for a negative one.
+    /// The distance `d` in units of this frame, rounded up; 0 if `d` is negative.
     float distance(double d) const { return std::max(0.0f, float(d * per_unit) * (1 + 0x1p-22f)); }
 
-    Vec3 middle{0.0};
-    double per_unit = 1;
+    Vec3 middle{0.0};     // scene coordinates of the frame's origin
+    double per_unit = 1;  // frame units per scene length
 };
 
+/// An eight-wide BVH over numbered items, each with a finite box.
 class Bvh8 {
 public:
-    /// A binary tree to start from; every subtree of it that holds anything has a finite box.
+    /// Builds the binary tree that Bvh8 is made from. A part is a subtree, named by an int that item() or a join
+    /// returns; every part but `nothing` has a finite box.
     class Builder {
     public:
-        static constexpr int nothing = -1;
-        /// Makes room for so many items.
+        static constexpr int nothing = -1;  // the empty part
+        /// Reserves memory for a tree of this many items.
         void reserve(std::size_t items) { parts_.reserve(2 * items); }
+        /// Adds an item with the number that visit() is to report; returns its part.
         int item(std::uint32_t number, const Box& box);
-        int join(int a, int b);  // of any two, also of nothing
-        /// Joins all of these by the surface-area heuristic, so that few rays meet many.
+        int join(int a, int b);  // the part that holds both; either may be `nothing`
+        /// Joins these parts into one by the surface-area heuristic, which keeps the expected number of boxes that a
+        /// ray meets small. Returns `nothing` if there are none.
         int join_by_area(std::vector<int> parts);
         const Box& box(int part) const { return parts_[part].box; }
 
@@ -46,42 +49,47 @@ public:
         friend class Bvh8;
         struct Part {
             Box box;
-            int a, b;  // b < 0: an item, its number in a
+            int a, b;  // children; b < 0: an item, whose number is a
         };
         int split(std::vector<int>& order, std::size_t first, std::size_t end, int slot, int depth);
         LargeVector<Part> parts_;
     };
 
     Bvh8() = default;
+    /// The tree under `root` of the builder; empty if that is Builder::nothing. Throws std::length_error if the tree
+    /// has more than BoxTree::max_depth levels.
     Bvh8(const Builder& from, int root);
 
     const Box& box() const { return box_; }
     bool empty() const { return nodes_.empty(); }
 
-    /// Precondition: [t0, t1] is the ray's part in box(), up to rounding; `inverse` is reciprocal(direction). Calls
-    /// visit(i) for every item i whose box the ray may meet in [t0, t1], the nearest first but where boxes overlap.
-    /// visit() returns the distance up to which the ray goes on; a negative one ends the search.
+    /// Calls visit(i) for every item i whose box the ray may meet in [t0, t1], nearest first except where boxes
+    /// overlap. visit() returns the distance up to which the search goes on; a negative one ends it.
+    /// Precondition: [t0, t1] is the ray's part in box(), up to rounding; `inverse` is reciprocal(direction).
     template <class Visit>
     void visit(const Vec3& origin, const Vec3& direction, const Vec3& inverse, double t0, double t1, Visit visit) const;
 
-    /// Several rays: where they enter box(), their directions, and how far the farthest goes on in it.
+    /// Bounds of several rays: of their points of entry into box(), of their directions, and the longest distance that
+    /// any of them goes on from there.
     struct Beam {
         Vec3 min_point, max_point, min_direction, max_direction;
         double longest;
     };
-    /// visit() for all of them at once: calls visit(number of an item) for whatever one of them may meet, the
-    /// nearest first but where boxes overlap. It returns how far the farthest goes on.
+    /// visit() for several rays at once: calls visit(i) for every item i that one of them may meet, nearest first
+    /// except where boxes overlap. visit() returns the longest distance that any ray goes on from its point of entry; a
+    /// negative one ends the search.
     template <class Visit>
     void visit_packet(const Beam& beam, Visit visit) const;
 
-    /// Items from `number` on lie at `first`, so many bytes apart: they are fetched before they are visited.
+    /// Tells where the caller keeps the data of the items from `number` on: an array at `first` with this stride in
+    /// bytes. It is prefetched before an item is visited, and must stay valid while rays are traced.
     void items_lie_at(std::uint32_t number, const void* first, std::size_t stride) {
         tree_.first_item = number;
         tree_.items = static_cast<const char*>(first);
         tree_.item_stride = stride;
     }
 
-    /// Calls visit(number of an item) for those whose boxes may meet this one.
+    /// Calls visit(i) for every item i whose box may meet `box`; the boxes are slightly enlarged, so some may not.
     template <class Visit>
     void meeting(const Box& box, Visit visit) const;
 
@@ -91,7 +99,8 @@ private:
         tree.nodes = nodes_.data();
         return tree;
     }
-    // visit(item) → how far the rays go on, from `start`.
+    // Adapts the caller's visit(item), which returns a distance in scene units, to BoxVisitor, whose distances count
+    // from `start` in units of the frame.
     template <class Visit>
     struct Visitor {
         const BoxFrame& frame;
@@ -109,7 +118,7 @@ private:
     std::int32_t collapse(const Builder& from, int root, int depth);
     BoxNode node_of(const Builder& from, const std::vector<int>& children) const;
 
-    BoxTree tree_;  // without its nodes
+    BoxTree tree_;  // without its nodes, which tree() adds
     LargeVector<BoxNode> nodes_;
     Box box_;
     BoxFrame frame_;
@@ -129,7 +138,8 @@ inline Vec3 reciprocal(Vec3 d) { return {reciprocal(d.x), reciprocal(d.y), recip
                                               double t1) {
     for (int k = 0; k < 3; ++k) {
         const double a = (box.lo[k] - origin[k]) * inverse[k], b = (box.hi[k] - origin[k]) * inverse[k];
-        // Two comparisons: of one the compiler makes a branch, which no processor foresees.
+        // Comparisons instead of std::min and std::max on one pair: those become branches, which no processor predicts
+        // well.
         const double lo = a < b ? a : b, hi = a > b ? a : b;
         t0 = lo > t0 ? lo : t0;
         t1 = hi < t1 ? hi : t1;
@@ -138,7 +148,7 @@ inline Vec3 reciprocal(Vec3 d) { return {reciprocal(d.x), reciprocal(d.y), recip
 }
 
 inline float Bvh8::inverse_of(double x) {
-    constexpr double most = 1e30;  // beyond it a direction does not leave its place
+    constexpr double most = 1e30;  // with an inverse beyond this the ray does not leave a plane within the tree
     return float(std::clamp(x, -most, most));
 }
 
@@ -156,9 +166,10 @@ void Bvh8::visit(const Vec3& origin, const Vec3& direction, const Vec3& reciproc
     packet_functions.walk_ray(tree(), ray, visitor.of_boxes());
 }
 
-// Along an axis that all go up, or all down: each operation in single precision is monotone, also where it
-// rounds, so what the extreme starts and directions give lies around what any of the rays gives. Along
-// another: the places that any of them reaches. The boxes' slack is more than rounding makes of these.
+// Along an axis on which all directions have the same sign, the extreme points of entry and directions bound the result
+// for every ray, since each operation in single precision is monotone, rounding included. Along any other axis the
+// interval of coordinates that any ray reaches is tested instead. The boxes' slack is more than the rounding of these
+// intervals.
 template <class Visit>
 void Bvh8::visit_packet(const Beam& beam, Visit visit) const {
     BoxBeam boxes;

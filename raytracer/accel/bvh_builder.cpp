@@ -1,5 +1,5 @@
-// Binary trees for Bvh8: what is not laid out by a BSP is split by the surface-area heuristic
-// (MacDonald & Booth 1990) in bins (Wald 2007).
+// Builds the binary trees for Bvh8. Parts that no BSP has arranged are split by the surface-area heuristic [MacDonald &
+// Booth 1990] in bins [Wald 2007].
 #include <tbb/parallel_invoke.h>
 
 #include <algorithm>
@@ -10,9 +10,9 @@ namespace deburr {
 namespace {
 
 constexpr int bins = 16;
-// Fewer parts are not worth a task.
+// Ranges of fewer parts are split without a task of their own.
 constexpr std::size_t parts_of_a_task = 4096;
-// From here on parts are halved, so that a ray's stack has room for every tree.
+// Below this depth ranges are halved by count, so that the tree's depth stays within what a ray's stack can hold.
 constexpr int max_depth_by_area = 40;
 
 Vec3 middle(const Box& b) { return 0.5 * b.lo + 0.5 * b.hi; }
@@ -44,8 +44,8 @@ int Bvh8::Builder::join_by_area(std::vector<int> parts) {
     return split(parts, 0, parts.size(), first, 0);
 }
 
-// n parts have n − 1 joins: where each subtree's are is known beforehand. It does not depend on the number
-// of threads.
+// A range of n parts needs n − 1 joins, so the slots of each subtree in parts_ are known beforehand; the tree does not
+// depend on the number of threads.
 int Bvh8::Builder::split(std::vector<int>& order, std::size_t first, std::size_t end, int slot, int depth) {
     if (end - first == 1) return order[first];
     const auto box_at = [&](std::size_t i) -> const Box& { return box(order[i]); };
@@ -59,7 +59,7 @@ int Bvh8::Builder::split(std::vector<int>& order, std::size_t first, std::size_t
     };
     const auto is_split = [&](int axis) { return depth < max_depth_by_area && middles.hi[axis] > middles.lo[axis]; };
     Bin bins_of[3][bins];
-    for (std::size_t i = first; i < end; ++i)  // boxes lie apart: each is loaded once
+    for (std::size_t i = first; i < end; ++i)  // part by part, so that each scattered box is loaded once
         for (int axis = 0; axis < 3; ++axis)
             if (is_split(axis)) {
                 Bin& bin = bins_of[axis][bin_of(order[i], axis)];
@@ -86,7 +86,7 @@ int Bvh8::Builder::split(std::vector<int>& order, std::size_t first, std::size_t
             best_bin = k;
         }
     }
-    std::size_t middle_one = first + (end - first) / 2;  // where all middles are one, or too deep
+    std::size_t middle_one = first + (end - first) / 2;  // used where all middles coincide, or the tree is deep
     if (best_axis >= 0) {
         const auto upper =
             std::stable_partition(order.begin() + std::ptrdiff_t(first), order.begin() + std::ptrdiff_t(end),

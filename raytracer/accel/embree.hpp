@@ -1,6 +1,6 @@
-// Embree 3 or 4: what its users share.
+// Access to Embree 3 or 4 for the rest of the program: the loaded library, rays, query contexts and scenes.
 //
-// The library, of 42 MB, is loaded by the first of them: linked, it cost every call a millisecond.
+// The library (42 MB) is loaded when it is first used: linking it would add a millisecond to every run of the program.
 #pragma once
 #if __has_include(<embree4/rtcore.h>)
 #include <embree4/rtcore.h>
@@ -19,7 +19,7 @@
 
 namespace deburr {
 
-/// The functions of Embree that we call, under our names.
+/// The functions of Embree that are called, under this project's names.
 struct EmbreeLibrary {
     decltype(&rtcNewDevice) new_device;
     decltype(&rtcReleaseDevice) release_device;
@@ -43,10 +43,10 @@ struct EmbreeLibrary {
     decltype(&rtcOccluded1) occluded;
 };
 
-/// Throws UnsupportedError if it cannot be loaded.
+/// The library, loaded by the first call. Throws UnsupportedError if it cannot be loaded.
 const EmbreeLibrary& embree();
 
-/// A ray as Embree takes it, from its origin to t_max.
+/// The ray in Embree's single precision, in [0, t_max].
 inline RTCRay embree_ray(const Ray& ray, double t_max) {
     RTCRay r{};
     r.org_x = float(ray.origin.x);
@@ -61,7 +61,7 @@ inline RTCRay embree_ray(const Ray& ray, double t_max) {
     return r;
 }
 
-/// A query's own; further members may be added by derivation.
+/// The context of one query; users derive from it to pass their own data to callbacks.
 #if RTC_VERSION_MAJOR >= 4
 struct EmbreeContext : RTCRayQueryContext {
     EmbreeContext() { rtcInitRayQueryContext(this); }
@@ -72,7 +72,8 @@ struct EmbreeContext : RTCIntersectContext {
 };
 #endif
 
-/// One scene, to be filled and then committed.
+/// An Embree scene: geometries are added, it is committed once, then rays are traced. Throws WorkError if Embree runs
+/// out of memory.
 class EmbreeScene {
 public:
     EmbreeScene() : device_(shared_device()), scene_(library_.new_scene(device_)) {
@@ -91,12 +92,13 @@ public:
         if (!geometry) fail("a geometry");
         return geometry;
     }
+    /// Commits the geometry, adds it to the scene and gives up the caller's reference to it.
     void add(RTCGeometry geometry) {
         library_.commit_geometry(geometry);
         library_.attach_geometry(scene_, geometry);
         library_.release_geometry(geometry);
     }
-    /// `what` is in it, if it does not fit.
+    /// Builds the scene. `what` names its content in the message of the error if memory does not suffice.
     void commit(const std::string& what) {
         library_.commit_scene(scene_);
         if (library_.device_error(device_) != RTC_ERROR_NONE) fail(what);
@@ -121,8 +123,8 @@ public:
 #endif
 
 private:
-    /// Set once an allocation of Embree's failed. It leaves locks of its allocator held, and a release after that may
-    /// wait for them without an end; so nothing of it is released any more.
+    /// Set once an allocation of Embree's has failed. Embree then leaves locks of its allocator held, and releasing
+    /// objects could wait for them forever, so nothing is released any more.
     static inline std::atomic<bool> out_of_memory{false};
 
     [[noreturn]] static void fail(const std::string& what) {
@@ -130,7 +132,7 @@ private:
         throw WorkError("Embree cannot hold " + what + ": out of memory");
     }
 
-    /// The one device of the process. It is never released: once memory was short, that may wait without an end, too.
+    /// The process's only device. It is never released, since after a failed allocation that could wait forever, too.
     static RTCDevice shared_device() {
         static std::mutex mutex;
         static RTCDevice device = nullptr;

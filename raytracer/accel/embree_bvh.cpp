@@ -1,15 +1,15 @@
-// Every box that the exact ray touches is found, though Embree works in single precision. In a BoxFrame
-// coordinates and distances to the planes of boxes are at most 1 and 2, with u = 2⁻²⁴ the unit of rounding:
-// for a box side at B and a ray at o, going d along its axis, Embree computes t = (B − o)·(1/d), or, with user
-// geometry even in a robust scene, B·(1/d) − o·(1/d), fused or not. Off the side, in position, that is
+// Why every box that the exact ray touches is found although Embree works in single precision. In a BoxFrame
+// coordinates are at most 1 and distances to the planes of boxes at most 2; let u = 2⁻²⁴ be the unit roundoff. For a
+// box side at B and a ray with origin o and direction d along its axis, Embree computes t = (B − o)·(1/d), or, for user
+// geometry even in a robust scene, B·(1/d) − o·(1/d), fused or not. The error of the position along the axis is at most
 //
 //     ½u (B rounded) + ½u (o) + 2u (d, over a distance of 2) + 10u (1/d by an approximation and one step of
 //     Newton's) + 4u (the products) + 2u (the difference)  <  20u  <  2⁻¹⁸ = 64u,
 //
-// and boxes are larger by the latter. So, where a ray touches a box at s, each axis has t ≤ s at the near side
-// and t ≥ s at the far one. That holds along axes too: Embree takes 10¹⁸ for 1/0, and the ray is off either
-// side by 44u at least, unless it touches neither box nor margin. The rest of the margin, 2⁻¹⁹, is more than
-// what double precision makes of a ray that starts 2²⁸ sizes away.
+// and boxes are enlarged by 2⁻¹⁸. So, where a ray touches a box at s, each axis has t ≤ s at the near side and t ≥ s at
+// the far one. That holds for rays parallel to an axis, too: Embree takes 10¹⁸ for 1/0, and the ray is at least 44u off
+// either side, unless it touches neither box nor margin. The rest of the margin, 2⁻¹⁹, is more than the error in double
+// precision of a ray that starts 2²⁸ sizes away.
 #include "raytracer/accel/embree_bvh.hpp"
 
 #include "raytracer/accel/bvh.hpp"
@@ -20,7 +20,7 @@ namespace {
 
 constexpr double slack = 0x1p-18;
 
-// Of one ray; the callbacks find it as Embree's context.
+// The query of one ray, which the callbacks receive as Embree's context.
 struct Query : EmbreeContext {
     const std::uint32_t* numbers;
     const BoxFrame* frame;
@@ -37,7 +37,7 @@ struct Query : EmbreeContext {
     }
 };
 
-// There is one ray in them, as there is in the queries.
+// Embree calls these with packets of rays; the queries here have a single ray each.
 void on_intersect(const RTCIntersectFunctionNArguments* a) {
     static_cast<const Query*>(static_cast<EmbreeContext*>(a->context))
         ->on_item(a->primID, reinterpret_cast<RTCRayHit*>(a->rayhit)->ray);

@@ -1,7 +1,7 @@
-// Boxes as user geometry under a BVH of Embree's: what bvh.hpp does, by another hierarchy.
+// Boxes as user geometry in a BVH of Embree's: an alternative to Bvh8 (bvh.hpp), used as a cross-check.
 //
-// Every box that the exact ray touches is found, and some more; which, and in what order, is Embree's affair
-// and may differ from one processor to another.
+// Every box that the exact ray touches is found, and a few more. Which ones, and in what order, depends on Embree and
+// may differ between processors.
 #pragma once
 #include <cstdint>
 #include <memory>
@@ -11,6 +11,7 @@
 
 namespace deburr {
 
+/// A box and the number by which visits report it.
 struct NumberedBox {
     std::uint32_t number;
     Box box;  // finite, not empty
@@ -18,14 +19,15 @@ struct NumberedBox {
 
 class EmbreeBvh {
 public:
+    /// Throws UnsupportedError if Embree cannot be loaded, WorkError if it does not start or runs out of memory.
     explicit EmbreeBvh(const std::vector<NumberedBox>& boxes);
     EmbreeBvh(EmbreeBvh&&) noexcept;
     EmbreeBvh& operator=(EmbreeBvh&&) noexcept;
     ~EmbreeBvh();
 
     enum class Order { nearest_first, any };
-    /// Visits boxes as Bvh8::visit does. visit() returns the distance up to which the ray goes on; a negative
-    /// one ends it.
+    /// Calls visit(number) for the boxes that the ray may meet in [t0, t1], as Bvh8::visit does. visit() returns the
+    /// distance up to which the search goes on; a negative one ends it.
     template <class Visit>
     void visit(const Vec3& origin, const Vec3& direction, double t0, double t1, Order order, Visit visit) const {
         run(

@@ -1,4 +1,4 @@
-// The way of a ray, or of several, through a tree of boxes: the nearest first, but where boxes overlap.
+// Traversal of a tree of boxes by one ray or by a beam of rays: nearest first, except where boxes overlap.
 #if defined(DEBURR_BOX_WALK_INL) == defined(HWY_TARGET_TOGGLE)  // not yet included for this set of instructions
 #ifdef DEBURR_BOX_WALK_INL
 #undef DEBURR_BOX_WALK_INL
@@ -28,7 +28,7 @@ DEBURR_INLINE unsigned bits_of_boxes(hn::Mask<BoxTag> m) {
     return bytes[0];
 }
 
-// Which of a node's boxes a ray meets before `end`, as bits, and where.
+// Tells which of a node's boxes a ray meets before `end`, as bits, and at which distances.
 class RayMeets {
 public:
     explicit DEBURR_INLINE RayMeets(const BoxRay& ray) {
@@ -62,7 +62,7 @@ private:
     int near_[3];
 };
 
-// Likewise of several rays.
+// Tells which of a node's boxes any ray of a beam may meet, as bits, and the least distances.
 class BeamMeets {
 public:
     explicit DEBURR_INLINE BeamMeets(const BoxBeam& beam) : beam_(beam) {}
@@ -97,12 +97,14 @@ private:
     const BoxBeam& beam_;
 };
 
+// Prefetches the caller's data of an item.
 DEBURR_INLINE void fetch_item(const BoxTree& tree, std::uint32_t i) {
     if (i < tree.first_item) return;
     const char* item = tree.items + (i - tree.first_item) * tree.item_stride;
     for (std::size_t at = 0; at < tree.item_stride; at += 64) __builtin_prefetch(item + at);
 }
 
+// Calls the visitor for the items that `meet` (RayMeets or BeamMeets) lets through, up to the distance `end`.
 template <class Meet>
 DEBURR_INLINE void walk(const BoxTree& tree, float end, const Meet& meet, BoxVisitor visitor) {
     struct Entry {
@@ -123,13 +125,13 @@ DEBURR_INLINE void walk(const BoxTree& tree, float end, const Meet& meet, BoxVis
                     continue;
                 }
                 const int first = top;
-                do {  // sorted by insertion, the nearest on top
+                do {  // insertion sort, nearest on top
                     const int k = __builtin_ctz(met);
                     met &= met - 1;
                     int slot = top++;
                     for (; slot > first && stack[slot - 1].t < t[k]; --slot) stack[slot] = stack[slot - 1];
                     stack[slot] = {n.child[k], t[k]};
-                    // It is looked at soon, if not next.
+                    // It is visited soon, if not next.
                     if (n.child[k] >= 0)
                         __builtin_prefetch(&tree.nodes[n.child[k]]);
                     else

@@ -1,5 +1,5 @@
-// Products of half-spaces along several rays at a time: bounds/convex_density.cpp, where each step is explained,
-// operation by operation.
+// Products of half-spaces along several rays at a time: the operations of bounds/convex_density.cpp, where each step is
+// explained, in the same order.
 #if defined(DEBURR_CONVEX_PACKET_INL) == defined(HWY_TARGET_TOGGLE)  // not yet included for this set of instructions
 #ifdef DEBURR_CONVEX_PACKET_INL
 #undef DEBURR_CONVEX_PACKET_INL
@@ -19,11 +19,13 @@ namespace HWY_NAMESPACE {
 
 constexpr double rounding = RootFinder::rounding;
 
+// The product P of the soft factors and its derivative at a point of each ray.
 struct Point {
     V P, slope;
 };
 
-// The rays' view of the factors. N: their number if known when compiled, else 0.
+// The factors along the rays. C is the stretch of a ray where P exceeds its level. N is the number of soft factors if
+// it is known at compile time, else 0.
 template <int N>
 class Convex {
 public:
@@ -45,18 +47,20 @@ public:
             clip(rays.distance(density.planes[i]), rays.rate(density.planes[i]), i);
     }
 
-    // What is found in [lo, hi]: rays' t and plane where it is, and whether they go into C.
+    // Crossings in [lo, hi]: which rays have one, which of these go into C, and t and the index of the plane crossed
+    // (−1: none alone).
     struct Found {
-        DEBURR_INLINE Found() {}  // one that the compiler makes is not for these instructions
+        DEBURR_INLINE Found() {}  // not defaulted: the compiler's would lack this instruction set
         M any, into;
         V t, plane;
     };
 
+    // Those of `rays` whose interval within all factors reaches [lo, hi].
     DEBURR_INLINE M meeting(M rays, V lo, V hi, V t_tolerance) const {
         return and_not(and_(rays, out_ - in_ > t_tolerance), or_(in_ > hi, out_ < lo));
     }
 
-    // Of `rays`, which meet C.
+    // First crossings of `rays`, which must be among meeting().
     DEBURR_INLINE Found first(M rays, V lo, V hi, V t_tolerance) const {
         const M entering = in_ > lo;
         const V start = select(entering, in_, lo);
@@ -69,7 +73,7 @@ public:
         f.t = start;
         f.plane = select(alone, plane_in_, if_sharp(plane_in_));
 
-        M search = and_not(asked, inside);  // from outside of C into it
+        M search = and_not(asked, inside);  // rays that look for a root from outside of C into it
         V s = start, base = hn::Zero(d), sign = number(1), to = select(out_ < hi, out_, hi);
         Point at_s = p;
         const M leaving = and_not(inside, entering);
@@ -85,7 +89,7 @@ public:
             f.any = or_(f.any, out);
             f.t = select(out, to, f.t);
             f.plane = select(alone_out, plane_out_, select(out, if_sharp(plane_out_), f.plane));
-            // Mirrored: backwards from where it is outside again.
+            // Mirrored search: backwards from a point beyond C.
             s = select(back, hn::Zero(d), s);
             base = select(back, to, base);
             sign = select(back, number(-1), sign);
@@ -98,12 +102,13 @@ public:
         const M root_in = and_not(rooted, back);
         f.any = or_(f.any, or_(root_in, back));
         f.into = or_(f.into, root_in);
-        // Out of C always: where rounding hides the root, at the end.
+        // These rays leave C for certain: where rounding hides the root, the crossing is at the end.
         f.t = select(root_in, s, select(back, select(rooted, base - s, base), f.t));
         f.plane = select(or_(root_in, back), number(-1), f.plane);
         return f;
     }
 
+    // Those of `rays`, which must be among meeting(), that have a crossing in [lo, hi].
     DEBURR_INLINE M any(M rays, V lo, V hi, V t_tolerance) const {
         const V from = hn::Max(in_, lo), to = hn::Min(hi, out_);
         const M inside = and_(rays, at(number(0.5) * (from + to), rays).P > level_);
@@ -121,6 +126,7 @@ public:
 private:
     DEBURR_INLINE int soft() const { return N > 0 ? N : soft_; }
 
+    // Cuts [in_, out_] down to where α = a + b·t of factor `plane` is at most 0, its density ½ or more.
     DEBURR_INLINE void clip(V a, V b, int plane) {
         const V t = hn::Neg(a) / b, zero = hn::Zero(d);
         const M later = and_(b<zero, t> in_), sooner = and_(b > zero, t < out_);
@@ -133,7 +139,7 @@ private:
         out_ = select(never, number(-infinity), out_);
     }
 
-    // Of the soft factors; counted for those who ask.
+    // P and its derivative over the soft factors. Evaluations are counted for the rays in `asked`.
     DEBURR_INLINE Point at(V t, M asked) const {
         evaluations_ += hn::CountTrue(d, asked);
         const V one = number(1), two = number(2), quarter = number(0.25), three_quarters = number(0.75);
@@ -147,15 +153,18 @@ private:
         return p;
     }
 
+    // `plane` where it names a sharp factor, else −1.
     DEBURR_INLINE V if_sharp(V plane) const { return select(plane >= number(soft()), plane, number(-1)); }
 
+    // Where the crossing is that of one soft plane alone, since all other soft factors are 1.
     DEBURR_INLINE M is_alone(V plane, V t) const {
         M alone = plane < number(soft());
         for (int i = 0; i < soft(); ++i) alone = and_(alone, or_(plane == number(i), a_[i] + b_[i] * t <= number(-1)));
         return alone;
     }
 
-    // Moves s to the root, for those of `run` that have one before `to`: they are returned.
+    // Moves s to the root for the rays of `run` that have one before `to`; returns these. A ray's parameter is base +
+    // sign·s.
     DEBURR_INLINE M newton(M run, V& s, Point p, V to, V base, V sign, V t_tolerance) const {
         const V one = number(1), two = number(2), three = number(3), four = number(4), zero = hn::Zero(d);
         M found = and_not(run, run);
@@ -185,7 +194,7 @@ private:
     V a_[N > 0 ? N : max_packet_factors], b_[N > 0 ? N : max_packet_factors];
 };
 
-// surface_normal() of `asked` at t, against rays that enter.
+// surface_normal() of convex_density.hpp at t for the rays in `asked`, turned against rays that enter.
 DEBURR_INLINE void normals_of(const ConvexView& density, const Rays& rays, V t, V plane, M entering, M asked,
                               std::size_t first, double (*normal)[RayPacket::size]) {
     const V one = number(1), zero = hn::Zero(d);
@@ -210,6 +219,7 @@ DEBURR_INLINE void normals_of(const ConvexView& density, const Rays& rays, V t, 
     store_against(sum, rays, entering, asked, first, normal);
 }
 
+// First crossings (or any, with `Any`) of the rays in `lanes`; returns those that have one.
 template <int N, bool Any>
 Lanes crossings_of(const ConvexView& density, const RayPacket& rays, Lanes lanes, const PacketSpans& spans,
                    double scale, PacketCrossings* found, std::uint64_t& evaluations) {

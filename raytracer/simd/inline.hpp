@@ -1,7 +1,7 @@
-// DEBURR_INLINE marks what is inlined into kernels, whatever its size.
+// DEBURR_INLINE marks functions that must be inlined into kernels whatever their size.
 //
-// With sanitizers clang takes ten minutes over the functions that come of it (a loop of 30,000 instructions), and half
-// of one where it may choose.
+// With sanitizers clang takes ten minutes to compile the resulting functions (a loop of 30,000 instructions), and half
+// a minute if it may choose; so then it may.
 #pragma once
 
 #if DEBURR_IS_SANITIZED

@@ -1,7 +1,7 @@
-// Which sets of vector instructions this machine has, of those that a file of kernels is compiled for. The file
-// includes this once (HWY_ONCE), after Highway's headers.
+// Finds out which instruction sets this machine has, among those that a file of kernels is compiled for. Such a file
+// includes this one once (under HWY_ONCE), after Highway's headers.
 //
-// Highway's own choice would need its library, which measures the processor's clock before main(): 3 ms.
+// Highway's own dispatch would need its library, which measures the processor's clock before main(): 3 ms.
 #pragma once
 #include <vector>
 
@@ -31,8 +31,8 @@ inline bool has_neon() { return (getauxval(AT_HWCAP) & HWCAP_AES) != 0; }  // AE
 
 }  // namespace deburr
 
-// The body of a function that returns Instructions of the table `functions` which each HWY_NAMESPACE defines, those of
-// the machine's sets, the widest first.
+// DEBURR_INSTRUCTION_SETS is the body of a function that returns a std::vector<Instructions<Functions>>, the widest set
+// first. `functions` is the table that every HWY_NAMESPACE defines.
 #if HWY_TARGETS & HWY_AVX3
 #define DEBURR_AVX512(functions) \
     if (has_avx512()) there.push_back({"AVX-512", &N_AVX3::functions});

@@ -1,9 +1,9 @@
-// Kernels that are compiled once for each set of vector instructions, and chosen when the program starts.
+// A table of kernels that are compiled once for each instruction set, of which one is chosen when the program starts.
 #pragma once
 
 namespace deburr {
 
-/// Kernels as compiled for one set of instructions, and the set's name.
+/// The kernels as compiled for one instruction set, and the set's name.
 template <class Functions>
 struct Instructions {
     const char* name;

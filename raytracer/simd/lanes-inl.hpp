@@ -1,4 +1,4 @@
-// Numbers and masks of several rays at a time, in one vector of the processor.
+// Vectors and masks over several rays: short names for Highway's operations on doubles.
 #if defined(DEBURR_LANES_INL) == defined(HWY_TARGET_TOGGLE)  // not yet included for this set of instructions
 #ifdef DEBURR_LANES_INL
 #undef DEBURR_LANES_INL
@@ -28,7 +28,7 @@ DEBURR_INLINE V select(M m, V a, V b) { return hn::IfThenElse(m, a, b); }
 DEBURR_INLINE M and_(M a, M b) { return hn::And(a, b); }
 DEBURR_INLINE M or_(M a, M b) { return hn::Or(a, b); }
 DEBURR_INLINE M and_not(M a, M b) { return hn::AndNot(b, a); }
-// As std::min, std::max and std::clamp choose between equal ones.
+// These choose between equal arguments as std::min, std::max and std::clamp do.
 DEBURR_INLINE V least(V a, V b) { return select(b < a, b, a); }
 DEBURR_INLINE V most(V a, V b) { return select(a < b, b, a); }
 DEBURR_INLINE V clamped(V x, V lo, V hi) { return select(x < lo, lo, select(hi < x, hi, x)); }
@@ -44,11 +44,12 @@ DEBURR_INLINE Lanes bits_of(M m) {
     return Lanes(bytes[0]) | Lanes(bytes[1]) << 8;
 }
 
-// The bits of `lanes` from `first` on that one vector holds.
+// The bits of `lanes` for the rays `first` … that one vector holds.
 DEBURR_INLINE Lanes part_of(Lanes lanes, std::size_t first) {
     return (lanes >> first) & ((Lanes(1) << hn::Lanes(d)) - 1);
 }
 
+// The rays `first` … of a packet, as many as a vector holds.
 struct Rays {
     V origin[3], direction[3];
     Rays(const RayPacket& rays, std::size_t first) {
@@ -57,6 +58,7 @@ struct Rays {
             direction[k] = hn::Load(d, rays.direction[k] + first);
         }
     }
+    // α at each ray's origin, and its rate along each ray.
     V distance(const AlphaPlane& p) const { return along(p, origin) + number(p.base); }
     V rate(const AlphaPlane& p) const { return along(p, direction); }
 
@@ -66,7 +68,7 @@ private:
     }
 };
 
-// Stores the normals of `asked`, turned against rays that enter and along those that leave.
+// Stores the normals n of the rays in `asked`, turned against rays that enter and along rays that leave.
 DEBURR_INLINE void store_against(const V* n, const Rays& rays, M entering, M asked, std::size_t first,
                                  double (*normal)[RayPacket::size]) {
     const M against = n[0] * rays.direction[0] + n[1] * rays.direction[1] + n[2] * rays.direction[2] < hn::Zero(d);

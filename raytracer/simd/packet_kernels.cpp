@@ -2,8 +2,8 @@
 
 #include "raytracer/simd/disabled_targets.hpp"
 
-// This file is compiled once for each set of instructions: what is between HWY_BEFORE_NAMESPACE and
-// HWY_AFTER_NAMESPACE, and the files whose names end in -inl, each time in a namespace of its own.
+// This file is compiled once for each instruction set: the code between HWY_BEFORE_NAMESPACE and HWY_AFTER_NAMESPACE,
+// and the files whose names end in -inl, each time in a namespace of its own.
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "raytracer/simd/packet_kernels.cpp"
 #include <hwy/foreach_target.h>
@@ -19,7 +19,7 @@ HWY_BEFORE_NAMESPACE();
 namespace deburr {
 namespace HWY_NAMESPACE {
 
-// As many rays as a vector holds.
+// Loads as many rays as a vector holds.
 DEBURR_INLINE void load_rays(const Ray* rays, V* origin, V* direction) {
     static_assert(sizeof(Ray) == 6 * sizeof(double));
     const double* const numbers = &rays->origin.x;
@@ -29,7 +29,7 @@ DEBURR_INLINE void load_rays(const Ray* rays, V* origin, V* direction) {
         direction[k] = number(numbers[3 + k]);
     }
 #else
-    // Of every coordinate two vectors, in which origins and directions alternate.
+    // Two vectors for each coordinate, in which origins and directions alternate.
     V a[3], b[3];
     hn::LoadInterleaved3(d, numbers, a[0], a[1], a[2]);
     hn::LoadInterleaved3(d, numbers + 3 * hn::Lanes(d), b[0], b[1], b[2]);
@@ -100,14 +100,14 @@ void map(const Affine& map, bool only_moved, const RayPacket& rays, const double
         hn::Store(length, d, rate + first);
         hn::Store(hn::Zero(d), d, mapped.begin + first);
         const V t_max = hn::Load(d, rays.t_max + first) * length;
-        // A distance is rounded there and back: what is at `end` must be found.
+        // Rounded up, since a distance is rounded there and back: a crossing at `end` must be found.
         const V until = hn::Load(d, end + first) * length * number(1 + 4 * epsilon);
         hn::Store(t_max, d, mapped.t_max + first);
         hn::Store(hn::Min(t_max, until), d, mapped.end + first);
     }
 }
 
-// Where rays are within a box, as span_in() says.
+// The intervals of rays within a box, as span_in() computes them.
 struct Span {
     V lo, hi;
     DEBURR_INLINE Span(const Box& box, const RayPacket& rays, const RayTerms& terms, std::size_t first, V end)
@@ -139,7 +139,7 @@ Lanes enter(const Box& box, const RayPacket& rays, const RayTerms& terms, Lanes 
         for (int k = 0; k < 3; ++k) {
             around[k + 3] = hn::Load(d, rays.direction[k] + first);
             around[k] = hn::Load(d, rays.origin[k] + first) + around[k + 3] * s.lo;
-            // What is no number meets nothing, and must not be taken for the least or the most.
+            // A ray with NaN meets nothing, and must not affect the extremes.
             meets = and_(meets, and_(around[k] == around[k], around[k + 3] == around[k + 3]));
         }
         met |= bits_of(meets) << first;
@@ -223,7 +223,8 @@ Lanes keep_nearer(RayTerms& terms, PacketNearest& nearest, const PacketCrossings
     return as_near;
 }
 
-// Calls at(rays, t, plane, entering, asked, first) for as many of `lanes`' nearest crossings as a vector holds.
+// Calls at(rays, t, plane, entering, asked, first) for the nearest crossings of `lanes`, as many at a time as a vector
+// holds.
 template <class At>
 DEBURR_INLINE void at_crossings(const RayPacket& packet, const double* end, Lanes lanes, const PacketNearest& nearest,
                                 At at) {

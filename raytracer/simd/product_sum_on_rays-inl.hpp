@@ -1,8 +1,8 @@
-// A sum of products of half-spaces along several rays at a time: its value, slope and bounds, as
-// bounds/product_sum_ray.cpp has them, where each step is explained, operation by operation.
+// A sum of products of half-spaces and round parts along several rays at a time: its value, slope and bounds, by the
+// operations of bounds/product_sum_ray.cpp, where each step is explained, in the same order.
 //
-// A ray alone leaves out the half-spaces that do not vary on its stretch. Here they stay, for other rays may need them:
-// where α is beyond ±1 the density is 0 or 1 and its slope 0, exactly, so products and their slopes are the same.
+// A single ray leaves out the half-spaces that do not vary on its stretch. Here they stay, since other rays may need
+// them: where α is beyond ±1 a density is 0 or 1 and its slope 0, exactly, so products and their slopes are the same.
 #if defined(DEBURR_PRODUCT_SUM_ON_RAYS_INL) == defined(HWY_TARGET_TOGGLE)  // not yet included for these instructions
 #ifdef DEBURR_PRODUCT_SUM_ON_RAYS_INL
 #undef DEBURR_PRODUCT_SUM_ON_RAYS_INL
@@ -30,18 +30,19 @@ DEBURR_INLINE V logarithm(V x) {
     return select(x < one, number(2) * (x - one) / (x + one), number(0.5) * (x - one / x));
 }
 
-// The rays' view of the sum.
+// f = ρ − ½ of a sum along the rays. Call narrow() first: it sets what the other functions use.
 class SumOnRays {
 public:
     static constexpr int max_terms = ProductSum::max_terms;
 
-    // f and its slope at a point of each ray.
+    // The value of f and its derivative at a point of each ray.
     struct Point {
-        DEBURR_INLINE Point() {}  // one that the compiler makes is not for these instructions
+        DEBURR_INLINE Point() {}  // not defaulted: the compiler's would lack this instruction set
         V t, f, slope;
-        V value[max_terms], rate[max_terms];  // of every term
+        V value[max_terms], rate[max_terms];  // P of each term, and its derivative
     };
 
+    // A lower and an upper bound of f′.
     struct SlopeRange {
         V lo, hi;
     };
@@ -58,14 +59,15 @@ public:
         for (int i = 0; i < rounds(); ++i) round_[i].set(sum.rounds()[std::size_t(i)].coordinate, rays);
     }
 
-    // Moves t0 and t1 to the stretch where some term is not 0, for all that is known; returns those of `rays` whose f
-    // varies there. What follows is asked for within.
+    // Moves t0 and t1 to a stretch outside of which every term is 0, as far as that is known. Returns the rays whose f
+    // varies there. All other functions may be called within that stretch only.
     DEBURR_INLINE M narrow(M rays, V& t0, V& t1) {
         clip_to_terms(t0, t1);
         const M any = bound_terms(bounds_of_factors(t0, t1), and_not(rays, rays));
         return and_(and_(rays, any), t0 <= t1);
     }
 
+    // f at t. Evaluations are counted for the rays in `asked`.
     DEBURR_INLINE Point evaluate(V t, M asked) {
         counters_.evaluations += hn::CountTrue(d, asked);
         return evaluate_uncounted(t);
@@ -82,7 +84,7 @@ public:
             const int factor = sum_.planes() + i;
             const V rate = round_[i].slope(t) * number(sum_.rounds()[std::size_t(i)].inverse_radius);
             const V c = hn::Max(hn::Min(alpha(factor, t), one), hn::Neg(one)), u = one - c;
-            // Rounding might find it less than 1 between ends where it is 1.
+            // Rounding might make it less than 1 between two ends where it is 1.
             F[factor] = select(round_is_one_[i], one, u * u * (number(2) + c) * number(0.25));
             slope[factor] = select(round_is_one_[i], zero, number(-0.75) * u * (one + c) * rate);
         }
@@ -107,6 +109,7 @@ public:
         return p;
     }
 
+    // Ray by ray: a where m is set, else b.
     DEBURR_INLINE Point select_point(M m, const Point& a, const Point& b) const {
         Point p;
         p.t = select(m, a.t, b.t);
@@ -119,7 +122,7 @@ public:
         return p;
     }
 
-    // A lower and an upper bound of f′ between two points.
+    // Bounds of f′ between two points of each ray.
     DEBURR_INLINE SlopeRange slopes(const Point& a, const Point& b) const {
         constexpr double min_product = 1e-200;
         const V length = b.t - a.t, zero = hn::Zero(d), one = number(1);
@@ -150,10 +153,10 @@ public:
         return sum;
     }
 
-    // |f″| at most, on the stretch that narrow() left.
+    // Upper bound of |f″| on the stretch that narrow() left.
     DEBURR_INLINE V curvature() const { return curvature_; }
 
-    // Unit gradients of the density at t; where it has none, as at an apex, the ray's direction.
+    // Unit gradients of ρ at t; the ray's direction where there is none, as at an apex.
     DEBURR_INLINE void gradients(V t, V* gradient) const {
         V share[ProductSum::max_planes];
         const V zero = hn::Zero(d);
@@ -205,9 +208,9 @@ private:
         return u * u * (number(2) + c) * number(0.25);
     }
 
-    // Of every factor F(α) on a stretch: whether it is 1 or 0 all along, and |α′| and |α″| at most.
+    // For each factor F(α): whether it is 1 or 0 on a whole stretch, and upper bounds of |α′| and |α″| there.
     struct FactorBounds {
-        DEBURR_INLINE FactorBounds() {}  // one that the compiler makes is not for these instructions
+        DEBURR_INLINE FactorBounds() {}  // not defaulted: the compiler's would lack this instruction set
         M is_one[ProductSum::max_planes], is_zero[ProductSum::max_planes];
         V steepness[ProductSum::max_planes], bend[ProductSum::max_planes];
     };
@@ -259,8 +262,8 @@ private:
         return f;
     }
 
-    // Which terms vary, the sum of the constant ones, and |f″| of the others at most. True where there is one that
-    // varies.
+    // Finds the terms that vary, the sum of the constant ones, and an upper bound of |f″| of the others. Returns the
+    // rays that have a term that varies.
     DEBURR_INLINE M bound_terms(const FactorBounds& f, M never) {
         const V zero = hn::Zero(d);
         constant_ = number(sum_.constant() - 0.5);
@@ -289,7 +292,8 @@ private:
         return any;
     }
 
-    // As half_space_bounds() and product_bounds() say, but for the second derivatives.
+    // slopes() of term k where a value is too close to 0 to be divided by: the bounds of half_space_bounds() and
+    // product_bounds(), without second derivatives.
     DEBURR_INLINE SlopeRange slopes_near_zero(int k, const Point& a, const Point& b) const {
         const V one = number(1), zero = hn::Zero(d);
         V M_all = one, L_all = zero;
@@ -327,9 +331,9 @@ private:
     RootCounters& counters_;
     RoundOnRays round_[ProductSum::max_rounds];
     M round_is_one_[ProductSum::max_rounds];
-    V a_[ProductSum::max_planes], b_[ProductSum::max_planes];  // every α = a + b·t
-    M active_[max_terms];                                      // where the term varies and does not vanish
-    V constant_, curvature_;                                   // the rest of f; |f″| at most
+    V a_[ProductSum::max_planes], b_[ProductSum::max_planes];  // α = a + b·t of every half-space
+    M active_[max_terms];                                      // rays for which the term varies and does not vanish
+    V constant_, curvature_;                                   // f − Σ of the varying terms; upper bound of |f″|
 };
 
 }  // namespace HWY_NAMESPACE

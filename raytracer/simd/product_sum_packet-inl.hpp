@@ -1,4 +1,5 @@
-// Crossings of several rays at a time with the surfaces of sums of products of half-spaces, and the normals there.
+// First crossings of several rays at a time with the surface of a sum of products (bounds/product_sum.hpp), and the
+// normals there.
 #if defined(DEBURR_PRODUCT_SUM_PACKET_INL) == defined(HWY_TARGET_TOGGLE)  // not yet included for these instructions
 #ifdef DEBURR_PRODUCT_SUM_PACKET_INL
 #undef DEBURR_PRODUCT_SUM_PACKET_INL
@@ -14,7 +15,7 @@ HWY_BEFORE_NAMESPACE();
 namespace deburr {
 namespace HWY_NAMESPACE {
 
-// The search for the first roots of f along the rays, by halving as RootFinder has it.
+// Searches for the first root of f along each ray by halving, as RootFinder does.
 class SumRootSearch {
 public:
     DEBURR_INLINE SumRootSearch(const ProductSum& sum, const Rays& rays, RootCounters& counters)
@@ -25,7 +26,7 @@ public:
         V t;
     };
 
-    // First crossings of `rays` in [t0, t1], which must be finite; coarse: no matter where exactly.
+    // First crossings of `rays` in [t0, t1], which must be finite. With `coarse`, t may be later than the crossing.
     HWY_NOINLINE Found first(M rays, V t0, V t1, V t_tolerance, bool coarse) {
         Found found{and_not(rays, rays), and_not(rays, rays), t1};
         M run = sum_.narrow(rays, t0, t1);
@@ -49,7 +50,7 @@ public:
             run = and_not(run, crosses);
             const M passed = and_not(done, crosses);
             a = sum_.select_point(passed, b, a);
-            // The next ends: what was put off, the latest first, or the middle.
+            // The next end: the latest of the postponed ones, or the middle.
             hn::Store(select(split, middle, b.t), d, next);
             alignas(64) double end[max_lanes];
             hn::Store(b.t, d, end);
@@ -76,11 +77,11 @@ public:
 private:
     using Point = SumOnRays::Point;
     static constexpr int max_lanes = RayPacket::size;
-    // Halving ends before: a stretch is no longer than 2⁵⁵ tolerances, and a tolerance more than a unit in the last
+    // Halving stops earlier: a stretch is at most 2⁵⁵ tolerances long, and a tolerance is more than a unit in the last
     // place.
     static constexpr int max_depth = 128;
 
-    // As bounds/root_finder has it, for several rays.
+    // at_most_one_root() of bounds/root_finder, for several rays.
     DEBURR_INLINE M at_most_one_root(const Point& a, const Point& b, V f_tolerance) const {
         const SumOnRays::SlopeRange s = sum_.slopes(a, b);
         const V zero = hn::Zero(d), length = b.t - a.t;
@@ -95,8 +96,8 @@ private:
         return or_(or_(monotone, flat), and_(same, away));
     }
 
-    // Where in [0, 1] of the stretch the cubic through both ends, with their slopes, is 0: two steps of Newton's from
-    // the chord.
+    // The root in [0, 1] of the stretch of the cubic with the values and slopes of f at both ends: two steps of
+    // Newton's method, started at the chord's root.
     DEBURR_INLINE V cubic_root(const Point& a, const Point& b) const {
         const V zero = hn::Zero(d), two = number(2), three = number(3), length = b.t - a.t;
         const V ca = a.slope * length, cb = b.slope * length, rise = b.f - a.f;
@@ -110,13 +111,13 @@ private:
         return x;
     }
 
-    // The roots of `run` between a and b, where f has just one: RootFinder::root, for several rays.
+    // RootFinder::root for several rays: the roots of `run` between a and b, where f has exactly one.
     DEBURR_INLINE V root(M run, Point a, Point b, V t_tolerance) {
         const V zero = hn::Zero(d), half = number(0.5), two = number(2);
         const M rises = b.f > zero;
         Point p = sum_.select_point(hn::Abs(a.f) < hn::Abs(b.f), a, b);
         V last = b.t - a.t, result = b.t;
-        M left = and_not(run, run);  // to the chord's root
+        M left = and_not(run, run);  // rays for which the chord's root is taken
         constexpr int max_steps = 2000;
         for (int k = 0; k < max_steps; ++k) {
             const V length = b.t - a.t;
@@ -161,7 +162,7 @@ private:
     RootCounters& counters_;
 };
 
-// Unit normals of `asked` at t, against rays that enter.
+// Unit normals at t for the rays in `asked`, turned against rays that enter.
 DEBURR_INLINE void sum_normals_of(const ProductSum& sum, const Rays& rays, V t, M entering, M asked, std::size_t first,
                                   double (*normal)[RayPacket::size]) {
     RootCounters none_counted;
@@ -170,6 +171,7 @@ DEBURR_INLINE void sum_normals_of(const ProductSum& sum, const Rays& rays, V t, 
     store_against(n, rays, entering, asked, first, normal);
 }
 
+// First crossings (or any, with `Any`) of the rays in `lanes`; returns those that have one.
 template <bool Any>
 Lanes sum_crossings_of(const ProductSum& sum, const RayPacket& rays, Lanes lanes, const PacketSpans& spans,
                        double scale, PacketCrossings* found, RootCounters& counters) {

@@ -1,5 +1,4 @@
-// Rays in arrays of their coordinates (structure of arrays), so that one vector instruction serves as
-// many rays as the processor's vectors hold.
+// Packets: rays as a structure of arrays, so that one vector instruction works on as many rays as a register holds.
 #pragma once
 #include <cstdint>
 
@@ -7,10 +6,10 @@
 
 namespace deburr {
 
-/// Bit k: ray k of a packet.
+/// A set of rays of a packet: bit k stands for ray k.
 using Lanes = std::uint32_t;
 
-/// How many they are.
+/// The number of rays in the set.
 inline std::uint64_t count(Lanes lanes) {
     static_assert(sizeof(Lanes) == 4);
     lanes -= lanes >> 1 & 0x55555555;
@@ -18,7 +17,7 @@ inline std::uint64_t count(Lanes lanes) {
     return ((lanes + (lanes >> 4)) & 0x0f0f0f0f) * 0x01010101 >> 24;
 }
 
-/// Calls each(k) for the rays of `lanes`.
+/// Calls each(k) for every ray k in the set, in ascending order.
 template <class Each>
 void for_each_lane(Lanes lanes, Each each) {
     for (; lanes != 0; lanes &= lanes - 1) each(__builtin_ctz(lanes));
@@ -29,11 +28,12 @@ struct Ray {
     Vec3 direction;  // unit
 };
 
+/// Sixteen rays.
 struct RayPacket {
     static constexpr int size = 16;
 
     alignas(64) double origin[3][size], direction[3][size];
-    // Each ray is asked for in [begin, t_max]; what lies beyond `end` need not be found.
+    // A query looks for crossings in [begin, t_max]; one beyond `end` need not be found.
     alignas(64) double begin[size], t_max[size], end[size];
 
     Ray ray(int k) const {
@@ -41,11 +41,11 @@ struct RayPacket {
     }
 };
 
-/// What follows of rays where coordinates of the scene reach a scale, and how far the search for each has come.
+/// Values derived from a packet's rays for a search, and how far the search of each has come.
 struct RayTerms {
-    alignas(64) double end[RayPacket::size];               // as far as counts still
+    alignas(64) double end[RayPacket::size];               // crossings beyond it no longer count
     alignas(64) double inverse[3][RayPacket::size];        // reciprocal(direction)
-    alignas(64) double coordinate_bound[RayPacket::size];  // of coordinates that are added
+    alignas(64) double coordinate_bound[RayPacket::size];  // largest magnitude of the terms of a point on the ray
 };
 
 }  // namespace deburr

@@ -1,5 +1,5 @@
-// Round coordinates along several rays at a time: RoundOnRay of bounds/round_coordinate.cpp, and RoundSurface of
-// bounds/round_product.cpp, operation by operation.
+// Round coordinates and surfaces of round parts along several rays at a time: the operations of RoundOnRay
+// (bounds/round_coordinate.cpp) and RoundSurface (bounds/round_product.cpp) in the same order.
 #if defined(DEBURR_ROUND_PACKET_INL) == defined(HWY_TARGET_TOGGLE)  // not yet included for this set of instructions
 #ifdef DEBURR_ROUND_PACKET_INL
 #undef DEBURR_ROUND_PACKET_INL
@@ -18,10 +18,10 @@ HWY_BEFORE_NAMESPACE();
 namespace deburr {
 namespace HWY_NAMESPACE {
 
-// Not of circles, but for their gradient.
+// A round coordinate u along each ray. Coordinates of circles (tori) are not supported, except by gradient().
 class RoundOnRays {
 public:
-    DEBURR_INLINE RoundOnRays() {}  // one that the compiler makes is not for these instructions
+    DEBURR_INLINE RoundOnRays() {}  // not defaulted: the compiler's would lack this instruction set
     DEBURR_INLINE void set(const RoundCoordinate& coordinate, const Rays& rays) {
         coordinate_ = &coordinate;
         V away[3], across[3];
@@ -47,6 +47,7 @@ public:
         least_ = dot(foot, foot);
     }
 
+    // u and its derivative at t.
     DEBURR_INLINE V at(V t) const {
         const V s = distance(t);
         if (is_point()) return s;
@@ -63,6 +64,7 @@ public:
     struct Interval {
         V lo, hi;
     };
+    // The range of u in [t0, t1].
     DEBURR_INLINE Interval range(V t0, V t1) const {
         const V a = at(t0), b = at(t1);
         if (is_point()) return {distance(clamped(nearest_, t0, t1)), most(a, b)};
@@ -78,6 +80,7 @@ public:
         return {select(between, least(u.lo, value), u.lo), select(between, most(u.hi, value), u.hi)};
     }
 
+    // Upper bounds of |u′| and |u″| in [t0, t1].
     DEBURR_INLINE V max_slope(V t0, V t1) const { return most(hn::Abs(slope(t0)), hn::Abs(slope(t1))); }
 
     DEBURR_INLINE V max_curvature(V t0, V t1) const {
@@ -87,7 +90,7 @@ public:
         return number(std::abs(coordinate_->across)) * bend;
     }
 
-    // Where the coordinate crosses a level, in order of t; those that are there.
+    // Where u crosses a level, in order of t. Only the crossings whose mask is set exist.
     struct Crossings {
         V first, second;
         M has_first, has_second;
@@ -111,7 +114,7 @@ public:
         return {nearest_ + p0, nearest_ + p1, and_(quadratic, counts(p0)), and_(counts(p1), or_(quadratic, q != zero))};
     }
 
-    // Cuts [lo, hi] down to where the coordinate is at most `level`.
+    // Cuts [lo, hi] down to where u is at most `level`.
     DEBURR_INLINE void clip(V level, V& lo, V& hi) const {
         const Crossings c = crossings(level);
         const M both = and_(c.has_first, c.has_second), one = hn::Xor(c.has_first, c.has_second);
@@ -123,7 +126,7 @@ public:
         hi = select(outside, number(-infinity), hi);
     }
 
-    // At points of the rays; a unit vector, or 0.
+    // ∇u at the points x: unit vectors, or 0 where there is none.
     static DEBURR_INLINE void gradient(const RoundCoordinate& c, const V* x, V* g) {
         const V zero = hn::Zero(d);
         V away[3];
@@ -161,7 +164,7 @@ private:
     V nearest_, least_, square_, height_, climb_;
 };
 
-// RoundSurface's first crossings.
+// First crossings of the rays in `lanes` with a RoundSurface; returns those that have one.
 DEBURR_INLINE Lanes surface_crossings_of(const RoundSurface& surface, const RayPacket& rays, Lanes lanes,
                                          const PacketSpans& spans, PacketCrossings& found) {
     Lanes crossed = 0;
@@ -190,7 +193,7 @@ DEBURR_INLINE Lanes surface_crossings_of(const RoundSurface& surface, const RayP
         const M starts_inside = hn::Xor(on_rays.at(lo) <= offset, complement);
         const auto c = on_rays.crossings(offset);
         const auto enters = [&](V t) { return hn::Xor(on_rays.slope(t) < zero, complement); };
-        // At lo itself it may have been counted already.
+        // A crossing at lo itself may be included in the side that the ray starts on.
         const auto counts = [&](M has, V t) {
             return and_(and_(asked, has), and_(and_(t >= lo, t <= hi), hn::Xor(enters(t), starts_inside)));
         };
@@ -201,6 +204,7 @@ DEBURR_INLINE Lanes surface_crossings_of(const RoundSurface& surface, const RayP
     return crossed;
 }
 
+// Unit normals of a RoundSurface at t for the rays in `asked`, turned against rays that enter.
 DEBURR_INLINE void surface_normals_of(const RoundSurface& surface, const Rays& rays, V t, M entering, M asked,
                                       std::size_t first, double (*normal)[RayPacket::size]) {
     V x[3], n[3];

@@ -1,4 +1,4 @@
-// Tori along several rays at a time: TorusOnRay of bounds/torus_on_ray.cpp, operation by operation.
+// Tori along several rays at a time: the operations of TorusOnRay (bounds/torus_on_ray.cpp) in the same order.
 #if defined(DEBURR_TORUS_PACKET_INL) == defined(HWY_TARGET_TOGGLE)  // not yet included for this set of instructions
 #ifdef DEBURR_TORUS_PACKET_INL
 #undef DEBURR_TORUS_PACKET_INL
@@ -19,6 +19,7 @@ namespace HWY_NAMESPACE {
 DEBURR_INLINE V dot(const V* a, const V* b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 DEBURR_INLINE V dot(const Vec3& a, const V* b) { return number(a.x) * b[0] + number(a.y) * b[1] + number(a.z) * b[2]; }
 
+// A torus along the rays in [t0, t1], as a polynomial of degree four in u = t − middle that is positive inside.
 class TorusOnRays {
 public:
     DEBURR_INLINE TorusOnRays(const RoundCoordinate& circle, double tube, bool complement, const Rays& rays, V t0, V t1)
@@ -53,9 +54,9 @@ public:
         tolerance_ = number(TorusOnRay::near_enough * tube) / hn::Sqrt(speed);
     }
 
-    // The first crossings of `rays`, and which go into the torus.
+    // First crossings of `rays`: which of them have one, and which of these go into the torus.
     struct Found {
-        DEBURR_INLINE Found() {}  // one that the compiler makes is not for these instructions
+        DEBURR_INLINE Found() {}  // not defaulted: the compiler's would lack this instruction set
         M any, into;
         V t;
     };
@@ -102,9 +103,11 @@ public:
     }
 
 private:
+    // The polynomial and its derivative.
     DEBURR_INLINE V value(V u) const { return c0_ + u * (c1_ + u * (c2_ + u * (u * c4_))); }
     DEBURR_INLINE V slope(V u) const { return c1_ + u * (number(2) * c2_ + u * (number(4) * u * c4_)); }
 
+    // The roots between `from` and `to` for the rays in `run`, as parameters t.
     DEBURR_INLINE V root(M run, V from, V to, V at_from, V at_to) const {
         const V zero = hn::Zero(d);
         const M in = at_from > zero;
@@ -125,6 +128,7 @@ private:
         return least(most(u + middle_, t0_), t1_);
     }
 
+    // One step of Newton's method for the distance from the circle, whose rounding is less than the polynomial's.
     DEBURR_INLINE V nearer_by_distance(V u) const {
         const V s = hn::Sqrt(start_square_ + u * (number(2) * start_rate_ + u * rate_square_)), out = s - ring_;
         const V h = height_ + climb_ * u, distance = hn::Sqrt(out * out + h * h);

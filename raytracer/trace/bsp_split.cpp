@@ -8,20 +8,21 @@
 namespace deburr {
 namespace {
 
-// A density by its number of half-spaces, of which the first three are mostly a product and more a sum of some; each
-// leaf that CSG has to combine. These costs and those of bsp_split.hpp were chosen by the time that csg_examples,
-// variable_rounding, staplers and hole_punch took, to be built and to be traced.
+// The cost of a density depends on its number of half-spaces: up to three it is mostly a product, beyond that a sum of
+// products. CSG adds a cost for each leaf. These costs and those of bsp_split.hpp were chosen by the times to build and
+// trace csg_examples, variable_rounding, staplers and hole_punch.
 constexpr double cost_soft = 5.0, cost_half_space = 0.5;
 constexpr double cost_further_half_space = 10.0, cost_csg_leaf = 10.0;
 constexpr int few_factors = 3;
 
-// A cell is split only if that spares, for each ray through the whole scene, this much or more: a split takes some
-// 4,000 of these units, and is worth that if ten million rays are traced. Chosen by a plate of 1,000 holes, of
-// which ten times as many cells as now were five times as long in the making and no faster. A model's cell must spare
-// ten times as much: cells that follow every edge of 500 to 1,000,000 triangles would take gigabytes.
-// Of other fields nothing: what their evaluation costs is not known here.
+// A cell is split only if that saves at least this much for each ray through the whole scene: a split costs some 4,000
+// units, which pays off after ten million rays. Chosen with a plate of 1,000 holes, where ten times as many cells took
+// five times as long to build and were no faster. A cell of a model (a triangle mesh) must save ten times as much:
+// cells along every edge of 500 to 1,000,000 triangles would take gigabytes. For other fields the least gain is 0,
+// since the cost of their evaluation is not known here.
 constexpr double least_gain_of_densities = 4e-4, least_gain_of_model = 4e-3;
 
+// Split candidates that are evaluated together.
 constexpr std::size_t trials_together = 8;
 
 double cost(const LocalSolidSize& size) {
@@ -67,7 +68,7 @@ BspSplit BspSplitter::best(const Box& cell, const std::vector<BspItem>& items, i
                                                                : best_of_boxes(cell, items);
 }
 
-// Takes the plane if it is expected to cost less than the best one. `low`, `high`: costs of the cell's halves.
+// Takes the plane as the best split if its expected cost is less. `low` and `high` are the costs of the cell's halves.
 inline void BspSplitter::consider(BspSplit& best, const Box& cell, int axis, double position, double low,
                                   double high) const {
     const double whole = area(cell);
@@ -78,7 +79,7 @@ inline void BspSplitter::consider(BspSplit& best, const Box& cell, int axis, dou
     if (total < best.cost) best = {total, position, axis};
 }
 
-// Where the item's box ends, and where its half-spaces across the axis begin and cease to vary.
+// Adds the ends of the item's box, and the positions where its half-spaces across the axis begin and cease to vary.
 inline void BspSplitter::add_ends(const BspItem& item, int axis, std::vector<double>& at) const {
     at.push_back(item.box.lo[axis] - 2 * margin_);
     at.push_back(item.box.hi[axis] + 2 * margin_);
@@ -97,8 +98,8 @@ inline void BspSplitter::add_ends(const BspItem& item, int axis, std::vector<dou
     }
 }
 
-// Candidates on one axis: where boxes end, where half-spaces begin and cease to vary, and even
-// steps between.
+// Split candidates on one axis, sorted: the ends of boxes, the places where half-spaces begin and cease to vary, and
+// even steps between.
 std::vector<double> BspSplitter::candidates(const Box& cell, const std::vector<BspItem>& items, int axis) const {
     std::vector<double> at;
     Box part;
@@ -116,12 +117,13 @@ std::vector<double> BspSplitter::candidates(const Box& cell, const std::vector<B
     return at;
 }
 
+// A candidate of best_local().
 struct BspSplitter::Trial {
     int axis;
-    double position, sum[2];  // of costs below and above
+    double position, sum[2];  // of costs below and above the plane
 };
 
-// Adds up what the items would cost on either side of each trial's plane; a few trials are looked at together.
+// Adds up what the items would cost on either side of each trial's plane.
 inline void BspSplitter::evaluate(const Box& cell, const std::vector<BspItem>& items, std::span<Trial> trials) const {
     Box parts[2 * trials_together];
     double* sums[2 * trials_together];
@@ -140,7 +142,7 @@ inline void BspSplitter::evaluate(const Box& cell, const std::vector<BspItem>& i
     }
 }
 
-// By what would be left of the solids on either side.
+// The best split by what pruning leaves of the items on either side.
 BspSplit BspSplitter::best_local(const Box& cell, const std::vector<BspItem>& items, int half_spaces) const {
     std::vector<Trial> trials;
     for (int axis = 0; axis < 3; ++axis)
@@ -159,8 +161,8 @@ BspSplit BspSplitter::best_local(const Box& cell, const std::vector<BspItem>& it
     return best;
 }
 
-// Across the longest side of what the cell holds of a model, if that is long for the model's filter: then it spares
-// something, and it is not asked how much.
+// The middle of the longest side of the part of a model that is in the cell, if that is long compared with the model's
+// filter; splitting then always gains, so costs are not compared.
 BspSplit BspSplitter::middle(const Box& cell, const BspItem& item) const {
     const Box part = intersection(intersection(item.box, cell), world_);
     if (part.empty()) return {};
@@ -171,7 +173,7 @@ BspSplit BspSplitter::middle(const Box& cell, const BspItem& item) const {
     return {0, 0.5 * (part.lo[axis] + part.hi[axis]), axis};
 }
 
-// By the ends of the solids' boxes alone: one sweep an axis.
+// The best split among the ends of the items' boxes, found by one sweep along each axis.
 BspSplit BspSplitter::best_of_boxes(const Box& cell, const std::vector<BspItem>& items) const {
     BspSplit best;
     for (int axis = 0; axis < 3; ++axis) {
@@ -192,7 +194,7 @@ BspSplit BspSplitter::best_of_boxes(const Box& cell, const std::vector<BspItem>&
         while (b < begin.size() || e < end.size()) {
             const bool ends = e < end.size() && (b >= begin.size() || end[e].first <= begin[b].first);
             const double position = ends ? end[e].first : begin[b].first;
-            // What ends here is no longer above; what begins here is not yet below.
+            // A box that ends here is no longer above; one that begins here is not yet below.
             while (e < end.size() && end[e].first <= position) above -= end[e++].second;
             if (position > lo && position < hi) consider(best, cell, axis, position, below, above);
             while (b < begin.size() && begin[b].first <= position) below += begin[b++].second;

@@ -1,6 +1,7 @@
-// Where a cell of the BSP is split: the surface-area heuristic [MacDonald & Booth 1990] over the cost of local CSG.
+// Chooses where a cell of the BSP is split: the surface-area heuristic [MacDonald & Booth 1990] over the cost of local
+// CSG.
 //
-// Costs are in units of one visit of an inner node, some 5 ns.
+// Costs are in units of one visit of an inner node, about 5 ns.
 #pragma once
 #include <memory>
 #include <span>
@@ -10,59 +11,63 @@
 
 namespace deburr {
 
-// Costs of a visit of an inner node, and of a plane. A cell that costs no more than both stays whole.
+// Costs of visiting an inner node and of intersecting a plane. A cell that costs no more than both is not split.
 constexpr double cost_node = 1.0, cost_flat = 3.0;
-// Cells with no more half-spaces than this are split by what would be left of the solids on either
-// side; larger ones by the solids' boxes and by a few such looks.
+// A cell with at most this many half-spaces is split by pruning the solids to the halves of every candidate; a larger
+// one by the ends of the solids' boxes, unless it holds one solid only.
 constexpr int few_half_spaces = 48;
-// Halves of a cell with fewer are not worth a task, nor are looks at fewer.
+// A cell with fewer half-spaces is split without parallel tasks.
 constexpr int half_spaces_of_a_task = 200;
 
-/// One solid as far as it reaches into a cell.
+/// A solid's part in a cell.
 struct BspItem {
-    int solid = 0;
+    int solid = 0;                          // index among the BSP's solids
     std::shared_ptr<const SolidTree> tree;  // pruned to the cell or to one around it
-    Box box;                                // of the solid
-    LocalSolidSize size;                    // in the cell
+    Box box;                                // of the whole solid
+    LocalSolidSize size;                    // of the part in the cell
 };
 
-/// What a ray that passes the cell costs, for all of these.
+/// The expected cost of a ray that passes through a cell.
 struct BspCost {
     double cost = 0;
-    int half_spaces = 0;
+    int half_spaces = 0;  // sum over the cell's items
 };
 BspCost cost_of(const std::vector<BspItem>& items);
 
-/// A plane across an axis, and what a ray that passes the cell then costs; axis −1: none.
+/// A split plane across an axis, and the expected cost of a ray that passes through the cell after that split. Axis −1:
+/// no split.
 struct BspSplit {
     double cost = infinity, position = 0;
     int axis = -1;
 };
 
-/// The half of a cell below or above a plane across an axis.
+/// The half of a cell above (`upper`) or below a plane across an axis.
 inline Box half_of(const Box& cell, int axis, double position, bool upper) {
     Box half = cell;
     (upper ? half.lo : half.hi)[axis] = position;
     return half;
 }
 
-/// Whether the items are nothing but one model.
+/// Whether there is one item, a rounded triangle mesh alone (a field that is a density).
 bool is_model(const std::vector<BspItem>& items);
 
+/// Chooses the splits of one BSP's cells.
 class BspSplitter {
 public:
     BspSplitter() = default;
-    /// `world`: where rays are. `margin`: by which cells are inflated; `smallest`: the thinnest slice that is cut off.
+    /// `world` bounds the space in which rays are expected, cells are inflated by `margin`, and no slice thinner than
+    /// `smallest` is cut off (all in the solids' coordinates).
     BspSplitter(const Box& world, double margin, double smallest)
         : world_(world), margin_(margin), smallest_(smallest) {}
 
-    /// The split of a cell that is expected to cost least, however much that is. `half_spaces`: of all items.
+    /// The split of least expected cost, even if that is more than the cell's own. `half_spaces` is the sum over the
+    /// items.
     BspSplit best(const Box& cell, const std::vector<BspItem>& items, int half_spaces) const;
 
-    /// What a split of the cell must spare of its cost, so as to be worth its making.
+    /// The least reduction of a cell's cost for which a split is worth its construction.
     double least_gain(const Box& cell, const std::vector<BspItem>& items) const;
 
-    /// Whether the item's box and the cell's, which is inflated, are apart.
+    /// Whether the item's box does not meet the inflated cell.
     bool misses(const BspItem& item, const Box& cell) const {
         return intersection(item.box, inflated(cell, margin_)).empty();
     }
@@ -70,7 +75,7 @@ public:
 private:
     struct Trial;
 
-    // Area of the part of a cell that the scene can be seen through.
+    // Half the surface area of the part of a cell that is in `world`.
     double area(const Box& cell) const { return half_area(intersection(cell, world_)); }
     void consider(BspSplit& best, const Box& cell, int axis, double position, double low, double high) const;
     std::vector<double> candidates(const Box& cell, const std::vector<BspItem>& items, int axis) const;

@@ -18,7 +18,7 @@ void BspStore::begin_scene() {
     kept_ = built_ = 0;
 }
 
-// Forms have numbers that hold for this scene.
+// The solids' canonical shapes, materials and maps; shapes have numbers that are valid in one scene only.
 std::string BspStore::key(const std::vector<Solid>& solids, RootMethod root_method) {
     asked_for_.push_back(solids);
     std::string key;
@@ -33,7 +33,7 @@ std::string BspStore::key(const std::vector<Solid>& solids, RootMethod root_meth
     return key;
 }
 
-// A least scale below the solids' own changes nothing.
+// Whether the entry's BSP is what build_bsp() would return: minima below the solids' own scale have no effect.
 bool BspStore::fits(const Entry& entry, double min_scale) {
     const double scale = entry.tree->tolerances.scale;
     return min_scale == entry.min_scale || (entry.min_scale < scale && min_scale < scale);

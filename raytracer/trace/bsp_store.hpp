@@ -1,7 +1,7 @@
-// BSPs of one scene, kept for the next: where a part of it is as it was, its BSP is not built again.
+// Keeps the BSPs of one scene for the next, so that those of unchanged parts are not built again.
 //
-// For a scene that is edited while it is looked at (`deburr view`). Solids are the same if they are equal in form,
-// place and material (canonical_solids.hpp), so that a file that is read anew finds what it did not change.
+// It serves scenes that are edited while they are shown (`deburr view`). Solids count as unchanged if they are equal in
+// shape, placement and material (canonical_solids.hpp), even if their file was read again.
 #pragma once
 #include <memory>
 #include <mutex>
@@ -14,15 +14,16 @@
 
 namespace deburr {
 
+/// The BSPs of the current scene and of the last one.
 class BspStore {
 public:
-    /// Begins a scene: what the last one did not use is forgotten.
+    /// Begins a scene: BSPs that the last one did not use are dropped.
     void begin_scene();
 
-    /// What build_bsp() makes of the solids, to the bit. Several threads may ask at a time.
+    /// Returns what build_bsp() returns for these arguments, to the bit. Thread-safe.
     BspTree bsp(const std::vector<Solid>& solids, RootMethod root_method, double min_scale);
 
-    /// How many of this scene's BSPs were taken over from the last, and how many were built.
+    /// The number of BSPs in this scene that were kept from the last one, and of those that were built.
     std::size_t kept() const { return kept_; }
     std::size_t built() const { return built_; }
 
@@ -32,14 +33,14 @@ private:
         RootMethod root_method;
         double min_scale;
         std::shared_ptr<const BspTree> tree;
-        bool is_used = true;  // by this scene
+        bool is_used = true;  // whether this scene has asked for it
     };
     std::string key(const std::vector<Solid>& solids, RootMethod root_method);
     static bool fits(const Entry& entry, double min_scale);
 
     std::mutex mutex_;
     std::unordered_map<std::string, Entry> entries_;
-    std::vector<std::vector<Solid>> asked_for_;  // canonical_ knows them by their addresses
+    std::vector<std::vector<Solid>> asked_for_;  // kept alive because canonical_ refers to them by address
     std::unique_ptr<CanonicalSolids> canonical_ = std::make_unique<CanonicalSolids>();
     std::size_t kept_ = 0, built_ = 0;
 };

@@ -14,26 +14,26 @@
 namespace deburr {
 namespace {
 
-// Where a cell of many half-spaces gains nothing by any split, as a box around many facets does, a few
-// further splits are tried before it is taken as it is; anew whenever a part of them is gone.
+// Where no split reduces the cost of a cell with many half-spaces, as for a box around many facets, a few more splits
+// are tried before it stays whole; the count starts again whenever this fraction of them is left.
 constexpr int many_half_spaces = 128, patience = 3;
 constexpr double part_gone = 0.7;
 
-// A part of the tree as it is built: both halves of it, or the cell's solids.
+// A subtree while it is built: two halves, or the local solids of a cell.
 struct Branch {
     BspSplit split;
     std::unique_ptr<Branch> child[2];
     std::vector<LocalSolid> locals;
-    std::exception_ptr error;
+    std::exception_ptr error;  // thrown while making the cell
 };
 
-// Splits without a gain that are left, and what must be left of the half-spaces for more.
+// How many splits without a gain may follow, and the number of half-spaces when that count was last reset.
 struct Patience {
     int splits = patience;
     double half_spaces = infinity;
 };
 
-// With every filter that is too small to be sampled made sharp.
+// The tree with filters smaller than `least` replaced by sharp half-spaces.
 std::shared_ptr<const SolidTree> without_tiny_radii(std::shared_ptr<const SolidTree> tree, double least) {
     const auto tiny = [&](const HalfSpace& h) { return h.radius > 0 && h.radius < least; };
     const auto has_tiny = [&](const SolidLeaf& leaf) {
@@ -71,7 +71,7 @@ public:
     }
 
 private:
-    // The solids that have a surface; a box around what is bounded of them is in bounds_.
+    // The solids that have a surface. Extends bounds_ by the bounded ones.
     std::vector<BspItem> items_of(const std::vector<Solid>& solids) {
         std::vector<BspItem> items;
         for (std::size_t i = 0; i < solids.size(); ++i) {
@@ -106,7 +106,8 @@ private:
         max_depth_ = 16 + int(2.5 * std::log2(1.0 + double(bsp_.half_spaces)));
     }
 
-    // A floor in every cell would leave none of them empty.
+    // Moves the items that are a single half-space from the cells to bsp_.planes: a floor in every cell would leave
+    // none empty.
     void take_planes(std::vector<BspItem>& items) {
         std::erase_if(items, [&](const BspItem& item) {
             if (item.size.half_spaces != 1) return false;
@@ -123,7 +124,7 @@ private:
         return whole.convex().has_value();
     }
 
-    // The split of a cell; axis −1 where it stays whole.
+    // The split of a cell; axis −1 if it stays whole.
     BspSplit split_of(const Box& cell, const std::vector<BspItem>& items, BspCost here, int depth,
                       Patience& patient) const {
         if (here.half_spaces <= part_gone * patient.half_spaces) patient = {patience, double(here.half_spaces)};
@@ -136,13 +137,13 @@ private:
         return best;
     }
 
-    // What the items are in a part of their cell.
+    // The items, pruned to a part of their cell; those without a surface there are dropped.
     std::vector<BspItem> items_in(const Box& part, const std::vector<BspItem>& items) const {
         std::vector<BspItem> inside;
         for (const BspItem& item : items) {
             if (splitter_.misses(item, part)) continue;
             BspItem in = item;
-            // A solid that the part holds whole looks the same in it.
+            // Pruning a small solid that is wholly inside the part changes nothing.
             const bool whole = part.contains(item.box.lo) && part.contains(item.box.hi);
             if (!whole || item.size.half_spaces > few_half_spaces) {
                 const Box known = inflated(part, margin_);
@@ -156,7 +157,7 @@ private:
         return inside;
     }
 
-    // Both halves at once where that pays; what is built is the same.
+    // Splits the cell recursively, in parallel tasks where that pays; the result is the same.
     void split(Branch& to, const Box& cell, std::vector<BspItem> items, int depth, Patience patient) const {
         const BspCost here = cost_of(items);
         to.split = split_of(cell, items, here, depth, patient);
@@ -184,6 +185,7 @@ private:
         }
     }
 
+    // Moves the subtree's nodes, cells and local solids to bsp_; throws the first error of a cell in the tree's order.
     void lay_out(Branch& from, std::size_t node, int depth) {
         if (from.error) std::rethrow_exception(from.error);
         bsp_.depth = std::max(bsp_.depth, depth);
@@ -210,17 +212,17 @@ private:
             if (solid.has_surface()) to.locals.push_back(std::move(solid));
         }
     } catch (const std::bad_alloc&) {
-        throw;  // at once: others will not find memory either
+        throw;  // at once, since other cells will lack memory, too
     } catch (...) {
-        to.error = std::current_exception();  // the first one in the tree's order is thrown
+        to.error = std::current_exception();  // lay_out() throws the first one in the tree's order
     }
 
     RootMethod root_method_;
     double min_scale_;
     ExpectedRays rays_;
     BspTree bsp_;
-    Box bounds_;                   // of what is bounded, or of all planes' distances where nothing is
-    double coordinate_bound_ = 0;  // of planes' distances from the origin
+    Box bounds_;                   // of the bounded solids, or of all planes' offsets if there are none
+    double coordinate_bound_ = 0;  // largest |offset| of a plane
     BspSplitter splitter_;
     double margin_ = 0;
     int max_depth_ = 0;

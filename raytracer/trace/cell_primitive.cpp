@@ -36,7 +36,7 @@ void CellPrimitives::add(LocalSolid&& local, const Box& box, int solid) {
         p.material = convex->material;
         if (d.planes.size() == 1) {
             p.kind = CellPrimitive::Kind::plane;
-            // Unit, and outward.
+            // Normalized, and turned outward.
             const double length = glm::length(d.planes[0].slope) * (d.complement ? -1 : 1);
             planes_.push_back({d.planes[0].slope / length, d.planes[0].base / length});
         } else {
@@ -109,7 +109,7 @@ Vec3 CellPrimitives::normal(const CellPrimitive& p, const ConvexCrossing& crossi
                             const Vec3& direction) const {
     if (p.kind == CellPrimitive::Kind::plane) return planes_[p.index].slope;
     const Vec3 n = surface_normal(view(p), crossing, origin + direction * crossing.t);
-    // It leaves the solid, so it is against a ray that enters.
+    // n is turned out of the solid: against a ray that enters it.
     return (glm::dot(n, direction) < 0) == crossing.entering ? n : -n;
 }
 
@@ -135,7 +135,7 @@ struct Extent {
     double lo, hi;
 };
 
-// Of slope·x without axis `skipped_axis` (−1: with all).
+// The range of slope·x over the box, without the term of axis `skipped_axis` (−1: with all terms).
 Extent extent(Vec3 slope, const Box& box, int skipped_axis) {
     Extent e{0, 0};
     for (int k = 0; k < 3; ++k) {
@@ -147,13 +147,14 @@ Extent extent(Vec3 slope, const Box& box, int skipped_axis) {
     return e;
 }
 
-// Cuts off what lies where slope·x + base > 0; if `two_sided`, also where it is < 0.
+// Cuts off the part of the box where surely slope·x + base > 0; with `two_sided`, also where surely it is < 0.
 void cut(Box& box, const AlphaPlane& p, bool two_sided) {
     for (int k = 0; k < 3; ++k) {
         const double s = p.slope[k];
         if (s == 0) continue;
         const Extent others = extent(p.slope, box, k);
-        // Rounded outward: where the plane is nearly along the axis, rounding is far along it.
+        // Rounded outward: where the plane is nearly parallel to the axis, a small error moves its position far along
+        // it.
         const double rounding = 4 * epsilon * (std::abs(p.base) + std::max(std::abs(others.lo), std::abs(others.hi)));
         const double most = (-p.base - others.lo + rounding) / s, least = (-p.base - others.hi - rounding) / s;
         if (std::isfinite(most))
@@ -163,6 +164,7 @@ void cut(Box& box, const AlphaPlane& p, bool two_sided) {
     }
 }
 
+// Whether P > ½ in the whole box.
 bool surely_within(ConvexView d, const Box& box) {
     double P = 1;
     for (int i = 0; i < d.soft + d.sharp; ++i) {
@@ -175,7 +177,7 @@ bool surely_within(ConvexView d, const Box& box) {
     return P > 0.5;
 }
 
-// Cuts off the ends of the box that lie in C.
+// Cuts off the ends of the box that lie wholly within C = {P > ½}.
 void cut_within(Box& box, ConvexView d) {
     for (int axis = 0; axis < 3; ++axis)
         for (const bool upper : {false, true})
@@ -194,7 +196,7 @@ void cut_within(Box& box, ConvexView d) {
 
 Box CellPrimitives::surface_box(std::size_t i, double margin) const {
     const CellPrimitive& p = primitives_[i];
-    // A ray looks as far as rounding beyond the cell's walls.
+    // A ray searches beyond the cell's walls by rounding.
     const Box cell = inflated(p.box, margin);
     Box box = cell;
     if (p.kind == CellPrimitive::Kind::plane) {
@@ -207,7 +209,7 @@ Box CellPrimitives::surface_box(std::size_t i, double margin) const {
             if (box.finite()) cut_within(box, d);
         }
     }
-    // The cell, where nothing was left but for rounding.
+    // If rounding left nothing, the whole cell.
     return box.empty() ? cell : intersection(inflated(box, margin), cell);
 }
 

@@ -1,8 +1,8 @@
-// A primitive of one solid's surface: what may be crossed of it in one cell, laid out to be crossed fast.
+// Cell primitives: the surface of one solid within one cell, laid out for fast intersection.
 //
-// Most primitives are a plane or a product of half-spaces (bounds/convex_density.hpp), whose numbers lie
-// side by side with those of their neighbours. What is neither is a LocalSolid; packets know it if it is the
-// surface of a round part or a sum of products (bounds/product_sum.hpp), and nothing else.
+// Most primitives are a plane or a product of half-spaces (bounds/convex_density.hpp), whose coefficients lie next to
+// those of their neighbours. All others keep a LocalSolid; of these, packets handle surfaces of round parts and sums of
+// products (bounds/product_sum.hpp).
 #pragma once
 #include <cstdint>
 #include <vector>
@@ -14,46 +14,54 @@
 
 namespace deburr {
 
+/// What is intersected with a ray, valid only within `box`.
 struct CellPrimitive {
+    /// plane: one half-space; convex: a product of half-spaces, or one minus it; surface: a round part's; sum: a sum of
+    /// products; general: anything else.
     enum class Kind : std::uint8_t { plane, convex, surface, sum, general };
 
-    Box box;                  // the cell; beyond it the primitive is not valid
-    std::uint32_t index = 0;  // in CellPrimitives::planes; others: in CellPrimitives::locals
-    std::int32_t solid = 0, material = 0;
-    std::uint8_t soft = 0, sharp = 0;  // factors
+    Box box;                               // the cell, cut to the solid's own box
+    std::uint32_t index = 0;               // plane, convex: of the first factor in planes_; other kinds: in locals_
+    std::int32_t solid = 0, material = 0;  // number in the prototype; index in the scene, −1: none
+    std::uint8_t soft = 0, sharp = 0;      // convex: numbers of soft and sharp factors
     Kind kind = Kind::plane;
-    bool complement = false;
+    bool complement = false;  // convex: the solid is {P ≤ ½} instead of {P > ½}
 };
 static_assert(sizeof(CellPrimitive) == 64);  // a cache line
 
+/// A list of primitives, and the queries of rays against them. Distances are ray parameters; directions are unit
+/// vectors.
 class CellPrimitives {
 public:
     CellPrimitives() = default;
     CellPrimitives(const Tolerances& tolerances, Criterion criterion)
         : tolerances_(tolerances), criterion_(criterion) {}
 
-    /// `box`: the cell; `solid`: the number of its solid here.
+    /// Appends the primitive of a local solid, which must have a surface. `box` is its cell, `solid` its number in the
+    /// prototype.
     void add(LocalSolid&& local, const Box& box, int solid);
 
     std::size_t size() const { return primitives_.size(); }
     const CellPrimitive& operator[](std::size_t i) const { return primitives_[i]; }
+    /// Number of half-spaces in primitive i.
     std::size_t half_spaces(std::size_t i) const;
 
-    /// Distance at which a ray's line meets the plane that primitive p is; NaN or infinite if they are parallel.
+    /// Distance at which the ray's line meets the plane of primitive p; NaN or infinite if they are parallel.
     double plane_crossing(const CellPrimitive& p, const Vec3& origin, const Vec3& direction) const {
         const AlphaPlane& plane = planes_[p.index];
         return -(glm::dot(plane.slope, origin) + plane.base) / glm::dot(plane.slope, direction);
     }
-    /// First crossing of a convex primitive in [t0, t1]; whether there is one.
+    /// First crossing of a convex primitive in [t0, t1]; its t is infinity if there is none.
     ConvexCrossing convex_crossing(const CellPrimitive& p, const Vec3& origin, const Vec3& direction, double t0,
                                    double t1, TraceCounters& counters) const {
         return first_crossing(view(p), origin, direction, t0, t1, tolerances_.along(t0), counters.evaluations);
     }
+    /// Whether the ray crosses a convex primitive in [t0, t1].
     bool crosses_convex(const CellPrimitive& p, const Vec3& origin, const Vec3& direction, double t0, double t1,
                         TraceCounters& counters) const {
         return any_crossing(view(p), origin, direction, t0, t1, tolerances_.along(t0), counters.evaluations);
     }
-    /// Whether packets may ask for primitive i.
+    /// Whether primitive i can be passed to the packet queries below.
     bool for_packets(std::size_t i) const {
         const CellPrimitive& p = primitives_[i];
         switch (p.kind) {
@@ -64,30 +72,33 @@ public:
             default: return false;
         }
     }
-    /// First crossings of rays of a packet with such a primitive, in their spans; those that have one.
+    /// First crossings of the rays in `lanes` with primitive p, each in its span. Returns the rays that have one;
+    /// `found` is undefined for the others.
     Lanes crossings(const CellPrimitive& p, const RayPacket& rays, Lanes lanes, const PacketSpans& spans,
                     PacketCrossings& found, TraceCounters& counters) const;
     /// The rays among `lanes` that cross primitive p.
     Lanes any_crossings(const CellPrimitive& p, const RayPacket& rays, Lanes lanes, const PacketSpans& spans,
                         TraceCounters& counters) const;
-    /// First crossing of one that is neither plane nor convex; `any`: that there is one will do, and its t means
-    /// nothing.
+    /// First crossing of a primitive that is neither plane nor convex; its t is infinity if there is none. With `any`,
+    /// t and the normal only say that there is one.
     SurfaceCrossing general_crossing(const CellPrimitive& p, const Vec3& origin, const Vec3& direction, double t0,
                                      double t1, bool any, TraceCounters& counters) const;
-    /// Unit normal, out of the solid, of primitive p: a plane, or convex.
+    /// Unit normal, pointing out of the solid, where the ray crosses primitive p, which must be a plane or convex.
     Vec3 normal(const CellPrimitive& p, const ConvexCrossing& crossing, const Vec3& origin,
                 const Vec3& direction) const;
-    /// Error of p's place, besides what coordinates are rounded by.
+    /// How far a crossing of p may be off its surface (a scene length), beyond the rounding of coordinates.
     double error(const CellPrimitive& p) const {
         const bool is_round =
             p.kind == CellPrimitive::Kind::surface || (p.kind == CellPrimitive::Kind::sum && !sum(p).rounds().empty());
         return is_round ? locals_[p.index].tolerances().of_round() : 0;
     }
-    /// normal() for `lanes`, which cross p at their ends.
+    /// Unit normals, pointing out of the solid, where the rays in `lanes` cross p. Ray k crosses at distance end[k];
+    /// `nearest` says whether it enters, and by which factor's plane.
     void normals(const CellPrimitive& p, const RayPacket& rays, const double* end, Lanes lanes,
                  const PacketNearest& nearest, double (*normal)[RayPacket::size]) const;
 
-    /// A box around what can be crossed of primitive i, in its cell or this much beyond, with as much to spare.
+    /// A box around the part of primitive i that rays can cross in its cell or up to `margin` beyond it, itself
+    /// enlarged by `margin`.
     Box surface_box(std::size_t i, double margin) const;
 
 private:

@@ -1,23 +1,24 @@
-// Rays from far away, which are begun anew where they come near a prototype's surfaces.
+// Rays from far away, which are restarted near a prototype's surfaces so that rounding does not lose faces.
 //
-// A point of a ray is rounded in proportion to the largest number that it is added up from, and from far away that
-// is the ray's origin. How far beyond its walls a cell knows its solids, and how far bounds keep clear of a density,
-// is set by the prototype's own coordinates (Tolerances). Where the rounding is more than that, a cell is asked about
-// places that it knows nothing of, and faces are lost. So the origin of a far ray is moved along the ray, once for
-// the whole prototype, to o′ = o + start·d, beside it. Rounding moves o′ off the ray by ε·|o|, and a ray in double
-// precision is not known any better; but o′ + t′·d is one straight line for all cells, on which every point is
-// rounded in proportion to its own coordinates.
+// A point on a ray is rounded in proportion to the largest term of its sum, which far away is the ray's origin. But how
+// far beyond its walls a cell knows its solids, and how far bound planes keep clear of a density, follows from the
+// prototype's own coordinates (Tolerances). Where the rounding exceeds that, cells are queried outside of what they
+// know, and faces are lost. So the origin of a far ray is moved along the ray, once for the whole prototype, to a place
+// beside it: o′ = o + start·d. Rounding moves o′ off the ray by ε·|o|, which is as exact as a ray in double precision
+// is known; but o′ + t′·d is the same straight line for all cells, and each of its points is rounded in proportion to
+// its own coordinates.
 #pragma once
 #include "raytracer/trace/surface_search.hpp"
 
 namespace deburr {
 
+/// The neighbourhood of a prototype's surfaces, outside of which ray origins count as far.
 class Vicinity {
 public:
-    /// No ray is far.
+    /// Counts no ray as far.
     Vicinity() = default;
-    /// `around` is the box of a prototype's bounded surfaces, or empty; the scales are those of its BSPs' tolerances,
-    /// the least of those that hold anything.
+    /// `around` is the box of the prototype's bounded surfaces, or empty. `largest_scale` and `min_scale` are the
+    /// largest and least Tolerances::scale of its BSPs, the least one only of those that hold anything.
     Vicinity(const Box& around, double largest_scale, double min_scale) {
         double coordinate_bound = largest_scale;
         radius_ = 2 * coordinate_bound;
@@ -29,12 +30,12 @@ public:
         farthest_ = std::max(nearest_far * coordinate_bound, surely_near * std::min(coordinate_bound, min_scale));
     }
 
-    /// Rays that begin beyond, by their largest coordinate, may have to be moved.
+    /// A ray whose origin has a coordinate of larger magnitude is far.
     double farthest() const { return farthest_; }
     bool is_far(const Vec3& origin) const { return largest(origin) > farthest_; }
 
-    /// Parameter of a ray from far away where it comes near: before it enters the ball around `around`, or, if it
-    /// does not, before it is nearest to its middle. 0: the ray begins near the ball, or leads away from it.
+    /// The parameter at which a far ray comes near: before it enters the ball around `around`, or, if it misses the
+    /// ball, before it is nearest to its center. 0 if the ray is not far or leads away.
     double start(const Ray& ray) const {
         if (!is_far(ray.origin)) return 0;
         const double clearance = radius_ + 16 * epsilon * largest(ray.origin);
@@ -43,17 +44,17 @@ public:
     }
 
 private:
-    // Chosen: rounding of a ray from nearer, 2⁻⁵⁰ (1 + 2·128) of the scale, is less than a fourth of what bounds keep
-    // clear by, 2⁻⁴⁰ of it. Solids much smaller than the scale would need more, but even near its ball a ray's
-    // coordinates are some times the scale.
+    // Chosen so that the rounding of a ray from nearer, 2⁻⁵⁰ (1 + 2·128) of the scale, is less than a fourth of the
+    // clearance of bound planes, 2⁻⁴⁰ of the scale. A solid much smaller than the scale would need more, but a ray's
+    // coordinates are a few times the scale even near its ball.
     static constexpr double surely_near = 128, nearest_far = 4;
 
-    Vec3 middle_{0.0};
-    double radius_ = 0, farthest_ = infinity;
+    Vec3 middle_{0.0};                         // of `around`
+    double radius_ = 0, farthest_ = infinity;  // of the ball around it; see farthest()
 };
 
-/// A ray from far away, in two parts. The first ends halfway to the prototype's surfaces, where rounding from either
-/// end is the same. The second is the moved ray's. A surface between them is in both.
+/// A far ray in two parts. The first is on the original ray and ends halfway to the prototype's surfaces, where
+/// rounding is equal from either end. The second is on the moved ray. A surface between the two is in both.
 struct FarRay {
     FarRay(const Ray& ray, double moved_by, double until, double scale)
         : start(moved_by),
@@ -62,7 +63,7 @@ struct FarRay {
           begin(-middle - rounding_of(scale + largest(ray.origin), middle)),
           t_max(until - start) {}
 
-    double start, middle;
+    double start, middle;  // parameters on the original ray: of the moved origin, and of the end of the first part
     Ray moved;
     double begin, t_max;  // of the second part, on the moved ray
 };

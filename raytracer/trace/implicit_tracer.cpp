@@ -7,8 +7,8 @@ namespace deburr {
 
 namespace {
 
-// What is placed in a space. It sees the ray with a unit direction of its own, so that tolerances mean
-// there what they mean here; distances along it are longer by `rate`.
+// The instances in a prototype. A placed prototype gets the ray with a unit direction in its own coordinates, so that
+// tolerances have the same meaning there; its distances along the ray are `rate` times those around.
 class PrototypeInstances final : public InstanceTracer {
 public:
     PrototypeInstances(const Prototypes& all, const Prototype& prototype) : all_(all), prototype_(prototype) {}
@@ -28,7 +28,7 @@ private:
     const Prototype& prototype_;
 };
 
-// A placement that rays enter.
+// An instance that rays enter, with the tracer of its prototype.
 struct PrototypeInstances::Entered {
     Entered(const PrototypeInstances& around, std::uint32_t number, std::size_t rays, TraceCounters& counters)
         : p(around.prototype_.instances[number]),
@@ -44,7 +44,7 @@ struct PrototypeInstances::Entered {
     PrototypeInstances instances;
 };
 
-// What a ray is in the placed space.
+// A ray in the coordinates of a placed prototype.
 struct Inside {
     Inside(const Instance& p, const Ray& from) {
         if (p.only_moved) {
@@ -55,26 +55,27 @@ struct Inside {
         rate = glm::length(direction);
         ray = {p.into(from.origin), direction / rate};
     }
-    // A distance is rounded there and back: what is at `end` must be found.
+    // The distance in the prototype, rounded up, since a distance is rounded there and back: a crossing at `outside`
+    // must be found.
     double end(double outside) const { return outside * rate * (1 + 4 * epsilon); }
 
     Ray ray;
     double rate = 1;
 };
 
-// What was found along `ray`, in the space around again.
+// Maps what was found in a placed prototype back to the coordinates around; `ray` is the ray there.
 void outside(FoundSurface& found, const Instance& p, const Ray& ray, double rate) {
     if (!(found.crossing.t < infinity)) return;
     found.crossing.t = (found.start + found.crossing.t) / rate;
     found.start = 0;
     if (!p.only_moved)
-        found.crossing.normal = glm::normalize(found.crossing.normal * p.into.linear);  // by the transpose
+        found.crossing.normal = glm::normalize(found.crossing.normal * p.into.linear);  // the transpose of `into`
     if (found.crossing.material < 0) found.crossing.material = p.material;
     found.solid = p.solid;
     found.error = found.error * p.stretch + 4 * epsilon * (largest(ray.origin) + found.crossing.t);
 }
 
-// The same of ray k of several.
+// The same mapping for ray k of a packet.
 void outside(PacketSurfaces& found, int k, const Instance& p, const RayPacket& rays, double rate) {
     found.t[k] = (found.start[k] + found.t[k]) / rate;
     found.start[k] = 0;
@@ -132,7 +133,7 @@ ImplicitTracer::~ImplicitTracer() = default;
 
 namespace {
 
-// Far beyond the error of the position, far below anything to be seen.
+// Far above the error of the position, and far below anything visible.
 double offset_of(double error) { return 128 * error; }
 
 Hit hit_of(const FoundSurface& found, const Ray& ray) {
@@ -142,7 +143,7 @@ Hit hit_of(const FoundSurface& found, const Ray& ray) {
     hit.position = ray.origin + ray.direction * hit.t;
     if (found.start > 0) [[unlikely]] {
         hit.t += found.start;
-        // Summed up as the search did: on the surface, wherever the ray comes from.
+        // Summed as the search did, so that it is on the surface however far away the ray starts.
         hit.position = (ray.origin + ray.direction * found.start) + ray.direction * found.crossing.t;
     }
     hit.normal = found.crossing.normal;
@@ -168,11 +169,11 @@ bool ImplicitTracer::any_hit(const Ray& ray, double t_max, TraceCounters& counte
 
 namespace {
 
-// At most RayPacket::size rays, in the order in which they come.
+// Fills a packet with at most RayPacket::size rays, in order; returns their lanes.
 Lanes load(RayPacket& packet, std::span<const Ray> rays, const double* t_max) {
     if (rays.size() == RayPacket::size) {
         packet_functions.load(packet, rays.data(), t_max);
-    } else {  // so that there are numbers everywhere
+    } else {  // pads with copies, so that every lane holds valid numbers
         Ray padded[RayPacket::size];
         double padded_t_max[RayPacket::size];
         for (std::size_t k = 0; k < RayPacket::size; ++k) {
@@ -189,7 +190,7 @@ void set_hit(Hit& hit, const Ray& ray, const PacketSurfaces& found, int k) {
         hit = {};
         return;
     }
-    // Member by member: what is put together and then copied waits for its parts.
+    // Member by member: a Hit that is assembled and then copied would wait for its parts.
     const double t = found.t[k], start = found.start[k];
     for (int axis = 0; axis < 3; ++axis) {
         const double o = ray.origin[axis], d = ray.direction[axis];
@@ -243,7 +244,7 @@ BspStatistics ImplicitTracer::statistics() const {
         const Prototype& prototype = *prototypes_->built(i);
         const CellPrimitives& primitives = prototype.bsp.surfaces().cell_primitives;
         s.instances += prototype.instances.size() + prototype.bsp.trees().size() - 1;
-        std::uint32_t first = 0;  // primitive of the tree
+        std::uint32_t first = 0;  // the tree's first cell primitive
         for (const BspTree& tree : prototype.bsp.trees()) {
             ++s.prototypes;
             s.cells += tree.cells.size();

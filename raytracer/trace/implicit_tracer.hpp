@@ -1,5 +1,5 @@
-// Implicit rendering: exact rays against primary CSG of rounded densities, through BSPs of local CSG
-// [Lobb §3.5, after Jansen 1986], one for each prototype (instances.hpp).
+// Implicit rendering: traces exact rays against CSG of rounded densities, without a mesh, by BSPs of local CSG [Lobb
+// §3.5, after Jansen 1986], one for each prototype (instances.hpp).
 #pragma once
 #include <memory>
 #include <string>
@@ -15,20 +15,23 @@ namespace deburr {
 class BspStore;
 class Prototypes;
 
-/// Figures of the BSPs that have been built so far (instances.hpp); `prototypes` counts all.
+/// Statistics of the BSPs that have been built so far (instances.hpp); only `prototypes` counts all of them.
 struct BspStatistics {
-    std::size_t cells = 0, empty_cells = 0, flat_cells = 0;
-    std::size_t half_spaces = 0;        // that the cells were made of
-    std::size_t prototypes = 0;         // BSPs, each of a prototype or of a part of one
-    std::size_t instances = 0;          // of these in others
-    double mean_local_half_spaces = 0;  // in the cells that hold a surface
-    int depth = 0;
+    std::size_t cells = 0, empty_cells = 0,
+                flat_cells = 0;         // all cells; those without a surface; those with planes only
+    std::size_t half_spaces = 0;        // sum over the solids that the BSPs were built from
+    std::size_t prototypes = 0;         // number of BSPs, each of a prototype or of a part of one
+    std::size_t instances = 0;          // placements of prototypes, counted once for each prototype that holds them
+    double mean_local_half_spaces = 0;  // mean number of half-spaces in a cell that is not empty
+    int depth = 0;                      // of the deepest BSP
 };
 
+/// A tracer for a list of solids. Hit::solid is the index in that list. Queries are thread-safe.
 class ImplicitTracer final : public RayTracer {
 public:
-    /// The criterion matters where roots are searched for. Where `store` has BSPs of an earlier scene that this one
-    /// has, too, they are not built again.
+    /// Builds the BSPs. The criterion serves the densities whose roots are searched for. `store`, if not null, provides
+    /// BSPs that an earlier scene had in common with this one, and keeps these; it is used during construction only.
+    /// Throws TooEntangled if a solid's density is too complex.
     explicit ImplicitTracer(const std::vector<Solid>& solids, Criterion criterion = Criterion::exact,
                             RootMethod root_method = RootMethod::where_needed, Accel accel = Accel::bvh,
                             BspStore* store = nullptr);

@@ -13,24 +13,25 @@
 namespace deburr {
 namespace {
 
-// Prototypes within prototypes; what is deeper is taken as it is.
+// Depth of prototypes within prototypes, beyond which solids are not shared.
 constexpr int max_nesting = 8;
-// A map that squeezes more would magnify what floating point rounds by.
+// Condition number of an instance's map up to which it is used: a larger one would magnify rounding errors too much.
 constexpr double largest_condition = 64;
-// A form further from its origin, in its own sizes, is moved there.
+// A shape farther from its origin than this many of its sizes is moved there.
 constexpr double farthest = 16;
-// What is smaller than this, of the space that it is in, is found by a tree of boxes of its own, whose single
-// precision is finer.
+// A solid smaller than this fraction of the prototype that it is in becomes an instance, with a BVH of its own, whose
+// single precision is finer.
 constexpr double min_size = 0x1p-10;
-// Tolerances of a solid among larger ones are at least these ones' times this: cells must know their solids
-// further beyond their walls, by 2⁻³⁸, than a ray's place is off by, of the larger scale and a few times 2⁻⁵⁰.
+// The scale of tolerances of a small solid's BSP is at least this fraction of the largest one in its prototype: cells
+// must know their solids farther beyond their walls (2⁻³⁸ of their scale) than a ray's position is off (a few times
+// 2⁻⁵⁰ of the larger scale).
 constexpr double min_share_of_scale = 0x1p-8;
 
-// The box of a union of more half-spaces is the hull of its operands' boxes; flattened, turned operands may have
-// a smaller one.
+// The box of a union with more half-spaces than this is the hull of its operands' boxes. Smaller ones are flattened
+// first, since rotated operands may then have a smaller box.
 constexpr double max_flattened = 4096;
-// So many spaces are built beforehand, with their statistics. Further ones of a single rounded density with few
-// half-spaces, which cannot fail, are built when a ray comes; a diagram of so few is never too large.
+// This many prototypes are built in advance, with their statistics. Further ones that are a single rounded density with
+// few half-spaces, whose construction cannot fail (their diagram is never too large), are built on demand.
 constexpr std::size_t max_built_beforehand = 1000;
 constexpr double few_half_spaces = 12;
 
@@ -41,8 +42,10 @@ bool is_quick_to_build(const Solid& solid) {
     return node->kind == SolidNode::Kind::rounded && !node->convolved() && node->leaves <= few_half_spaces;
 }
 
+// Frobenius norm.
 double norm(const Mat3& m) { return std::sqrt(glm::dot(m[0], m[0]) + glm::dot(m[1], m[1]) + glm::dot(m[2], m[2])); }
 
+// A solid, or an operand of a union, to be placed in a prototype.
 struct Part {
     CanonicalPlacement placed;
     int solid;
@@ -55,19 +58,21 @@ bool is_turned(const Mat3& m) {
 
 using Placements = LargeVector<CanonicalPlacement>;
 
-// What is in one BSP.
+// The content of one BSP.
 struct Group {
     std::vector<Solid> solids;
-    std::vector<int> numbers;  // in the world
+    std::vector<int> numbers;  // indices of the solids in the prototype
 };
 
+// A prototype before it is built.
 struct PlannedPrototype {
-    std::vector<Group> groups{1};  // the first is of what is unbounded, or squeezed, or all there is
-    double coordinate_bound = 0;   // of the others
+    std::vector<Group> groups{1};  // first: the unbounded and badly conditioned solids, or all
+    double coordinate_bound = 0;   // of the other groups
     Instances instances;
-    LargeVector<Box> boxes;  // of the placements
+    LargeVector<Box> boxes;  // of the instances, in the prototype's coordinates
 };
 
+// Decides what becomes a prototype, what an instance, and what is stored with its surroundings.
 class Plan {
 public:
     explicit Plan(const std::vector<Solid>& solids) {
@@ -76,15 +81,16 @@ public:
     }
 
     std::vector<PlannedPrototype> prototypes;
-    std::vector<Solid> later;  // each alone in a space; these are numbered after all others
+    std::vector<Solid> later;  // alone in their prototypes, which are numbered after all others
 
-    /// What a placement's `prototype` is once the number of `prototypes` is known: below the world, later ones are
-    /// ~number.
+    /// The final number of a prototype. While planning, those in `later` are ~index, because the number of `prototypes`
+    /// is not known yet.
     int number_of(int prototype) const { return prototype < 0 ? int(prototypes.size()) + ~prototype : prototype; }
 
 private:
     bool is_union(int canonical) const { return canonical_.solid(canonical).node().kind == SolidNode::Kind::unite; }
 
+    // The placement of a child of a placed union.
     CanonicalPlacement within(const CanonicalPlacement& outer, const Solid& child) {
         CanonicalPlacement to = canonical_.of(child);
         to.map = compose(outer.map, to.map);
@@ -94,10 +100,10 @@ private:
 
     using Counts = std::unordered_map<int, double>;
 
-    /// How often each form occurs, counting through unions.
+    /// How often each canonical shape occurs, counted through unions.
     Counts occurrences(const Placements& roots) {
         Counts count;
-        std::map<int, double, std::greater<int>> open;  // parts have lower numbers
+        std::map<int, double, std::greater<int>> open;  // parts have lower numbers than their unions
         for (const CanonicalPlacement& root : roots) open[root.canonical] += 1;
         while (!open.empty()) {
             const auto [canonical, times] = *open.begin();
@@ -114,7 +120,7 @@ private:
         return is_union(canonical) && canonical_.solid(canonical).node().leaves > max_flattened;
     }
 
-    /// In the form's own space. Keeps a stack of its own, for unions may be long chains.
+    /// The box of a canonical shape in its own coordinates. Iterative, since unions may be long chains.
     const Box& box(int root) {
         std::vector<int> open{root};
         while (!open.empty()) {
@@ -149,7 +155,7 @@ private:
         return box.finite() ? image(map, box) : Box::everything();
     }
 
-    /// Finds the boxes of those forms that are no unions, several at once.
+    /// Computes the boxes of the shapes that are no unions, in parallel.
     void find_boxes(const Placements& all) {
         std::vector<std::pair<const int, Box>*> open;
         for (const CanonicalPlacement& p : all)
@@ -159,7 +165,7 @@ private:
                     [&](std::size_t i) { open[i]->second = bounding_box(flatten(canonical_.solid(open[i]->first))); });
     }
 
-    /// The operands of a union, as far down as unions occur once.
+    /// The operands of a union, expanded down to unions that occur more than once.
     Placements operands(const CanonicalPlacement& root, const Counts& count) {
         Placements open{root}, all;
         while (!open.empty()) {
@@ -181,7 +187,7 @@ private:
         return placed.material < 0 ? solid : solid.material(placed.material);
     }
 
-    /// Which of the boxes nearly meet, directly or by way of others: ordered lists, that of the least number first.
+    /// Clusters of boxes that nearly meet, directly or through others: sorted indices, ordered by their least index.
     static std::vector<std::vector<int>> clusters(const LargeVector<Box>& boxes, double clearance) {
         Bvh8::Builder builder;
         std::vector<int> items;
@@ -209,7 +215,7 @@ private:
         return all;
     }
 
-    /// Takes a union that occurs once apart; operands that meet stay together.
+    /// Splits a union that occurs once into parts; operands that meet stay together.
     void take_apart(const CanonicalPlacement& root, int solid, const Counts& count, LargeVector<Part>& parts) {
         if (!is_union(root.canonical) || count.at(root.canonical) > 1) {
             const Box own = box(root.canonical);
@@ -244,6 +250,7 @@ private:
         }
     }
 
+    // The union of these operands. It is kept in sums_, since canonical_ refers to it.
     const Solid& sum(const Placements& all, const std::vector<int>& members) {
         Solid to = solid_of(all[members[0]]);
         for (std::size_t k = 1; k < members.size(); ++k) to = to | solid_of(all[members[k]]);
@@ -252,11 +259,12 @@ private:
     }
 
     void put(int prototype, Group& group, const Solid& solid, int number) {
-        // Below the world, materials that are not named stay so.
+        // Below the world, materials that are not set stay so, to be set by the instance.
         group.solids.push_back(prototype == 0 ? solid : solid.material(-1));
         group.numbers.push_back(number);
     }
 
+    // Distributes the solids of a prototype to its groups and instances.
     void fill(int prototype, const std::vector<Solid>& solids, int depth) {
         if (depth == max_nesting) {
             for (std::size_t i = 0; i < solids.size(); ++i)
@@ -302,11 +310,12 @@ private:
         }
     }
 
+    // Adds an instance of the part, and its prototype if it is new.
     void place(int prototype, const Part& part, int depth) {
         const int canonical = part.placed.canonical;
         const Box own = box(canonical);
         const Vec3 sides = own.hi - own.lo;
-        Affine centered;  // of the placed space in the form's
+        Affine centered;  // of the prototype in the shape's coordinates
         if (std::max(largest(own.lo), largest(own.hi)) > farthest * largest(sides))
             centered.shift = 0.5 * (own.lo + own.hi);
         const auto [at, is_new] = prototype_of_.try_emplace(canonical, int(prototypes.size()));
@@ -368,8 +377,8 @@ Prototypes::~Prototypes() {
     for (const auto& prototype : prototypes_) delete prototype.load();
 }
 
-// No lock: a thread that waits for one could have been given work that needs it. Of several that build a space at
-// the same time the first one's is kept, and all are the same.
+// No lock is used: a thread that waits for one could have been given work that needs it. If several threads build a
+// prototype at the same time, the first result is kept; all are the same.
 const Prototype& Prototypes::build(std::size_t i) const {
     const std::size_t beforehand = prototypes_.size() - later_.size();
     std::vector<NamedBsp> alone(1);

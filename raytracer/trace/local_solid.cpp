@@ -9,7 +9,7 @@
 namespace deburr {
 namespace {
 
-// A density of one half-space, ρ = v₀ + (v₁ − v₀)·F, crosses ½ on one plane at most.
+// A density of one half-space, ρ = v₀ + (v₁ − v₀)·F, crosses ½ on at most one plane.
 struct FlatDensity {
     enum { outside, inside, plane } kind;
     Vec3 normal{0.0};
@@ -18,8 +18,8 @@ struct FlatDensity {
 
 FlatDensity flat_density(const LocalDensity& density) {
     const HalfSpace& h = density.half_spaces()[0];
-    RayDensity ray;  // straight through the plane, from well inside to well outside
-    ray.set(density, h.normal * h.offset, h.normal);
+    RayDensity ray;                                   // straight through the plane, from well inside to well outside
+    ray.set(density, h.normal * h.offset, h.normal);  // perpendicular to the plane, from well inside to well outside
     const double reach = h.radius > 0 ? 2 * h.radius : 1.0;
     ray.fix_sharp(-reach);
     const double v1 = ray.at(-reach).value;
@@ -32,7 +32,7 @@ FlatDensity flat_density(const LocalDensity& density) {
     return {FlatDensity::plane, -h.normal, -offset};
 }
 
-// Throws TooEntangled with the leaf's line.
+// The leaf's local density. Throws TooEntangled with the leaf's line in the scene.
 LocalDensity prepared(const SolidLeaf& leaf) {
     try {
         return LocalDensity(leaf.density);
@@ -57,19 +57,19 @@ LocalSolid::LocalSolid(int solid, const SolidTree& tree, const Box& box, const T
             else
                 n.a = int(leaves_.size()) - 1;
         }
-        nodes_.push_back(n);  // children keep their numbers
+        nodes_.push_back(n);  // constant leaves stay nodes, so children keep their numbers
     }
     has_surface_ = !leaves_.empty();
     if (!has_surface_) return;
     if (leaves_.size() == 1 && nodes_.size() > 1) {
-        // One leaf under operators with constants is that leaf, or its complement, or nothing.
+        // One leaf under operators with constants is the leaf itself, its complement, or nothing.
         std::vector<char> state;
         const bool without = evaluate(state, {false}), with = evaluate(state, {true});
         if (without == with)
             has_surface_ = false;
         else if (with)
             nodes_ = {{SolidOp::leaf, 0}};
-        else if (leaves_[0].soft < 0) {  // the plane's other side
+        else if (leaves_[0].soft < 0) {  // the complement is the plane's other side
             leaves_[0].normal = -leaves_[0].normal;
             leaves_[0].offset = -leaves_[0].offset;
             nodes_ = {{SolidOp::leaf, 0}};
@@ -79,7 +79,7 @@ LocalSolid::LocalSolid(int solid, const SolidTree& tree, const Box& box, const T
 
 void LocalSolid::add_leaf(const SolidLeaf& leaf, const Box& box, const Tolerances& tolerances, RootMethod root_method,
                           std::optional<bool>& constant) {
-    if (leaf.field) {  // pruned to where it straddles
+    if (leaf.field) {  // the tree is pruned, so the field straddles the box
         leaves_.push_back({Vec3(0.0), 0, int(softs_.size()), leaf.material});
         softs_.push_back({form_of_field(leaf.field, box, tolerances, root_method), std::size_t(leaf.field->size())});
         return;
@@ -101,7 +101,7 @@ void LocalSolid::add_leaf(const SolidLeaf& leaf, const Box& box, const Tolerance
         to.normal = flat.normal;
         to.offset = flat.offset;
     } else if (auto convex = root_method == RootMethod::always ? std::nullopt : convex_density(density, scale_);
-               convex && convex->planes.size() == 1) {  // other planes coincide with it, or do not matter
+               convex && convex->planes.size() == 1) {  // the other planes coincide with it or have no effect
         const AlphaPlane& p = convex->planes[0];
         const double length = glm::length(p.slope) * (convex->complement ? -1 : 1);
         to.normal = p.slope / length;
@@ -115,7 +115,7 @@ void LocalSolid::add_leaf(const SolidLeaf& leaf, const Box& box, const Tolerance
     leaves_.push_back(to);
 }
 
-// A round part's closed form where the field has one.
+// The form of a field: closed for round parts, else one that is searched.
 LocalSolid::Form LocalSolid::form_of_field(const FieldPtr& field, const Box& box, const Tolerances& tolerances,
                                            RootMethod root_method) {
     const auto* round = dynamic_cast<const RoundDensity*>(field.get());
@@ -132,7 +132,8 @@ LocalSolid::Form LocalSolid::form_of_field(const FieldPtr& field, const Box& box
     return SearchedField{field, max_noise_scale};
 }
 
-// A sum of products, or a search between bounds, of a density that is no single product. `tree`: what it was made of.
+// The form of a density that is not a single product: a sum of products, or a search between bounds. `tree` is its
+// definition.
 LocalSolid::Form LocalSolid::form_of_density(LocalDensity density, const DensityTree& tree, const Box& box,
                                              const Tolerances& tolerances, RootMethod root_method) {
     const double clearance = tolerances.clearance();
@@ -158,8 +159,8 @@ std::optional<LocalSolid::Convex> LocalSolid::convex() const {
     if (leaves_.empty() || leaves_.size() > max_leaves) return std::nullopt;
     for (const Leaf& leaf : leaves_)
         if (leaf.material != leaves_[0].material) return std::nullopt;
-    // As a Boolean function of the leaves: an intersection of these and their complements if it is
-    // true in one case only, the complement of such a one if it is false in one.
+    // As a Boolean function of the leaves, it is an intersection of leaves and complements if it is true in one case
+    // only, and the complement of such a one if it is false in one case only.
     std::vector<char> state, inside(leaves_.size());
     unsigned ones = 0, zeros = 0, the_one = 0, the_zero = 0;
     for (unsigned bits = 0; bits < 1u << leaves_.size(); ++bits) {
@@ -192,7 +193,7 @@ std::optional<ConvexDensity> LocalSolid::intersection_of_leaves(unsigned positiv
         const auto* part = std::get_if<ConvexDensity>(&softs_[leaf.soft].form);
         if (!part || part->complement == is_positive) return std::nullopt;
         const auto soft_end = part->planes.end() - part->sharp;
-        // {P > ½} of two products is not that of their product.
+        // The intersection of {P > ½} of two products is not {P > ½} of their product.
         if (!d.planes.empty() && soft_end != part->planes.begin()) return std::nullopt;
         d.planes.insert(d.planes.end(), part->planes.begin(), soft_end);
         sharp.insert(sharp.end(), soft_end, part->planes.end());

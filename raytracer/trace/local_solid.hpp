@@ -1,11 +1,10 @@
-// The part of a solid that is left in a cell, and a ray's crossings of its surface there.
+// The part of a solid that is left in a cell (local CSG), and a ray's crossings of its surface there.
 //
-// A leaf whose local density is one half-space is a plane: it is intersected and done; a product of
-// half-spaces needs no search either (convex_density.hpp), and a sum of few products little
-// (product_sum.hpp). For the others the ray is first cut by inner and outer bound [Lobb §3.2,
-// figure 7]; in a stretch where a single half-space varies the crossing is a plane's too, and only what
-// remains needs the root finder. A field goes straight to it, unless it is a round part, or a product of convex ones
-// (round_product.hpp).
+// A leaf whose local density is one half-space is intersected as a plane; a product of half-spaces needs no search
+// either (convex_density.hpp), and a sum of few products needs little (product_sum.hpp). For other densities the ray is
+// first clipped between the outer and inner bound [Lobb §3.2, figure 7]; where a single half-space varies the crossing
+// is a plane's too, and only the rest needs the root finder. A field goes to the root finder at once, unless it is a
+// round part or a product of convex ones (round_product.hpp).
 #pragma once
 #include <optional>
 #include <variant>
@@ -22,42 +21,46 @@
 
 namespace deburr {
 
-/// Distances that floating point sets, for a scene whose coordinates reach `scale`.
+/// Tolerances that follow from double precision, for a scene whose coordinates are at most `scale`. All are scene
+/// lengths.
 struct Tolerances {
     double scale = 1;
 
-    /// Bound planes keep clear by this, so that a density's sign on them can be relied upon.
+    /// Bound planes keep this far away from the density's level, so that its sign on them is reliable.
     double clearance() const { return scale * 0x1p-40; }
-    /// Stretches of a ray that are no longer than this count as nothing at its parameter t.
+    /// Stretches of a ray at its parameter t that are no longer than this count as empty.
     double along(double t) const { return 8 * epsilon * (scale + std::abs(t)); }
-    /// Cells know their solids this far beyond their walls.
+    /// A cell's local solids are valid this far beyond its walls.
     double margin() const { return scale * 0x1p-38; }
-    /// The place of a round part's surface is rounded by this much more than a plane's.
+    /// How much larger the error of a point on a round part's surface is than that of a point on a plane.
     double of_round() const { return 4 * epsilon * scale; }
-    /// A smaller filter lies between neighbouring points: α would jump, and overflow.
+    /// A filter radius below this lies between neighbouring points: α would jump, and overflow.
     double min_radius() const { return scale * 0x1p-44; }
 };
 
+/// A ray's crossing of a solid's surface.
 struct SurfaceCrossing {
-    double t = infinity;
-    Vec3 normal{0.0};  // unit, out of the solid
-    int material = 0;
-    double error = 0;  // of its place, besides what coordinates are rounded by
+    double t = infinity;  // ray parameter; infinity: none
+    Vec3 normal{0.0};     // unit, out of the solid
+    int material = 0;     // index in the scene; −1: none
+    double error = 0;     // of the position (a scene length), beyond the rounding of coordinates
 };
 
+/// Work done by queries of local solids.
 struct CrossingCounters {
     RootCounters roots;
-    std::uint64_t flat = 0;
+    std::uint64_t flat = 0;  // crossings that were computed as a plane's
 };
 
-/// Memory that rays use again and again, and their settings.
+/// Settings of a query, and memory that queries reuse; one per thread.
 struct CrossingScratch {
+    /// A crossing of one leaf's surface.
     struct Event {
         double t;
         int leaf;
         bool entering;
-        Vec3 normal;
-        double error;
+        Vec3 normal;   // unit, up to its sign
+        double error;  // SurfaceCrossing::error
     };
     Criterion criterion = Criterion::exact;
     CrossingCounters counters;
@@ -65,87 +68,99 @@ struct CrossingScratch {
     ProductSumRay sum;
     FieldRay field;
     SearchSpans spans;
-    std::vector<double> sharp;
+    std::vector<double> sharp;  // parameters at which sharp planes are crossed
     std::vector<Event> events;
-    std::vector<char> inside, state;
-    double error = 0;  // of the crossing that is being visited
+    std::vector<char> inside, state;  // inside: of each leaf; state: of each CSG node
+    double error = 0;                 // SurfaceCrossing::error of the crossing that is being visited
 };
 
+/// A solid's CSG restricted to a cell.
 class LocalSolid {
 public:
-    /// `tree` is a solid pruned to the box. Queries must stay inside the box.
+    /// `tree` is the solid, pruned to `box`; queries are valid inside `box` only. `solid` is its number in the BSP.
+    /// Throws TooEntangled, with the leaf's line, if a leaf's diagram is too large.
     LocalSolid(int solid, const SolidTree& tree, const Box& box, const Tolerances& tolerances,
                RootMethod root_method = RootMethod::where_needed);
 
     int solid() const { return solid_; }
     /// False if no ray can cross a surface here.
     bool has_surface() const { return !nodes_.empty() && has_surface_; }
+    /// Whether it is a single plane.
     bool is_flat() const { return leaves_.size() == 1 && leaves_[0].soft < 0; }
+    /// Number of half-spaces (of a field: Field::size()) in all leaves.
     std::size_t half_spaces() const;
 
+    /// A product of half-spaces, and the material of its surface.
     struct Convex {
         ConvexDensity density;
         int material;
     };
-    /// The whole of it as one product, if it is one and of one material. Planes are sharp factors of
-    /// it: what they were rounded by no longer matters. Empty after RootMethod::always, but for planes.
+    /// The whole local solid as one product, if it is one and has one material. Planes become sharp factors: as what is
+    /// beyond their other leaves is known exactly, their rounding no longer matters. Empty after RootMethod::always,
+    /// except for planes.
     std::optional<Convex> convex() const;
 
-    /// The whole of it as a sum of products, or as a round part's surface, if it is one leaf's; else null.
+    /// The whole local solid as a sum of products, or as the surface of a round part; null if it is not a single such
+    /// leaf.
     const ProductSum* sum() const { return is_one_soft() ? std::get_if<ProductSum>(&softs_[0].form) : nullptr; }
     const RoundSurface* surface() const { return is_one_soft() ? std::get_if<RoundSurface>(&softs_[0].form) : nullptr; }
-    /// Tolerances of the BSP that it was made for.
+    /// The tolerances of the BSP that it was made for.
     Tolerances tolerances() const { return {scale_}; }
-    /// The first leaf's material, by its index in the scene.
+    /// The first leaf's material, as an index in the scene; −1: none.
     int material() const { return leaves_[0].material; }
 
-    /// First crossing of the solid's surface in [t0, t1]; `any`: that there is one will do, t and normal
-    /// mean nothing.
+    /// First crossing of the solid's surface in [t0, t1]; t is infinity if there is none. With `any`, t and the normal
+    /// may be meaningless: only whether t is finite counts.
     SurfaceCrossing first_crossing(const Vec3& origin, const Vec3& direction, double t0, double t1, bool any,
                                    CrossingScratch& scratch) const;
 
 private:
     struct Leaf {
-        Vec3 normal{0.0};  // flat: inside where n·x ≤ offset
+        Vec3 normal{0.0};  // of a flat leaf, which is inside where n·x ≤ offset
         double offset = 0;
-        int soft = -1;  // index of its density or field; −1: flat
+        int soft = -1;  // index in softs_; −1: flat
         int material = 0;
     };
-    // A density of which no simpler form is known: its roots are searched between its bounds.
+    // A density without a simpler form: its roots are searched for between its bounds.
     struct SearchedDensity {
         LocalDensity density;
         BoundCsg outer, inner;
-        bool bounded;  // the bounds hold
-        bool all_sharp;
+        bool bounded;    // whether the bounds are valid here (bounds_hold)
+        bool all_sharp;  // whether no half-space has a filter
     };
     struct SearchedField {
         FieldPtr field;
-        double max_noise_scale;  // upper bound of FieldRay::noise_scale over the rays here; 0: not known
+        double max_noise_scale;  // upper bound of FieldRay::noise_scale over rays in the box; 0: unknown
     };
-    // What is not flat, in the simplest form that it has here.
+    // A leaf that is not flat, in the simplest form that it has in this cell.
     using Form = std::variant<ConvexDensity, ProductSum, RoundSurface, RoundProduct, SearchedDensity, SearchedField>;
     struct Soft {
         Form form;
-        std::size_t half_spaces;  // that it was made of
+        std::size_t half_spaces;  // number that the form was made of
     };
 
     bool is_one_soft() const { return nodes_.size() == 1 && softs_.size() == 1 && leaves_[0].soft == 0; }
+    // Appends the leaf, or sets `constant` if the whole box is inside or outside of it.
     void add_leaf(const SolidLeaf& leaf, const Box& box, const Tolerances& tolerances, RootMethod root_method,
                   std::optional<bool>& constant);
     static Form form_of_field(const FieldPtr& field, const Box& box, const Tolerances& tolerances,
                               RootMethod root_method);
     static Form form_of_density(LocalDensity density, const DensityTree& tree, const Box& box,
                                 const Tolerances& tolerances, RootMethod root_method);
-    /// The intersection of those leaves whose bit is set and of the others' complements.
+    /// The intersection of the leaves whose bit in `positive` is set with the complements of the others; empty if it is
+    /// not one product.
     std::optional<ConvexDensity> intersection_of_leaves(unsigned positive) const;
+    // Evaluates the CSG for given sides of its leaves; `state` is scratch for the nodes' values.
     bool evaluate(std::vector<char>& state, const std::vector<char>& inside) const;
     SurfaceCrossing first_leaf_crossing(const Vec3& origin, const Vec3& direction, double t0, double t1, bool any,
                                         CrossingScratch& scratch) const;
-    // Fills scratch.events with the crossings of all leaves, in order, and scratch.inside with what holds at t0.
+    // Fills scratch.events with the crossings of all leaves, sorted, and scratch.inside with the leaves that hold at
+    // t0.
     void find_events(const Vec3& origin, const Vec3& direction, double t0, double t1, CrossingScratch& scratch) const;
-    // Of the events, the first that changes whether the ray is in the solid.
+    // The first of the events that changes whether the ray is inside the solid.
     SurfaceCrossing first_change(const Vec3& direction, CrossingScratch& scratch) const;
-    // What follows calls visit(t, entering, normal or 0: not known yet) → go on?
+    // The functions below call visit(t, entering, normal) for the crossings in order, until it returns false; a normal
+    // of 0 means that the caller has to compute it. If `start_inside` is not null, it is set to whether t0 is inside.
     template <class Visit>
     void crossings_of(const SearchedField& searched, const Vec3& origin, const Vec3& direction, double t0, double t1,
                       CrossingScratch& scratch, bool* start_inside, Visit visit) const;
@@ -166,11 +181,11 @@ private:
     template <class Visit>
     void crossings_of(const SearchedDensity& searched, const Vec3& origin, const Vec3& direction, double t0, double t1,
                       CrossingScratch& scratch, bool* start_inside, Visit visit) const;
-    // `coarse`: t is after the crossing, and the normal 0.
+    // With `coarse`, each t may be later than the crossing, and the normal is 0.
     template <class Visit>
     void sum_crossings(const ProductSum& sum, const Vec3& origin, const Vec3& direction, double t0, double t1,
                        bool coarse, CrossingScratch& scratch, bool* start_inside, Visit visit) const;
-    // Of a round surface or product, which it names `round`.
+    // For a RoundSurface or a RoundProduct (`round`), whose crossings are `all`.
     template <class Round, class Crossings, class Visit>
     void visit_round(const Round& round, const Crossings& all, const Vec3& origin, const Vec3& direction,
                      CrossingScratch& scratch, bool* start_inside, Visit visit) const;

@@ -5,7 +5,7 @@
 namespace deburr {
 namespace {
 
-// A finite t after which nothing varies along the ray: beyond `lo` and the last plane that saturates.
+// A finite t beyond which the density does not vary along the ray: after `lo` and the last half-space's filter.
 double last_change(const RayDensity& density, double scale, double lo) {
     double last = lo;
     for (std::size_t i = 0; i < density.size(); ++i) {
@@ -15,7 +15,7 @@ double last_change(const RayDensity& density, double scale, double lo) {
     return last < 1e300 ? last : 1e300;
 }
 
-// lo, hi and the places between where sharp planes are met, in order.
+// lo, hi, and the parameters between them where the ray crosses sharp planes, sorted.
 const std::vector<double>& sharp_cuts(const RayDensity& density, double lo, double hi, std::vector<double>& cuts) {
     cuts.assign(1, lo);
     for (std::size_t i = 0; i < density.size(); ++i) {
@@ -28,7 +28,7 @@ const std::vector<double>& sharp_cuts(const RayDensity& density, double lo, doub
     return cuts;
 }
 
-// The normal of a sharp plane that is met at t; 0 if there is none.
+// The normal of the sharp plane that is crossed at t; 0 if there is none.
 Vec3 sharp_normal(const RayDensity& density, double t, double t_tolerance) {
     Vec3 normal(0.0);
     for (std::size_t i = 0; i < density.size(); ++i) {
@@ -39,13 +39,13 @@ Vec3 sharp_normal(const RayDensity& density, double t, double t_tolerance) {
     return normal;
 }
 
-// Crossings of one stretch of a ray over which sharp half-spaces stay as they are.
+// The crossings of a stretch of a ray on which sharp half-spaces do not change.
 class Stretch {
 public:
     Stretch(const RayDensity& density, CrossingScratch& scratch, double t_tolerance)
         : density_(density), scratch_(scratch), finder_({scratch.criterion, t_tolerance}, scratch.counters.roots) {}
 
-    // visit(t, entering) → go on?
+    // Calls visit(t, entering) for each crossing until it returns false; then returns false.
     template <class Visit>
     bool crossings(double t0, double t1, Visit&& visit) {
         int varying = 0;
@@ -62,7 +62,7 @@ public:
     }
 
 private:
-    // ρ is affine in the density F of the one half-space, whose ρ = ½ is a plane.
+    // With one varying half-space ρ is affine in its density F, and ρ = ½ is a plane.
     template <class Visit>
     bool one_varying(std::size_t i, double t0, double t1, Visit&& visit) {
         const double r0 = density_.at(t0).value, r1 = density_.at(t1).value;
@@ -86,12 +86,12 @@ Vec3 normalized(Vec3 v) {
     return length > 0 ? v / length : v;
 }
 
-// A normal that is known up to its sign: it leaves the solid, so it is against a ray that enters.
+// Turns a normal whose sign is unknown out of the solid: against a ray that enters.
 Vec3 against(const Vec3& direction, bool entering, const Vec3& normal) {
     return (glm::dot(normal, direction) < 0) != entering ? -normal : normal;
 }
 
-// Cuts [t0, t1] down to where the ray is in the box; false if nothing is left.
+// Cuts [t0, t1] down to the ray's interval in the box; false if it is empty.
 bool clip(const Box& box, const Vec3& origin, const Vec3& direction, double& t0, double& t1) {
     for (int k = 0; k < 3; ++k) {
         const double o = origin[k], d = direction[k];
@@ -111,36 +111,37 @@ template <class Visit>
 void LocalSolid::crossings_of(const SearchedField& searched, const Vec3& origin, const Vec3& direction, double t0,
                               double t1, CrossingScratch& scratch, bool* start_inside, Visit visit) const {
     const Field& field = *searched.field;
-    // What is passed over as a mere touch; f is in the ray's unit, of which rounding is all the noise.
+    // Touches up to this depth are ignored. f is in units of the ray's noise scale, in which rounding is the only
+    // noise.
     constexpr double f_tolerance = 2 * RootFinder::rounding;
     constexpr double farthest = 1e30;  // squares and cubes are far from overflowing there
     if (start_inside) *start_inside = false;
     const double start = t0;
-    // The box may touch the surface, which must be crossed before the box is left.
+    // The box may touch the surface, which must be crossed before the ray leaves the box.
     const Box box = inflated(field.bounding_box(), Tolerances{scale_}.margin());
     if (!clip(box, origin, direction, t0, t1)) return;
     if (t1 == infinity) t1 = std::clamp(field.last_sign_change_bound(origin, direction), t0, std::max(t0, farthest));
     FieldRay& ray = scratch.field;
     const auto emit = [&](double t, bool entering) {
         const Vec3 gradient = field.at(origin + direction * t).gradient, normal = normalized(gradient);
-        // Where large terms cancel, f is off by more than its slope makes of a coordinate's rounding; and a ray that
-        // leaves from here may run to where they are larger.
+        // Where large terms cancel, the error of f is more than its slope times the rounding of coordinates, and a ray
+        // that leaves from here may pass through places where the terms are larger.
         const double slope = glm::length(gradient), most = 0x1p-30 * scale_;
         scratch.error = slope > 0
                             ? std::min(4 * epsilon * std::max(ray.noise_scale, searched.max_noise_scale) / slope, most)
                             : most;
-        // At a cone's apex there is none: the ray's own will do.
+        // A cone's apex has no normal; the ray's direction stands in.
         return visit(t, entering, normal == Vec3(0.0) ? direction : normal);
     };
     const auto inside_at = [&](double t) {
         ++scratch.counters.roots.evaluations;
         return ray.at(t).value > RootFinder::rounding;
     };
-    // Piece by piece, each no longer than it is away, be it ahead of t = 0 or behind: far from here f may be so large
-    // that what is here would be lost in its rounding.
+    // The ray is searched in stretches that are no longer than their distance from t = 0 on either side: where f is
+    // large, far away, its rounding would hide values near the origin.
     for (double from = t0, to;; from = to) {
         to = std::min(t1, from < 0 ? from + std::max(-0.5 * from, 4 * scale_) : 2 * from + 4 * scale_);
-        // Where a piece begins, f may have another sign than where the last ended, by rounding.
+        // By rounding, f may have another sign at the start of a stretch than at the end of the last one.
         const bool inside = from > t0 && inside_at(from);
         ray.set(field, origin, direction, from, to);
         if (from == start) {
@@ -161,7 +162,7 @@ void LocalSolid::visit_round(const Round& round, const Crossings& all, const Vec
     scratch.error = Tolerances{scale_}.of_round();
     for (int i = 0; i < all.count; ++i) {
         const Vec3 normal = round.normal(origin + direction * all.at[i].t);
-        // At an apex there is none: the ray's own will do.
+        // An apex has no normal; the ray's direction stands in.
         if (!visit(all.at[i].t, all.at[i].entering, normal == Vec3(0.0) ? direction : normal)) return;
     }
 }
@@ -190,7 +191,7 @@ void LocalSolid::sum_crossings(const ProductSum& sum, const Vec3& origin, const 
     ray.crossings(t0, t1, Tolerances{scale_}.along(t0), coarse, scratch.counters.roots, [&](RootCrossing c) {
         if (coarse) return visit(c.t, c.entering, Vec3(0.0));
         const Vec3 normal = normalized(ray.gradient(c.t));
-        // At an apex there is none: the ray's own will do.
+        // An apex has no normal; the ray's direction stands in.
         return visit(c.t, c.entering, normal == Vec3(0.0) ? direction : normal);
     });
 }
@@ -243,7 +244,7 @@ void LocalSolid::crossings_of(const SearchedDensity& searched, const Vec3& origi
         bool inside = false;
         for (std::size_t k = 0; k + 1 < cuts.size(); ++k) {
             const double a = cuts[k], b = cuts[k + 1];
-            if (k > 0 && k + 2 < cuts.size() && b - a <= t_tolerance) continue;  // a gap of rounding
+            if (k > 0 && k + 2 < cuts.size() && b - a <= t_tolerance) continue;  // a gap from rounding
             density.fix_sharp(a + 0.5 * (b - a));
             const bool now = inside_at(a);
             if (k > 0 && now != inside && !visit(a, now, sharp_normal(density, a, t_tolerance))) return;
@@ -326,8 +327,7 @@ void LocalSolid::find_events(const Vec3& origin, const Vec3& direction, double t
 SurfaceCrossing LocalSolid::first_change(const Vec3& direction, CrossingScratch& scratch) const {
     const auto& events = scratch.events;
     const bool before = evaluate(scratch.state, scratch.inside);
-    // Faces that coincide are crossed at the same t but for rounding: only what has changed after
-    // all of them counts.
+    // Coincident faces are crossed at the same t up to rounding, so only the state after all of them counts.
     for (std::size_t i = 0; i < events.size();) {
         const std::size_t first = i;
         const double same = events[first].t + 2 * Tolerances{scale_}.along(events[first].t);

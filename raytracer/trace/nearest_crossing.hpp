@@ -1,29 +1,33 @@
-// The first of the crossings that a search has come upon.
+// Keeps the nearest of the crossings that a search finds.
 //
-// Which it is does not depend on the order in which they are come upon: it is the least by (t, solid, number of
-// the surface). Its normal is computed when all is done.
+// The choice does not depend on the order in which crossings are offered: the least by (t, solid, number of the
+// surface) is kept. Its normal is computed only at the end.
 #pragma once
 #include "raytracer/trace/cell_primitive.hpp"
 #include "raytracer/trace/ray_tracer.hpp"
 
 namespace deburr {
 
+/// The surface that a search found, in the coordinates of a prototype.
 struct FoundSurface {
-    SurfaceCrossing crossing;  // t = infinity: none
-    int solid = -1;            // the number that the prototype gives it
-    double error = 0;          // of the position: what floating point rounds it by
-    double start = 0;          // crossing.t counts from here on the ray that was asked for
+    SurfaceCrossing crossing;  // its t is infinity if there is none
+    int solid = -1;            // number within the prototype
+    double error = 0;          // of the position, by rounding (a scene length)
+    double start = 0;          // crossing.t counts from this parameter of the original ray (far_ray.hpp)
 };
 
 class NearestCrossing {
 public:
-    /// Begins without a crossing; none beyond `end` counts.
+    /// Holds no crossing; crossings beyond `end` are ignored.
     explicit NearestCrossing(double end = infinity) : end_(end) {}
 
+    /// Whether there is a crossing.
     bool found() const { return found_; }
+    /// Its t, or the end of the search while there is none.
     double end() const { return end_; }
 
-    /// Offers a crossing of primitive `number` of `primitives`, a plane or a product of half-spaces.
+    /// Offers a crossing of a plane or convex primitive, number `number` of `primitives`, whose normal is still
+    /// unknown.
     void offer(const CellPrimitives& primitives, std::uint32_t number, const ConvexCrossing& c) {
         const CellPrimitive& p = primitives[number];
         if (!take(c.t, p.solid, number)) return;
@@ -33,7 +37,7 @@ public:
         material_ = p.material;
         error_ = 0;
     }
-    /// Offers a crossing whose normal is known, of a primitive or of an instance.
+    /// Offers a crossing with a known normal, of a primitive or an instance.
     void offer(const SurfaceCrossing& c, double error, int solid, std::uint32_t number) {
         if (!take(c.t, solid, number)) return;
         primitives_ = nullptr;
@@ -42,7 +46,7 @@ public:
         error_ = error;
     }
 
-    /// The nearest crossing's surface; `rounding` is the rounding error of a point on a ray of this prototype.
+    /// The nearest surface. `rounding` is the rounding error of a point on a ray of this prototype.
     [[gnu::always_inline]] FoundSurface surface(const Ray& ray, double rounding) const {
         if (!found_) return {};
         if (!primitives_) return {{end_, normal_, material_}, solid_, error_};
@@ -54,6 +58,7 @@ public:
     }
 
 private:
+    // Makes this the nearest crossing if it comes before the present one.
     bool take(double t, int solid, std::uint32_t number) {
         if (!(t < end_) && !(t == end_ && (!found_ || solid < solid_ || (solid == solid_ && number < number_))))
             return false;
@@ -68,7 +73,7 @@ private:
     bool found_ = false;
     int solid_ = -1;
     std::uint32_t number_ = 0;
-    // Of which it is, if it is still without its normal.
+    // The list of the nearest primitive while its normal is unknown; else null, and the normal is in normal_.
     const CellPrimitives* primitives_ = nullptr;
     bool entering_ = false;
     int plane_ = -1;

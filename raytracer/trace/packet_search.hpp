@@ -1,16 +1,18 @@
-// Searches of several rays that are led together: through the boxes with one test for all, over planes and
-// products of half-spaces with one instruction for several (packet_kernels.hpp), and one by one over what is left.
-// Each finds what it finds alone (surface_search.hpp), to the bit.
+// Traces the rays of a packet together: one test for all in the BVH, vector instructions for planes and products of
+// half-spaces (packet_kernels.hpp), and single rays for other primitives. Each ray finds what it finds alone
+// (surface_search.hpp), to the bit.
 #pragma once
 #include "raytracer/trace/packet_nearest_crossings.hpp"
 #include "raytracer/trace/surface_search.hpp"
 
 namespace deburr {
 
+/// One search of a packet; with `Any` an any-hit query. Used once: construct, check is_far(), search().
 template <bool Any>
 class PacketSearch {
 public:
-    /// A search for `lanes` of the rays.
+    /// A search for the rays in `lanes`; origins with a coordinate beyond `farthest` are far. `found` is the
+    /// PacketSurfaces of a closest-hit query, and absent with `Any`.
     template <class... Found>
     PacketSearch(const Surfaces& surfaces, const RayPacket& rays, Lanes lanes, TraceCounters& counters,
                  const InstanceTracer* instances, double farthest, Found&... found)
@@ -23,16 +25,17 @@ public:
         is_far_ = (packet_functions.prepare(rays_, surfaces.scale, farthest, terms_) & lanes) != 0;
     }
 
-    /// Whether a ray begins beyond `farthest`.
+    /// Whether the origin of a ray in `lanes` is far; search() must not be called then.
     bool is_far() const { return is_far_; }
 
+    /// Finds the surfaces. `boxes` is the BVH over the primitives and instances.
     void search(const Bvh8& boxes) {
         visit_planes();
         visit_boxes(boxes);
         if constexpr (!Any) nearest_.finish(rays_, terms_);
     }
 
-    /// The rays that cross anything.
+    /// With `Any`, the rays that cross a surface.
     Lanes any_hit() const { return any_; }
 
 private:
@@ -48,6 +51,7 @@ private:
         });
     }
 
+    // Takes the place of the nearest crossings in an any-hit query.
     struct Nothing {
         explicit Nothing(const Surfaces&) {}
         Nothing of_ray(int, const Ray&, std::uint32_t, const RayTerms&) const { return *this; }
@@ -65,7 +69,7 @@ private:
                       spans);
     }
 
-    // Whether anything was found.
+    // Visits item i of the BVH; true if a ray found something.
     bool visit(std::uint32_t i) {
         if (i >= surfaces_.cell_primitives.size()) return visit_instance(i);
         PacketSpans spans;
@@ -73,7 +77,7 @@ private:
         return in != 0 && intersect(surfaces_.cell_primitives, i, 0, in, spans);
     }
 
-    // Primitives of the list are numbered from `first` on.
+    // Primitive i of the list has the number first + i.
     bool intersect(const CellPrimitives& primitives, std::uint32_t i, std::uint32_t first, Lanes lanes,
                    const PacketSpans& spans) {
         counters_.cells += count(lanes);
@@ -130,7 +134,7 @@ private:
     const Surfaces& surfaces_;
     TraceCounters& counters_;
     const InstanceTracer* instances_;
-    Lanes lanes_, any_ = 0;  // that go on; that found something
+    Lanes lanes_, any_ = 0;  // rays still searching; rays that found a surface (with `Any`)
     bool is_far_;
     const RayPacket& rays_;
     RayTerms terms_;

@@ -1,13 +1,13 @@
-// What the rays of a packet find.
+// The surfaces that the rays of a packet found.
 #pragma once
 #include "raytracer/simd/ray_packet.hpp"
 #include "raytracer/trace/nearest_crossing.hpp"
 
 namespace deburr {
 
-/// A FoundSurface of each ray, in arrays of their members.
+/// A FoundSurface for each ray, as a structure of arrays.
 struct PacketSurfaces {
-    Lanes found = 0;  // the rays that found any; the others' members have no meaning
+    Lanes found = 0;  // the rays that found a surface; the values of others are undefined
     alignas(64) double t[RayPacket::size], start[RayPacket::size], error[RayPacket::size];
     alignas(64) double normal[3][RayPacket::size];
     int solid[RayPacket::size], material[RayPacket::size];
@@ -24,7 +24,7 @@ struct PacketSurfaces {
         solid[k] = surface.solid;
         material[k] = surface.crossing.material;
     }
-    /// Takes ray k's of others.
+    /// Copies the surface of ray k from another packet, if it has one there.
     void set(int k, const PacketSurfaces& from) {
         found |= from.found & Lanes(1) << k;
         t[k] = from.t[k];

@@ -1,9 +1,9 @@
-// The search for a ray's first crossing among the surfaces of one prototype (instances.hpp), whatever structure
-// is traversed: the BVH, a BSP, or Embree's BVH.
+// The search for a ray's first crossing among the surfaces of one prototype (instances.hpp), whichever structure visits
+// them: the BVH, a BSP, or Embree's BVH.
 //
-// The result depends neither on the order in which surfaces are looked at, nor on whether surfaces are looked
-// at that the ray does not cross: a ray's crossing of a surface is a function of the two alone, and a fixed rule
-// chooses among several crossings (nearest_crossing.hpp).
+// The result depends neither on the order of visits nor on visits to surfaces that the ray does not cross: a ray's
+// crossing of a surface is a function of the two alone, and a fixed rule chooses among several crossings
+// (nearest_crossing.hpp).
 #pragma once
 #include "raytracer/accel/bvh.hpp"
 #include "raytracer/trace/nearest_crossing.hpp"
@@ -11,15 +11,16 @@
 
 namespace deburr {
 
-/// The instances placed in a prototype: found by their boxes, traced by their numbers.
+/// Traces rays into the instances placed in a prototype. An instance is named by its number there.
 class InstanceTracer {
 public:
-    /// First crossing along the ray in [0, t_max]; none is needed beyond `end`.
+    /// First crossing of a surface of the instance in [0, t_max]; a crossing beyond `end` need not be found.
     virtual FoundSurface closest_hit(std::uint32_t instance, const Ray& ray, double t_max, double end,
                                      TraceCounters& counters) const = 0;
-    /// Whether there is one.
+    /// Whether the ray crosses a surface of the instance in [0, t_max].
     virtual bool any_hit(std::uint32_t instance, const Ray& ray, double t_max, TraceCounters& counters) const = 0;
-    /// The same for `lanes` of the rays, to the bit; none is needed beyond `end`.
+    /// closest_hit() and any_hit() for the rays in `lanes`, with the same results to the bit; crossings of ray k beyond
+    /// end[k] need not be found.
     virtual void closest_hit_packet(std::uint32_t instance, const RayPacket& rays, const double* end, Lanes lanes,
                                     PacketSurfaces& found, TraceCounters& counters) const {
         for_each_lane(
@@ -39,17 +40,17 @@ protected:
 
 /// The surfaces of one prototype. Cell primitives and instances are numbered together, in this order.
 struct Surfaces {
-    double scale = 1;  // coordinates reach so far
+    double scale = 1;  // upper bound of coordinates
     CellPrimitives cell_primitives;
-    CellPrimitives infinite_planes;   // whole solids
-    LargeVector<Box> instance_boxes;  // around them, with more to spare than rounding makes of a ray
+    CellPrimitives infinite_planes;  // of solids that are a single half-space
+    LargeVector<Box> instance_boxes;  // inflated by more than the rounding of a ray
 };
 
-/// Rounding error of a distance t along a ray, given the largest coordinate magnitude.
+/// Rounding error of a point at distance t along a ray, given the largest coordinate magnitude.
 inline double rounding_of(double coordinate_bound, double t) { return 4 * epsilon * (coordinate_bound + std::abs(t)); }
 
-/// Whether the ray crosses primitive i in [from, to]. Unless that is all that is asked (`Any`), the first crossing is
-/// offered to `nearest`, a NearestCrossing or what takes its offers.
+/// Whether the ray crosses primitive i in [from, to]. Unless `Any`, the first crossing is offered to `nearest`, a
+/// NearestCrossing or a class with its offer() functions.
 template <bool Any, class Nearest>
 [[gnu::always_inline]] inline bool intersect_primitive(const CellPrimitives& primitives, std::uint32_t i,
                                                        const Ray& ray, double from, double to, double coordinate_bound,
@@ -78,11 +79,11 @@ template <bool Any, class Nearest>
     return true;
 }
 
-/// `Any`: an any-hit query, which finds only whether there is a crossing in [begin, t_max].
+/// A search of one ray; with `Any` an any-hit query, which finds only whether there is a crossing in [begin, t_max].
 template <bool Any>
 class SurfaceSearch {
 public:
-    /// A search in [begin, t_max] that need not find what lies beyond `end`.
+    /// A search in [begin, t_max] that need not find crossings beyond `end`. `instances` may be null if there are none.
     SurfaceSearch(const Surfaces& surfaces, const Ray& ray, double t_max, double end, TraceCounters& counters,
                   const InstanceTracer* instances, double begin = 0)
         : surfaces_(surfaces),
@@ -99,18 +100,20 @@ public:
     const Vec3& inverse() const { return inverse_; }
     bool found() const { return nearest_.found() || any_; }
     double begin() const { return begin_; }
-    /// Nothing counts beyond.
+    /// The distance beyond which crossings no longer count.
     double end() const { return nearest_.end(); }
-    /// Nothing more needs to be looked at.
+    /// Whether the search can stop: an any-hit query has found a crossing.
     bool enough() const { return any_; }
-    /// A distance along the ray is rounded by this much.
+    /// The rounding error of a point at distance t along the ray.
     double rounding(double t) const { return rounding_of(coordinate_bound_, t); }
 
+    /// Intersects the infinite planes, which are in no BVH.
     void visit_planes() {
         for (std::size_t i = 0; i < surfaces_.infinite_planes.size(); ++i)
             intersect(surfaces_.infinite_planes, std::uint32_t(i), begin_, t_max_);
     }
 
+    /// Intersects cell primitive or instance i.
     void visit(std::uint32_t i) {
         if (i < surfaces_.cell_primitives.size())
             visit_in_cell(i);
@@ -118,14 +121,14 @@ public:
             visit_instance(i);
     }
 
-    /// The nearest surface found.
+    /// The nearest surface found; its t is infinity if there is none.
     FoundSurface surface() const { return nearest_.surface(ray_, rounding(nearest_.end())); }
 
 private:
     void visit_in_cell(std::uint32_t i) {
-        // As far as t_max, not end(): what is found may depend on both ends of the stretch, by rounding.
+        // Up to t_max, not end(): rounding makes the crossing found depend on both ends of the stretch.
         const BoxSpan span = span_in(surfaces_.cell_primitives[i].box, ray_.origin, inverse_, begin_, t_max_);
-        // Cells overlap by what their walls are rounded by: a surface in a wall belongs to both.
+        // Cells overlap by the rounding of their walls: a surface in a wall belongs to both.
         const double pad = rounding(std::min(span.lo, span.hi));
         const double from = std::max(begin_, span.lo - pad), to = std::min(t_max_, span.hi + pad);
         if (from <= to && from <= end()) intersect(surfaces_.cell_primitives, i, from, to);
@@ -151,7 +154,7 @@ private:
     const Surfaces& surfaces_;
     const Ray& ray_;
     Vec3 inverse_;
-    double coordinate_bound_;  // of coordinates that are added
+    double coordinate_bound_;  // of all terms of a point on the ray
     double begin_, t_max_;
     NearestCrossing nearest_;
     bool any_ = false;

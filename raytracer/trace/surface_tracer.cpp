@@ -7,14 +7,15 @@
 namespace deburr {
 namespace {
 
+// A node to visit, and the ray's interval in it.
 struct Visit {
     int node;
     double t0, t1;
 };
 
-// Calls cell(number, t) for the cells that the ray passes within [t0, t1], t being where it enters them, in order but
-// for a ray in a wall, which passes the cells on both sides one after the other. Where one returns true, no more are
-// called that are entered there or later.
+// Calls cell(number, t) for the cells that the ray passes in [t0, t1], where t is the parameter of entry, in order; a
+// ray within a wall passes the cells on both sides one after the other. Once a call returns true, no cell that is
+// entered there or later is visited.
 template <class OnCell>
 void traverse(const BspTree& tree, const Ray& ray, double t0, double t1, OnCell on_cell) {
     Visit stack[128];
@@ -55,7 +56,7 @@ template <bool Any>
     search.visit_planes();
     if (search.enough()) return true;
     const Ray& ray = search.ray();
-    // What is no number would be let into empty boxes.
+    // A ray with NaN would be let into empty boxes.
     const Vec3 sum = ray.origin + ray.direction;
     if (!(sum == sum)) return false;
     const BoxSpan span = span_in(around_, ray.origin, search.inverse(), search.begin(), search.end());
@@ -80,9 +81,9 @@ template <bool Any>
 
 template <bool Any>
 void SurfaceTracer::walk(SurfaceSearch<Any>& search, double t0, double t1) const {
-    const BspTree& tree = trees_[0];  // whose primitives are the first
+    const BspTree& tree = trees_[0];  // whose primitives come first in surfaces_
     traverse(tree, search.ray(), t0, t1, [&](std::size_t number, double from) {
-        // What is crossed within rounding of a wall may be found in either cell.
+        // A crossing within rounding of a wall may be found in either cell.
         if (search.enough() || from - search.rounding(from) > search.end()) return true;
         const BspCell& cell = tree.cells[number];
         for (std::uint32_t i = cell.first; i < cell.first + cell.count; ++i) search.visit(i);
@@ -102,7 +103,7 @@ bool SurfaceTracer::any_hit_nearby(const Ray& ray, double begin, double t_max, T
     return search(s);
 }
 
-// ---- rays from far away --------------------------------------------------------------------------
+// ---- far rays ------------------------------------------------------------------------------------
 
 FoundSurface SurfaceTracer::closest_hit_from_afar(const Ray& ray, double t_max, TraceCounters& counters,
                                                   const InstanceTracer* instances, double end) const {
@@ -128,11 +129,11 @@ bool SurfaceTracer::any_hit_from_afar(const Ray& ray, double t_max, TraceCounter
     return t_max >= far.middle && any_hit_nearby(far.moved, far.begin, far.t_max, counters, instances);
 }
 
-// ---- rays together -------------------------------------------------------------------------------
+// ---- packets -------------------------------------------------------------------------------------
 
 namespace {
 
-// Fewer are led alone: together they gain nothing.
+// Fewer rays than this are traced one by one: a packet would gain nothing.
 constexpr std::size_t min_packet_rays = 4;
 
 }  // namespace
@@ -167,13 +168,14 @@ Lanes SurfaceTracer::any_hit_packet(const RayPacket& rays, Lanes lanes, TraceCou
 
 namespace {
 
-// Rays that go on together beside the space: those from far away are moved.
+// The rays of a packet near the prototype's surfaces: those from far away are moved (far_ray.hpp).
 struct RaysBeside {
     RayPacket rays;
     Lanes lanes = 0;
     double start[RayPacket::size];
 
-    /// on_the_way(ray's number, until): whether a ray from far away is done with before it comes near.
+    /// Calls on_the_way(k, until) for every far ray, to search its first part; true means that ray k needs no second
+    /// part.
     template <class OnTheWay>
     RaysBeside(const RayPacket& all, Lanes asked, const Vicinity& vicinity, double scale, OnTheWay on_the_way)
         : rays(all) {

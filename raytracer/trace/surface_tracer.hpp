@@ -1,8 +1,8 @@
-// Traces rays through the BSPs of one prototype (instances.hpp).
+// Traces rays against the surfaces of one prototype (instances.hpp).
 //
-// The BSPs' cells hold the surfaces; the cells that a ray meets are found by one BVH (bvh.hpp; or Embree's,
-// embree_bvh.hpp) around what is in them, so that empty cells cost nothing. A BSP itself is traversed only
-// outside of the BVH's box, where an unbounded solid goes on.
+// The surfaces are in the cells of BSPs. A single BVH (bvh.hpp, or Embree's in embree_bvh.hpp) over the cells' content
+// finds the cells that a ray meets, so that empty cells cost nothing. A BSP itself is traversed only outside of the
+// BVH's box, where an unbounded solid continues.
 #pragma once
 #include <optional>
 #include <span>
@@ -16,49 +16,52 @@
 
 namespace deburr {
 
-/// A BSP, and the numbers that its solids have in the scene or prototype around it.
+/// A BSP, and the numbers of its solids in the scene or prototype around it.
 struct NamedBsp {
     BspTree tree;
-    std::vector<int> solids;  // by the BSP's numbers
+    std::vector<int> solids;  // by the number in the BSP
 };
 
+/// All surfaces of one prototype with their acceleration structure. Queries are thread-safe.
 class SurfaceTracer {
 public:
     SurfaceTracer() = default;
     /// A tracer of one BSP, whose solids keep their numbers.
     SurfaceTracer(BspTree&& tree, Criterion criterion, Accel accel = Accel::bvh);
-    /// A tracer of several BSPs, all but the first bounded, and of the instances in these boxes.
+    /// A tracer of several BSPs, of which only the first may hold unbounded solids, and of the instances in these
+    /// boxes.
     SurfaceTracer(std::vector<NamedBsp> bsps, std::span<const Box> instance_boxes, Criterion criterion,
                   Accel accel = Accel::bvh);
 
-    /// First crossing along the ray in [0, t_max]; none is needed beyond `end`. `instances` are asked by the
-    /// number of their box.
+    /// First crossing along the ray in [0, t_max]; one beyond `end` need not be found. `instances` traces the instances
+    /// by the index of their box; it may be null if there are none.
     FoundSurface closest_hit(const Ray& ray, double t_max, TraceCounters& counters,
                              const InstanceTracer* instances = nullptr, double end = infinity) const {
         if (vicinity_.is_far(ray.origin)) [[unlikely]]
             return closest_hit_from_afar(ray, t_max, counters, instances, end);
         return closest_hit_nearby(ray, 0, t_max, counters, instances, end);
     }
-    /// Whether there is one.
+    /// Whether the ray crosses a surface in [0, t_max].
     bool any_hit(const Ray& ray, double t_max, TraceCounters& counters,
                  const InstanceTracer* instances = nullptr) const {
         if (vicinity_.is_far(ray.origin)) [[unlikely]]
             return any_hit_from_afar(ray, t_max, counters, instances);
         return any_hit_nearby(ray, 0, t_max, counters, instances);
     }
-    /// Both queries for `lanes` of the rays, which begin at 0, with the same results to the bit.
+    /// Both queries for the rays in `lanes`, which begin at 0, with the same results to the bit.
     void closest_hit_packet(const RayPacket& rays, Lanes lanes, PacketSurfaces& found, TraceCounters& counters,
                             const InstanceTracer* instances = nullptr) const;
     Lanes any_hit_packet(const RayPacket& rays, Lanes lanes, TraceCounters& counters,
                          const InstanceTracer* instances = nullptr) const;
 
-    /// Instances lie at `first`, so many bytes apart, as long as rays are traced.
+    /// Tells where the caller keeps its array of instances (address and stride in bytes), for prefetching. It must stay
+    /// valid while rays are traced.
     void instances_lie_at(const void* first, std::size_t stride) {
         boxes_.items_lie_at(std::uint32_t(surfaces_.cell_primitives.size()), first, stride);
     }
 
-    const std::vector<BspTree>& trees() const { return trees_; }  // without their LocalSolids
-    const Surfaces& surfaces() const { return surfaces_; }        // what these were, one tree's after the other's
+    const std::vector<BspTree>& trees() const { return trees_; }  // without their local solids
+    const Surfaces& surfaces() const { return surfaces_; }        // made of all trees' local solids, in their order
 
 private:
     void build_bvh(std::vector<NamedBsp> bsps, const std::vector<Box>& boxes, std::span<const Box> instance_boxes,
@@ -66,12 +69,12 @@ private:
     void keep(BspTree&& tree);
     template <bool Any>
     bool search(SurfaceSearch<Any>& search) const;
-    // Queries in [begin, t_max], for rays that begin near the surfaces, or were moved there.
+    // Queries in [begin, t_max] for rays whose origin is near, or was moved there.
     FoundSurface closest_hit_nearby(const Ray& ray, double begin, double t_max, TraceCounters& counters,
                                     const InstanceTracer* instances, double end) const;
     bool any_hit_nearby(const Ray& ray, double begin, double t_max, TraceCounters& counters,
                         const InstanceTracer* instances) const;
-    // Of rays that may come from far away.
+    // Queries for rays whose origin may be far.
     FoundSurface closest_hit_from_afar(const Ray& ray, double t_max, TraceCounters& counters,
                                        const InstanceTracer* instances, double end) const;
     bool any_hit_from_afar(const Ray& ray, double t_max, TraceCounters& counters,
@@ -87,12 +90,13 @@ private:
 
     std::vector<BspTree> trees_;
     Surfaces surfaces_;
-    // Of primitives and then of instances; unbounded primitives as far as all else reaches. One of the two is there.
+    // The BVH over cell primitives, then instances; unbounded primitives are cut to the box of all others. Either
+    // boxes_ or embree_ is used.
     Bvh8 boxes_;
     std::optional<EmbreeBvh> embree_;
-    Box around_;  // all of these
+    Box around_;  // box of all items in the BVH
     Vicinity vicinity_;
-    bool bounded_ = true;  // nothing is outside
+    bool bounded_ = true;  // whether all cell primitives are
 };
 
 }  // namespace deburr

@@ -1,4 +1,4 @@
-// A surface tracer's making: BSPs become one list of primitives, with one BVH around these and the instances.
+// Construction of a surface tracer: BSPs become one list of primitives, with one BVH around these and the instances.
 #include <algorithm>
 #include <utility>
 
@@ -7,10 +7,10 @@
 namespace deburr {
 namespace {
 
-// So many boxes are a single node of a Bvh8, and not worth a scene of Embree's.
+// This many boxes fit into a single node of a Bvh8, and do not pay for a scene of Embree's.
 constexpr std::size_t few = BoxNode::width;
 
-// The cells, by the places of what is in them.
+// The cell of each local solid, by its index in BspTree::locals.
 std::vector<Box> cells_of_locals(const BspTree& tree) {
     std::vector<Box> of(tree.locals.size());
     // Children come after their parents.
@@ -29,7 +29,7 @@ std::vector<Box> cells_of_locals(const BspTree& tree) {
     return of;
 }
 
-// As the BSP has them; item(place) makes one.
+// Builds a binary tree with the structure of the BSP; item(index of a local solid) returns a leaf's part.
 template <class Item>
 int join_like(const BspTree& tree, Bvh8::Builder& builder, Item item) {
     std::vector<int> part(tree.nodes.size(), Bvh8::Builder::nothing);
@@ -52,6 +52,7 @@ int join_like(const BspTree& tree, Bvh8::Builder& builder, Item item) {
     return part[0];
 }
 
+// A BSP whose solids keep their numbers.
 std::vector<NamedBsp> alone(BspTree&& tree) {
     std::vector<NamedBsp> all(1);
     for (std::size_t i = 0; i < tree.boxes.size(); ++i) all[0].solids.push_back(int(i));
@@ -59,7 +60,7 @@ std::vector<NamedBsp> alone(BspTree&& tree) {
     return all;
 }
 
-// Moves a BSP's solids to the surfaces; `boxes` gets one around each cell primitive.
+// Moves a BSP's local solids to `surfaces`, and appends the box of each cell primitive to `boxes`.
 void add_primitives(NamedBsp& bsp, Surfaces& surfaces, std::vector<Box>& boxes) {
     const auto name = [&](const LocalSolid& local) { return bsp.solids[local.solid()]; };
     for (LocalSolid& plane : bsp.tree.planes) {
@@ -93,14 +94,15 @@ SurfaceTracer::SurfaceTracer(std::vector<NamedBsp> bsps, std::span<const Box> in
     surfaces_.cell_primitives = surfaces_.infinite_planes = CellPrimitives(tolerances, criterion);
     surfaces_.instance_boxes.reserve(instance_boxes.size());
     for (const Box& box : instance_boxes) surfaces_.instance_boxes.push_back(inflated(box, tolerances.margin()));
-    std::vector<Box> boxes;  // of primitives
+    std::vector<Box> boxes;  // of cell primitives
     for (NamedBsp& bsp : bsps) add_primitives(bsp, surfaces_, boxes);
     build_bvh(std::move(bsps), boxes, instance_boxes, accel);
-    // Rays that meet planes only are as exact as they can be.
+    // A prototype of infinite planes only has no vicinity: there rays are as exact as they can be.
     if (!around_.empty() || !bounded_) vicinity_ = Vicinity(around_, tolerances.scale, min_scale);
 }
 
-// Builds the BVH over the primitives, in these boxes, and the instances, and keeps of the BSPs what is needed still.
+// Builds the BVH over the primitives (with these boxes) and the instances, and keeps the part of the BSPs that is still
+// needed.
 void SurfaceTracer::build_bvh(std::vector<NamedBsp> bsps, const std::vector<Box>& boxes,
                               std::span<const Box> instance_boxes, Accel accel) {
     Box world;
@@ -139,7 +141,7 @@ void SurfaceTracer::build_bvh(std::vector<NamedBsp> bsps, const std::vector<Box>
         boxes_ = Bvh8(builder, builder.join_by_area(std::move(parts)));
 }
 
-// Keeps a tree without its solids, and without its nodes unless rays traverse it beyond the BVH.
+// Keeps a tree without its local solids, and without its nodes unless rays traverse it outside of the BVH.
 void SurfaceTracer::keep(BspTree&& tree) {
     tree.locals.clear();
     tree.planes.clear();

@@ -1,20 +1,20 @@
-// How the implicit road finds what a ray may cross, and roots.
+// Settings of implicit rendering: the acceleration structure, and the method of finding roots.
 #pragma once
 
 namespace deburr {
 
-/// Acceleration structure in which rays are traced; the surfaces that they find are the same.
+/// The acceleration structure that rays traverse; all find the same surfaces.
 enum class Accel {
-    bvh,    // a tree of boxes around what is in the cells of BSPs
-    embree  // the same boxes under a BVH of Embree's
+    bvh,    // Bvh8, over the content of the BSPs' cells
+    embree  // Embree's BVH over the same boxes
 };
 
 inline const char* name(Accel accel) { return accel == Accel::embree ? "embree" : "bsp"; }
 
-/// Which densities' roots are searched for by the bounds M, L and G.
+/// Which densities are intersected by the general root search, with its bounds M, L and G.
 enum class RootMethod {
-    where_needed,  // those that are neither products of half-spaces nor sums of few
-    always         // of more than one half-space; for measuring the search itself
+    where_needed,  // those that are neither products of half-spaces nor sums of few products
+    always         // all of more than one half-space; for measuring the search itself
 };
 
 }  // namespace deburr
