@@ -11,14 +11,14 @@
 namespace deburr {
 namespace {
 
-// As for the families of decision diagrams (bounds/decision_diagram.cpp).
+// As for families of parallel planes (bounds/decision_diagram.cpp).
 constexpr double same_direction = 1e-9, same_offset = 1e-12;
-// Three normals that span less than this are no box's.
+// Three normals whose parallelepiped has less volume than this do not make a box.
 constexpr double min_volume = 1e-6;
 
 bool parallel(Vec3 a, Vec3 b) { return glm::length(a - b) <= same_direction; }
 
-// One plane of each direction, the innermost.
+// Keeps the innermost of the planes that face the same way.
 std::vector<BoundPlane> least(const std::vector<BoundPlane>& planes) {
     std::vector<BoundPlane> kept;
     for (const BoundPlane& p : planes) {
@@ -38,11 +38,11 @@ bool axis_parallel(Vec3 n) { return (n.x != 0) + (n.y != 0) + (n.z != 0) == 1; }
 const char* const empty = "intersection {\n  plane { <1, 0, 0>, 0 }\n  plane { <-1, 0, 0>, -1 }\n}";
 
 struct Slab {
-    std::size_t low, high;  // planes; the normal is that of `high`
+    std::size_t low, high;  // indices of planes; the slab's normal is that of `high`
 };
 
 std::string box_of(const std::vector<BoundPlane>& planes, const Slab (&slabs)[3]) {
-    Mat3 normals;  // in columns
+    Mat3 normals;  // columns
     Vec3 lo(0.0), hi(0.0);
     for (int k = 0; k < 3; ++k) {
         normals[k] = planes[slabs[k].high].normal;
@@ -60,14 +60,14 @@ std::string box_of(const std::vector<BoundPlane>& planes, const Slab (&slabs)[3]
                 }
         return fmt::format("box {{ {}, {} }}", pov_vector(from), pov_vector(to));
     }
-    // A box of the coordinates uᵢ = nᵢ·x, brought to x.
+    // A box in the coordinates uᵢ = nᵢ·x, transformed to x.
     const Mat3 back = glm::inverse(glm::transpose(normals));
     std::string rows;
     for (int i = 0; i < 3; ++i) rows += fmt::format("{}, {}, {}, ", back[i].x, back[i].y, back[i].z);
     return fmt::format("box {{ {}, {} matrix <{}0, 0, 0> }}", pov_vector(lo), pov_vector(hi), rows);
 }
 
-// Takes three slabs out of the planes.
+// Removes three independent slabs from the planes and returns them as a box, if there are three.
 std::optional<std::string> take_box(std::vector<BoundPlane>& planes) {
     std::vector<Slab> slabs;
     for (std::size_t i = 0; i < planes.size(); ++i)
@@ -120,7 +120,7 @@ PovCsg PovCsg::object(std::string text) {
     return csg;
 }
 
-// The same as one that further operands can be added to.
+// This object as one of the given kind, to which operands can be added.
 PovCsg PovCsg::as(Kind kind) && {
     if (kind_ == kind) return std::move(*this);
     PovCsg csg(kind);
@@ -166,7 +166,7 @@ PovCsg PovCsg::subtract(PovCsg a, PovCsg b) {
     return a;
 }
 
-// What is left equals the rest within `whole`.
+// This object without the planes that it shares with `whole`; within `whole` both are the same.
 PovCsg PovCsg::without_planes_of(const PovCsg& whole) const {
     PovCsg rest = *this;
     if (kind_ != Kind::intersect) return rest;
@@ -190,7 +190,7 @@ std::string PovCsg::text(const std::string& modifiers) const {
     if (bounds.empty()) return with(empty, modifiers);
     std::vector<std::string> parts;
     if (auto box = take_box(planes)) parts.push_back(*box);
-    // POV-Ray finds no box around planes that are not parallel to the axes.
+    // POV-Ray finds no bounding box for planes that are not parallel to the axes.
     const bool bounded = parts.empty() && objects_.empty() && bounds.finite();
     for (const BoundPlane& p : planes)
         parts.push_back(fmt::format("plane {{ {}, {} }}", pov_vector(p.normal), p.offset));

@@ -1,9 +1,9 @@
-// CSG objects in POV-Ray's words, made operator by operator.
+// CSG objects in POV-Ray's language, built operator by operator.
 //
-// An intersection keeps its planes until it is written: planes of one direction become one, three
-// pairs of parallel planes a box, which POV-Ray traces faster than six planes. What is taken away
-// loses the planes that it shares with the rest: the papers clip a subtrahend by the very face that it
-// opens, and POV-Ray shows speckles where two faces coincide.
+// An intersection keeps its planes until it is written: parallel planes that face the same way become one, and three
+// pairs of opposite planes become a box, which POV-Ray traces faster than six planes. A subtrahend loses the planes
+// that it shares with the minuend: the papers clip a subtrahend by the very face that it opens, and POV-Ray shows
+// speckles where two faces coincide.
 #pragma once
 #include <memory>
 #include <string>
@@ -13,13 +13,14 @@
 
 namespace deburr {
 
+/// A CSG expression of POV-Ray objects.
 class PovCsg {
 public:
     static PovCsg nothing() { return PovCsg(Kind::nothing); }
     static PovCsg everything() { return PovCsg(Kind::everything); }
-    /// n·x ≤ offset.
+    /// The half-space n·x ≤ offset.
     static PovCsg plane(BoundPlane plane);
-    /// An object of POV-Ray's in braces, such as `sphere { 0, 1 }`.
+    /// An object in POV-Ray's language with its braces, such as `sphere { 0, 1 }`.
     static PovCsg object(std::string text);
 
     static PovCsg unite(PovCsg a, PovCsg b);
@@ -27,7 +28,7 @@ public:
     static PovCsg subtract(PovCsg a, PovCsg b);
 
     bool is_nothing() const { return kind_ == Kind::nothing; }
-    /// The object; `modifiers` (a material) go inside its braces.
+    /// The object in POV-Ray's language; `modifiers` (a material) are put inside its braces.
     std::string text(const std::string& modifiers = "") const;
 
 private:
@@ -37,9 +38,9 @@ private:
     PovCsg without_planes_of(const PovCsg& whole) const;
 
     Kind kind_;
-    std::vector<BoundPlane> planes_;    // both
-    std::vector<std::string> objects_;  // both, either
-    std::vector<PovCsg> taken_;         // both: what is subtracted
+    std::vector<BoundPlane> planes_;    // intersect: its half-spaces
+    std::vector<std::string> objects_;  // intersect, unite: further operands
+    std::vector<PovCsg> taken_;         // intersect: subtrahends
 };
 
 }  // namespace deburr

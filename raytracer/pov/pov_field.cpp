@@ -1,9 +1,9 @@
-// The slope: over a box every node has a range of ρ and of each component of ∇ρ. For a decision, with
-// V = cₘ + Σⱼ Fⱼ (cⱼ − cⱼ₊₁) as in bounds/local_density.cpp,
+// Bound of the slope: over a box every node has a range of ρ and of each component of ∇ρ. For a decision, with V = cₘ +
+// Σⱼ Fⱼ (cⱼ − cⱼ₊₁) as in bounds/local_density.cpp,
 //
 //     ∇V = Σⱼ ∇Fⱼ (cⱼ − cⱼ₊₁) + Σⱼ pⱼ ∇cⱼ,
 //
-// where the second sum is an average.
+// where the second sum is a weighted average.
 #include "raytracer/pov/pov_field.hpp"
 
 #include <fmt/format.h>
@@ -19,8 +19,8 @@
 
 namespace deburr {
 
-// [Lobb eq. 2], multiplied out. POV-Ray evaluates only that branch of a select which is chosen; with min
-// and max csg_examples takes 2.3 times as long.
+// [Lobb eq. 2], expanded. POV-Ray evaluates only the branch of a select that is chosen; with min and max csg_examples
+// takes 2.3 times as long.
 std::string pov_profile(bool by_cases) {
     const std::string text = "// Density of a half-space at the distance a, in radii, from its plane.\n";
     if (by_cases)
@@ -32,8 +32,8 @@ std::string pov_profile(bool by_cases) {
 
 namespace {
 
-// Work for the slope, in nodes and planes evaluated over a box, some tenths of a second; and when it is
-// near enough.
+// Limit of work for the slope's bound, in nodes and half-spaces evaluated over a box (some tenths of a second), and the
+// ratio of bound to slope that is close enough.
 constexpr double max_work = 2e6;
 constexpr double near_enough = 1.01;
 
@@ -45,8 +45,8 @@ Range times(Range a, Range b) {
     return {lo, hi};
 }
 
-// Of values in ranges, with weights in ranges whose sum is 1: in the hull of those that have any weight,
-// and in the sum of the products.
+// The range of a weighted average, from ranges of values and of weights whose sum is 1: the hull of the values with
+// positive weight, intersected with the sum of the products.
 class Average {
 public:
     void add(Range weight, Range value) {
@@ -62,7 +62,7 @@ private:
     bool none_ = true;
 };
 
-// dρ/dα over a range of α.
+// The range of dρ/dα for a range of α.
 Range slope_range(Range alpha) {
     const double a = profile_slope(alpha.lo), b = profile_slope(alpha.hi);
     const double steepest = alpha.lo <= 0 && alpha.hi >= 0 ? profile_slope(0) : std::min(a, b);
@@ -89,7 +89,7 @@ std::string rho_of(const HalfSpace& h) {
 
 PovField::PovField(const DensityTree& tree, int line)
     : line_(line), half_spaces_(tree.half_spaces), rounds_(tree.rounds) {
-    // What the papers' arithmetic reaches; below lie the Boolean parts, each decided as a whole.
+    // The nodes above all Boolean operators; each Boolean part below them becomes one decision diagram.
     std::vector<char> arithmetic(tree.nodes.size(), false);
     arithmetic.back() = true;
     const auto is_arithmetic = [](Op op) { return op == Op::sum || op == Op::product || op == Op::difference; };
@@ -149,7 +149,7 @@ int PovField::add_boolean(const DensityTree& tree, int root) {
     return new_index[diagram.root];
 }
 
-// Σ pⱼ cⱼ, where pⱼ = Fⱼ − Fⱼ₋₁, F₋₁ = 0 and Fₘ = 1.
+// The text of Σ pⱼ cⱼ, where pⱼ = Fⱼ − Fⱼ₋₁, F₋₁ = 0 and Fₘ = 1.
 std::string PovField::decision(const Node& node, const std::vector<std::string>& done) const {
     std::string text;
     const std::size_t m = node.planes.size();
@@ -181,7 +181,7 @@ std::string PovField::formula() const {
 
     std::vector<std::string> done;
     for (const Node& n : nodes_) {
-        // An arithmetic node's operands are used by it alone.
+        // An operand of an arithmetic node is used by that node only.
         const auto take = [&](int i) { return std::move(done[i]); };
         switch (n.step) {
             case Step::constant: done.push_back(fmt::format("{}", n.value)); break;
@@ -195,11 +195,12 @@ std::string PovField::formula() const {
     return done.back();
 }
 
+// Ranges of ρ and of the components of ∇ρ over a box.
 struct PovField::Slopes {
     Range value;
     std::array<Range, 3> slope{};
 
-    /// Greatest component of ∇ρ along each axis.
+    /// The greatest magnitude of each component of ∇ρ.
     Vec3 greatest() const {
         Vec3 most(0.0);
         for (int k = 0; k < 3; ++k) most[k] = std::max(-slope[k].lo, slope[k].hi);
@@ -271,7 +272,7 @@ double PovField::greatest_slope(const Box& box) const {
     struct Open {
         double most;
         Box box;
-        int axis;  // along which ρ may vary most: to be halved
+        int axis;  // along which ρ may vary most; the box is halved across it
         bool operator<(const Open& o) const { return most < o.most; }
     };
     std::priority_queue<Open> open;
@@ -284,7 +285,7 @@ double PovField::greatest_slope(const Box& box) const {
         open.push({glm::length(most), b, axis});
     };
     examine(box);
-    const double work = 2 * double(nodes_.size() + half_spaces_.size());  // of a box and its middle
+    const double work = 2 * double(nodes_.size() + half_spaces_.size());  // for a box and its middle
     for (double done = work; done < max_work && open.top().most > near_enough * met; done += 2 * work) {
         const Open widest = open.top();
         open.pop();

@@ -1,8 +1,8 @@
-// A rounded density as POV-Ray evaluates it: a formula of x, y and z, and a proven bound of its slope.
+// A rounded density in POV-Ray's language: a formula of x, y and z, and a proven bound of its slope.
 //
-// The papers' arithmetic is written as it stands; a Boolean part is its decision diagram multiplied
-// out, Σ pⱼ cⱼ decision by decision (bounds/decision_diagram.hpp). A diagram's shared nodes are written
-// once per use, as POV-Ray's functions have no variables: what grows too long is not supported.
+// The papers' arithmetic is written as it stands. A Boolean part is its decision diagram expanded to Σ pⱼ cⱼ, decision
+// by decision (bounds/decision_diagram.hpp). As POV-Ray's functions have no variables, a shared node of a diagram is
+// written once per use; formulas that grow too long are not supported.
 #pragma once
 #include <string>
 #include <vector>
@@ -11,29 +11,31 @@
 
 namespace deburr {
 
-/// The declaration of ρ(α), as Rho, in a file of POV-Ray: by cases, or clamped by min and max.
+/// The declaration of the profile ρ(α) under the name Rho: by cases, or clamped by min and max.
 std::string pov_profile(bool by_cases);
 
+/// The formula of one density.
 class PovField {
 public:
-    /// No half-space of `tree` is sharp. Throws TooEntangled with the line if a diagram is too large.
+    /// Precondition: no half-space of `tree` is sharp. Throws TooEntangled with the line of the scene if a diagram is
+    /// too large.
     explicit PovField(const DensityTree& tree, int line = 0);
 
-    /// ρ. Throws UnsupportedError if it has more than `max_terms` half-spaces, counted once per use.
+    /// The formula of ρ. Throws UnsupportedError if it has more than `max_terms` half-spaces, counted once per use.
     std::string formula() const;
     static constexpr double max_terms = 20'000;
 
-    /// |∇ρ| is nowhere in the finite box greater than this. Boxes are halved where it may be, until
-    /// the bound is within 1 % of a slope that was met or the work is spent.
+    /// An upper bound of |∇ρ| in the finite box. The box is halved where the bound is largest, until it is within 1 %
+    /// of a slope that occurs or the work is spent.
     double greatest_slope(const Box& box) const;
 
 private:
     enum class Step : unsigned char { constant, half_space, sum, product, difference, decision };
     struct Node {
         Step step = Step::constant;
-        double value = 0;                   // constant
+        double value = 0;                   // of a constant
         int a = -1, b = -1;                 // operands; half_space: a is its index
-        std::vector<int> planes, children;  // decision: as in Decision, planes by index
+        std::vector<int> planes, children;  // of a decision: as in Decision, planes by index
     };
     struct Slopes;
 
@@ -44,8 +46,8 @@ private:
 
     int line_;
     std::vector<HalfSpace> half_spaces_;
-    std::shared_ptr<const std::deque<RoundCoordinate>> rounds_;  // what they point to
-    std::vector<Node> nodes_;                                    // operands first, the root last
+    std::shared_ptr<const std::deque<RoundCoordinate>> rounds_;  // owns the coordinates of half_spaces_
+    std::vector<Node> nodes_;                                    // operands before their node, the root last
 };
 
 }  // namespace deburr

@@ -14,13 +14,15 @@ namespace {
 
 using std::numbers::pi;
 
-// POV-Ray's light falls off as 2/(1 + (d/fade)²): as 1/d² from a few `fade` on, where it is this part of
-// the distance to what the camera looks at.
+// POV-Ray's light falls off as 2/(1 + (d/fade)²), which is 1/d² beyond a few `fade`. `fade` is this fraction of the
+// distance from the light to the camera's target.
 constexpr double fade_part = 1e-3;
-// Its highlights may not be sharper; a highlight of a point light is a pixel then.
+// Least α of a highlight, as POV-Ray does not take sharper ones; at that, the highlight of a point light is about a
+// pixel.
 constexpr double min_alpha = 0.02;
 
-// To where the first axis of a pattern of POV-Ray lies, or its third, and to the texture's place and scale.
+// The transform that moves the x axis (or the z axis, if `from` is 'z') of a POV-Ray pattern to the texture's axis,
+// with its origin and scale.
 std::string placement(const Texture& t, char from) {
     const Vec3 axis = glm::normalize(t.axis);
     const Vec3 side = std::abs(axis.y) < 0.9 ? Vec3(0, 1, 0) : Vec3(0, 0, 1);
@@ -31,7 +33,7 @@ std::string placement(const Texture& t, char from) {
                        x.z, y.x, y.y, y.z, z.x, z.y, z.z, pov_vector(t.origin));
 }
 
-// A streak's length in widths.
+// Length of a streak in widths.
 constexpr double streak_length = 100;
 
 std::string pigment(const Texture& t) {
@@ -52,14 +54,14 @@ std::string pigment(const Texture& t) {
         case Texture::Kind::brushed:
             return fmt::format("pigment {{ bumps color_map {{ [0 {}] [1 {}] }} scale <1, 1, {}> {} }}", pov_color(t.a),
                                pov_color(t.b), t.around ? 1 : streak_length, placement(t, 'z'));
-        case Texture::Kind::image: break;  // POV-Ray lays none on from three sides: its mean
+        case Texture::Kind::image: break;  // POV-Ray has no triplanar mapping, so the image's mean is used
         case Texture::Kind::constant: break;
     }
     return fmt::format("pigment {{ {} }}", pov_color(t.a));
 }
 
-// The peak of a GGX lobe of this α over that of a white matte surface is 1/(4α²); Blinn's of the same
-// width has the exponent 2/α² − 2.
+// The peak of a GGX lobe of this α is 1/(4α²) times that of a white matte surface; Blinn's lobe of the same width has
+// the exponent 2/α² − 2.
 std::string highlight(double alpha, double f0) {
     alpha = std::max(alpha, min_alpha);
     return fmt::format("specular {} roughness {}", f0 / (4 * alpha * alpha),
@@ -69,7 +71,7 @@ std::string highlight(double alpha, double f0) {
 }  // namespace
 
 std::string pov_settings(const Scene& scene, bool radiosity) {
-    // Finer than POV-Ray's own settings, so that what is left of its patches is a percent or two.
+    // Finer than POV-Ray's defaults, so that the error of its patches is only a percent or two.
     if (radiosity)
         return fmt::format(
             "global_settings {{\n  assumed_gamma 1.0 max_trace_level {} ambient_light 0\n  radiosity {{\n"
@@ -83,7 +85,7 @@ std::string pov_settings(const Scene& scene, bool radiosity) {
 }
 
 std::string pov_camera(const Camera& camera, Size size) {
-    // From rays through three of the picture's corners, scaled to a common depth.
+    // Computed from rays through three of the picture's corners, scaled to a common depth.
     const PinholeCamera pinhole(camera, size.width, size.height);
     const auto at = [&](double x, double y) {
         const Ray ray = pinhole.ray(x, y);
@@ -91,7 +93,7 @@ std::string pov_camera(const Camera& camera, Size size) {
         return ray.direction / glm::dot(ray.direction, pinhole.forward());
     };
     const Vec3 corner = at(0, 0), right = at(size.width, 0) - corner, up = corner - at(0, size.height);
-    const Vec3 middle = camera.shift.x * right + camera.shift.y * up;  // from the axis
+    const Vec3 middle = camera.shift.x * right + camera.shift.y * up;  // offset of the picture's middle from the axis
     const Vec3 location = camera.orthographic ? camera.eye + middle : camera.eye;
     const Vec3 direction = camera.orthographic ? pinhole.forward() : pinhole.forward() + middle;
     return fmt::format("camera {{\n  {}\n  location {}\n  direction {}\n  right {}\n  up {}\n}}\n",
@@ -107,7 +109,7 @@ std::string pov_background(const Background& b) {
 
 std::string pov_light(const Light& light, const Scene& scene) {
     const Vec3 target = scene.camera.target;
-    // POV-Ray's diffuse reflection is the colour times the cosine, without 1/π.
+    // POV-Ray's diffuse reflection is the colour times the cosine, without the factor 1/π.
     const Vec3 color = light.color * light.power / pi;
     if (light.kind == Light::Kind::directional) {
         const Vec3 direction = glm::normalize(light.direction);
@@ -147,7 +149,7 @@ std::string pov_material(const Material& m) {
             finish = "diffuse 0 ambient 0 reflection { 0, 1 fresnel } conserve_energy";
             interior = fmt::format(" interior {{ ior {} }}", m.ior);
             break;
-        case Material::Kind::pbr: break;  // looks like one of the others
+        case Material::Kind::pbr: break;  // preview_kind() returns one of the others
     }
     return fmt::format("material {{ texture {{ {} finish {{ {} }} }}{} }}\n", paint, finish, interior);
 }

@@ -1,4 +1,4 @@
-// Camera, lights, background and materials in POV-Ray's words (pov_scene.hpp says how near).
+// Settings, camera, lights, background and materials in POV-Ray's language; pov_scene.hpp lists the differences.
 #pragma once
 #include <string>
 
@@ -7,8 +7,8 @@
 
 namespace deburr {
 
-/// assumed_gamma, depth of reflections, and the light from all around: the same everywhere, or, by POV-Ray's radiosity,
-/// what other surfaces and the background send.
+/// The global settings: assumed_gamma, the depth of reflections, and indirect light, which is constant or, with
+/// `radiosity`, what other surfaces and the background send.
 std::string pov_settings(const Scene& scene, bool radiosity);
 std::string pov_camera(const Camera& camera, Size size);
 std::string pov_background(const Background& background);

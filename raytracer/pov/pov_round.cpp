@@ -9,11 +9,11 @@
 namespace deburr {
 namespace {
 
-// "(x-0.5)"; "x" where c is 0.
+// "(x-0.5)", or "x" if c is 0.
 std::string minus(const char* name, double c) { return c == 0 ? name : fmt::format("({}{:+})", name, -c); }
 
 std::string pov_torus(Vec3 center, Vec3 axis, double radius, double tube) {
-    // POV-Ray's lies about the y axis: its rows are the images of the axes.
+    // POV-Ray's torus lies around the y axis; the matrix's rows are the images of the axes.
     const Vec3 side = glm::normalize(glm::cross(axis, std::abs(axis.x) < 0.5 ? Vec3(1, 0, 0) : Vec3(0, 1, 0)));
     const Vec3 other = glm::cross(side, axis);
     std::string rows;
@@ -31,7 +31,7 @@ std::string pov_coordinate(const RoundCoordinate& c) {
     const auto difference = [&](double a, const std::string& of, double b, const std::string& from) {
         return fmt::format("pow({}-({}),2)", product(a, of), product(b, from));
     };
-    // |axis × y|, which loses nothing where the axis is near.
+    // axis × y|, which stays accurate near the axis.
     const Vec3 a = c.axis;
     const std::string s = fmt::format("sqrt({}+{}+{})", difference(a.y, z, a.z, y), difference(a.z, x, a.x, z),
                                       difference(a.x, y, a.y, x));
@@ -58,7 +58,8 @@ std::string pov_smooth(const Field& field) {
         return pov_torus(torus->center(), torus->axis(), torus->radius(), torus->tube());
     const auto* form = dynamic_cast<const FreeForm*>(&field);
     if (!form || !form->perturbations().empty()) return "";
-    // Around its own center, whose coefficients are the smallest; POV-Ray's inside is where it is negative.
+    // Written around its own center, where its coefficients are smallest; POV-Ray's inside is where a quadric is
+    // negative.
     const Quadric& q = form->base();
     return fmt::format("quadric {{ {}, {}, {}, {} translate {} }}", pov_vector({-q.A[0][0], -q.A[1][1], -q.A[2][2]}),
                        pov_vector({-2 * q.A[0][1], -2 * q.A[0][2], -2 * q.A[1][2]}), pov_vector(-q.b), -q.k + 0.0,

@@ -10,16 +10,17 @@
 namespace deburr {
 namespace {
 
-// Infinite solids end this many times as far away as the finite ones, the eye and the target are apart.
+// Infinite solids are cut off at this many times the extent of the finite solids, the eye and the target.
 constexpr double reach = 20;
 
-// A comment ends with its line.
+// Text that fits into a // comment: without line breaks or other control characters.
 std::string in_one_line(std::string text) {
     for (char& c : text)
         if (static_cast<unsigned char>(c) < ' ') c = ' ';
     return text;
 }
 
+// The box at which infinite solids are cut off.
 Box sight(const Scene& scene, const std::vector<SolidTree>& trees) {
     Box all = hull(Box{scene.camera.target, scene.camera.target}, Box{scene.camera.eye, scene.camera.eye});
     for (const SolidTree& tree : trees) {

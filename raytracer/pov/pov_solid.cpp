@@ -14,14 +14,14 @@
 namespace deburr {
 namespace {
 
-// Parts that a density with sharp half-spaces is divided into; each is an isosurface.
+// Most parts that a density with sharp half-spaces is divided into; each is an isosurface.
 constexpr int max_parts = 64;
-// The container's walls keep clear of the surface by this part of its size, or flat faces would lie in
-// them.
+// Distance of an isosurface's container from the surface, as a fraction of its size, since flat faces would otherwise
+// lie in its walls.
 constexpr double clear_of_walls = 1e-3;
-constexpr double default_accuracy = 1e-4;
+constexpr double default_accuracy = 1e-4;  // of the least radius
 
-// Of the sharp half-spaces, the operators' sets.
+// Plain CSG of a density with sharp half-spaces only.
 PovCsg sharp_csg(const DensityTree& tree, const Box& as_far_as) {
     std::vector<PovCsg> done;
     for (const TreeNode& n : tree.nodes) {
@@ -35,9 +35,9 @@ PovCsg sharp_csg(const DensityTree& tree, const Box& as_far_as) {
                 const HalfSpace& h = tree.half_spaces[n.a];
                 if (!h.round)
                     csg = PovCsg::plane({h.normal, h.offset});
-                else if (h.round->is_concave())  // of a cone's sides: it cuts nothing off the other
+                else if (h.round->is_concave())  // the concave side of a cone cuts nothing off the other
                     csg = PovCsg::everything();
-                else if (h.offset > 0 || h.round->is_cone())  // a distance is never less than 0
+                else if (h.offset > 0 || h.round->is_cone())  // a distance is never negative
                     csg = PovCsg::object(pov_round_part(*h.round, h.offset, as_far_as));
                 break;
             }
@@ -54,9 +54,10 @@ PovCsg sharp_csg(const DensityTree& tree, const Box& as_far_as) {
     return std::move(done.back());
 }
 
+// Writes one leaf of a solid.
 class Leaves {
 public:
-    /// `in_csg`: more than the first root of a ray is asked for.
+    /// `in_csg`: the leaf is combined with others, so that a ray needs more than its first root.
     Leaves(const PovSurface& surface, const SolidLeaf& leaf, bool in_csg)
         : surface_(surface), leaf_(leaf), all_roots_(in_csg) {}
 
@@ -92,7 +93,7 @@ private:
                              PovCsg::intersect(PovCsg::plane({-plane.normal, -plane.offset}), divided(tree, index, 0)));
     }
 
-    // The tree where a half-space's density is `value`.
+    // The tree with the density of one half-space replaced by `value` (0 or 1).
     PovCsg divided(const DensityTree& tree, std::size_t half_space, double value) {
         std::vector<Range> ranges(tree.half_spaces.size(), {0, 1});
         ranges[half_space] = {value, value};
@@ -107,7 +108,7 @@ private:
     }
 
     PovCsg isosurface(const DensityTree& tree) {
-        if (tree.nodes.back().op == Op::half_space) {  // ρ = ½ on the plane itself
+        if (tree.nodes.back().op == Op::half_space) {  // ρ = ½ is the surface of the half-space itself
             const HalfSpace& h = tree.half_spaces[tree.nodes.back().a];
             if (h.round) return PovCsg::object(pov_round_part(*h.round, h.offset, surface_.limit));
             return PovCsg::plane({h.normal, h.offset});

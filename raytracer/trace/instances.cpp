@@ -254,7 +254,7 @@ private:
     const Solid& sum(const Placements& all, const std::vector<int>& members) {
         Solid to = solid_of(all[members[0]]);
         for (std::size_t k = 1; k < members.size(); ++k) to = to | solid_of(all[members[k]]);
-        sums_.push_back(to);  // forms look at it later
+        sums_.push_back(to);
         return sums_.back();
     }
 

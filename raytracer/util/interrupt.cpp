@@ -11,16 +11,18 @@
 namespace deburr {
 namespace {
 
+// stop: the flag of catch_interrupts(); saving: there is something to save; announced: print a line at the first
+// signal; terminal: stderr is one.
 std::atomic<bool> stop{false}, saving{false}, announced{false}, terminal{false};
 std::atomic<bool> terminated{false}, save_requested{false};
 std::atomic<int> terminated_exit_code{interrupted_exit_code};
-std::atomic<int> interrupts{0};                         // SIGINTs while there is something to save
-static_assert(std::atomic<bool>::is_always_lock_free);  // or a handler might deadlock
+std::atomic<int> interrupts{0};                         // SIGINTs since there is something to save
+static_assert(std::atomic<bool>::is_always_lock_free);  // otherwise a handler could deadlock
 
-// Functions that are safe in a signal handler are all that the following call.
+// The functions below call only functions that are safe in a signal handler.
 
 void say(std::string_view text) {
-    // A bar may stand on the terminal's line.
+    // A progress bar may be on the terminal's line.
     if (terminal) [[maybe_unused]]
         const auto n = write(STDERR_FILENO, "\n", 1);
     [[maybe_unused]] const auto n = write(STDERR_FILENO, text.data(), text.size());

@@ -1,5 +1,4 @@
-// Messages of the program, apart from its results: lines on stderr. Errors in writing them are
-// ignored.
+// Messages of the program that are not its results: lines on stderr. Write errors are ignored.
 #pragma once
 #include <cstdio>
 #include <string>
@@ -8,7 +7,7 @@
 
 namespace deburr {
 
-/// "deburr: TEXT" as one printable line, whatever a name in it holds.
+/// Prints "deburr: TEXT" as one printable line, whatever characters the text contains.
 inline void message(const std::string& text) {
     const std::string line = "deburr: " + printable(text) + "\n";
     std::fwrite(line.data(), 1, line.size(), stderr);

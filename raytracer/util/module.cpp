@@ -11,8 +11,8 @@
 namespace deburr {
 namespace {
 
-// Seen from the program's folder: beside it, above it (programs of tests and benchmarks), and where
-// it is installed.
+// Folders relative to the program's own: the same, the one above (for programs of tests and benchmarks), and the
+// installed one.
 constexpr const char* folders[] = {"", "..", DEBURR_MODULE_FOLDER};
 
 }  // namespace

@@ -9,7 +9,7 @@ int typing_distance(std::string_view a, std::string_view b) {
     const auto same = [](char x, char y) {
         return std::tolower(static_cast<unsigned char>(x)) == std::tolower(static_cast<unsigned char>(y));
     };
-    // Rows of the table of distances between beginnings of a and of b: the latest three.
+    // The latest three rows of the table of distances between prefixes of a and b.
     std::vector<int> before, above(b.size() + 1), row(b.size() + 1);
     for (std::size_t j = 0; j <= b.size(); ++j) row[j] = int(j);
     for (std::size_t i = 1; i <= a.size(); ++i) {
@@ -26,7 +26,7 @@ int typing_distance(std::string_view a, std::string_view b) {
 }
 
 std::string nearest_name(std::string_view given, const std::vector<std::string>& names) {
-    constexpr std::size_t longest = 64;  // no name is longer, and the table stays small
+    constexpr std::size_t longest = 64;  // longer than any name; keeps the table small
     const std::size_t letters = given.size() - std::min(given.find_first_not_of('-'), given.size());
     if (letters == 0 || letters > longest) return "";
     std::string nearest;

@@ -10,7 +10,8 @@ struct Character {
     char32_t code = 0;
 };
 
-// The UTF-8 sequence that `text` begins with: the shortest one of its code, no surrogate, at most U+10FFFF.
+// The UTF-8 sequence at the beginning of `text`, if it is valid: the shortest form of its code, no surrogate, at most
+// U+10FFFF.
 Character first_character(std::string_view text) {
     const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(text[i]); };
     if (byte(0) < 0x80) return {1, byte(0)};
@@ -67,7 +68,7 @@ std::string printable(std::string_view text, std::string_view kept) {
 
 std::string shortened(std::string_view text, std::size_t bytes) {
     if (text.size() <= bytes) return std::string(text);
-    // Continuation bytes are 10xxxxxx; a sequence has three at most.
+    // Continuation bytes are 10xxxxxx; a sequence has at most three.
     for (int i = 0; i < 3 && bytes > 0 && (static_cast<unsigned char>(text[bytes]) & 0xC0) == 0x80; ++i) --bytes;
     return std::string(text.substr(0, bytes)) + "…";
 }

@@ -11,10 +11,10 @@ namespace deburr {
 namespace {
 
 constexpr double bar_interval = 0.1;                // seconds: looks smooth and costs nothing
-constexpr double json_interval = 1;                 // seconds: soon enough for a page that shows it
-constexpr double line_interval = 10;                // seconds: a log shows that the work goes on
-constexpr int line_percent = 10;                    // or every so many percent
-constexpr double first_line_after = 1;              // seconds: short work needs no account of itself
+constexpr double json_interval = 1;                 // seconds: often enough for a page that shows it
+constexpr double line_interval = 10;                // seconds: a log shows that the work continues
+constexpr int line_percent = 10;                    // or every ten percent
+constexpr double first_line_after = 1;              // seconds: short work needs no progress lines
 constexpr int narrowest_bar = 10, widest_bar = 50;  // columns
 
 }  // namespace
@@ -60,7 +60,7 @@ void Progress::advance(double work) {
 }
 
 void Progress::show(double now) {
-    // The last percent belongs to finish(): nothing is done before its file is there.
+    // The last percent is left to finish(): nothing is done before its file is written.
     const double share = finished_ ? 1.0 : std::min(done_ / total_, 0.99);
     const int percent = int(100 * share);
     const double elapsed = now - start_;
@@ -80,7 +80,7 @@ void Progress::show(double now) {
         const int room = output_.columns - 1 - int(std::string_view("[] 100 %  00:00:00 left").size());
         const int bar = std::clamp(room, narrowest_bar, widest_bar);
         const int full = int(share * bar);
-        // To the end of the line, to cover what a longer text has left there.
+        // Padded to the length of the longest text, to overwrite it.
         output_.print(fmt::format("\r[{}{}] {:3} %  {:<13}", std::string(std::size_t(full), '#'),
                                   std::string(std::size_t(bar - full), '.'), percent, rest));
         open_ = true;

@@ -1,8 +1,8 @@
-// How far the work is: a bar with the time left on a terminal, a line now and then elsewhere; for other programs, lines
-// of a fixed form or JSON.
+// Shows the progress of the work: on a terminal a bar with the time left, elsewhere a line now and then; for other
+// programs, lines of a fixed form or JSON.
 //
-// Measured in work, with the writing of files in it, so that 100 % means that everything is done;
-// it never goes back. The time left supposes that the rest goes as fast as what is done.
+// Progress is measured in units of work that include writing files, so that 100 % means that everything is done; it
+// never decreases. The time left assumes that the rest goes as fast as the work done so far.
 #pragma once
 #include <chrono>
 #include <functional>
@@ -15,39 +15,42 @@ namespace deburr {
 
 class Progress {
 public:
+    /// How progress is shown.
     enum class Style {
-        none,
-        bar,
-        lines,
-        farm,  // "Progress: 42%" at every percent, as render farms look for it
-        json,  // an object a line, once a second and at the end
+        none,   // not at all
+        bar,    // a bar that is overwritten
+        lines,  // a line every ten percent or ten seconds
+        farm,   // "Progress: 42%" at every percent, the form that render farms parse
+        json,   // an object per line, once a second and at the end
     };
 
+    /// Where progress goes to.
     struct Output {
         Style style = Style::none;
-        int columns = 80;                             // width of the bar's line
-        std::function<void(std::string_view)> print;  // takes whole lines, or a bar to overwrite
-        std::function<double()> now;                  // seconds
+        int columns = 80;                             // width of the terminal
+        std::function<void(std::string_view)> print;  // takes whole lines, or a bar to be overwritten
+        std::function<double()> now;                  // a clock, in seconds
     };
 
-    /// Output to stderr: a bar if it is a terminal, else lines. `quiet`: nothing at all.
+    /// Output to stderr: a bar if it is a terminal, else lines; none if `quiet`.
     static Output standard_error(bool quiet);
     static Output standard_error(Style style);
 
-    /// The clock starts here. total > 0, in units of the caller's choice; `done` of it were done by an earlier run.
+    /// Starts the clock. `total` > 0 is the amount of work in units of the caller's choice, of which an earlier run did
+    /// `done`.
     Progress(double total, Output output, double done = 0);
 
-    /// `work` ≥ 0 more is done; safe from many threads.
+    /// Adds `work` ≥ 0 to what is done. Thread-safe.
     void advance(double work);
-    /// Everything is done.
+    /// Marks everything as done.
     void finish();
-    /// Ends the bar's line where it is, so that a message can follow.
+    /// Ends the bar's line as it is, so that a message can follow.
     void stop();
 
 private:
     void show(double now);
     void show_json(double share, double now, const char* event);
-    /// Seconds, once anything is known of them.
+    /// The estimated seconds left; empty while nothing is done.
     std::optional<double> left(double now) const;
 
     const Output output_;
@@ -58,7 +61,7 @@ private:
     bool open_ = false, finished_ = false;
 };
 
-/// 75 → "1:15", 3675 → "1:01:15"; rounded up to whole seconds.
+/// A duration rounded up to whole seconds: 75 → "1:15", 3675 → "1:01:15".
 std::string clock_time(double seconds);
 
 }  // namespace deburr

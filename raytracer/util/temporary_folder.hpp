@@ -1,13 +1,13 @@
-// A folder for files that nobody keeps.
+// A temporary folder that is removed at the end of its scope.
 #pragma once
 #include <filesystem>
 
 namespace deburr {
 
-/// A new folder among the system's temporary ones; it goes with what is in it when this does.
+/// A new folder in the system's temporary directory; the destructor removes it with its contents.
 class TemporaryFolder {
 public:
-    /// Throws WorkError where none can be made.
+    /// Throws WorkError if no folder can be made.
     TemporaryFolder();
     TemporaryFolder(const TemporaryFolder&) = delete;
     TemporaryFolder& operator=(const TemporaryFolder&) = delete;

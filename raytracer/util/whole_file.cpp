@@ -22,7 +22,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// The hidden files' names for a signal handler. One group of files is written at a time.
+// Names of the hidden files being written, for a signal handler. Only one group of files is written at a time.
 constexpr std::size_t max_files = 2;
 std::array<std::atomic<const char*>, max_files> unfinished{};
 static_assert(std::atomic<const char*>::is_always_lock_free);
@@ -43,7 +43,8 @@ bool is_hidden_name(std::string_view name) {
     return name.find_first_not_of("0123456789-") == std::string_view::npos;
 }
 
-// Our user's hidden files that no process holds a lock on. It fails without a word: what matters is the file to write.
+// Removes this user's hidden files that no process holds a lock on, once per folder. Errors are ignored: only the file
+// to be written matters.
 void remove_left_behind(const fs::path& folder) {
     static std::mutex mutex;
     static std::set<fs::path> done;
@@ -62,7 +63,7 @@ void remove_left_behind(const fs::path& folder) {
     }
 }
 
-// A file of ours that vanishes unless it was given its final name.
+// A hidden file, locked while it exists; removed unless it was renamed to its final name.
 class HiddenFile {
 public:
     HiddenFile(const std::string& path, const fs::path& folder) : path_(path) {
@@ -70,7 +71,8 @@ public:
         remove_left_behind(folder);
         for (int n = 0; descriptor_ < 0; ++n) {
             name_ = (folder / fmt::format("{}{}-{}{}", prefix, getpid(), n, suffix)).string();
-            unfinished[slot_] = name_.c_str();  // before there is one, or a signal in between would leave it
+            // Set before the file exists, or a signal in between would leave it behind.
+            unfinished[slot_] = name_.c_str();
             descriptor_ = open(name_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
             if (descriptor_ < 0 && errno == EEXIST) continue;
             if (descriptor_ < 0) {
@@ -79,8 +81,9 @@ public:
                 fail(path, error);
             }
             struct stat status {};
-            flock(descriptor_, LOCK_EX);  // not every file system has locks: then nobody gets one
-            if (fstat(descriptor_, &status) == 0 && status.st_nlink == 0) {  // it was removed before it was locked
+            flock(descriptor_, LOCK_EX);  // may fail where the file system has no locks; then no process gets one
+            // Another process may have removed it before it was locked.
+            if (fstat(descriptor_, &status) == 0 && status.st_nlink == 0) {
                 close(descriptor_);
                 descriptor_ = -1;
             }
@@ -96,13 +99,13 @@ public:
 
     int descriptor() const { return descriptor_; }
 
-    /// Brings it to the disk.
+    /// Flushes the file to disk, with permissions `mode` unless 0.
     void sync(mode_t mode) {
         if (mode && fchmod(descriptor_, mode) != 0) fail(path_, errno);
         if (fsync(descriptor_) != 0) fail(path_, errno);
     }
 
-    /// It stays locked until then, or it would be taken for one that was left behind.
+    /// Renames the file. It stays locked until then, so that it is not taken for one left behind.
     void keep_as(const fs::path& target) {
         if (rename(name_.c_str(), target.c_str()) != 0) fail(path_, errno);
         kept_ = file_written = true;
@@ -115,10 +118,11 @@ private:
     bool kept_ = false;
 };
 
+// Where a path leads to.
 struct Target {
     fs::path file, folder;
     bool direct = false;  // a device or a pipe
-    mode_t mode = 0;      // of the file that is there, 0: none is
+    mode_t mode = 0;      // permissions of the existing file; 0: there is none
 };
 
 Target find_target(const std::string& path) {
@@ -134,7 +138,7 @@ Target find_target(const std::string& path) {
     } else if (errno != ENOENT) {
         fail(path, errno);
     } else {
-        // Where a link points to that names no file yet; links in a circle were an error above.
+        // Follows a link that points to no file yet; circular links have failed above.
         while (fs::is_symlink(target.file)) target.file = target.file.parent_path() / fs::read_symlink(target.file);
     }
     target.folder = target.file.parent_path();
@@ -164,7 +168,7 @@ void write_directly(const std::string& path, std::string_view bytes) {
     if (close(descriptor) != 0) fail(path, errno);
 }
 
-// A name itself lasts only once the folder is on the disk too; not every file system can.
+// Flushes the folder, without which the new name may be lost in a crash; file systems that cannot are tolerated.
 void sync_folder(const fs::path& path) {
     const int folder = open(path.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
     if (folder < 0) return;

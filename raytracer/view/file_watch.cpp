@@ -18,7 +18,7 @@ namespace deburr {
 namespace {
 
 constexpr std::uint32_t events = IN_CLOSE_WRITE | IN_MOVED_TO | IN_MOVED_FROM | IN_DELETE;
-// An editor that saves makes several events: they are one change.
+// An editor causes several events when it saves; within this time of each other they are one change.
 constexpr int settled_milliseconds = 25;
 
 }  // namespace
@@ -40,7 +40,7 @@ void FileWatch::set_files(const std::vector<std::string>& paths) {
     std::set<int> kept;
     for (const auto& [folder, files] : names) {
         const int watch =
-            inotify_add_watch(descriptor_, folder.c_str(), events);  // the same where there is one already
+            inotify_add_watch(descriptor_, folder.c_str(), events);  // an existing watch is returned again
         if (watch < 0) throw WorkError("cannot watch '" + folder + "': " + std::strerror(errno));
         kept.insert(watch);
         folders.push_back({watch, files});

@@ -1,22 +1,24 @@
-// Watches files by their folders, since editors replace files and do not write into them (inotify).
+// Watches files for changes (inotify), by their folders, since editors replace files instead of writing into them.
 #pragma once
 #include <string>
 #include <vector>
 
 namespace deburr {
 
+/// Watches a set of files; used by one thread.
 class FileWatch {
 public:
-    /// Throws WorkError where the system has no watches left.
+    /// Throws WorkError if the system has no watches left.
     FileWatch();
     ~FileWatch();
     FileWatch(const FileWatch&) = delete;
     FileWatch& operator=(const FileWatch&) = delete;
 
-    /// Watches these files from now on, and no others, whether they are there or not.
+    /// Watches exactly these files from now on, whether they exist or not. Throws WorkError if a folder cannot be
+    /// watched.
     void set_files(const std::vector<std::string>& paths);
-    /// Whether one of them was written, replaced or removed; waits so long for it, and then until nothing more has
-    /// happened for a moment.
+    /// Whether one of the files was written, replaced or removed. Waits up to this time for a change, and after one
+    /// until nothing more happens for a moment.
     bool wait(int milliseconds);
 
 private:

@@ -1,4 +1,4 @@
-// A module behind raytracer/view/http_server.hpp.
+// The module behind raytracer/view/http_server.hpp, by cpp-httplib.
 #include <httplib.h>
 
 #include <chrono>
@@ -9,7 +9,7 @@
 namespace deburr {
 namespace {
 
-constexpr std::size_t largest_request = 1 << 16, threads = 16;
+constexpr std::size_t largest_request = 1 << 16, threads = 16;  // bytes
 
 class Request final : public HttpRequest {
 public:
@@ -37,7 +37,7 @@ public:
         server_.new_task_queue = [] { return new httplib::ThreadPool(threads); };
         server_.set_payload_max_length(largest_request);
         server_.set_keep_alive_timeout(10);
-        // The library's own options let two programs share a port.
+        // The library's own options would let two programs share a port.
         server_.set_socket_options([](socket_t socket) {
             const int yes = 1;
             setsockopt(socket, SOL_SOCKET, SO_REUSEADDR, &yes, sizeof yes);

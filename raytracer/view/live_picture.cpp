@@ -16,15 +16,15 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-// A preview shall not take longer: 20 pictures a second, with the time that the page needs.
+// Longest time of a preview in seconds: 20 pictures a second, with the time that the page needs.
 constexpr double preview_seconds = 0.04;
-// Pictures that are refined once nothing was asked for so long: a drag is not over between two of its steps.
+// A picture is refined once nothing has been requested for this long, since a drag pauses between its steps.
 constexpr std::chrono::milliseconds calm(120);
-constexpr double wire_width = 1;
-constexpr int least_shown = 8;  // samples
-// Of a pass: a tile of them is done within some milliseconds, for which a camera that moves has to wait.
+constexpr double wire_width = 1;  // pixels
+constexpr int least_shown = 8;    // samples
+// Most samples of a pass: a tile of it takes a few milliseconds, which a moving camera has to wait for.
 constexpr int max_pass = 2;
-// From one refined picture to the next: a large one takes some time to be sent and painted.
+// Least time between refined pictures in seconds, since sending and painting a large one takes time.
 constexpr double seconds_of_show = 0.15;
 
 double seconds_since(Clock::time_point begin) { return std::chrono::duration<double>(Clock::now() - begin).count(); }
@@ -42,12 +42,12 @@ std::string rgba_of(const Film& film, double exposure, ViewTransform view) {
 
 }  // namespace
 
-// A scene with what its rays are traced in; with another camera it shares the tracer.
+// A scene with its tracer, which is shared by worlds that differ in the camera only.
 struct LivePicture::World {
     Scene scene;    // with the camera that it is seen by
     Camera camera;  // the scene's own
     std::shared_ptr<const RayTracer> tracer;
-    std::shared_ptr<const SceneMesh> wires;  // null: none are shown
+    std::shared_ptr<const SceneMesh> wires;  // the mesh whose wires are drawn; null: none
     std::shared_ptr<const RayTracer> wire_tracer;
     std::optional<Integrator> integrator;
     int number = 0;
@@ -167,7 +167,7 @@ void LivePicture::publish(const Film& film, const World& world, int samples, int
     framed_.notify_all();
 }
 
-// Over the last picture.
+// Publishes the last picture again, with an error.
 void LivePicture::publish_error(const std::string& error) {
     {
         const std::lock_guard lock(mutex_);
@@ -222,7 +222,7 @@ void LivePicture::show_preview(const std::shared_ptr<const World>& world, int co
     const int height = std::max(1, world->scene.height / coarseness);
     RenderSettings settings{width, height, 1, 0, false};
     const Integrator integrator(world->scene, *world->tracer, settings);
-    // What answers a drag's step is never cut short, or nothing would be seen of a quick one.
+    // A preview that answers a step of a drag is never cancelled, or a quick drag would show nothing.
     const std::atomic<bool> never{false};
     const Rendering rendering = render(
         Film(width, height, {0, 0, width, height}),
@@ -248,10 +248,10 @@ void LivePicture::refine(const std::shared_ptr<const World>& world) {
                   std::shared_ptr<const Integrator>(traced, &*traced->integrator));
     Clock::time_point shown = Clock::now();
     while (!passes.finished()) {
-        // Tiles in hand are waited for: they take some milliseconds, and nothing is lost by them.
+        // Waiting for tiles that are being rendered takes a few milliseconds and loses no work.
         passes.go_on(cancel_, {}, {}, std::chrono::hours(1));
         if (cancel_) return;
-        // Fewer samples look worse than the preview, which is free of noise.
+        // With fewer samples the picture is noisier than the preview, which has no noise.
         if (passes.samples_of_all() < least_shown && !passes.finished()) continue;
         if (seconds_since(shown) < seconds_of_show && !passes.finished()) continue;
         shown = Clock::now();

@@ -1,8 +1,8 @@
-// A scene's picture while it is being looked at: coarse at once, then sharp, then in passes to the end.
+// The picture of a scene while it is being viewed: first coarse, then sharp, then refined in passes.
 //
-// A thread of its own does the work. Whatever changes, the scene's file, a parameter, the camera, cancels the passes
-// under way, and the next frame is of what is asked for last. What the passes end with is the picture of `deburr
-// render`. Frames hold values as a display shows them.
+// A thread of its own does the work. Any change of the scene's file, a parameter or the camera cancels the passes under
+// way, and the next frame shows the latest request. The final picture equals that of `deburr render`. Frames hold
+// display values (sRGB).
 #pragma once
 #include <atomic>
 #include <chrono>
@@ -25,53 +25,55 @@
 
 namespace deburr {
 
-/// A picture as it was shown at one time.
+/// A frame: the picture as it was shown at one time.
 struct LiveFrame {
     int number = 0;                    // counts from 1
     int width = 0, height = 0;         // of `rgba`, which may be coarser than the picture
-    std::string rgba;                  // 8 bit, row by row; the window's page paints it
-    int samples = 0, all_samples = 0;  // 0: a preview
+    std::string rgba;                  // 8 bits each, row by row, as the browser's canvas takes it
+    int samples = 0, all_samples = 0;  // done and wanted; 0: a preview
     bool is_finished = false;
-    std::string error;  // why the scene's file gives none; the picture is then an earlier one's
-    int scene = 0;      // counts the scenes that were read
+    std::string error;  // why the scene could not be read; the picture is then an earlier one
+    int scene = 0;      // number of scenes read so far
 };
 
-/// A surface at a place of the picture.
+/// The surface that is visible at a point of the picture.
 struct PickedSurface {
-    int solid = 0, material = 0;  // indices in the scene's
+    int solid = 0, material = 0;  // indices in Scene::solids and Scene::materials
     Vec3 position, normal;
 };
 
+/// Renders a scene continuously. All functions may be called from any thread.
 class LivePicture {
 public:
-    /// Reads the scene with these parameters; throws what is wrong with it.
+    /// Reads the scene with these parameters; throws if that fails.
     using Load = std::function<Scene(const std::map<std::string, std::string>& parameters)>;
 
     struct Settings {
-        std::optional<int> spp;  // none: the scene's, or as many as it takes
+        std::optional<int> spp;  // samples per pixel; none: the scene's, or chosen by its noise
         ViewTransform view = ViewTransform::standard;
     };
 
-    /// Begins at once.
+    /// Starts the thread, which reads the scene and renders it.
     LivePicture(Load load, const Settings& settings);
     ~LivePicture();
     LivePicture(const LivePicture&) = delete;
     LivePicture& operator=(const LivePicture&) = delete;
 
-    /// The first frame with a number above this one; null if there is none in time.
+    /// Waits for the first frame with a number above `after`; null if none comes in time.
     std::shared_ptr<const LiveFrame> wait_for_frame(int after, std::chrono::milliseconds time) const;
 
+    /// These request a new picture: of the scene read again, with these parameters, from this camera (none: the scene's
+    /// own), and with or without the mesh's wire frame over it.
     void reload();
     void set_parameters(const std::map<std::string, std::string>& parameters);
-    /// None: the scene's own.
     void set_camera(const std::optional<Camera>& camera);
     void show_wires(bool shown);
 
-    /// The scene as it is seen, with the camera; null before the first.
+    /// The current scene with the camera that it is seen by; null before the first was read.
     std::shared_ptr<const Scene> scene() const;
-    /// Pixels as the whole picture has them.
+    /// The surface at a point of the whole picture, in pixels from its upper left corner; none if nothing is hit.
     std::optional<PickedSurface> pick(double x, double y) const;
-    /// The picture as far as it is; `samples` that its pixels have. Null before the first.
+    /// The picture rendered so far, and the number of samples that its pixels have; null before the first.
     std::shared_ptr<const Film> film(int& samples) const;
 
 private:
@@ -96,8 +98,8 @@ private:
     std::shared_ptr<const Film> film_;
     int film_samples_ = 0, scenes_ = 0;
     std::atomic<bool> cancel_{false};
-    BspStore bsps_;                 // of the last scene
-    double seconds_per_pixel_ = 0;  // of a preview; 0: not known yet
+    BspStore bsps_;                 // BSPs of the last scene, reused where it did not change
+    double seconds_per_pixel_ = 0;  // time of a preview; 0: not known yet
     std::thread thread_;
 };
 

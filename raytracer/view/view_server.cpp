@@ -18,7 +18,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-// Requests that wait for the next frame come back empty after so long, and are sent again.
+// A request for the next frame is answered without one after this time, and then repeated by the page.
 constexpr std::chrono::milliseconds longest_wait(5000);
 
 std::string random_token() {
@@ -41,10 +41,10 @@ Json camera_json(const Camera& c) {
     return {{"eye", vec_json(c.eye)}, {"target", vec_json(c.target)}, {"up", vec_json(c.up)}, {"fov", c.fov}};
 }
 
-// What the scene says of a solid.
+// A solid's radii and line in the scene's file, for display.
 struct SolidNotes {
-    std::vector<double> radii;  // of its leaves, each once; no more than a page shows
-    int line = 0;               // of the first leaf; 0: not known
+    std::vector<double> radii;  // different filter radii of its leaves, at most as many as a page shows
+    int line = 0;               // of the first leaf; 0: unknown
 };
 
 SolidNotes notes_of(const Solid& solid) {
@@ -63,7 +63,7 @@ SolidNotes notes_of(const Solid& solid) {
     return notes;
 }
 
-// As HTTP's "deflate" wants it (zlib's format), quickly.
+// Compressed for HTTP's "deflate" encoding (zlib's format), at the fastest level.
 std::string deflated(const std::string& bytes) {
     uLongf size = compressBound(bytes.size());
     std::string packed(size, '\0');
@@ -125,8 +125,8 @@ struct ViewServer::Parts {
         post("/wires", [this](const Json& j) { picture.show_wires(j.get<bool>()); });
     }
 
-    // The length of a JSON head (4 bytes, little-endian), the head, and the pixels, compressed where the page asks for
-    // that; 204 if there is nothing new.
+    // Answers with the length of a JSON header (4 bytes, little-endian), the header, and the pixels; compressed if the
+    // page asks for it. Status 204 if there is nothing new.
     void frame(const HttpRequest& request, HttpResponse& response) {
         const auto frame = picture.wait_for_frame(std::atoi(request.parameter("after").c_str()), longest_wait);
         if (!frame) {

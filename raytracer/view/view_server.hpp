@@ -1,7 +1,7 @@
-// The page of `deburr view`, on 127.0.0.1.
+// Serves the page of `deburr view` on 127.0.0.1.
 //
-// Who does not know the token in the address, or asks by another host's name, gets nothing; a page of another site
-// cannot read what is here. Nothing that the page sends is taken as the name of a file.
+// A client needs the token in the address and the right host name, or gets nothing, and a page of another site cannot
+// read the answers. Nothing that a client sends is used as a file name.
 #pragma once
 #include <functional>
 #include <memory>
@@ -11,17 +11,20 @@
 
 namespace deburr {
 
+/// The server for one LivePicture.
 class ViewServer {
 public:
-    /// Bytes of a file of the scene as it is seen: .exr, .png (from the film, of so many samples), .stl.
+    /// Returns the bytes of a file of the current scene; the extension is .exr or .png (from the film, which has this
+    /// many samples) or .stl.
     using Encode =
         std::function<std::string(const std::string& extension, const Scene& scene, const Film* film, int samples)>;
 
-    /// Port 0: any that is free. Throws WorkError if it cannot be had. Keeps a reference to the picture.
+    /// Starts the server at this port, or at a free one if it is 0; throws WorkError if that fails. Keeps a reference
+    /// to the picture. `file` is the scene's name as the page shows it.
     ViewServer(LivePicture& picture, std::string file, Encode encode, int port);
     ~ViewServer();
 
-    /// http://127.0.0.1:PORT/TOKEN/
+    /// The page's address, http://127.0.0.1:PORT/TOKEN/.
     std::string address() const;
 
 private:
@@ -29,7 +32,7 @@ private:
     std::unique_ptr<Parts> parts_;
 };
 
-/// The page, HTML in one piece (view_page.html).
+/// The page as one HTML text (view_page.html).
 std::string_view view_page();
 
 }  // namespace deburr
