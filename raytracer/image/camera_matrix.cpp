@@ -5,7 +5,7 @@
 namespace deburr {
 namespace {
 
-// A coordinate as an affine function: axis·x + shift.
+// A coordinate as an affine function of the point x: axis·x + shift.
 struct Coordinate {
     Vec3 axis{0.0};
     double shift = 0;
@@ -47,7 +47,7 @@ Matrix44 world_to_ndc(const Camera& camera, int width, int height) {
     const Frame frame(camera);
     const double h = std::tan(camera.fov * glm::pi<double>() / 360);
     const double w = h * width / height;
-    const double x = 0.5 - camera.shift.x, y = 0.5 + camera.shift.y;  // of the axis in the picture
+    const double x = 0.5 - camera.shift.x, y = 0.5 + camera.shift.y;  // position of the axis in the picture
     if (camera.orthographic) {
         const double distance = glm::length(camera.target - camera.eye);
         return matrix({Coordinate{Vec3(0.0), x} + (0.5 / (w * distance)) * frame.right,
@@ -55,7 +55,7 @@ Matrix44 world_to_ndc(const Camera& camera, int width, int height) {
                        frame.forward,
                        {Vec3(0.0), 1}});
     }
-    // x/(z w) runs from −1 to 1 from left to right, y/(z h) from −1 to 1 upward.
+    // x/(z w) runs from −1 at the left to 1 at the right, y/(z h) from −1 at the bottom to 1 at the top.
     return matrix({x * frame.forward + (0.5 / w) * frame.right,
                    y * frame.forward + (-0.5 / h) * frame.up,
                    {Vec3(0.0), 1},

@@ -25,7 +25,7 @@ std::uint32_t murmur3(std::string_view text) {
     return h ^ h >> 16;
 }
 
-// Exponents of all zeros or ones are avoided by turning their lowest bit [specification, "uint32_to_float32"].
+// An exponent of all zeros or all ones is avoided by inverting its lowest bit [specification, "uint32_to_float32"].
 float cryptomatte_number(std::string_view name) {
     std::uint32_t hash = murmur3(name);
     const std::uint32_t exponent = hash >> 23 & 255;

@@ -9,13 +9,13 @@
 namespace deburr {
 namespace {
 
-// Rounds with steps of 1, 2, 4 … pixels between the 5 × 5 that are weighed: a reach of 30 pixels.
+// Rounds with steps of 1, 2, 4, … pixels between the 5 × 5 weighted pixels: a reach of 30 pixels.
 constexpr int rounds = 4;
 constexpr double spline[3] = {3.0 / 8, 1.0 / 4, 1.0 / 16};
-// Differences at which a pixel's weight has fallen to 1/e: of the light's root in the first round, halved with each;
-// of normals; of albedo.
+// Differences at which a pixel's weight falls to 1/e: of the square root of light in the first round (halved in each
+// further one), of normals, and of albedo.
 constexpr double light_spread = 0.5, normal_spread = 0.15, albedo_spread = 0.05;
-// Colours are divided by no less.
+// Least albedo that colours are divided by.
 constexpr double least_albedo = 0.02;
 
 double square(Vec3 v) { return glm::dot(v, v); }
@@ -55,7 +55,7 @@ void denoise(Film& film) {
     std::vector<Vec3> light(film.pixels.size()), smoothed(film.pixels.size());
     for (std::size_t i = 0; i < guides.size(); ++i) {
         guides[i] = {normals.vec(i), albedos.vec(i)};
-        // Where nothing was hit, all is background: its colour counts as light.
+        // Where nothing was hit, all is background, and its colour counts as light.
         const Vec3 albedo = film.pixels[i].alpha > 0 ? glm::max(guides[i].albedo, Vec3(least_albedo)) : Vec3(1.0);
         light[i] = film.pixels[i].color / albedo;
     }

@@ -1,8 +1,9 @@
-// Smooths a noisy picture where its surfaces are smooth: edge-avoiding wavelets [Dammertz, Sewtz, Hanika & Lensch,
-// Edge-Avoiding À-Trous Wavelet Transform for fast Global Illumination Filtering, 2010].
+// Denoises a picture by edge-avoiding wavelets [Dammertz, Sewtz, Hanika & Lensch, Edge-Avoiding À-Trous Wavelet
+// Transform for fast Global Illumination Filtering, 2010].
 //
-// Light is smoothed apart from the surfaces' colours, and not across edges of normals, of colours or of light itself.
-// What is fine and only in the light, such as a reflection, loses its detail. A crop is smoothed by itself.
+// Light is smoothed separately from the surfaces' colours, and not across edges in normals, colours or the light
+// itself. Fine detail that is only in the light, such as a reflection, is lost. A crop is smoothed without its
+// surroundings.
 #pragma once
 #include <optional>
 #include <string_view>
@@ -11,17 +12,17 @@
 
 namespace deburr {
 
-/// What takes the noise out of a picture.
+/// The available denoisers.
 enum class Denoiser { none, wavelets, oidn };
 
-/// "wavelets", "oidn", as the command line says them, and "none".
+/// The denoiser's name on the command line: "none", "wavelets" or "oidn".
 const char* name(Denoiser denoiser);
-/// The denoiser of this name, if there is one.
+/// The denoiser with this name, if there is one.
 std::optional<Denoiser> find_denoiser(std::string_view name);
 
-/// Smooths a film that keeps guide_normal and albedo by wavelets.
+/// Denoises a film by wavelets. The film must keep the layers guide_normal and albedo.
 void denoise(Film& film);
-/// The same by whichever denoiser, on `threads` threads. Throws what denoise_by_oidn does.
+/// Denoises a film by the given denoiser on `threads` threads. Throws as denoise_by_oidn() does.
 void denoise(Film& film, Denoiser denoiser, int threads);
 
 }  // namespace deburr

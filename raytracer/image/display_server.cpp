@@ -20,10 +20,10 @@ enum class PacketType : char { create_image = 4, update_image = 6 };
 
 constexpr std::string_view channels[] = {"R", "G", "B"};
 
-// A viewer that takes nothing for so long has lost its picture: the work is worth more.
+// A viewer that accepts no data for this long is given up: rendering is worth more.
 constexpr timeval patience{.tv_sec = 3, .tv_usec = 0};
 
-// Of an update, so that no packet is near the 4 GiB of its length.
+// Most pixels of an update, so that packets stay far below the 4 GiB that their length allows.
 constexpr int max_pixels_of_packet = 1 << 18;
 
 void add_bits(std::string& packet, std::uint64_t bits, int bytes) {
@@ -37,7 +37,7 @@ void add(std::string& packet, std::string_view text) {
     packet.push_back('\0');
 }
 
-// With room for its length. The viewer's window does not come to the front.
+// The beginning of a packet, with room for its length; it does not bring the viewer's window to the front.
 std::string begun(PacketType type, const std::string& name) {
     std::string packet(4, '\0');
     packet.push_back(char(type));
@@ -84,7 +84,7 @@ DisplayServer::DisplayServer(const std::string& address) : address_(address) {
             error = errno;
             continue;
         }
-        setsockopt(socket_, SOL_SOCKET, SO_SNDTIMEO, &patience, sizeof patience);  // of connect(), too
+        setsockopt(socket_, SOL_SOCKET, SO_SNDTIMEO, &patience, sizeof patience);  // also limits connect()
         if (connect(socket_, at->ai_addr, at->ai_addrlen) == 0) return;
         error = errno == EINPROGRESS ? ETIMEDOUT : errno;
         close(socket_);
@@ -126,8 +126,8 @@ void DisplayServer::show(const std::string& name, const Film& film) {
         add(packet, count);
         for (const std::string_view channel : channels) add(packet, channel);
         for (const int number : {0, y, width, these}) add(packet, number);
-        for (int k = 0; k < count; ++k) add(packet, std::int64_t(k));      // where each channel begins
-        for (int k = 0; k < count; ++k) add(packet, std::int64_t(count));  // from one pixel to the next
+        for (int k = 0; k < count; ++k) add(packet, std::int64_t(k));      // offset of each channel
+        for (int k = 0; k < count; ++k) add(packet, std::int64_t(count));  // stride of each channel
         for (int i = y * width; i < (y + these) * width; ++i)
             for (int k = 0; k < count; ++k) add(packet, float(film.pixels[std::size_t(i)].color[k]));
         send(packet);

@@ -1,8 +1,8 @@
-// A picture on its way, shown by a viewer that listens: tev, or another that knows its protocol.
+// Shows a picture while it is rendered, in a viewer that listens on a port: tev, or another one with its protocol.
 //
-// One TCP connection; packets are a length of 4 bytes, which counts itself, a type of one byte and what belongs to it,
-// all numbers little-endian, texts ended by a 0. An image is created once under a name (type 4) and then its rows are
-// replaced (type 6), as linear light in 32-bit numbers. Nothing is ever answered.
+// The protocol is one TCP connection with packets of a 4-byte length (which includes itself), a type byte and the
+// type's data; numbers are little-endian, texts end with a 0. An image is created once under a name (type 4), then its
+// rows are replaced (type 6) by linear light in 32-bit floats. The viewer sends no answers.
 #pragma once
 #include <string>
 
@@ -10,23 +10,24 @@
 
 namespace deburr {
 
+/// A connection to a viewer.
 class DisplayServer {
 public:
-    /// Connects to "HOST:PORT", or "[ADDRESS]:PORT" of IPv6. Throws UsageError where it is no such, WorkError where
-    /// nobody listens there.
+    /// Connects to "HOST:PORT", or "[ADDRESS]:PORT" for IPv6. Throws UsageError if `address` has another form,
+    /// WorkError if the connection fails.
     explicit DisplayServer(const std::string& address);
     ~DisplayServer();
     DisplayServer(const DisplayServer&) = delete;
     DisplayServer& operator=(const DisplayServer&) = delete;
 
-    /// Shows the film's window under this name, in place of what was shown under it. Throws WorkError where the viewer
-    /// is gone, or takes nothing for seconds.
+    /// Shows the film's window under this name, in place of what was shown under it. Throws WorkError if the viewer is
+    /// gone or accepts no data for some seconds.
     void show(const std::string& name, const Film& film);
 
 private:
     void send(std::string& packet);
 
-    std::string address_, shown_;  // the name that was created last
+    std::string address_, shown_;  // shown_: the name that was created last
     int socket_ = -1;
 };
 

@@ -8,14 +8,14 @@
 namespace deburr {
 namespace {
 
-// Highlights, lamps and small skies may be clipped; a picture that loses more has lost something. Chosen.
+// Share of pixels that may be clipped without a warning (chosen): highlights, lamps and small skies may be.
 constexpr double tolerated_share = 0.05;
-// Pixels that may still be clipped at the exposure that is proposed.
+// Share of pixels that may still be clipped at the proposed exposure.
 constexpr double left_share = 0.01;
-// A picture whose brightest pixels, but for that share, show as less than this is nearly black: sRGB's 36 of 255.
+// A picture is nearly black if all but that share of its pixels are darker than this: 36 of 255 in sRGB.
 constexpr double nearly_black = 0.018;
 
-// A step of the scale that people read, in stops.
+// The proposed exposure is rounded to this, in stops.
 constexpr double step = 0.1;
 
 // The largest of a pixel's three values, in linear light.

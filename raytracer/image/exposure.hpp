@@ -1,4 +1,4 @@
-// Whether a picture is bright enough to be seen on a screen, and dark enough not to be clipped.
+// Tells whether a picture's exposure suits a screen: bright enough to be seen, and not clipped in large parts.
 #pragma once
 #include <optional>
 #include <string>
@@ -7,8 +7,8 @@
 
 namespace deburr {
 
-/// Returns one line where a picture of this exposure, in stops, is clipped in a large part or nearly black, with the
-/// exposure that shows it, or where it is black whatever the exposure though it shows a solid; otherwise nothing.
+/// A warning of one line if at this exposure (in stops) a large part of the picture is clipped, or nearly all is black,
+/// with an exposure that shows it; also if it shows a solid but is black at any exposure. Otherwise nothing.
 std::optional<std::string> exposure_advice(const Film& film, double exposure);
 
 }  // namespace deburr

@@ -33,7 +33,7 @@ ReadImage colors(const Film& film) {
     return image;
 }
 
-// Pixel i of both.
+// The values of pixel i in both pictures.
 class Compared {
 public:
     Compared(const Film& a, const Film& b) : a_(a), b_(b) {}
@@ -43,7 +43,7 @@ public:
     bool both_keep(ImageLayer layer) const { return a_.keeps(layer) && b_.keeps(layer); }
 
     Vec3 color(std::size_t i) const { return a_.pixels[i].color - b_.pixels[i].color; }
-    // As write_difference has it.
+    // The code that write_difference() stores as `hit`.
     int hit(std::size_t i) const {
         const bool in_a = a_.pixels[i].alpha > 0, in_b = b_.pixels[i].alpha > 0;
         if (in_a != in_b) return in_a ? 1 : 2;
@@ -140,7 +140,7 @@ void write_difference(const std::string& path, const Film& a, const Film& b) {
     write_raster(path, image);
 }
 
-// 0 for what is no number of a solid, which files may hold, too.
+// The value as the number of a solid; 0 if it cannot be one, since files may hold anything.
 static std::uint32_t whole_number(float value) {
     return value >= 0 && value < 4294967296.0f ? std::uint32_t(value) : 0;
 }
@@ -167,7 +167,7 @@ Film read_picture(const std::string& path) {
     const int position[3] = {channel("P.X"), channel("P.Y"), channel("P.Z")};
     const int normal[3] = {channel("N.X"), channel("N.Y"), channel("N.Z")};
     std::vector<ImageLayer> kept;
-    // A layer that a file has in part is none.
+    // A layer that is incomplete in the file is ignored.
     const bool has_position = *std::min_element(position, position + 3) >= 0;
     const bool has_normal = *std::min_element(normal, normal + 3) >= 0;
     if (has_position) kept.push_back(ImageLayer::position);
@@ -175,7 +175,7 @@ Film read_picture(const std::string& path) {
     if (id >= 0) kept.push_back(ImageLayer::id);
     Film film(image.width, image.height, image.window, kept);
     const auto width = std::size_t(film.window.width);
-    std::vector<PixelLayers> row(width);  // all at once take more than the film
+    std::vector<PixelLayers> row(width);  // row by row, since all at once would take more memory than the film
     for (std::size_t i = 0; i < film.pixels.size(); ++i) {
         PixelLayers& layers = row[i % width];
         const float* from = &image.values[i * image.channels.size()];

@@ -19,8 +19,8 @@ double linear_of_srgb(double v) { return v <= 0.04045 ? v / 12.92 : std::pow((v 
 
 namespace {
 
-// Where bytes begin, and, for even steps of the linear value, the byte that a step begins with. The curve
-// rises by 12.92 at most, so that a step has room for the beginning of one byte more.
+// A table for srgb_byte(): the least linear value of each byte and, for even steps of the linear value, the byte at the
+// step's beginning. The curve's slope is at most 12.92, so that at most one more byte begins within a step.
 struct SrgbBytes {
     static constexpr int steps = 4096;
     static_assert(steps > 12.92 * 255);
@@ -66,7 +66,7 @@ const LayerChannels layer_channels[] = {
     {ImageLayer::cost, {"cost"}},
 };
 
-// R, G, B and, if asked for, A of a PNG. What alpha has weighed is divided by it.
+// The channels R, G, B and, if wanted, A of a PNG. Colours premultiplied by alpha are divided by it.
 template <class Number>
 std::vector<ImageChannel> png_channels(const Film& film, ChannelType type, const ImageFormat& format, Number srgb) {
     std::vector<ImageChannel> list;
@@ -134,7 +134,7 @@ std::vector<ImageChannel> channels(const Film& film, ImageKind kind, const Image
 std::vector<ImageAttribute> attributes(const Film& film, const ImageNotes& notes, bool exr) {
     std::vector<ImageAttribute> all;
     all.push_back({"Software", "Deburr " DEBURR_VERSION});
-    // As OpenEXR's standard attributes are named, and as the others' are.
+    // Named as in OpenEXR's standard attributes, or as OpenImageIO names them for other formats.
     if (!notes.date.empty()) all.push_back({exr ? "capDate" : "DateTime", notes.date});
     if (exr) {
         all.push_back({"worldToCamera", world_to_camera(notes.camera)});
@@ -150,7 +150,7 @@ std::vector<ImageAttribute> attributes(const Film& film, const ImageNotes& notes
         if (exr)
             all.push_back({"deburr.incomplete", 1});
         else
-            all.push_back({"deburr.incomplete", "1"});  // other formats keep text only
+            all.push_back({"deburr.incomplete", "1"});  // other formats store text only
     }
     return all;
 }

@@ -14,7 +14,7 @@ struct Extension {
     ImageKind kind;
 };
 
-// Not TIFF: OpenImageIO 2.4.7 encodes in memory a file that it cannot read again.
+// TIFF is missing: OpenImageIO 2.4.7 encodes in memory a TIFF that it cannot read again.
 constexpr Extension extensions[] = {
     {".exr", ImageKind::exr},      {".png", ImageKind::display},  {".jpg", ImageKind::display},
     {".jpeg", ImageKind::display}, {".bmp", ImageKind::display},  {".tga", ImageKind::display},
@@ -34,7 +34,7 @@ std::optional<ImageKind> image_kind(const std::string& path) {
     for (const Extension& known : extensions) {
         if (known.name != extension) continue;
         if (extension == ".exr")
-            exr_encoder();  // or the lack of it is known when the work is done
+            exr_encoder();  // loaded now, or its absence would be noticed after the rendering
         else if (extension != ".png" && !image_module().writes(extension))
             return std::nullopt;
         return known.kind;

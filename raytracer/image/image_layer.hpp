@@ -1,4 +1,4 @@
-// What a picture can tell of each pixel beside its colour.
+// The layers (AOVs) that a picture can have besides colour and alpha.
 #pragma once
 #include <array>
 #include <cstdint>
@@ -8,21 +8,22 @@
 
 namespace deburr {
 
-/// Layers of a picture beside colour and alpha, in the order in which they are written.
+/// The layers, in the order in which they are written.
 enum class ImageLayer { position, normal, z, albedo, guide_normal, id, cost, cryptomatte };
 
-/// Names as --aov takes them: P, N, Z, albedo, normal, id, cost, crypto.
+/// The name of a layer for --aov: P, N, Z, albedo, normal, id, cost, crypto.
 std::string_view layer_name(ImageLayer layer);
+/// The layer with this name, if there is one.
 std::optional<ImageLayer> find_layer(std::string_view name);
 const std::vector<ImageLayer>& all_layers();
 
-/// Which solids a pixel's samples saw, and how many of them: the most frequent ones.
+/// The solids that a pixel's samples hit, with the number or share of samples of each.
 struct SolidShares {
     static constexpr int ranks = 6;
     std::array<std::uint32_t, ranks> id{};  // as in the layer id; 0: none
     std::array<double, ranks> share{};
 
-    /// So many samples more. What no rank is left for is not counted.
+    /// Counts samples of a solid. Solids beyond the first `ranks` are not counted.
     void add(std::uint32_t solid, double samples = 1) {
         for (int k = 0; k < ranks; ++k) {
             if (id[k] != solid && id[k] != 0) continue;
@@ -36,7 +37,7 @@ struct SolidShares {
     }
 };
 
-/// Numbers that it has for a pixel.
+/// The number of values that a layer has for a pixel.
 int components(ImageLayer layer);
 
 }  // namespace deburr

@@ -10,7 +10,8 @@
 namespace deburr {
 namespace {
 
-// What we use of OpenImageDenoise/oidn.h: handles, and numbers that its version 2 gives types and formats.
+// The part of OpenImageDenoise/oidn.h that is used: opaque handles, and version 2's numeric values of types and
+// formats.
 using Device = struct OIDNDeviceImpl*;
 using Filter = struct OIDNFilterImpl*;
 constexpr int cpu_device = 1, three_floats = 3, no_error = 0;
@@ -52,7 +53,7 @@ const Oidn& oidn() {
     return functions;
 }
 
-// Three floats a pixel.
+// The values as an array of three floats a pixel.
 template <class Value>
 std::vector<float> image(std::size_t pixels, const Value& value) {
     std::vector<float> floats(3 * pixels);

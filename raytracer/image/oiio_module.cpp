@@ -1,4 +1,4 @@
-// The module behind raytracer/image/image_module.hpp: all code of ours that calls OpenImageIO.
+// The module behind raytracer/image/image_module.hpp: all code that calls OpenImageIO.
 #include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imagebufalgo.h>
 #include <OpenImageIO/imageio.h>
@@ -34,15 +34,15 @@ OIIO::ImageBuf buffer(const ReadImage& image) {
 
 class Module final : public ImageModule {
 public:
-    // Pictures are small: no pools of threads, which on the way out may outlive what they use.
+    // Pictures are small: thread pools are not needed, and may outlive what they use when the process ends.
     Module() {
         OIIO::attribute("threads", 1);
-        OIIO::attribute("exr_threads", -1);  // none but the caller's
+        OIIO::attribute("exr_threads", -1);  // only the caller's thread
     }
 
     bool writes(const std::string& extension) const override {
         const auto writer = OIIO::ImageOutput::create("x" + extension);
-        if (!writer) OIIO::geterror();  // or it is printed at exit
+        if (!writer) OIIO::geterror();  // clears the error, which would be printed at exit
         return writer && writer->supports("ioproxy");
     }
 
@@ -52,10 +52,10 @@ public:
                        bytes ? TypeDesc::UINT8 : TypeDesc::FLOAT);
         if (bytes) {
             spec.attribute("oiio:ColorSpace", "sRGB");
-            spec.attribute("CompressionQuality", 95);  // of those that lose anything
+            spec.attribute("CompressionQuality", 95);  // for lossy formats
         }
         for (const auto& [name, value] : image.attributes) std::visit(AddAttribute{spec, name}, value);
-        // Encoded in memory: on a full disk the library's writers report success.
+        // Encoded in memory, since on a full disk the library's writers report success.
         OIIO::Filesystem::IOVecOutput memory;
         const auto writer = OIIO::ImageOutput::create("x" + extension);
         const auto check = [&](bool fine) {
@@ -79,7 +79,7 @@ public:
     }
 
     ReadImage read(const std::string& path, const PictureHeader& header) const override {
-        // By the name of the format, or after the right one all other readers would be tried.
+        // Opened by the format's name, since otherwise all readers would be tried when the right one fails.
         const auto in = OIIO::ImageInput::create(header.format);
         if (!in) throw std::runtime_error(OIIO::geterror());
         ImageSpec spec;
@@ -97,7 +97,7 @@ public:
         image.values.resize(std::size_t(spec.image_pixels()) * std::size_t(spec.nchannels));
         if (!in->read_image(0, 0, 0, spec.nchannels, TypeDesc::FLOAT, image.values.data()))
             throw std::runtime_error(in->geterror());
-        // As floats, whole numbers would be shares of the greatest one.
+        // Read as floats, integers would be scaled by their type's maximum.
         for (int c = 0; c < spec.nchannels; ++c) {
             if (spec.channelformat(c) != TypeDesc::UINT32) continue;
             std::vector<std::uint32_t> whole(spec.image_pixels());

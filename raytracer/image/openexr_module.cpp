@@ -1,5 +1,5 @@
-// A module behind raytracer/image/image_module.hpp: an EXR's bytes, by OpenEXR itself. OpenImageIO would
-// call it, and takes ten times as long to load as this takes to write a picture.
+// A module behind raytracer/image/image_module.hpp: encodes EXR by OpenEXR directly. OpenImageIO would call it, too,
+// but takes ten times as long to load as this takes to write a picture.
 #include <ImfChannelList.h>
 #include <ImfFloatAttribute.h>
 #include <ImfFrameBuffer.h>

@@ -16,15 +16,15 @@ namespace {
 
 using namespace std::string_view_literals;
 
-// Deflate makes 1032 bytes of one (a match of 258 in two bits); run lengths, LZW and Huffman codes make less. DWA
-// deflates one number for 8 x 8 pixels.
+// Most bytes that a byte decompresses to: 1032 for deflate (a match of 258 in two bits); run lengths, LZW and Huffman
+// codes stay below. DWA deflates one number for 8 x 8 pixels.
 constexpr double deflate = 1032, dwa = 64 * deflate;
-// Headers, and what formats need for the smallest picture, are below this.
+// Headers, and what a format needs for the smallest picture, take fewer bytes than this.
 constexpr double always = 1 << 20;
-// A lossless WebP of one colour is a few bytes at any size.
+// A lossless WebP of a single colour has a few bytes at any size.
 constexpr double always_of_webp = 1 << 24;
 
-// Bytes of a file, anywhere in it.
+// Random access to the bytes of a file.
 class File {
 public:
     explicit File(const std::string& path) : in_(path, std::ios::binary) {
@@ -74,7 +74,7 @@ private:
 
 std::int64_t as_signed(std::uint64_t word) { return std::int32_t(std::uint32_t(word)); }
 
-// Sums the channels' types [OpenEXR: file layout, chlist].
+// Bits per pixel: the sum over the channels' types [OpenEXR: file layout, chlist].
 double exr_pixel_bits(File& file, std::int64_t at, std::int64_t end) {
     constexpr std::int64_t after_name = 16;  // type, flags, sampling
     double bits = 0;
@@ -88,8 +88,8 @@ double exr_pixel_bits(File& file, std::int64_t at, std::int64_t end) {
     return bits;
 }
 
-// Goes through the attributes of all parts: OpenEXR gets memory for as long a text as one claims to be. The pixels are
-// the first part's.
+// Checks the attributes of all parts, since OpenEXR allocates memory for as long a text as an attribute claims. The
+// size is that of the first part.
 PictureHeader read_exr(File& file) {
     PictureHeader header{"openexr", 0, 0, 0, deflate, always};
     const bool parts = file.little_endian(4, 4) & 0x1000;
@@ -99,7 +99,7 @@ PictureHeader read_exr(File& file) {
         if (name.empty()) break;  // after the last of several parts
         for (; !name.empty(); name = file.name(at)) {
             at += std::int64_t(name.size()) + 1;
-            at += std::int64_t(file.name(at).size()) + 1;  // its type
+            at += std::int64_t(file.name(at).size()) + 1;  // skips its type
             const std::int64_t size = as_signed(file.little_endian(at, 4));
             at += 4;
             if (size < 0 || size > file.size() - at)
@@ -113,7 +113,7 @@ PictureHeader read_exr(File& file) {
             } else if (first && name == "channels") {
                 header.pixel_bits = exr_pixel_bits(file, at, at + size);
             } else if (first && name == "compression") {
-                constexpr int dwaa = 8;  // and 9, of more lines
+                constexpr int dwaa = 8;  // 9 is DWA with more lines a block
                 if (file.little_endian(at, 1) >= dwaa) header.expansion = dwa;
             }
             at += size;
@@ -124,7 +124,7 @@ PictureHeader read_exr(File& file) {
     return header;
 }
 
-// [PNG §11.2.1]
+// Reads the header chunk [PNG §11.2.1].
 PictureHeader read_png(File& file) {
     const std::uint64_t type = file.big_endian(25, 1);
     return {"png",
@@ -138,12 +138,12 @@ PictureHeader read_png(File& file) {
             always};
 }
 
-// The first start of a frame [ITU T.81 §B.2.2].
+// Reads the first start-of-frame segment [ITU T.81 §B.2.2].
 PictureHeader read_jpeg(File& file) {
     for (std::int64_t at = 2;;) {
         const std::uint64_t marker = file.big_endian(at, 2);
         if (marker >> 8 != 0xff) throw std::runtime_error("expected a JPEG of segments, got something between them");
-        if (marker == 0xffff) {  // fills
+        if (marker == 0xffff) {  // fill bytes
             ++at;
         } else if (marker >= 0xffc0 && marker <= 0xffcf && marker != 0xffc4 && marker != 0xffc8 && marker != 0xffcc) {
             return {"jpeg",
@@ -160,7 +160,7 @@ PictureHeader read_jpeg(File& file) {
     }
 }
 
-// A picture is in the first chunk, or that one tells its size [RFC 9649 §2.5 to 2.7, RFC 6386 §9.1].
+// The picture is in the first chunk, or that chunk has its size [RFC 9649 §2.5 to 2.7, RFC 6386 §9.1].
 PictureHeader read_webp(File& file) {
     PictureHeader header{"webp", 0, 0, 32, deflate, always_of_webp};
     const std::string chunk = file.bytes(12, 4);
@@ -179,13 +179,13 @@ PictureHeader read_webp(File& file) {
 }
 
 PictureHeader read_bmp(File& file) {
-    const bool old = file.little_endian(14, 4) == 12;  // a header whose numbers have two bytes
+    const bool old = file.little_endian(14, 4) == 12;  // OS/2 header, with numbers of two bytes
     const int bytes = old ? 2 : 4;
     const auto number = [&](std::int64_t at) {
         const std::uint64_t word = file.little_endian(at, bytes);
         return old ? std::int64_t(word) : as_signed(word);
     };
-    // A negative height: from the top.
+    // A negative height means that rows are stored from the top.
     return {"bmp",   number(18), std::abs(number(18 + bytes)), double(file.little_endian(old ? 24 : 28, 2)),
             deflate, always};
 }
@@ -199,7 +199,7 @@ PictureHeader read_tga(File& file) {
             always};
 }
 
-// The numbers of a text, between spaces and comments.
+// The numbers in a text, separated by spaces and comments.
 class Numbers {
 public:
     explicit Numbers(std::string text) : text_(std::move(text)) {}
@@ -218,7 +218,7 @@ private:
     std::size_t at_ = 0;
 };
 
-constexpr std::int64_t text_header = 4096;  // bytes that are looked at
+constexpr std::int64_t text_header = 4096;  // bytes that are searched
 
 PictureHeader read_pnm(File& file) {
     const char kind = file.bytes(1, 1)[0];
@@ -228,7 +228,7 @@ PictureHeader read_pnm(File& file) {
     return {"pnm", width, height, bits, 1, always};
 }
 
-// "-Y height +X width", after the header's empty line.
+// Reads "-Y height +X width", which follows the header's empty line.
 PictureHeader read_hdr(File& file) {
     const std::string text = file.bytes(0, text_header);
     const std::size_t end = text.find("\n\n");
@@ -239,7 +239,7 @@ PictureHeader read_hdr(File& file) {
 }
 
 struct Format {
-    std::int64_t at;  // from the end if negative
+    std::int64_t at;  // offset of the mark; from the end if negative
     std::string_view mark;
     PictureHeader (*read)(File&);
 };

@@ -1,24 +1,26 @@
-// What a picture file says of itself, by its bytes and not by its name: its format, and how many pixels it claims to
-// hold.
+// Reads a picture file's format and size from its bytes, regardless of its name, and checks that the file can hold the
+// pixels that it claims.
 //
-// Readers of pictures get memory for what a header claims before they find out that the file is shorter. So that is
-// checked here, before one of them sees the file.
+// Readers of pictures allocate the memory that a header claims before they notice that the file is shorter, so this is
+// checked first.
 #pragma once
 #include <cstdint>
 #include <string>
 
 namespace deburr {
 
+/// What a header says of a file.
 struct PictureHeader {
-    const char* format = nullptr;        // OpenImageIO's name of it
-    std::int64_t width = 0, height = 0;  // of what is stored
-    double pixel_bits = 0;               // before they are compressed
-    double expansion = 1;                // the most bytes that the format makes of one
-    double always = 0;                   // bytes that are believed whatever the file's size
+    const char* format = nullptr;        // OpenImageIO's name of the format
+    std::int64_t width = 0, height = 0;  // of the stored picture
+    double pixel_bits = 0;               // bits per pixel before compression
+    double expansion = 1;                // the most bytes that the format decompresses a byte to
+    double always = 0;                   // a claim of up to this many bytes is accepted at any file size
 };
 
-/// The header of a file of one of the formats that are written (image_format.hpp). Throws std::runtime_error if it is
-/// of none of them, cannot be read, or is too small to hold the pixels, or the parts of its header, that it claims.
+/// Reads the header of a file in one of the formats that are written (image_format.hpp). Throws std::runtime_error if
+/// the file has none of these formats, cannot be read, or is too small for the pixels or the header's parts that it
+/// claims.
 PictureHeader read_picture_header(const std::string& path);
 
 }  // namespace deburr

@@ -1,5 +1,6 @@
-// A PNG's bytes, by libpng itself (see openexr_module.cpp), but for the pixels: with the zlib that libpng has a
-// picture takes 1.3 to 3.3 times as long as with libdeflate, and is 1 % larger (of scenes/, in sum).
+// Encodes PNG by libpng (see openexr_module.cpp for why not OpenImageIO), except for the compression of pixels: with
+// the zlib that libpng uses, a picture takes 1.3 to 3.3 times as long as with libdeflate and is 1 % larger (sum over
+// scenes/).
 #include <libdeflate.h>
 #include <png.h>
 
@@ -23,7 +24,7 @@ struct AsText {
     std::string operator()(const Matrix44&) const { return {}; }
 };
 
-// "YYYY:MM:DD hh:mm:ss"
+// Parses "YYYY:MM:DD hh:mm:ss".
 bool parse_date(const std::string& text, png_time& time) {
     int year, month, day, hour, minute, second;
     if (std::sscanf(text.c_str(), "%d:%d:%d %d:%d:%d", &year, &month, &day, &hour, &minute, &second) != 6) return false;
@@ -31,7 +32,7 @@ bool parse_date(const std::string& text, png_time& time) {
     return true;
 }
 
-// Errors come as exceptions: the library's own way, longjmp, would jump over destructors.
+// Errors are thrown as exceptions, since libpng's own longjmp would skip destructors.
 struct Writer {
     png_structp png = nullptr;
     png_infop info = nullptr;
@@ -53,7 +54,7 @@ struct Writer {
     ~Writer() { png_destroy_write_struct(&png, &info); }
 };
 
-// Words as PNG has them: the higher byte first.
+// Converts 16-bit words to PNG's big-endian order.
 void big_endian(std::vector<unsigned char>& words) {
     for (std::size_t i = 0; i < words.size(); i += 2) {
         std::uint16_t word;
@@ -63,10 +64,10 @@ void big_endian(std::vector<unsigned char>& words) {
     }
 }
 
-// A row as it is compressed: a byte for the filter, and the pixels or their differences from the left [PNG §9.2].
-// Where neighbours are often equal, rows as they are make files as small in a third of the time; of
-// what is noisy or graded differences from the left save up to 40 %, and no other filter saves more.
-// Returns how many bytes are equal to those of the pixel before, `pixel` bytes back.
+// Writes a row as it is compressed: a byte for the filter, then the pixels or their differences from the left [PNG
+// §9.2]. Where neighbours are often equal, unfiltered rows make files as small in a third of the time; in noisy or
+// graded pictures differences save up to 40 %, and no other filter saves more. Returns how many bytes equal those of
+// the pixel before, `pixel` bytes back.
 std::size_t filter_row(const std::vector<unsigned char>& row, std::size_t pixel, unsigned char* to) {
     std::size_t equal = 0;
     for (std::size_t i = pixel; i < row.size(); ++i) equal += row[i] == row[i - pixel];
@@ -82,11 +83,13 @@ void write_chunk(png_structp png, const char* type, const unsigned char* data = 
     png_write_chunk(png, reinterpret_cast<png_const_bytep>(type), data, size);
 }
 
-// Of libdeflate. Where almost all neighbours are equal, matches are long: looking further for them takes a
-// quarter more time and makes files of up to 9 % less; elsewhere it takes up to twice as long for 1 or 2 %.
+// The compression level of libdeflate. Where almost all neighbours are equal, matches are long: searching further for
+// them takes a quarter more time and makes files up to 9 % smaller; elsewhere it takes up to twice as long for 1 or 2
+// %.
 int level_of(std::size_t equal, std::size_t size) { return equal >= size / 10 * 9 ? 7 : 6; }
 
-// Rows as one zlib stream, in chunks of up to 1 MiB: readers may refuse longer ones (libpng, from 8 MB on).
+// Writes the rows as one zlib stream in chunks of up to 1 MiB, since readers may refuse longer ones (libpng from 8 MB
+// on).
 void write_compressed(png_structp png, const unsigned char* data, std::size_t size, int level) {
     constexpr std::size_t longest = std::size_t(1) << 20;
     const std::unique_ptr<libdeflate_compressor, decltype(&libdeflate_free_compressor)> compressor(
@@ -139,7 +142,7 @@ std::string encode_png(const ImageRaster& image, const ShareDone& done) {
         }
     });
     write_compressed(writer.png, filtered.data(), filtered.size(), level_of(equal, filtered.size()));
-    write_chunk(writer.png, "IEND");  // libpng's own end misses pixels that it has written itself
+    write_chunk(writer.png, "IEND");  // libpng's own end would miss pixel data that it did not write itself
     return std::move(writer.bytes);
 }
 

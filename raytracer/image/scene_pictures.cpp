@@ -18,7 +18,7 @@ struct LoadedPicture {
     Vec3 mean{0.0};
 };
 
-// Throws where a number is not what the use takes.
+// Throws UsageError if the value is not allowed for the use.
 void check_value(const std::string& path, Use use, double value) {
     const char* owner = use == Use::light ? "environment" : "image_map";
     const char* expected = use == Use::light    ? "finite numbers >= 0"
@@ -60,7 +60,7 @@ public:
         texture.data = picture.data;
         texture.a = texture.b = picture.mean;
     }
-    /// `mean` becomes that of an image.
+    /// Loads a texture's image, if it has one; `mean`, if not null, is set to the image's mean.
     void load(std::shared_ptr<const Texture>& texture, Use use, double* mean = nullptr) {
         if (!texture || texture->file.empty()) return;
         Texture loaded = *texture;

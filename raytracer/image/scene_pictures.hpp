@@ -1,15 +1,15 @@
-// Pictures that surround a scene or lie on its surfaces, from files of any format that is read.
+// Loads the pictures that surround a scene or lie on its surfaces.
 #pragma once
 #include "raytracer/scene/scene.hpp"
 
 namespace deburr {
 
-/// Reads the pictures that the scene's backgrounds and textures name, each once for all that use it alike. Colours of
-/// formats for display are sRGB; shares and heights are the numbers that stand in the file. Throws UsageError if one
-/// cannot be read, if a background holds no light that is finite and not negative, or if a texture holds what its field
-/// does not take. The `a` of a texture becomes its mean, as does the number in whose place it stands.
+/// Reads the pictures named by the scene's backgrounds and textures; pictures with the same use are read once. Colours
+/// in display formats are decoded from sRGB; factors and heights are the numbers in the file. The `a` of an image
+/// texture becomes its mean, as does the number that it replaces. Throws UsageError if a picture cannot be read, has a
+/// background value that is negative or not finite, or has a value that its texture's use does not allow.
 void load_pictures(Scene& scene);
-/// Reads the pictures of the textures alone.
+/// As load_pictures(), for the textures only.
 void load_textures(Scene& scene);
 
 }  // namespace deburr

@@ -3,8 +3,8 @@
 namespace deburr {
 namespace {
 
-// AgX in its common short form, of Sobotka's configuration: primaries drawn towards grey, a logarithm over 16½ stops, a
-// polynomial for the curve, and primaries drawn back. Columns.
+// AgX in its common short form of Sobotka's configuration: the primaries are moved towards grey, then a logarithm over
+// 16½ stops, a polynomial for the curve, and the primaries moved back. Matrices are given by columns.
 const Mat3 inset(0.842479062253094, 0.0423282422610123, 0.0423756549057051,  //
                  0.0784335999999992, 0.878468636469772, 0.0784336,           //
                  0.0792237451477643, 0.0791661274605434, 0.879142973793104);

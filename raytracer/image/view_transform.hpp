@@ -1,4 +1,5 @@
-// From scene-linear light to what a display shows: only in files for the screen, never in an EXR.
+// View transforms: from scene-linear light to what a display shows. They apply to files for the screen, never to an
+// EXR.
 #pragma once
 #include <string_view>
 
@@ -6,15 +7,17 @@
 
 namespace deburr {
 
+/// The available transforms.
 enum class ViewTransform {
-    standard,  // as it is; what exceeds 1 is clipped
-    agx,       // a soft curve that lets bright colours go to white, as film does [Sobotka, AgX, 2022]
+    standard,  // the light as it is; values above 1 are clipped
+    agx,       // a soft curve that lets bright colours fade to white, as film does [Sobotka, AgX, 2022]
 };
 
-/// Linear Rec. 709 from 0 to 1.
+/// The displayed light for one pixel, as linear Rec. 709 from 0 to 1.
 Vec3 displayed(ViewTransform view, Vec3 light);
 
-/// The same of every pixel; colours are weighed by alpha where `alpha` says so.
+/// The displayed light of a whole film; with `alpha`, colours are premultiplied and are divided by alpha for the
+/// transform.
 Film displayed(ViewTransform view, Film film, bool alpha);
 
 }  // namespace deburr

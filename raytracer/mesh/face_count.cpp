@@ -18,7 +18,7 @@
 namespace deburr {
 namespace {
 
-// So many fewer triangles than were asked for are as good.
+// A mesh with up to this fraction fewer triangles than wanted is accepted.
 constexpr double tolerated_lack = 0.1;
 
 std::size_t count_triangles(const SceneMesh& mesh) {
@@ -27,7 +27,7 @@ std::size_t count_triangles(const SceneMesh& mesh) {
     return count;
 }
 
-// Which surface each triangle stands for: the one that its middle is nearest to.
+// The leaf whose surface each triangle approximates: the one nearest to its middle; none for smooth triangles.
 std::vector<Origin> origins_of(const Mesh& mesh, const FacetJudge& judge) {
     std::vector<Origin> origins;
     for (const Triangle& t : mesh.triangles) {
@@ -40,7 +40,7 @@ std::vector<Origin> origins_of(const Mesh& mesh, const FacetJudge& judge) {
     return origins;
 }
 
-// How far from a solid's surface its mesh may lie and points still tell where the surface is: a radius.
+// The farthest distance from a solid's surface at which points still tell where the surface is: about a radius.
 double max_told(const SolidTree& solid, const Mesh& mesh) {
     double farthest = 0;
     for (const SolidLeaf& leaf : solid.leaves) {
@@ -50,7 +50,7 @@ double max_told(const SolidTree& solid, const Mesh& mesh) {
     return farthest;
 }
 
-// Of the middles of triangles and edges, as far as points tell.
+// The largest distance of the middles of triangles and edges from the surface, as far as they can tell.
 double largest_distance(const Mesh& mesh, const SolidTree& solid) {
     const double reach = max_told(solid, mesh);
     const DistanceField field(solid, inflated(field_box(mesh), reach), reach);
@@ -66,14 +66,15 @@ double largest_distance(const Mesh& mesh, const SolidTree& solid) {
     return largest;
 }
 
-// A solid's mesh, on its way to fewer triangles.
+// One solid's mesh while it is thinned out.
 class Thinning {
 public:
     Thinning(Mesh& mesh, const SolidTree& solid, double tolerance) : mesh_(mesh), solid_(separate_sharp(solid)) {
         if (mesh.triangles.empty()) return;
         judge_.emplace(solid_, mesh);
         origins_ = origins_of(mesh, *judge_);
-        // Triage thins out to this share of its tolerance; what has none begins far below its edges.
+        // Triage thins out to this fraction of its tolerance; a mesh without a tolerance begins far below its edges'
+        // length.
         constexpr double share = 0.85, start = 0.01;
         tolerance_ = std::isfinite(tolerance) ? share * tolerance : start * mean_edge(mesh);
         look_far();
@@ -86,28 +87,28 @@ public:
         reached_ = coarseness * tolerance_;
         decimate(mesh_, origins_, *judge_, reached_, {.enough = enough, .cancel = cancel});
     }
-    /// Before it is thinned out further.
+    /// Saves the mesh before it is thinned out further.
     void save() {
         saved_.push_back({mesh_, origins_, reached_});
         if (judge_ && solid_.has_free_form()) look_far();
     }
-    /// Back to what was saved last, which is saved no longer; false: nothing is.
+    /// Restores the mesh that was saved last, and forgets it; false if there is none.
     bool restore() {
         if (saved_.empty()) return false;
         std::tie(mesh_, origins_, reached_) = std::move(saved_.back());
         saved_.pop_back();
         return true;
     }
-    /// Options that fit how far the mesh may be now.
+    /// The options with their tolerance raised to the distance that the mesh may have now.
     MeshCheckOptions checked(MeshCheckOptions options) const {
-        constexpr double slack = 3;  // points between those that collapses look at are farther
+        constexpr double slack = 3;  // points between those that collapses test are farther away
         double& tolerance = std::isfinite(options.tolerance) ? options.tolerance : options.min_tolerance;
         tolerance = std::max(tolerance, slack * reached_);
         return options;
     }
 
 private:
-    // Free forms are seen as far as the mesh has long edges.
+    // Renews the judge, because free forms are known as far from the surface as the mesh's edges are long.
     void look_far() {
         judge_.emplace(solid_, mesh_);
         max_distance_ = std::max(max_told(solid_, mesh_), tolerance_);
@@ -121,6 +122,7 @@ private:
     std::vector<std::tuple<Mesh, std::vector<Origin>, double>> saved_;
 };
 
+// All solids' meshes while they are thinned out.
 class SceneThinning {
 public:
     SceneThinning(SceneMesh& mesh, CancelFlag cancel) : mesh_(mesh), cancel_(cancel) {
@@ -129,7 +131,7 @@ public:
             parts_.push_back(std::make_unique<Thinning>(mesh.parts[i], mesh.trees[i], mesh.tolerances[i]));
     }
 
-    /// To at most `faces` triangles, if it can be.
+    /// Thins out to at most `faces` triangles, if possible.
     void thin(std::size_t faces) {
         const double step = std::sqrt(2.0);
         for (double coarseness = step; count() > faces; coarseness *= step) {
@@ -142,7 +144,7 @@ public:
             }
             thin(coarseness, enough);
             if (count() > faces) continue;
-            // It was too much: the same again, of each part the same share.
+            // Too few are left: repeats the step, with the same fraction for each part.
             const std::size_t all = sum(before), excess = all - faces, gone = all - count();
             for (std::size_t i = 0; i < parts_.size(); ++i) {
                 const double share = double(before[i] - parts_[i]->size()) * double(excess) / double(gone);
@@ -154,7 +156,7 @@ public:
         }
     }
 
-    /// Checks all parts. What fails becomes again what it was before it was thinned out so far, as often as it takes.
+    /// Checks all parts. A part that fails is set back to an earlier, less thinned state, as often as needed.
     void check() {
         mesh_.checks.assign(parts_.size(), {});
         in_parallel(parts_.size(), [&](std::size_t i) {
@@ -182,12 +184,12 @@ private:
     std::vector<std::unique_ptr<Thinning>> parts_;
 };
 
-// Made with a smaller and smaller tolerance, or cells, until there are enough triangles. To `asked`: the tolerances
-// that the solids have without that.
+// Meshes at smaller and smaller tolerances or cells until there are enough triangles. `asked` gets the tolerances that
+// the solids have at first.
 SceneMesh fine_enough(const Scene& scene, MeshSettings settings, std::size_t faces, CancelFlag cancel,
                       std::vector<double>& asked) {
     constexpr int max_halvings = 12;
-    constexpr int max_idle = 2;  // halvings that bring next to nothing: there are no more to have
+    constexpr int max_idle = 2;  // halvings that add next to nothing: no more triangles are to be had
     constexpr double next_to_nothing = 1.01;
     SceneMesh mesh = mesh_parts(scene, settings, {cancel, {}});
     asked = mesh.tolerances;
@@ -200,15 +202,15 @@ SceneMesh fine_enough(const Scene& scene, MeshSettings settings, std::size_t fac
             SceneMesh finer = mesh_parts(scene, settings, {cancel, {}});
             idle = double(count_triangles(finer)) < next_to_nothing * double(count) ? idle + 1 : 0;
             if (count_triangles(finer) > count) mesh = std::move(finer);
-        } catch (const UnsupportedError&) {  // so fine it cannot be
+        } catch (const UnsupportedError&) {  // it cannot be made so fine
             break;
         }
     }
     return mesh;
 }
 
-// A word about the solid that is farther from its surface than any other, measured in its tolerance if it has one; none
-// if all keep theirs.
+// Warns of the solid that is farthest from its surface, relative to its tolerance if it has one; no warning if all keep
+// theirs.
 void warn_of_distance(SceneMesh& mesh, const std::vector<double>& asked) {
     std::vector<double> distances(mesh.parts.size(), 0);
     in_parallel(mesh.parts.size(),
@@ -237,7 +239,7 @@ void warn_of_count(SceneMesh& mesh, std::size_t faces) {
             fmt::format("--faces: expected up to {} triangles, and {} are the most found", faces, count));
 }
 
-// Thinned out to what is asked, and checked.
+// The mesh thinned out to at most `faces` triangles, and checked if wanted.
 SceneMesh thinned(SceneMesh mesh, std::size_t faces, bool check, CancelFlag cancel) {
     SceneThinning thinning(mesh, cancel);
     thinning.thin(faces);
@@ -245,7 +247,7 @@ SceneMesh thinned(SceneMesh mesh, std::size_t faces, bool check, CancelFlag canc
     return mesh;
 }
 
-// By triage, or what the solids need.
+// By triage, or by the method that each solid needs.
 SceneMesh by_tolerance(const Scene& scene, MeshSettings settings, std::size_t faces, CancelFlag cancel) {
     if (!std::isfinite(settings.tolerance) && !std::isfinite(settings.tolerance_in_radii))
         settings.triage_tolerance_in_radii = std::min(settings.triage_tolerance_in_radii, default_tolerance_in_radii);
@@ -258,16 +260,17 @@ SceneMesh by_tolerance(const Scene& scene, MeshSettings settings, std::size_t fa
     return mesh;
 }
 
-// By even cells. Their numbers go in steps, more than a tenth where there are few: what is a little too much is thinned
-// out.
+// By even cells of one size. Their number changes in steps, of more than a tenth where it is small, so a mesh with
+// slightly too many triangles is thinned out.
 SceneMesh by_cells(const Scene& scene, MeshSettings settings, std::size_t faces, CancelFlag cancel) {
     constexpr int max_rounds = 12;
-    constexpr double near_enough = 0.99, aim = 0.995;  // of the wanted number
+    constexpr double near_enough = 0.99, aim = 0.995;  // fractions of the wanted number
     constexpr double max_step = 16, min_slope = 0.5, max_slope = 4;
     const bool check = std::exchange(settings.check, false);
-    std::optional<SceneMesh> below, above;  // the nearest to what is wanted
-    double coarse = infinity, fine = 0;     // and how coarse their cells are
-    // Triangles go with the inverse square of lengths; near the wanted number the last two meshes tell better.
+    std::optional<SceneMesh> below, above;  // the meshes closest to the wanted number
+    double coarse = infinity, fine = 0;     // and the coarseness of their cells
+    // The number of triangles grows with the inverse square of lengths; near the wanted number the last two meshes tell
+    // better.
     double slope = 2, last_coarseness = 0, last_count = 0;
     for (int round = 0; round < max_rounds; ++round) {
         SceneMesh mesh = mesh_parts(scene, settings, {cancel, {}});
@@ -287,7 +290,7 @@ SceneMesh by_cells(const Scene& scene, MeshSettings settings, std::size_t faces,
         }
         double next =
             coarseness * std::clamp(std::pow(count / (aim * double(faces)), 1 / slope), 1 / max_step, max_step);
-        if (next <= fine || next >= coarse)  // between the two, if both are known
+        if (next <= fine || next >= coarse)  // stays between the two, if both are known
             next = fine == 0 ? coarse / 2 : std::isfinite(coarse) ? std::sqrt(fine * coarse) : 2 * fine;
         settings.coarseness = next;
     }
@@ -297,7 +300,7 @@ SceneMesh by_cells(const Scene& scene, MeshSettings settings, std::size_t faces,
         found = thinned(std::move(*above), faces, check, cancel);
         if (count_triangles(*found) <= faces || !below) return std::move(*found);
     }
-    // Cells that are too large lose what is there.
+    // Cells that are too large lose details.
     SceneMesh mesh = thinned(std::move(*below), faces, check, cancel);
     const bool is_right =
         std::all_of(mesh.checks.begin(), mesh.checks.end(), [](const MeshCheck& c) { return c.faults() == 0; });

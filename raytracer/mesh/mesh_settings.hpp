@@ -1,4 +1,4 @@
-// How fine a mesh is to be, and by which method.
+// Settings of meshing: the method, and how fine the mesh is.
 #pragma once
 #include <optional>
 #include <string>
@@ -10,40 +10,42 @@ namespace deburr {
 
 enum class MeshMethod { triage, marching_cubes, octree };
 
-/// The methods in words, for messages.
+/// All methods as a list for messages.
 std::string mesh_method_names();
 std::string mesh_method_name(MeshMethod method);
 
-/// Reach for pictures: the horizon of a floor that ends so many sizes away is the true one to a pixel.
+/// MeshSettings::reach for pictures: the horizon of a floor that ends this far away is right to a pixel.
 inline constexpr double rendering_reach = 1e4;
 
-/// Tolerance for pictures, in radii: on Figure 12 of Lobb's paper 99 % of the hits are then within 0.03 r of the exact
-/// ones, where the paper's one refinement of each edge leaves 0.26 r.
+/// MeshSettings::tolerance_in_radii for pictures. On Figure 12 of Lobb's paper 99 % of the hits are then within 0.03 r
+/// of the exact ones; the paper's single refinement of each edge leaves 0.26 r.
 inline constexpr double rendering_tolerance = 0.03;
 
-/// Triage's tolerance where none was asked for, in radii.
+/// Tolerance of triage where none was given, in radii.
 inline constexpr double default_tolerance_in_radii = 0.05;
 
+/// How the solids of a scene are meshed. Lengths are scene units unless a name says otherwise; a comment that begins
+/// with methods applies to these only. Of several tolerances the least counts.
 struct MeshSettings {
-    /// Default: triage, but the octree for solids with free forms, which triage cannot follow.
+    /// Default: triage, or the octree for solids with free forms, which triage cannot follow.
     std::optional<MeshMethod> method = {};
-    double tolerance = infinity;                     // triage, octree
-    double tolerance_in_radii = infinity;            // the same, of each solid's least radius, if less
-    double triage_tolerance_in_radii = infinity;     // the same, of triage, and of models whose radius varies
-    bool decimate = true;                            // of these: thin meshes out within their tolerance
-    double tolerance_in_sizes = infinity;            // octree, without a radius: of each solid's size, if less
-    double grid = 0;                                 // marching cubes; 0: half the least radius
-    double edge = 0;                                 // octree: side of a cell; 0: by the solid's size and radius
-    int level = 0;                                   // octree: 2^level cells along the solid's longest side, if not 0
-    double hard_angle = OctreeOptions{}.hard_angle;  // octree
-    double coarseness = 1;                           // multiplies each solid's grid, edge or tolerance
-    bool check = false;                              // what was made (mesh_check.hpp); what fails is made once more
-    double reach = 8;                                // infinite solids end this many sizes of the finite ones away
-    bool leave_out_unbounded = false;                // infinite solids have no mesh then
-    std::vector<std::size_t> only = {};              // of the scene's solids, that have a mesh; empty: all
+    double tolerance = infinity;                     // triage, octree: distance from the surface
+    double tolerance_in_radii = infinity;            // triage, octree: in each solid's least radius
+    double triage_tolerance_in_radii = infinity;     // in radii, for triage and for models whose radius varies
+    bool decimate = true;                            // thin these meshes out within their tolerance
+    double tolerance_in_sizes = infinity;            // octree, for solids without a radius: in the solid's size
+    double grid = 0;                                 // marching cubes: side of a cube; 0: half the least radius
+    double edge = 0;                                 // octree: side of a cell; 0: chosen by the solid's size and radius
+    int level = 0;                                   // octree: if not 0, 2^level cells along the solid's longest side
+    double hard_angle = OctreeOptions{}.hard_angle;  // octree: see OctreeOptions
+    double coarseness = 1;                           // factor of each solid's grid, edge or tolerance
+    bool check = false;                              // check (mesh_check.hpp), and make a part that fails once more
+    double reach = 8;                                // cut infinite solids off at this many sizes of the finite ones
+    bool leave_out_unbounded = false;                // give infinite solids no mesh instead
+    std::vector<std::size_t> only = {};              // indices of the solids to be meshed; empty: all
 };
 
-/// The settings for pictures of meshes: finer than a mesh that is asked for, with floors that reach the horizon.
+/// Settings for pictures of meshes: finer than the defaults, with floors that reach the horizon.
 MeshSettings picture_mesh_settings();
 
 }  // namespace deburr

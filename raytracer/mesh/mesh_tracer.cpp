@@ -8,16 +8,16 @@
 namespace deburr {
 namespace {
 
-// Embree's intersections are off by a few units in the last place of the coordinates; a ray that
-// leaves a surface starts this many of them away from it.
+// Embree's intersections are off by a few units in the last place of the coordinates; a ray that leaves a surface
+// starts at this fraction of the largest coordinate away from it.
 constexpr double lift = 64 * double(std::numeric_limits<float>::epsilon());
 
-// How far it is turned beyond the side view, as a share of the angle: far above rounding, far below
-// what is seen.
+// How far a normal is turned beyond the side view, as a fraction of the angle: far above rounding, far below anything
+// visible.
 constexpr double min_tilt = 1e-6;
 
-// Where the ray meets the plane of the triangle x + u·e1 + v·e2, in double precision: single leaves
-// 10⁻⁷ of the triangle's size, and floors reach far. Nearly along the plane, u and v stay.
+// Computes in double precision where the ray meets the plane of the triangle x + u·e1 + v·e2: single precision is off
+// by 10⁻⁷ of the triangle's size, and floors are large. If the ray is nearly parallel to the plane, u and v stay.
 void meet(const Ray& ray, Vec3 x, Vec3 e1, Vec3 e2, double& u, double& v) {
     const Vec3 area = glm::cross(e1, e2);
     const double rate = glm::dot(area, ray.direction);
@@ -63,10 +63,10 @@ MeshTracer::MeshTracer(Mesh mesh, const Box& near)
 }
 MeshTracer::~MeshTracer() = default;
 
-// Parameter at which a ray from far away comes near the mesh; 0 for others.
+// The parameter at which a ray from far away is restarted near the mesh; 0 for other rays.
 double MeshTracer::start(const Ray& ray) const {
-    constexpr double far = 64;         // in radii: single precision then still tells a millionth of the mesh's size
-    constexpr double clearance = 1.5;  // in radii, before the ball's nearest point
+    constexpr double far = 64;         // in radii: there single precision is a millionth of the mesh's size
+    constexpr double clearance = 1.5;  // in radii, before the point nearest to the center
     const double nearest = glm::dot(middle_ - ray.origin, ray.direction);
     return nearest > far * radius_ ? nearest - clearance * radius_ : 0;
 }
@@ -94,8 +94,8 @@ Hit MeshTracer::closest_hit(const Ray& ray, double t_max, TraceCounters& counter
     const Vec3 n = w * normal(0) + u * normal(1) + v * normal(2);
     const Vec3 facet = glm::cross(e1, e2);
     hit.normal = glm::length(n) > 0 ? glm::normalize(n) : glm::normalize(facet);
-    // Near an outline the normal between corners may look away though the facet does not; it is
-    // turned until it is seen from the side, or the outline would be black.
+    // Near an outline the interpolated normal may face away though the facet does not. It is turned until it is seen
+    // from the side, as the outline would be black otherwise.
     const double away = glm::dot(hit.normal, ray.direction);
     if (away * glm::dot(facet, ray.direction) < 0)
         hit.normal = glm::normalize(hit.normal - (1 + min_tilt) * away * ray.direction);

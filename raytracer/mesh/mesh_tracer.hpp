@@ -1,8 +1,8 @@
-// The polygonal road: rays against a mesh, through Embree 3 or 4, with smooth normals.
+// Traces rays against a mesh through Embree 3 or 4, with smooth normals.
 //
-// Embree works in single precision. It only says which triangle and where in it; the hit's position
-// and distance are then computed from the mesh in double precision. A ray from far away is handed to it
-// from where it comes near the mesh, so that single precision is that of the mesh's coordinates.
+// Embree works in single precision and is only asked which triangle is hit, and where in it; position and distance of
+// the hit are then computed in double precision. A ray from far away is restarted near the mesh, so that single
+// precision is that of the mesh's coordinates.
 #pragma once
 #include <memory>
 
@@ -13,7 +13,8 @@ namespace deburr {
 
 class MeshTracer final : public RayTracer {
 public:
-    /// Triangles say which solid and material they are. Rays are most exact in and around `near`.
+    /// Takes the mesh, whose triangles name their solid and material. Rays are most exact in and around `near`. Throws
+    /// UnsupportedError if Embree cannot be loaded, WorkError if memory is lacking.
     explicit MeshTracer(Mesh mesh, const Box& near = {});
     ~MeshTracer() override;
     Hit closest_hit(const Ray& ray, double t_max, TraceCounters& counters) const override;
@@ -24,7 +25,7 @@ private:
     double start(const Ray& ray) const;
 
     Mesh mesh_;
-    Vec3 middle_{0.0};   // of the ball around the mesh
+    Vec3 middle_{0.0};   // center of a ball around the mesh
     double radius_ = 0;  // of that ball
     std::unique_ptr<Embree> embree_;
 };

@@ -17,19 +17,19 @@
 namespace deburr {
 namespace {
 
-// A grid of more cubes than this is refused: it would take tens of gigabytes.
+// A grid of more cubes than this is refused, since it would take tens of gigabytes.
 constexpr double max_cubes = 2e9;
 
-// Of cells that nobody has chosen, the surface may pass this many: two million triangles, ten times as many as any of
-// the scenes in scenes/ asks for, and with a free form of twenty perturbations some seconds.
+// Most cells at the surface where the user has not chosen their size: two million triangles, ten times as many as any
+// scene in scenes/ needs, which take some seconds for a free form with twenty perturbations.
 constexpr std::size_t max_own_open_cells = 1'000'000;
 
-// A mesh's own tolerance is measured at middles and to first order; beyond this many of it is wrong.
+// A mesh's tolerance is measured at middles and to first order; more than this many of it is a fault.
 constexpr double check_slack = 2;
 
 bool finite(const Box& box) { return box.empty() || box.finite(); }
 
-// All that is finite of the scene, and the eye: infinite solids are cut off around it.
+// The box of all that is finite in the scene, or of the camera if nothing is; infinite solids are cut off around it.
 Box finite_part(const Scene& scene, const std::vector<Box>& boxes) {
     Box all;
     for (const Box& b : boxes)
@@ -47,14 +47,15 @@ Box finite_part(const Scene& scene, const std::vector<Box>& boxes) {
     return all;
 }
 
-// A model whose radius varies has a radius and is no density of one.
+// Whether the solid has a model with a varying radius: a field with a radius that is not a density of one radius.
 bool varies_in_radius(const SolidTree& tree) {
     return std::any_of(tree.leaves.begin(), tree.leaves.end(), [](const SolidLeaf& leaf) {
         return leaf.field && !leaf.field->is_density() && leaf.field->filter_radius() > 0;
     });
 }
 
-// Triage follows half-spaces, and radii that are the same everywhere: what has none it cannot see.
+// Throws UnsupportedError if the solid has parts that triage cannot follow: anything but half-spaces and constant
+// radii.
 void need_densities(const SolidTree& solid, std::size_t id) {
     if (!solid.has_free_form()) return;
     const char* found = varies_in_radius(solid) ? "a model with a radius that varies (keep_sharp)"
@@ -65,7 +66,7 @@ void need_densities(const SolidTree& solid, std::size_t id) {
 
 double octree_tolerance(const SolidTree& tree, const Box& box, const MeshSettings& settings) {
     const double radius = tree.min_radius();
-    // Such a model is what triage would mesh if it could.
+    // A model with a varying radius gets the tolerance that triage would use if it could.
     const double in_radii = varies_in_radius(tree)
                                 ? std::min(settings.tolerance_in_radii, settings.triage_tolerance_in_radii)
                                 : settings.tolerance_in_radii;
@@ -82,7 +83,7 @@ OctreeOptions octree_options(const SolidTree& tree, const Box& box, bool cut_off
     const double longest = largest(box.hi - box.lo), own = octree_edge(tree, box);
     OctreeOptions options;
     options.edge = settings.level > 0 ? std::ldexp(longest, -settings.level) : settings.edge > 0 ? settings.edge : own;
-    // What has been cut off is many times as large as it looks.
+    // A solid that was cut off is many times as large as it looks.
     if (cut_off && settings.level == 0) options.edge = std::max(options.edge, own);
     options.edge *= settings.coarseness;
     options.hard_angle = settings.hard_angle;
@@ -94,7 +95,7 @@ OctreeOptions octree_options(const SolidTree& tree, const Box& box, bool cut_off
     return options;
 }
 
-// Calls `work`, and says in words which cells would be too many.
+// Calls `work`, and turns its errors into messages that name the solid and the cells.
 template <class Work>
 auto with_octree_errors(const Box& box, const MeshSettings& settings, double edge, std::size_t id, const Work& work) {
     try {
@@ -122,7 +123,8 @@ MeshMethod method_of(const SolidTree& tree, const MeshSettings& settings) {
     return settings.method.value_or(tree.has_free_form() ? MeshMethod::octree : MeshMethod::triage);
 }
 
-// Refuses a solid whose octree would be too large before any other is begun, which may take long.
+// Throws UnsupportedError if the solid's octree would be too large; called for all solids before any is meshed, which
+// may take long.
 void check_cells(const SolidTree& tree, bool cut_off, const MeshSettings& settings, std::size_t id, CancelFlag cancel) {
     const Box box = polygonization_box(tree);
     if (box.empty() || closed_mesh_of(tree) || method_of(tree, settings) != MeshMethod::octree) return;
@@ -130,7 +132,7 @@ void check_cells(const SolidTree& tree, bool cut_off, const MeshSettings& settin
     with_octree_errors(box, settings, options.edge, id, [&] { check_octree_cells(tree, box, options); });
 }
 
-// Of polygonizing the solid, relative to others.
+// The work of meshing the solid, relative to other solids.
 double work_of(const SolidTree& solid) {
     std::size_t half_spaces = 1;
     for (const SolidLeaf& leaf : solid.leaves)
@@ -138,6 +140,7 @@ double work_of(const SolidTree& solid) {
     return double(half_spaces);
 }
 
+// One solid's mesh, and how it was made.
 struct SolidMesh {
     Mesh mesh;
     std::optional<MeshMethod> method;
@@ -149,13 +152,14 @@ struct SolidMesh {
     bool made_again = false;
 };
 
-// `id` is for messages. Where the solid has been cut off, its box is not its own.
+// Meshes one solid. `id` is its number in messages; `cut_off` tells that it was infinite, so that its box is not its
+// own.
 SolidMesh polygonize(const SolidTree& tree, bool cut_off, const MeshSettings& settings, std::size_t id,
                      CancelFlag cancel, WorkProgress& progress) {
     SolidMesh result;
     const Box box = polygonization_box(tree);
     if (box.empty()) return result;
-    if (const auto model = closed_mesh_of(tree)) {  // whatever the method: it is exact
+    if (const auto model = closed_mesh_of(tree)) {  // a model without a radius is its own mesh, whatever the method
         result.mesh = mesh_of(*model, tree.leaves[tree.nodes[0].a].material);
         result.tolerance = 0;
         result.check_options.cancel = cancel;
@@ -172,8 +176,8 @@ SolidMesh polygonize(const SolidTree& tree, bool cut_off, const MeshSettings& se
         need_densities(tree, id);
         const double radius = tree.min_radius();
         const double in_radii = std::min(settings.tolerance_in_radii, settings.triage_tolerance_in_radii);
-        // The papers' meshes without a tolerance are of half-spaces, whose planes part them; a model's triangles do
-        // not.
+        // A mesh without a tolerance relies on the half-spaces' planes, which cut it into pieces; a model's triangles
+        // do not.
         constexpr double coarsest_of_model = 0.25;
         const bool of_model = std::any_of(tree.leaves.begin(), tree.leaves.end(),
                                           [](const SolidLeaf& leaf) { return leaf.field != nullptr; });
@@ -205,7 +209,7 @@ SolidMesh polygonize(const SolidTree& tree, bool cut_off, const MeshSettings& se
     return result;
 }
 
-// The mesh and its check. What fails is made once more, finer, and the better one of both is taken.
+// Meshes one solid and checks the result. If it fails, it is made once more, finer, and the better of both is returned.
 SolidMesh polygonize_checked(const SolidTree& tree, bool cut_off, const MeshSettings& settings, std::size_t id,
                              CancelFlag cancel, WorkProgress& progress) {
     SolidMesh first = polygonize(tree, cut_off, settings, id, cancel, progress);
@@ -215,7 +219,7 @@ SolidMesh polygonize_checked(const SolidTree& tree, bool cut_off, const MeshSett
     if (first.check->faults() == 0) return first;
     MeshSettings finer = settings;
     finer.coarseness *= 0.5;
-    // Half of no tolerance: what a mesh without one is expected to keep.
+    // Without a tolerance, half of what a mesh without one is expected to keep.
     constexpr double expected = 0.25;
     finer.tolerance_in_radii = std::min(finer.tolerance_in_radii, 2 * expected);
     finer.tolerance_in_sizes = std::min(finer.tolerance_in_sizes, 1.0);
@@ -224,7 +228,7 @@ SolidMesh polygonize_checked(const SolidTree& tree, bool cut_off, const MeshSett
         second.check_options = first.check_options;
         second.check = check_mesh(second.mesh, tree, box, second.check_options);
         if (second.check->faults() < first.check->faults()) std::swap(first, second);
-    } catch (const UnsupportedError&) {  // so fine it cannot be
+    } catch (const UnsupportedError&) {  // it cannot be made so fine
     } catch (const WorkError&) {
     }
     first.made_again = true;
@@ -243,7 +247,7 @@ std::string listed(const Scene& scene, const std::vector<std::size_t>& solids) {
     return all + (solids.size() == 1 ? " is" : " are");
 }
 
-// Which of the solids get a mesh.
+// Which solids get a mesh. Appends a warning about unbounded solids that are left out.
 std::vector<char> wanted_solids(const Scene& scene, const std::vector<Box>& boxes, const MeshSettings& settings,
                                 std::vector<std::string>& warnings) {
     std::vector<char> wanted(scene.solids.size(), settings.only.empty());
@@ -309,7 +313,7 @@ SceneMesh mesh_parts(const Scene& scene, const MeshSettings& settings, const Mes
     const std::vector<char>& wanted = result.wanted;
     for (std::size_t i = 0; i < count; ++i) {
         if (finite(boxes[i]) || !wanted[i]) continue;
-        // Cut off on infinite sides only; the others keep their margin.
+        // Cut off on infinite sides only; on the others a margin remains.
         Box margin = inflated(boxes[i], 0.05 * largest(size));
         for (int k = 0; k < 3; ++k) {
             margin.lo[k] = std::isfinite(margin.lo[k]) ? margin.lo[k] : limit.lo[k];

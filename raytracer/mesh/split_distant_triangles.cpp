@@ -35,7 +35,7 @@ public:
     }
 
 private:
-    static constexpr double min_share = 1e-7;  // of the mesh's size: where single precision ends
+    static constexpr double min_share = 1e-7;  // of the mesh's size, the limit of single precision
 
     bool along_axes(const Triangle& t) const {
         const auto at = [&](std::size_t i) { return mesh_.positions[t.vertex[i]]; };
@@ -59,7 +59,7 @@ private:
         return int(mesh_.normals.size()) - 1;
     }
 
-    // Halves the triangle at one edge, and the halves at the others; m: middles of its edges, or -1.
+    // Halves the triangle at one of its edges, then the halves at the others. `m` holds the middle of each edge, or −1.
     void halve(const Triangle& t, const std::array<int, 3>& m, std::vector<Triangle>& out) {
         std::size_t a = 0;
         while (a < 3 && m[a] < 0) ++a;

@@ -7,16 +7,15 @@
 namespace deburr {
 namespace {
 
-// Steps along a line, in pixels: the ends of its visible parts are found to this.
+// Length of the steps along a line, in pixels; the ends of its visible parts are exact to this.
 constexpr double step = 0.5;
-// A stroke ends where a multiple of so many steps does: a window costs no more than the lines in and around it.
+// A stroke ends at multiples of this many steps, so that a window costs no more than the lines in and around it.
 constexpr std::int64_t stroke_steps = 64;
-// A point is asked about a little in front of the faces that are seen, and nearer to the eye, by this
-// share of its distance: far above Embree's single precision, far below a pixel. Where a lens is so long
-// that a pixel is less than that, by a pixel.
+// A point is tested a little in front of its faces and nearer to the eye, by this fraction of its distance: far above
+// Embree's single precision, far below a pixel. With a lens so long that this is more than a pixel, by a pixel.
 constexpr double max_lift = 1e-4;
-// Two triangles count as one plane if the farther corner of the one is this close to the other's
-// plane, as a share of its size. Roots that make a strip are exact to 1e-10.
+// Two triangles count as lying in one plane if the opposite corner of one is within this fraction of the triangle's
+// size of the other's plane. Roots that make a strip are exact to 10⁻¹⁰.
 constexpr double flat = 1e-6;
 
 int opposite(const Triangle& t, int a, int b) {
@@ -30,7 +29,7 @@ bool in_one_plane(const Mesh& mesh, const MeshEdge& e) {
     const Triangle& t = mesh.triangles[e.right];
     const Vec3 m = mesh.area_vector(s), n = mesh.area_vector(t);
     if (s.material != t.material || s.solid != t.solid || glm::dot(m, n) <= 0) return false;
-    // From the larger one's plane: that of a sliver is ill-defined.
+    // The larger triangle's plane is used, since that of a sliver is ill-defined.
     const bool first = glm::length(m) > glm::length(n);
     const Vec3 normal = glm::normalize(first ? m : n);
     const auto at = [&](int v) { return mesh.positions[v]; };
@@ -38,14 +37,15 @@ bool in_one_plane(const Mesh& mesh, const MeshEdge& e) {
     return std::abs(glm::dot(normal, at(opposite(first ? t : s, e.a, e.b)) - at(e.a))) < flat * size;
 }
 
+// A line in space on surfaces.
 struct Line3 {
     Vec3 a, b;    // ends
-    Vec3 na, nb;  // lifted along these
+    Vec3 na, nb;  // directions in which the ends are lifted off the surface
 };
 
-// Clips to what lies in front of the camera; false if nothing does.
+// Clips the line to what is in front of the camera; false if nothing is.
 bool clip(Line3& line, const PinholeCamera& camera) {
-    // Of the line's length; nearer, a point would be seen at no place that fits a picture.
+    // A fraction of the line's length; a nearer point would be projected too far away to be represented.
     const double near = 1e-4 * glm::length(line.b - line.a);
     const double za = glm::dot(line.a - camera.eye(), camera.forward());
     const double zb = glm::dot(line.b - camera.eye(), camera.forward());
@@ -60,7 +60,7 @@ bool clip(Line3& line, const PinholeCamera& camera) {
     return true;
 }
 
-// The part of p + t (q − p), t in [0, 1], that is within a margin of the window.
+// Parameters of the part of p + t (q − p), t in [0, 1], that is within a margin of the window; false if there is none.
 bool clip(Vec2 p, Vec2 q, const Window& window, double& t0, double& t1) {
     constexpr double margin = 8;
     t0 = 0, t1 = 1;
@@ -80,6 +80,7 @@ bool clip(Vec2 p, Vec2 q, const Window& window, double& t0, double& t1) {
     return t0 < t1;
 }
 
+// Whether the point x of a surface is visible.
 bool seen(Vec3 x, Vec3 normal, const RayTracer& hiding, const PinholeCamera& camera) {
     const Vec3 back = camera.to_eye(x);
     const double distance = glm::length(back);
@@ -90,6 +91,7 @@ bool seen(Vec3 x, Vec3 normal, const RayTracer& hiding, const PinholeCamera& cam
     return !hiding.any_hit({start, to_eye / length}, length, unused);
 }
 
+// Appends the visible parts of one line.
 void add_visible(Line3 line, const RayTracer* hiding, const PinholeCamera& camera, const Window& window,
                  std::vector<Stroke>& out) {
     if (!clip(line, camera)) return;
@@ -97,7 +99,7 @@ void add_visible(Line3 line, const RayTracer* hiding, const PinholeCamera& camer
     const Vec2 from(p), to(q);
     double t0, t1;
     if (!clip(from, to, window, t0, t1)) return;
-    // Even steps on the picture; 1/z is linear there. Where they and the strokes begin does not depend on the window.
+    // Steps are even in the picture, where 1/z is linear. Their positions do not depend on the window.
     const auto steps = std::max(std::int64_t(2), std::int64_t(std::ceil(glm::length(to - from) / step)));
     const std::int64_t first = std::int64_t(t0 * double(steps)) / stroke_steps * stroke_steps;
     const std::int64_t last = std::min(steps, (std::int64_t(t1 * double(steps)) / stroke_steps + 1) * stroke_steps);
@@ -121,7 +123,7 @@ void add_visible(Line3 line, const RayTracer* hiding, const PinholeCamera& camer
 template <class LineOf>
 std::vector<Stroke> strokes_of(std::size_t lines, LineOf line_of, const RayTracer* hiding, const PinholeCamera& camera,
                                const Window& window) {
-    std::vector<std::vector<Stroke>> parts(lines);  // in the lines' order, whatever thread did it
+    std::vector<std::vector<Stroke>> parts(lines);  // in the lines' order, whichever thread computes them
     tbb::parallel_for(std::size_t(0), lines, [&](std::size_t i) {
         Line3 line;
         if (line_of(i, line)) add_visible(line, hiding, camera, window, parts[i]);
@@ -175,7 +177,7 @@ std::vector<Stroke> wire_frame(const Mesh& mesh, const std::vector<MeshEdge>& ed
             normal += area / size;
         }
         line.na = line.nb = glm::length(normal) > 0 ? glm::normalize(normal) : normal;
-        return front;  // no part of an edge between two faces that look away is seen
+        return front;  // an edge between two faces that look away is not visible
     };
     return strokes_of(edges.size(), line_of, mode == WireMode::visible ? &hiding : nullptr, camera, window);
 }
@@ -192,14 +194,14 @@ std::vector<Stroke> visible_line(const std::vector<Vec3>& points, const std::vec
 void draw_strokes(Film& film, const std::vector<Stroke>& strokes, Vec3 color, double line_width, bool alpha) {
     if (strokes.empty()) return;
     const Window& w = film.window;
-    // The most that any line covers of the pixel: where lines meet they are no darker.
+    // The largest share of the pixel that any line covers, so that crossings are not darker.
     std::vector<float> covered(film.pixels.size(), 0);
     const double reach = 0.5 * line_width + 0.5;
     for (const Stroke& s : strokes) {
         const Vec2 d = s.to - s.from;
         const int y1 = std::min(w.y + w.height - 1, int(std::floor(std::max(s.from.y, s.to.y) + reach)));
         for (int y = std::max(w.y, int(std::floor(std::min(s.from.y, s.to.y) - reach))); y <= y1; ++y) {
-            // The part of the line that is near this row.
+            // The part of the line near this row.
             double t0 = 0, t1 = 1;
             if (d.y != 0) {
                 const double a = (y - reach - s.from.y) / d.y, b = (y + 1 + reach - s.from.y) / d.y;

@@ -1,9 +1,8 @@
-// Wire frames: the edges of a mesh's polygons as lines in a picture, antialiased, with hidden lines or
-// back faces removed [Triage, figures 4 (g) and 17 to 22].
+// Wire frames: the edges of a mesh's polygons as antialiased lines in a picture, with hidden lines or back faces
+// removed [Triage, figures 4 (g) and 17 to 22].
 //
-// Whether a point of an edge is hidden is asked of the mesh by a ray, point after point along the
-// line; so edges, and outlines too, are drawn in their full width, and nothing flickers as it does
-// where lines are compared with a depth buffer.
+// Whether a point of an edge is hidden is decided by a ray against the mesh, point by point along the line. So all
+// edges, including outlines, are drawn in full width, and nothing flickers as with a depth buffer.
 #pragma once
 #include <vector>
 
@@ -13,43 +12,46 @@
 
 namespace deburr {
 
+/// An edge of a mesh, by indices.
 struct MeshEdge {
     int a, b;         // vertices
-    int left, right;  // triangles on either side; right is -1 at an open edge
+    int left, right;  // triangles on either side; right = −1 at an open edge
 };
 
+/// Which edges of a mesh are drawn.
 enum class EdgeChoice {
-    polygons,   // of the polygons: not those between two triangles in one plane
-    triangles,  // all
+    polygons,   // edges of polygons: not those between two triangles in one plane
+    triangles,  // all edges
 };
 
 std::vector<MeshEdge> mesh_edges(const Mesh& mesh, EdgeChoice choice);
 
+/// Which parts of edges are drawn.
 enum class WireMode {
     visible,  // hidden lines removed
-    front,    // the edges of all polygons that face the camera, also of hidden ones
+    front,    // all edges of polygons that face the camera, even where hidden
 };
 
-/// A straight line in a picture, in pixels as PinholeCamera has them.
+/// A straight line in a picture, in pixels (see PinholeCamera).
 struct Stroke {
     Vec2 from, to;
 };
 
-/// The visible parts of edges in and around a window of the camera's picture. `mesh` hides, and so does what else
-/// `hiding` sees.
+/// The visible parts of edges in and around a window of the camera's picture. `hiding` traces the surfaces that hide
+/// edges, among them the mesh.
 std::vector<Stroke> wire_frame(const Mesh& mesh, const std::vector<MeshEdge>& edges, const RayTracer& hiding,
                                const PinholeCamera& camera, const Window& window, WireMode mode);
 
-/// The visible parts of a line through space that lies on surfaces; it is taken as visible where
-/// nothing hides the same point lifted by `lift` along `normals`.
+/// The visible parts of a polyline that lies on surfaces; normals[i] is the surface's normal at points[i]. A point is
+/// visible if nothing hides it after it is lifted a little along its normal and towards the eye.
 std::vector<Stroke> visible_line(const std::vector<Vec3>& points, const std::vector<Vec3>& normals,
                                  const RayTracer& hiding, const PinholeCamera& camera, const Window& window);
 
-/// Draws over the film, each pixel by the share of it that the lines cover; `line_width` in pixels.
-/// `alpha`: lines are opaque too; else alpha is of the solids alone.
+/// Draws strokes over the film, weighing each pixel by the share that the lines cover. `line_width` is in pixels,
+/// `color` linear. With `alpha` lines also make pixels opaque; otherwise alpha stays that of the solids.
 void draw_strokes(Film& film, const std::vector<Stroke>& strokes, Vec3 color, double line_width, bool alpha = false);
 
-/// The mesh with one normal for each facet.
+/// The mesh with the normal of its facet at each corner.
 Mesh flat_shaded(Mesh mesh);
 
 }  // namespace deburr

@@ -9,7 +9,7 @@
 namespace deburr {
 namespace {
 
-using Matrix = std::array<double, 16>;  // by rows
+using Matrix = std::array<double, 16>;  // row by row
 
 Matrix product(const Matrix& a, const aiMatrix4x4& b) {
     Matrix c{};
@@ -40,7 +40,7 @@ void add(const aiScene& scene, const aiNode& node, const Matrix& above, Triangle
         for (unsigned v = 0; v < mesh.mNumVertices; ++v) soup.vertices.push_back(moved(here, mesh.mVertices[v]));
         for (unsigned f = 0; f < mesh.mNumFaces; ++f) {
             const aiFace& face = mesh.mFaces[f];
-            if (face.mNumIndices != 3) continue;  // points and lines bound nothing
+            if (face.mNumIndices != 3) continue;  // skips points and lines
             std::array<int, 3> t{};
             for (unsigned k = 0; k < 3; ++k) t[k] = first + int(face.mIndices[k]);
             if (mirrors(here)) std::swap(t[1], t[2]);
@@ -61,7 +61,7 @@ TriangleSoup read(const std::string& bytes, const std::string& format) {
     Assimp::Importer importer;
     const aiScene* scene = importer.ReadFileFromMemory(bytes.data(), bytes.size(), 0, format.c_str());
     if (!scene || !scene->mRootNode) throw std::runtime_error(importer.GetErrorString());
-    // Assimp's own steps take for granted what its readers do not look at.
+    // Assimp's post-processing assumes valid indices, which its readers do not ensure.
     for (unsigned m = 0; m < scene->mNumMeshes; ++m) check_faces(*scene->mMeshes[m]);
     scene = importer.ApplyPostProcessing(aiProcess_Triangulate);
     if (!scene) throw std::runtime_error(importer.GetErrorString());

@@ -52,7 +52,7 @@ Vec3 middle(const FileSurface& surface, int t) {
         count_of(crossed.size(), "pair"), place(at), count_of(left.size(), "pair")));
 }
 
-// Replaces a surface that crosses itself at these pairs by the boundary of what it winds around.
+// Replaces a surface that crosses itself at these pairs of triangles by the boundary of what it winds around.
 void unite(FileSurface& surface, const Pairs& pairs, std::vector<std::string>& mended) {
     int count = 0;
     const std::vector<int> shell = shells_of(surface, count);
@@ -64,12 +64,12 @@ void unite(FileSurface& surface, const Pairs& pairs, std::vector<std::string>& m
     }
     const std::string said = fmt::format("{} of facets crossed", count_of(pairs.size(), "pair"));
     const Vec3 at = middle(surface, pairs[0].first);
-    // Vertices that are made are rounded: what then reaches into another by that is united again.
+    // New vertices are rounded; parts that cross because of that are united again.
     constexpr int passes = 4;
     Pairs left = pairs;
     try {
         for (int pass = 0; pass < passes && !left.empty(); ++pass) {
-            const ClosedMesh whole(surface.vertices, surface.triangles);  // has no triangles without area
+            const ClosedMesh whole(surface.vertices, surface.triangles);  // which drops triangles without area
             UnitedShells united = united_shells(whole.vertices(), whole.triangles(), pass == 0);
             surface = welded({std::move(united.vertices), std::move(united.triangles)});
             drop_collapsed(surface);
@@ -103,8 +103,7 @@ void check_coordinates(const TriangleSoup& soup) {
     if (soup.triangles.empty()) throw UnsoundSurface("expected a solid's surface, got no triangles");
 }
 
-// Drops facets that are there twice, unless that opens the surface: two bodies may have a facet in common, which each
-// of them needs.
+// Drops duplicate facets, unless that opens the surface: two bodies may share a facet that each of them needs.
 void drop_needless_doubles(FileSurface& surface, std::vector<std::string>& mended) {
     FileSurface with_doubles = surface;
     const std::size_t doubles = drop_doubles(surface);
@@ -117,8 +116,8 @@ void drop_needless_doubles(FileSurface& surface, std::vector<std::string>& mende
             fmt::format("dropped {} that {} there twice", count_of(doubles, "facet"), doubles == 1 ? "is" : "are"));
 }
 
-// Closes the surface by joining vertices along its open edges, as near as may be; throws if that does not help. Returns
-// what is left to turn.
+// Closes the surface by joining vertices along its open edges, within the least tolerance that suffices; throws if none
+// does. Returns what remains to be turned.
 Openness close_rims(FileSurface& surface, std::vector<std::string>& mended) {
     Openness open = openness(surface);
     const double size = size_of(surface.vertices);
@@ -147,8 +146,8 @@ void turn_facets_alike(FileSurface& surface, std::vector<std::string>& mended) {
     mended.push_back(fmt::format("turned {} that faced inward", count_of(std::size_t(turned), "facet")));
 }
 
-// Unites shells that cross, if any do, and makes faces flat that a file's single precision bent, unless they cross
-// then.
+// Unites shells that cross, if any, and flattens faces that a file's single precision bent, unless that makes facets
+// cross.
 void unite_and_flatten(FileSurface& surface, const Pairs& crossing, std::vector<std::string>& mended) {
     if (crossing.empty()) {
         flatten_faces(surface.vertices, surface.triangles);
@@ -184,7 +183,7 @@ ClosedSurface closed_surface(const TriangleSoup& soup) {
     settle_shells(surface, trusted, crossing, result.mended);
     unite_and_flatten(surface, crossing, result.mended);
     result.mesh = closed_mesh(std::move(surface));
-    if (!crossing.empty()) {  // what has no area was dropped since
+    if (!crossing.empty()) {  // ClosedMesh has dropped triangles without area
         const Pairs left = crossing_pairs({result.mesh->vertices(), result.mesh->triangles()});
         if (!left.empty()) throw_not_united(result.mesh->corner(left[0].first, 0), crossing, left);
     }

@@ -40,14 +40,15 @@ int orientation(const ExactPoint& a, const ExactPoint& b, const ExactPoint& c, P
     const auto [u, v] = axes;
     const double det =
         (b.near[u] - a.near[u]) * (c.near[v] - a.near[v]) - (b.near[v] - a.near[v]) * (c.near[u] - a.near[u]);
-    // Differences are at most 2 scale, and off by 3 ε scale: four products of such pairs, and their own rounding.
+    // Differences are at most 2 scale with errors of 3 ε scale; the bound covers the products of such pairs and their
+    // rounding.
     if (std::abs(det) > 64 * epsilon * scale * scale) return sign(det);
     return sgn(determinant(b.x[u] - a.x[u], b.x[v] - a.x[v], c.x[u] - a.x[u], c.x[v] - a.x[v]));
 }
 
 int orientation(const ExactPoint& a, const ExactPoint& b, const ExactPoint& c, const ExactPoint& d, double scale) {
     const double det = glm::dot(b.near - a.near, glm::cross(c.near - a.near, d.near - a.near));
-    // Six products of three differences that are at most 2 scale, and off by 3 ε scale.
+    // Six products of three differences, each at most 2 scale with an error of 3 ε scale.
     if (std::abs(det) > 1024 * epsilon * scale * scale * scale) return sign(det);
     return sgn(volume(a, b, c, d));
 }
@@ -120,7 +121,8 @@ void PlaneTriangulation::split_edge(int a, int b, int point) {
 
 void PlaneTriangulation::insert(int point) {
     if (next_.contains(point)) return;
-    // From triangle to triangle across an edge that the point is beyond; then through all, if that goes in circles.
+    // Walks from triangle to triangle across an edge that the point is beyond; if that goes in circles, tries all
+    // triangles.
     const auto look = [&](int a, int b, int c, Edge& beyond) {
         const std::array<int, 3> v{a, b, c};
         int on = -1;
@@ -159,7 +161,7 @@ void PlaneTriangulation::insert_edge(int a, int b) {
             continue;
         }
         const std::optional<Start> begin = start(from, to);
-        if (!begin) continue;  // not for points within the first triangle
+        if (!begin) continue;  // does not happen for points within the first triangle
         if (begin->vertex >= 0) {
             todo.push_back({begin->vertex, to});
             fix(from, begin->vertex);
@@ -169,13 +171,13 @@ void PlaneTriangulation::insert_edge(int a, int b) {
     }
 }
 
-// Whether a point of the line through `from` and `to` is on the same side of `from` as `to`.
+// Whether a point on the line through `from` and `to` is on the same side of `from` as `to`.
 bool PlaneTriangulation::is_ahead(int from, int to, int point) const {
     const int k = cmp(points_[to].x[axes_.u], points_[from].x[axes_.u]) != 0 ? axes_.u : axes_.v;
     return cmp(points_[point].x[k], points_[from].x[k]) * cmp(points_[to].x[k], points_[from].x[k]) > 0;
 }
 
-// The start of the way if it is in the triangle (from, right, left).
+// The start of the path if it leads through the triangle (from, right, left).
 std::optional<PlaneTriangulation::Start> PlaneTriangulation::start_between(int from, int to, int right,
                                                                            int left) const {
     const int r = side(from, to, right), l = side(from, to, left);
@@ -186,7 +188,7 @@ std::optional<PlaneTriangulation::Start> PlaneTriangulation::start_between(int f
     return Start{{right, left}, vertex};
 }
 
-// Looks through the triangles around `from`: to the left by the edges, then to the right.
+// Searches the triangles around `from`: counter-clockwise from next_, then clockwise.
 std::optional<PlaneTriangulation::Start> PlaneTriangulation::start(int from, int to) {
     const int first = next_[from];
     for (int right = first, left; (left = apex(from, right)) >= 0; right = left) {
@@ -198,7 +200,7 @@ std::optional<PlaneTriangulation::Start> PlaneTriangulation::start(int from, int
     return std::nullopt;
 }
 
-// Across triangles, until a vertex on the way or an edge that is given.
+// Follows the path across triangles until it meets a vertex or a given edge.
 PlaneTriangulation::Way PlaneTriangulation::way(int from, int to, Edge first) const {
     Way way{{first}, -1};
     for (auto [right, left] = first; !is_fixed(right, left);) {
@@ -214,7 +216,7 @@ PlaneTriangulation::Way PlaneTriangulation::way(int from, int to, Edge first) co
     return way;
 }
 
-// The point in which the way and a given edge that crosses it meet.
+// The index of the point where the path meets a given edge.
 int PlaneTriangulation::cut_point(int from, int to, Edge given) {
     const ExactPoint &p = points_[given.first], &q = points_[given.second], &s = points_[from], &t = points_[to];
     const auto area = [&](const ExactPoint& x) {
@@ -227,7 +229,7 @@ int PlaneTriangulation::cut_point(int from, int to, Edge given) {
     return number_of_(ExactPoint(std::move(x)));
 }
 
-// Makes an edge of a way that begins across `first`, as far as the next vertex; `todo` is left with its other parts.
+// Makes the path across `first` an edge, up to the next vertex; appends the remaining parts to `todo`.
 void PlaneTriangulation::insert_across(int from, int to, Edge first, std::vector<Edge>& todo) {
     Way passed = way(from, to, first);
     if (passed.end < 0) {
@@ -243,12 +245,12 @@ void PlaneTriangulation::insert_across(int from, int to, Edge first, std::vector
     fix(from, passed.end);
 }
 
-// Flips edges that cross the way from a to b until none does [Sloan 1993].
+// Flips the edges that cross the path from a to b until none does [Sloan 1993].
 void PlaneTriangulation::force(int a, int b, std::vector<Edge> crossed) {
     for (std::size_t i = 0; i < crossed.size(); ++i) {
         const auto [right, left] = crossed[i];
         const int near = apex(right, left), far = apex(left, right);
-        // Flipped where the four corners are a convex quadrilateral; later elsewhere.
+        // An edge can be flipped if its four corners form a convex quadrilateral; others wait.
         if (side(near, right, far) <= 0 || side(far, left, near) <= 0) {
             crossed.push_back(crossed[i]);
             continue;
@@ -264,7 +266,7 @@ void PlaneTriangulation::force(int a, int b, std::vector<Edge> crossed) {
 
 std::vector<std::array<int, 3>> PlaneTriangulation::triangles() const {
     std::vector<std::array<int, 3>> all;
-    for (const auto& [edge, c] : apex_)  // each by its least corner
+    for (const auto& [edge, c] : apex_)  // each triangle once, by its least corner
         if (edge.first < edge.second && edge.first < c) all.push_back({edge.first, edge.second, c});
     return all;
 }

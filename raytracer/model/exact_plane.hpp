@@ -1,6 +1,6 @@
-// Points with rational coordinates, and triangulations of them in a plane: nothing here is rounded.
+// Points with rational coordinates, and triangulations of such points in a plane, all without rounding.
 //
-// Signs of determinants are taken from doubles where the error of these leaves no doubt, and from GMP's rational
+// The sign of a determinant is taken from its value in doubles where that is certain, and computed in GMP's rational
 // numbers elsewhere.
 #pragma once
 #include <gmpxx.h>
@@ -16,65 +16,69 @@
 
 namespace deburr {
 
+/// A point with rational coordinates.
 struct ExactPoint {
     std::array<mpq_class, 3> x;
-    Vec3 near{0.0};  // x, to a unit in the last place
+    Vec3 near{0.0};  // x, exact to a unit in the last place
 
     ExactPoint() = default;
     explicit ExactPoint(Vec3 v);
     explicit ExactPoint(std::array<mpq_class, 3> at);
 };
 
-/// Whether `a` comes before `b` in the order by coordinates; along a line that is one of its directions.
+/// Lexicographic order of the coordinates; points on one line are in order along it.
 bool comes_before(const ExactPoint& a, const ExactPoint& b);
 
-/// Two coordinates of a point, in the order in which a plane that faces along the axis left out is seen from outside.
+/// Two coordinates of a point, ordered so that a plane that faces along the third axis is seen from outside.
 struct PlaneAxes {
     int u = 0, v = 1;
+    /// The two axes other than `left_out`.
     explicit PlaneAxes(int left_out) : u((left_out + 1) % 3), v((left_out + 2) % 3) {}
 };
 
-/// −1, 0 or 1: the orientation of abc in the plane of these axes, 1 where it is counter-clockwise. `scale` is at least
-/// as large as every coordinate.
+/// The orientation of the triangle abc, projected along the axis left out: 1 if counter-clockwise, −1 if clockwise, 0
+/// if collinear. `scale` is an upper bound of all coordinates.
 int orientation(const ExactPoint& a, const ExactPoint& b, const ExactPoint& c, PlaneAxes axes, double scale);
 
-/// −1, 0 or 1: the sign of the volume of abcd, 1 where abc is counter-clockwise seen from d.
+/// The sign of the volume of the tetrahedron abcd: 1 if abc is counter-clockwise as seen from d.
 int orientation(const ExactPoint& a, const ExactPoint& b, const ExactPoint& c, const ExactPoint& d, double scale);
 
-/// The point in which the line through a and b goes through the plane pqr; a and b lie on different sides of that.
+/// The intersection of the line ab with the plane pqr; a and b must lie on different sides of the plane.
 ExactPoint on_plane(const ExactPoint& a, const ExactPoint& b, const ExactPoint& p, const ExactPoint& q,
                     const ExactPoint& r);
 
-/// A triangulation of points in a plane, some of whose edges are given. Points are numbers in a list that others add
-/// to.
+/// A triangulation of points in a plane that contains given edges. Points are indices in a list that is shared with
+/// others.
 class PlaneTriangulation {
 public:
-    /// Adds a point, and returns its number; equal points have one.
+    /// Adds a point to the list and returns its index, or the index of an equal point.
     using NumberOf = std::function<int(const ExactPoint&)>;
 
-    /// The triangle abc, counter-clockwise in the plane of these axes. Keeps references.
+    /// Begins with the triangle abc, which must be counter-clockwise in these axes. Keeps a reference to `points`;
+    /// `scale` is an upper bound of their coordinates.
     PlaneTriangulation(const std::vector<ExactPoint>& points, NumberOf number_of, PlaneAxes axes, double scale, int a,
                        int b, int c);
 
-    /// The point must lie in the first triangle.
+    /// Inserts a point, which must lie in the first triangle.
     void insert(int point);
-    /// Makes the edges from a to b edges of triangles: it is cut at points that lie on it and where it crosses others.
+    /// Makes the segment ab a chain of edges of triangles: it is cut at points that lie on it and where it crosses
+    /// given edges.
     void insert_edge(int a, int b);
 
-    /// Triangles by the numbers of their corners, counter-clockwise, in rising order.
+    /// The triangles as indices of their corners, counter-clockwise, sorted.
     std::vector<std::array<int, 3>> triangles() const;
 
 private:
-    using Edge = std::pair<int, int>;  // directed: a triangle is on its left
-    // Where a way from a point begins.
+    using Edge = std::pair<int, int>;  // directed, with a triangle on its left
+    // The first step of the path from a point towards another.
     struct Start {
-        Edge opposite;  // the edge of the first triangle that is opposite the point, to the way's right and left
-        int vertex;     // of that edge, which lies on the way; −1: none
+        Edge opposite;  // the edge opposite the point in the first triangle, from the path's right to its left
+        int vertex;     // a vertex of that edge that lies on the path; −1: none
     };
-    // What a way passes.
+    // The edges that a path crosses.
     struct Way {
-        std::vector<Edge> crossed;  // edges, each from the way's right to its left
-        int end;  // the first vertex on it; −1: the last of `crossed` is given and cannot be crossed
+        std::vector<Edge> crossed;  // each from the path's right to its left
+        int end;  // the first vertex on the path; −1: the last of `crossed` is a given edge, which must not be crossed
     };
 
     int side(int a, int b, int c) const;
@@ -97,10 +101,10 @@ private:
     NumberOf number_of_;
     PlaneAxes axes_;
     double scale_;
-    std::map<Edge, int> apex_;
-    std::map<int, int> next_;  // of a point: the other end of one edge, that has a triangle on its left
-    std::set<Edge> fixed_;
-    Edge hint_;
+    std::map<Edge, int> apex_;  // of a directed edge: the third corner of the triangle on its left
+    std::map<int, int> next_;   // of a point: the other end of one edge with a triangle on its left
+    std::set<Edge> fixed_;      // given edges, by their ends in rising order
+    Edge hint_;                 // an edge from which insert() starts its search
 };
 
 }  // namespace deburr

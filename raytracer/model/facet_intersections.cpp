@@ -11,12 +11,12 @@ using Corners = std::array<int, 3>;
 
 int sign(double x) { return x > 0 ? 1 : x < 0 ? -1 : 0; }
 
-// Whether there is nothing of a facet in the plane.
+// Whether a facet with its corners on these sides does not meet the plane.
 bool is_beyond(const int (&side)[3]) {
     return (side[0] > 0 && side[1] > 0 && side[2] > 0) || (side[0] < 0 && side[1] < 0 && side[2] < 0);
 }
 
-// Whether nothing but one corner is.
+// Whether it meets the plane in one corner only.
 bool is_beside(const int (&side)[3]) {
     const int up = int(std::count(side, side + 3, 1)), down = int(std::count(side, side + 3, -1));
     return (up == 2 && down == 0) || (up == 0 && down == 2);
@@ -55,14 +55,14 @@ void FacetIntersections::meet(int s, int t) {
     }
     if (shared >= 2) return;
     if (shared == 1 && (is_beside(side_of_s) || is_beside(side_of_t))) return;
-    // Two parts of the line in which their planes meet.
+    // The segments that both facets cut out of the line in which their planes meet.
     const auto a = line_part(s, t, side_of_s), b = line_part(t, s, side_of_t);
     if (!a || !b) return;
     const int from = points_.before(a->from, b->from) ? b->from : a->from;
     const int to = points_.before(a->to, b->to) ? a->to : b->to;
     if (points_.before(to, from)) return;
     for (const int x : {s, t}) {
-        // A corner of its own is there already.
+        // A single point at one of the facet's own corners needs no cut.
         const Corners& own = surface_.triangles[x];
         const auto is_there = [&](int v) { return points_.is_vertex(v, from); };
         if (from == to && std::any_of(own.begin(), own.end(), is_there)) continue;
@@ -71,7 +71,7 @@ void FacetIntersections::meet(int s, int t) {
     }
 }
 
-// On which sides of the plane of one facet the corners of another lie.
+// The sides of the plane of facet `plane` on which the corners of facet `of` lie; 0 for shared corners.
 void FacetIntersections::sides(int plane, int of, int (&side)[3]) const {
     const std::vector<Vec3>& x = surface_.vertices;
     const Corners& p = surface_.triangles[plane];
@@ -82,7 +82,7 @@ void FacetIntersections::sides(int plane, int of, int (&side)[3]) const {
     }
 }
 
-// Whether the insides of two facets of one plane meet: if no edge of either parts them.
+// Whether the interiors of two facets in one plane intersect, that is, no edge of either separates them.
 bool FacetIntersections::overlap(int s, int t) const {
     const PlaneAxes in = surface_.axes(s);
     const auto flat = [&](int facet, int k) { return surface_.flat(facet, k % 3, in); };
@@ -107,7 +107,7 @@ std::optional<FacetIntersections::Segment> FacetIntersections::line_part(int s, 
         const int here = side[k], there = side[(k + 1) % 3];
         if (here == 0) found.push_back(points_.of_vertex(a));
         if (here * there >= 0) continue;
-        // From the same end whichever facet of the edge asks.
+        // Computed from the same end for both facets of the edge, so that both get the same point.
         const int lo = points_.of_vertex(std::min(a, b)), hi = points_.of_vertex(std::max(a, b));
         const int p = points_.of_vertex(plane[0]), q = points_.of_vertex(plane[1]), r = points_.of_vertex(plane[2]);
         found.push_back(points_.number_of(on_plane(points_[lo], points_[hi], points_[p], points_[q], points_[r])));

@@ -1,4 +1,5 @@
-// Where the facets of a surface meet in more than an edge or a corner that they share: in segments, or in one plane.
+// Finds where facets of a surface meet other than in shared edges or vertices: in segments, or by overlapping in a
+// plane.
 #pragma once
 #include <optional>
 #include <vector>
@@ -10,21 +11,23 @@
 
 namespace deburr {
 
+/// All intersections of a surface's facets with each other.
 class FacetIntersections {
 public:
-    /// A segment, or a point, by the numbers of its ends, in their order.
+    /// A segment, or a point if both are equal, as indices of its ends in lexicographic order.
     struct Segment {
         int from, to;
     };
 
-    /// Finds all. `tree`: of the surface's facets. Keeps references.
+    /// Finds all intersections and adds their ends to `points`. `tree` holds the surface's facets. Keeps references to
+    /// `surface` and `points`.
     FacetIntersections(const TriangleSurface& surface, const TriangleTree& tree, ExactPoints& points);
 
-    /// Whether facet t meets another.
+    /// Whether facet t meets another one.
     bool has_any(int t) const { return met_[t]; }
-    /// Where other facets pass through facet t, or touch it.
+    /// The segments along which other facets pass through facet t or touch it.
     const std::vector<Segment>& segments(int t) const { return segments_[t]; }
-    /// A number that facets share which lie in one plane and overlap, or are joined by others that do.
+    /// A number shared by facets that lie in one plane and overlap, directly or through others.
     int cluster(int t) { return clusters_.find(t); }
 
 private:

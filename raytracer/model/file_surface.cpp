@@ -14,6 +14,7 @@ using Corners = ClosedMesh::Corners;
 
 namespace {
 
+// An edge of a triangle: its vertices in rising order, the triangle, the position k in it, and whether it runs upward.
 struct HalfEdge {
     int lo, hi, triangle, k;
     bool up;
@@ -32,7 +33,7 @@ std::vector<HalfEdge> sorted_edges(const FileSurface& surface) {
     return edges;
 }
 
-// Calls visit(first, last) for the half-edges of each edge.
+// Calls visit(first, last) for the range of half-edges of each edge.
 template <class Visit>
 void each_edge(const std::vector<HalfEdge>& edges, Visit visit) {
     for (std::size_t i = 0; i < edges.size();) {
@@ -50,7 +51,7 @@ FileSurface welded(const TriangleSoup& soup) {
     std::vector<int> order(soup.vertices.size()), number(soup.vertices.size());
     std::iota(order.begin(), order.end(), 0);
     const auto key = [&](int i) {
-        const Vec3 v = soup.vertices[i] + 0.0;  // −0 is 0
+        const Vec3 v = soup.vertices[i] + 0.0;  // turns −0 into 0
         return std::tuple(v.x, v.y, v.z);
     };
     std::sort(order.begin(), order.end(), [&](int a, int b) { return key(a) != key(b) ? key(a) < key(b) : a < b; });
@@ -74,7 +75,7 @@ void drop_collapsed(FileSurface& surface) {
 std::size_t drop_doubles(FileSurface& surface) {
     struct Key {
         Corners sorted;
-        bool even;  // orientation
+        bool even;  // orientation of the sorted corners
         int at;
     };
     std::vector<Key> keys;
@@ -185,7 +186,7 @@ long turn_alike(FileSurface& surface) {
                 }
             }
         }
-        // The lesser part is what is wrong.
+        // The smaller part is taken to be wrong.
         const auto flipped = std::count_if(all.begin(), all.end(), [&](int t) { return turned[t] == 1; });
         const bool other = 2 * flipped > long(all.size());
         for (const int t : all)

@@ -1,4 +1,4 @@
-// Triangles as a file has them: which corners are one, which triangles one too many, and how they hang together.
+// Triangles as read from a file, as an indexed surface: joins vertices, drops duplicates, finds open edges and shells.
 #pragma once
 #include <vector>
 
@@ -7,38 +7,41 @@
 
 namespace deburr {
 
+/// An indexed triangle surface that need not be closed.
 struct FileSurface {
     std::vector<Vec3> vertices;
     std::vector<ClosedMesh::Corners> triangles;
 };
 
-/// Vertices that are equal are one, in the order in which the file has them, so that equal files give equal meshes
-/// whatever their vertices' values.
+/// Joins vertices at equal positions. Vertices keep the file's order, so that the result does not depend on their
+/// values.
 FileSurface welded(const TriangleSoup& soup);
 
-/// Drops triangles of which two corners are one.
+/// Drops triangles that have two equal corners.
 void drop_collapsed(FileSurface& surface);
 
-/// Equal triangles count once, and a pair back to back not at all. Returns how many went.
+/// Keeps one of several equal triangles, and none of a pair of opposite ones. Returns how many were dropped.
 std::size_t drop_doubles(FileSurface& surface);
 
-/// Edges at which a surface does not close.
+/// The edges at which a surface is not closed.
 struct Openness {
-    std::size_t open = 0;      // edges with an odd number of triangles
-    std::size_t unturned = 0;  // even, but not as many one way as the other
-    Vec3 place{0.0};           // of the first open one
-    std::vector<int> rim;      // vertices of open edges
+    std::size_t open = 0;      // number of edges with an odd number of triangles
+    std::size_t unturned = 0;  // edges with an even number, but unequally many in each direction
+    Vec3 place{0.0};           // middle of the first open edge
+    std::vector<int> rim;      // vertices of open edges, sorted
 };
 
 Openness openness(const FileSurface& surface);
 
-/// Joins vertices of open edges that are within `distance` of one another.
+/// Joins vertices of `rim` that are within `distance` of each other.
 void weld_rim(FileSurface& surface, const std::vector<int>& rim, double distance);
 
-/// The shell of each triangle, and the number of shells: triangles that hang together by edges that two of them share.
+/// The shell of each triangle, and the number of shells: triangles are in one shell if they are connected by edges that
+/// have exactly two triangles.
 std::vector<int> shells_of(const FileSurface& surface, int& count);
 
-/// Turns triangles so that neighbours agree; returns how many, or −1 where a shell has one side only.
+/// Turns triangles so that neighbours have the same orientation. Returns how many were turned, or −1 if a shell is
+/// one-sided.
 long turn_alike(FileSurface& surface);
 
 }  // namespace deburr

@@ -16,7 +16,7 @@ struct Plane {
     double offset = 0;
 };
 
-// The plane that fits these points best, with a normal on the side of `outward`.
+// The least-squares plane of these points, with its normal on the side of `outward`.
 Plane fitted(const std::vector<Vec3>& vertices, const std::vector<int>& points, Vec3 outward) {
     Vec3 center(0.0);
     for (const int v : points) center += vertices[v] / double(points.size());
@@ -30,7 +30,7 @@ Plane fitted(const std::vector<Vec3>& vertices, const std::vector<int>& points, 
     for (int k = 1; k < 3; ++k)
         if (e.values[k] < e.values[least]) least = k;
     Vec3 normal = e.vectors[least];
-    // What is along an axis but for rounding is along it.
+    // Components that are 0 up to rounding become 0, so that the normal is exactly along an axis.
     for (int k = 0; k < 3; ++k)
         if (std::abs(normal[k]) < 1e-9) normal[k] = 0;
     normal = glm::normalize(normal);
@@ -38,7 +38,7 @@ Plane fitted(const std::vector<Vec3>& vertices, const std::vector<int>& points, 
     return {normal, glm::dot(normal, center)};
 }
 
-// The triangle across each edge; −1 where there is not just one.
+// The triangle across each edge; −1 where there is not exactly one.
 std::vector<Corners> neighbours(const std::vector<Corners>& triangles) {
     struct HalfEdge {
         int lo, hi, triangle, k;
@@ -65,7 +65,7 @@ std::vector<Corners> neighbours(const std::vector<Corners>& triangles) {
     return across;
 }
 
-// The shortest way from x onto all of the planes, as far as they leave one.
+// The shortest translation that moves x onto all of the planes, as far as they intersect.
 Vec3 onto(const std::vector<Plane>& planes, Vec3 x) {
     Mat3 square(0.0);
     Vec3 right(0.0);
@@ -86,7 +86,8 @@ Vec3 onto(const std::vector<Plane>& planes, Vec3 x) {
 void flatten_faces(std::vector<Vec3>& vertices, const std::vector<Corners>& triangles) {
     double scale = 0;
     for (const Vec3& v : vertices) scale = std::max(scale, largest(v));
-    const double tolerance = 0x1p-21 * scale;  // of a float's rounding, 2⁻²⁵, with room for what was computed from it
+    // 16 roundings of a float (2⁻²⁵), as positions may have been computed from one
+    const double tolerance = 0x1p-21 * scale;
     std::vector<Vec3> areas;
     for (const Corners& t : triangles)
         areas.push_back(glm::cross(vertices[t[1]] - vertices[t[0]], vertices[t[2]] - vertices[t[0]]));
@@ -103,7 +104,7 @@ void flatten_faces(std::vector<Vec3>& vertices, const std::vector<Corners>& tria
         if (done[seed] || !(size(seed) > 0)) continue;
         const Vec3 normal = glm::normalize(areas[seed]);
         const double offset = glm::dot(normal, vertices[triangles[seed][0]]);
-        // A plane through a small triangle is known badly far away: faces grow from their largest.
+        // A small triangle determines its plane badly far away, so faces grow from their largest triangle.
         const auto lies_in = [&](int t) {
             constexpr double least_cosine = 0.9;
             for (const int v : triangles[t])

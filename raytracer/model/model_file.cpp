@@ -24,9 +24,9 @@
 namespace deburr {
 namespace {
 
-constexpr std::size_t largest_file = std::size_t(2) << 30;
+constexpr std::size_t largest_file = std::size_t(2) << 30;  // bytes
 
-// A reader may take this much memory for each byte of a file, and besides. A text of "f 1 2 3" is the densest.
+// Memory that a reader may use for each byte of a file, and in addition. The densest text is "f 1 2 3".
 constexpr std::size_t memory_per_byte = 48, least_memory = std::size_t(1) << 30;
 constexpr std::size_t bytes_per_second = std::size_t(1) << 20, least_seconds = 20;
 
@@ -51,7 +51,7 @@ std::string file_bytes(const std::string& path) {
     return bytes;
 }
 
-// Pipes.
+// Complete reads and writes on pipes; false if the other end is gone.
 
 bool put(int to, const void* data, std::size_t size) {
     const char* at = static_cast<const char*>(data);
@@ -77,11 +77,12 @@ bool get(int from, void* data, std::size_t size) {
     return true;
 }
 
+// Precedes the data that the reader's process sends; a message means that it failed.
 struct Sizes {
     std::uint64_t vertices = 0, triangles = 0, message = 0;
 };
 
-// In the reader's own process.
+// Runs in the reader's own process: sets its limits, reads the bytes and sends the result.
 [[noreturn]] void serve(int to, ModelReader* reader, const std::string& bytes, const std::string& format) {
     const auto limit = [](int what, std::size_t most) {
         rlimit l{};
@@ -95,9 +96,9 @@ struct Sizes {
     limit(RLIMIT_CORE, 0);
     const std::size_t seconds = least_seconds + bytes.size() / bytes_per_second;
     limit(RLIMIT_CPU, seconds);
-    alarm(unsigned(10 * seconds));  // a reader that waits takes no time of the processor
-#if !DEBURR_IS_SANITIZED            // whose shadow memory takes all addresses
-    // What is mapped already counts, too: the program's own arenas.
+    alarm(unsigned(10 * seconds));  // a reader that waits uses no CPU time
+#if !DEBURR_IS_SANITIZED            // its shadow memory needs all addresses
+    // Memory that is mapped already counts, too, such as the program's own arenas.
     limit(RLIMIT_AS, least_memory + memory_per_byte * bytes.size() + (std::size_t(8) << 30));
     limit(RLIMIT_DATA, least_memory + memory_per_byte * bytes.size() + bytes.size());
 #endif
@@ -142,7 +143,7 @@ TriangleSoup read_apart(const std::string& bytes, const std::string& format, con
     TriangleSoup soup;
     std::string message;
     bool whole = get(ends[0], &sizes, sizeof sizes);
-    // No file holds more than a triangle for every other byte.
+    // No file holds more than a triangle for every byte, or more than three vertices.
     if (whole && sizes.triangles <= bytes.size() && sizes.vertices <= 3 * bytes.size()) {
         message.resize(sizes.message);
         soup.vertices.resize(sizes.vertices);

@@ -1,7 +1,8 @@
-// Models from files: STL, OBJ, PLY, OFF, 3MF, GLB and glTF, and what OpenSCAD makes of .scad and .csg.
+// Reads models from files: STL, OBJ, PLY, OFF, 3MF, GLB and glTF, and the output of OpenSCAD for .scad and .csg.
 //
-// Files come from anywhere, and the libraries that read them were not written to take anything: they run in a process
-// of their own, with limits of memory and time that the file's size sets, and its end is one line.
+// Files come from anywhere, and the libraries that read them do not withstand all input, so they run in a process of
+// their own, with limits of memory and time that follow from the file's size. If that process fails, the error is one
+// line.
 #pragma once
 #include <string>
 #include <vector>
@@ -10,14 +11,15 @@
 
 namespace deburr {
 
+/// A model that was read.
 struct Model {
     ClosedMeshPtr mesh;
-    std::vector<std::string> mended;  // what was done to the file's surface, if anything
-    std::string format;               // "stl"
+    std::vector<std::string> mended;  // repairs of the file's surface, for messages
+    std::string format;               // such as "stl"
 };
 
-/// Reads the file. Throws SceneError where it is not what it seems to be, and UnsupportedError where its surface bounds
-/// no solid; both name the file in one line.
+/// Reads a model. Throws SceneError if the file is not a valid model, and UnsupportedError if its surface does not
+/// bound a solid; both messages are one line that names the file.
 Model read_model(const std::string& path);
 
 }  // namespace deburr

@@ -25,7 +25,7 @@ std::string extension(const std::string& path) {
 
 [[noreturn]] void fail(const std::string& path, const std::string& what) { throw SceneError(one_line(what, path)); }
 
-// 80 bytes of any text, a count, and 50 bytes a facet.
+// Sizes in bytes: 80 bytes of any text and a count, then 50 bytes for each facet.
 constexpr std::size_t stl_header = 84, stl_facet = 50;
 
 std::size_t stl_count(const std::string& bytes) {
@@ -34,7 +34,8 @@ std::size_t stl_count(const std::string& bytes) {
     return count;
 }
 
-// Its reader takes memory and time for as many elements as the header claims.
+// A PLY reader allocates memory for as many elements as the header claims, so a claim of more than one per byte is
+// refused.
 void check_ply_counts(const std::string& bytes, const std::string& path) {
     const std::size_t end = std::min(bytes.find("end_header"), bytes.size());
     const std::string sign = "element ";

@@ -34,7 +34,7 @@ std::string text_of(const fs::path& path) {
     return text.str();
 }
 
-// The lines that begin with one of OpenSCAD's words for what went wrong.
+// The lines of the output that begin with one of OpenSCAD's words for problems.
 std::vector<std::string> complaints(const std::string& said) {
     std::vector<std::string> found;
     std::istringstream lines(said);
@@ -56,7 +56,7 @@ std::string openscad_output(const std::string& path) {
             one_line(fmt::format("{}: expected a model, got: No such file or directory", file_mark), path));
     const TemporaryFolder folder;
     const std::string stl = (folder / "model.stl").string(), log = (folder / "log").string();
-    // A name that begins with a dash would be an option.
+    // A name that begins with a dash would be taken for an option.
     const std::string input = path.rfind('-', 0) == 0 ? "./" + path : path;
     std::string words[] = {"openscad", "-o", stl, input};
     char* arguments[] = {words[0].data(), words[1].data(), words[2].data(), words[3].data(), nullptr};

@@ -1,12 +1,12 @@
-// OpenSCAD's models, through the program `openscad`, any version.
+// Converts OpenSCAD programs to meshes by the program `openscad`, any version.
 #pragma once
 #include <string>
 
 namespace deburr {
 
-/// The STL that `openscad` makes of a .scad or .csg. What the program says while it works goes to stderr where it says
-/// WARNING or ERROR. Throws UnsupportedError where the program is not installed, and SceneError, with its own words,
-/// where it fails.
+/// The STL that `openscad` makes of a .scad or .csg file. Its lines with WARNING or ERROR are copied to stderr. Throws
+/// UnsupportedError if `openscad` is not installed, SceneError with its messages if it fails, and WorkError if it
+/// cannot be started.
 std::string openscad_output(const std::string& path);
 
 }  // namespace deburr

@@ -14,7 +14,7 @@ using Corners = ClosedMesh::Corners;
 
 namespace {
 
-// Six times the volume that triangles enclose, less than 0 where they face inward.
+// Six times the volume enclosed by the triangles, negative if they face inward.
 double six_volumes(const FileSurface& surface, const std::vector<Corners>& triangles) {
     double six = 0;
     const Vec3 o = surface.vertices[triangles[0][0]];
@@ -23,11 +23,11 @@ double six_volumes(const FileSurface& surface, const std::vector<Corners>& trian
     return six;
 }
 
-// Shells as solids of their own, to see which lies in which.
+// A shell as a solid of its own, used to find out which shells lie inside others.
 struct Shell {
     std::vector<int> triangles;
-    std::unique_ptr<ClosedMesh> mesh;  // faces outward
-    int sign = 1;                      // −1: faced inward
+    std::unique_ptr<ClosedMesh> mesh;  // faces outward; null if it is not closed alone
+    int sign = 1;                      // −1: it faced inward in the file
 };
 
 std::vector<Shell> shells(const FileSurface& surface) {
@@ -44,7 +44,7 @@ std::vector<Shell> shells(const FileSurface& surface) {
             for (Corners& c : own) std::swap(c[1], c[2]);
         try {
             shell.mesh = std::make_unique<ClosedMesh>(surface.vertices, std::move(own));
-        } catch (const NotClosed&) {  // it hangs together with others at edges of four triangles
+        } catch (const NotClosed&) {  // it is connected to others by edges with four triangles
         }
     }
     return all;
@@ -55,7 +55,7 @@ bool holds(const Shell& outer, const Shell& inner) {
     const Box a = outer.mesh->bounding_box(), b = inner.mesh->bounding_box();
     for (int k = 0; k < 3; ++k)
         if (b.lo[k] < a.lo[k] || b.hi[k] > a.hi[k]) return false;
-    // They do not cross, but may touch in a point: the middles of a few triangles decide.
+    // The shells do not cross but may touch in a point, so the middles of a few triangles decide by majority.
     int in = 0, asked = 0;
     const int step = std::max(1, int(inner.mesh->size()) / 5);
     for (int t = 0; t < int(inner.mesh->size()); t += step, ++asked)
@@ -75,20 +75,20 @@ void settle_shells(FileSurface& surface, bool trusted, const std::vector<std::pa
         const std::vector<int> shell = shells_of(surface, count);
         for (const auto& [a, b] : crossing) cross.insert(std::minmax(shell[a], shell[b]));
     }
-    std::vector<char> meets(all.size(), false);  // another; one that faces inward may be a hole in that
+    std::vector<char> meets(all.size(), false);  // crosses another shell; if it faces inward, it may be a hole in that
     for (const auto& [a, b] : cross)
         if (a != b) meets[a] = meets[b] = true;
-    constexpr std::size_t most = 2'000;  // their pairs are looked at
+    constexpr std::size_t most = 2'000;  // shells; all pairs are compared
     if (all.size() > most) return;
     std::size_t turned = 0, dropped = 0;
-    if (trusted && six_volumes(surface, surface.triangles) < 0) {  // all of it is inside out
+    if (trusted && six_volumes(surface, surface.triangles) < 0) {  // the whole surface is inside out
         for (Corners& c : surface.triangles) std::swap(c[1], c[2]);
         for (Shell& shell : all) shell.sign = -shell.sign;
         turned = surface.triangles.size();
     }
     std::vector<char> gone(surface.triangles.size(), false);
     for (std::size_t i = 0; i < all.size(); ++i) {
-        if (!all[i].mesh) continue;  // part of a body whose facets are another's, too: it has no side of its own
+        if (!all[i].mesh) continue;  // it belongs to a body that shares facets with another, and has no side of its own
         int outside = 0, depth = 0;
         for (std::size_t j = 0; j < all.size(); ++j)
             if (j != i && holds(all[j], all[i]) && !cross.contains(std::minmax(int(i), int(j)))) {

@@ -1,4 +1,4 @@
-// Which side of each shell of a file's surface is the solid's.
+// Decides for each shell of a file's surface which side of it is solid.
 #pragma once
 #include <string>
 #include <utility>
@@ -8,9 +8,9 @@
 
 namespace deburr {
 
-/// Turns shells so that the solid is where it must be, and drops those around which it is already; `trusted`: what the
-/// file says of the sides counts. Shells that cross at these pairs of triangles lie in each other no more than side by
-/// side, and stay. Adds to `mended` what was done.
+/// Turns shells so that they bound the solid, and drops shells around which the solid is already. `trusted` says
+/// whether the orientations in the file are used. `crossing` lists pairs of triangles that cross; shells with such
+/// pairs are not taken as nested, and stay. Appends the repairs to `mended`.
 void settle_shells(FileSurface& surface, bool trusted, const std::vector<std::pair<int, int>>& crossing,
                    std::vector<std::string>& mended);
 

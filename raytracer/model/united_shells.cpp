@@ -16,19 +16,21 @@ namespace {
 
 using Corners = std::array<int, 3>;
 
-// A part of the surface: a facet, or what cuts have left of some in one plane.
+// A part of the surface: a whole facet, or a triangle that cutting the facets of one plane has left.
 struct Part {
-    Corners corners{};  // points if cut, else the file's vertices; counter-clockwise along `axis`
-    int cluster = -1;   // of facets in one plane that overlap, or −1 − t of the facet t that is whole
-    int count = 1;      // how many face along the axis, less those that face the other way
+    Corners corners{};  // points if cut, else vertices of the file; counter-clockwise along the axis
+    int cluster = -1;   // index of the facets in one plane, in members_; −1 − t: the whole facet t
+    int count = 1;      // facets that face along the axis minus those that face the other way
 };
 
-// A facet that is cut, as its plane's axis sees it.
+// A facet to be cut, as seen along its plane's axis.
 struct CutFacet {
     Corners corners;  // points, counter-clockwise
-    int count;        // 1 if the facet faces along the axis, −1 if it faces the other way
+    int count;        // 1 if the facet faces along the axis, else −1
 };
 
+// The arrangement of a surface's facets: they are cut along their intersections, and the parts on the boundary are
+// kept.
 class Arrangement {
 public:
     Arrangement(const std::vector<Vec3>& vertices, const std::vector<Corners>& triangles)
@@ -45,7 +47,7 @@ public:
     }
 
 private:
-    // Facets that meet others are cut along all that they meet, those that overlap in one plane together.
+    // Cuts the facets that meet others along all intersections; facets that overlap in one plane are cut together.
     void cut() {
         std::map<int, std::vector<int>> members;
         for (int t = 0; t < surface_.size(); ++t)
@@ -60,7 +62,7 @@ private:
         }
     }
 
-    // Whole facets keep the file's numbers until all have exact ones.
+    // A facet that is not cut. It keeps the file's numbers of vertices until all parts get exact points.
     Part whole(int t) const {
         const int k = surface_.axis(t);
         Corners c = surface_.triangles[t];
@@ -69,7 +71,7 @@ private:
         return {c, -1 - t, faces_along ? 1 : -1};
     }
 
-    // Cuts these facets of one plane.
+    // Cuts these facets, which lie in one plane.
     void cut(const std::vector<int>& all) {
         const PlaneAxes in = surface_.axes(all[0]);
         std::vector<CutFacet> facets;
@@ -95,9 +97,9 @@ private:
         return facet;
     }
 
-    // The triangles of a plane whose edges are the facets' edges and where they meet others, by points.
+    // The triangulation of one plane by the edges of these facets and by their intersections with others, as points.
     std::vector<Corners> cells(const std::vector<int>& all, const std::vector<CutFacet>& facets, PlaneAxes in) {
-        // At least of what the coordinates of the triangle around all are, in those of the facets.
+        // Upper bound of the coordinates of triangle_around(), relative to those of the facets.
         constexpr double scale_around = 32;
         const bool is_alone = all.size() == 1;
         const auto [a, b, c] = is_alone ? facets[0].corners : triangle_around(all, in);
@@ -117,7 +119,7 @@ private:
         return cells.triangles();
     }
 
-    // A triangle that all these facets lie within.
+    // A triangle that contains all these facets.
     Corners triangle_around(const std::vector<int>& all, PlaneAxes in) {
         Vec2 lo(infinity), hi(-infinity);
         for (const int t : all)
@@ -136,7 +138,7 @@ private:
                 corner(lo.x - width, hi.y + 4 * width)};
     }
 
-    // How many of the facets at x face along the axis, less those that face the other way.
+    // The number of facets at x that face along the axis, minus those that face the other way.
     int count_at(const ExactPoint& x, const std::vector<CutFacet>& facets, PlaneAxes in) const {
         int count = 0;
         for (const CutFacet& facet : facets)
@@ -148,7 +150,7 @@ private:
         return orientation(points_[c[0]], points_[c[1]], points_[c[2]], in, scale_);
     }
 
-    // 1 within, 0 on the border, −1 outside.
+    // 1 if x is inside the triangle, 0 on its border, −1 outside.
     int holds(const Corners& c, const ExactPoint& x, PlaneAxes in) const {
         int least = 1;
         for (int k = 0; k < 3; ++k)
@@ -156,7 +158,7 @@ private:
         return least;
     }
 
-    // A point within.
+    // A point inside the triangle: the average of its corners with weights 1, `second` and `third`.
     ExactPoint weighted(const Corners& c, int second, int third) const {
         std::array<mpq_class, 3> x;
         for (int k = 0; k < 3; ++k)
@@ -165,7 +167,8 @@ private:
         return ExactPoint(std::move(x));
     }
 
-    // Parts that hang together at edges of two lie between the same two places.
+    // For each part the sheet that it belongs to: parts connected by edges that have exactly two of them, on each side
+    // of which the winding number is the same.
     std::vector<int> sheets() {
         struct HalfEdge {
             int lo, hi, part;
@@ -193,13 +196,14 @@ private:
 
     int axis_of(const Part& p) const { return surface_.axis(p.cluster < 0 ? -1 - p.cluster : members_[p.cluster][0]); }
 
-    // How often the surface winds around what lies on the part's side along its axis.
+    // The winding number of the surface on the side of the part that its axis points to.
     int winding(const Part& p) {
         const int k = axis_of(p);
         const PlaneAxes in(k);
         const int own = p.cluster < 0 ? -1 - p.cluster : -1;
         const std::vector<int> none, &cluster = p.cluster < 0 ? none : members_[p.cluster];
-        // Through a point that lies on no edge, seen along the axis; another one where it does.
+        // Counts along a ray parallel to the axis, from a point of the part; if the ray meets an edge, another point is
+        // tried.
         for (int attempt = 1;; ++attempt) {
             const ExactPoint x = weighted(p.corners, attempt, 3 * attempt * attempt + 2);
             Box box{x.near, x.near};
@@ -215,7 +219,7 @@ private:
                 const int within = holds(c, x, in);
                 if (within == 0) is_clear = false;
                 if (way == 0 || within <= 0) return is_clear;
-                // Seen from above the corners run counter-clockwise.
+                // The corners are counter-clockwise as seen from above.
                 const int above = orientation(points_[c[0]], points_[c[1]], points_[c[2]], x, scale_);
                 if (above < 0) sum += way;
                 return true;
@@ -224,7 +228,7 @@ private:
         }
     }
 
-    // What the surface is at a sheet: how often it winds around either side.
+    // The winding numbers in front of a sheet and behind it.
     struct Sides {
         int front, behind;
     };
@@ -234,7 +238,7 @@ private:
         return p.count > 0 ? Sides{w, w + p.count} : Sides{w + p.count, w};
     }
 
-    // The parts between a place that the surface winds around and one that it does not.
+    // The parts with a winding number of at least 1 on exactly one side.
     UnitedShells kept(bool strict) {
         for (std::size_t p = 0; p < cut_begin_; ++p)
             for (int& v : parts_[p].corners) v = points_.of_vertex(v);
@@ -243,7 +247,7 @@ private:
         std::map<int, int> vertex;
         std::size_t inside_out = 0;
         Vec3 place(0.0);
-        // The sides of a sheet's parts by which way the surface faces, for their axes differ.
+        // By the side that the surface faces, since the axes of a sheet's parts differ.
         std::map<int, std::optional<Sides>> sides;
         for (std::size_t i = 0; i < parts_.size(); ++i) {
             const Part& p = parts_[i];
@@ -257,7 +261,7 @@ private:
         return result;
     }
 
-    // Adds the part to the result; `vertex`: of each point, its number there.
+    // Adds the part to the result; `vertex` maps points to their vertices there.
     void keep(const Part& p, std::map<int, int>& vertex, UnitedShells& result) const {
         Corners c = p.corners;
         if (p.count < 0) std::swap(c[1], c[2]);
@@ -276,8 +280,8 @@ private:
     ExactPoints points_;
     FacetIntersections intersections_;
     std::vector<Part> parts_;
-    std::size_t cut_begin_ = 0;              // parts before are whole facets
-    std::vector<std::vector<int>> members_;  // of clusters, in rising order
+    std::size_t cut_begin_ = 0;              // the parts before it are whole facets
+    std::vector<std::vector<int>> members_;  // sorted facets of each plane that was cut
 };
 
 }  // namespace

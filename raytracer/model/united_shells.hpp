@@ -1,9 +1,9 @@
-// The union of shells that overlap, or of a shell that passes through itself: the boundary of all points around which
-// the surface winds at least once.
+// Unites shells that overlap, or one that passes through itself: the result is the boundary of all points with a
+// winding number of at least one.
 //
-// Triangles are cut where they meet others, and each part is kept if the surface winds around one of its sides and not
-// around the other [Zhou, Grinspun, Zorin & Jacobson 2016, Mesh arrangements for solid geometry]. All is decided in
-// rational numbers; only the vertices that are made are rounded in the end.
+// Triangles are cut where they meet others, and a part is kept if the surface winds around exactly one of its sides
+// [Zhou, Grinspun, Zorin & Jacobson 2016, Mesh arrangements for solid geometry]. All decisions are made in rational
+// numbers; only the new vertices are rounded, at the end.
 #pragma once
 #include <array>
 #include <stdexcept>
@@ -13,20 +13,21 @@
 
 namespace deburr {
 
-/// Thrown where a surface winds around some places less than no times: what is meant there is not known.
+/// The surface has places with a negative winding number, where the solid is undefined.
 struct InsideOut : std::runtime_error {
     InsideOut(std::size_t how_many, Vec3 where) : std::runtime_error("inside out"), count(how_many), place(where) {}
-    std::size_t count;  // of parts of facets next to such a place
-    Vec3 place;
+    std::size_t count;  // number of parts of facets next to such a place
+    Vec3 place;         // a point of the first one
 };
 
+/// The result of united_shells().
 struct UnitedShells {
     std::vector<Vec3> vertices;
     std::vector<std::array<int, 3>> triangles;
 };
 
-/// The surface must be closed, no two vertices equal, and no triangle without area. `strict`: throws InsideOut; else
-/// what is inside out is left out.
+/// Unites the shells of a surface, which must be closed, without equal vertices and without triangles of no area. If
+/// there are places with a negative winding number, throws InsideOut if `strict`, and leaves them out otherwise.
 UnitedShells united_shells(const std::vector<Vec3>& vertices, const std::vector<std::array<int, 3>>& triangles,
                            bool strict = true);
 
