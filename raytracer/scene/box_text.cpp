@@ -7,7 +7,7 @@
 namespace deburr {
 namespace {
 
-// Slack is some 10⁻⁹ of the box's largest coordinate.
+// Removes the slack, which is some 10⁻⁹ of the box's largest coordinate.
 double without_slack(double x, double largest) {
     constexpr double digits = 1e8;
     const double unit = std::pow(10.0, std::ceil(std::log10(std::max(largest, 1.0))) + 1);

@@ -1,4 +1,4 @@
-// Boxes in words.
+// Boxes as text for messages.
 #pragma once
 #include <string>
 
@@ -6,8 +6,8 @@
 
 namespace deburr {
 
-/// "[0, 3] x [0, 1] x [0, 1]", "[0, 1]³" or "empty", without the hair by which boxes are larger than what they hold for
-/// certain.
+/// The box as text: "[0, 3] x [0, 1] x [0, 1]", "[0, 1]³" or "empty". Sides are rounded to remove the slack by which
+/// boxes are larger than their content.
 std::string box_text(const Box& box);
 
 }  // namespace deburr

@@ -12,16 +12,15 @@
 namespace deburr {
 namespace {
 
-// Relative to the size of the body: thinner than this has no volume, planes nearer than this are
-// one. Chosen: points computed in a scene are off by some 10⁻¹⁵, features as small as 10⁻⁹ of the
-// whole are not meant.
+// Relative to the size of the body: a thinner body has no volume, and closer planes are one. Chosen: points computed in
+// a scene have errors of some 10⁻¹⁵, and nobody means features as small as 10⁻⁹ of the whole.
 constexpr double flatness = 1e-9;
 
 bool before(Vec3 a, Vec3 b) { return std::tie(a.x, a.y, a.z) < std::tie(b.x, b.y, b.z); }
 
 Vec3 without_negative_zero(Vec3 v) { return v + Vec3(0.0); }
 
-// The point of `points` for which `measure` is largest.
+// The point for which `measure` is largest.
 template <class Measure>
 Vec3 farthest(const std::vector<Vec3>& points, Measure measure) {
     return *std::max_element(points.begin(), points.end(), [&](Vec3 a, Vec3 b) { return measure(a) < measure(b); });
@@ -75,7 +74,7 @@ struct Hull {
     }
 };
 
-// Unit, and without rounding where it is parallel to an axis.
+// The unit vector, without rounding if it is parallel to an axis.
 Vec3 unit(Vec3 v) {
     v /= glm::max(std::abs(v.x), glm::max(std::abs(v.y), std::abs(v.z)));
     return without_negative_zero(v / glm::length(v));
@@ -125,7 +124,7 @@ std::vector<HullFace> convex_hull(std::vector<Vec3> points) {
             return glm::distance(face.normal, other.normal) < flatness &&
                    std::abs(face.offset - other.offset) < flatness * size;
         };
-        // Sorted by x first: only the latest can be near.
+        // Faces are sorted by x first, so only the latest ones can be near.
         auto other = merged.rbegin();
         while (other != merged.rend() && face.normal.x - other->normal.x < flatness && !same(*other)) ++other;
         if (other == merged.rend() || !same(*other)) merged.push_back(face);

@@ -1,7 +1,7 @@
-// Half-spaces of convex bodies that a scene gives by points.
+// Half-spaces of convex bodies given by points.
 //
-// Points that span no volume throw std::runtime_error. Results depend on the set of points only, not on their order;
-// faces parallel to an axis are exact.
+// Points that span no volume throw std::runtime_error. The result depends only on the set of points, not on their
+// order; faces parallel to an axis are exact.
 #pragma once
 #include <vector>
 
@@ -9,13 +9,13 @@
 
 namespace deburr {
 
-/// n·x ≤ d, n unit and outward.
+/// A half-space n·x ≤ offset with a unit normal that points outward.
 struct HullFace {
     Vec3 normal;
     double offset;
 };
 
-/// The convex hull (by qhull); faces in one plane are one half-space.
+/// The faces of the convex hull (by qhull); facets in one plane are one face.
 std::vector<HullFace> convex_hull(std::vector<Vec3> points);
 
 }  // namespace deburr

@@ -1,8 +1,9 @@
-// With x to the right, y up and z towards the eye e, and t the tangents of half the angles of view, a point p is in
-// the picture where |p.x − e.x| ≤ t.x (e.z − p.z), and so for y. So of the solids nothing matters but the four
-// largest values of ±p.x + t.x p.z and ±p.y + t.y p.z, which are sides of the boxes of two linear images of them:
+// Let x point to the right, y up and z towards the eye e, and t be the tangents of half the angles of view. A point p
+// is in the picture where |p.x − e.x| ≤ t.x (e.z − p.z), and likewise for y. So all that matters of the solids are the
+// four greatest values of ±p.x + t.x p.z and ±p.y + t.y p.z, which are sides of the boxes of two linear images of them.
+// Then
 //     e.z = max over both axes of (right + left) / 2t,   e.x = (right − left) / 2,   e.y = (top − bottom) / 2
-// leaves the same margin on opposite sides, and none on those that decide.
+// leaves equal margins on opposite sides, and none on the sides that decide.
 #include "raytracer/scene/frame_camera.hpp"
 
 #include <algorithm>
@@ -18,13 +19,14 @@
 namespace deburr {
 namespace {
 
-// The part of the picture's width or height that the solids fill. Chosen.
+// Fraction of the picture's width or height that the solids fill (chosen).
 constexpr double filled = 0.86;
 
-// Boxes of linear images are found by laying a solid out anew; of a larger one the corners of its box do.
+// The box of a linear image is computed from the transformed solid; of a solid with more leaves, from the corners of
+// its box.
 constexpr double max_laid_out = 20'000;
 
-// `up` and a direction this nearly parallel leave no direction for the picture's side. Chosen.
+// Sine of the angle between `up` and a direction below which they do not determine the picture's side (chosen).
 constexpr double min_sine = 1e-3;
 
 struct Axes {
@@ -35,30 +37,30 @@ Axes axes_of(Vec3 from, Vec3 up) {
     Axes axes;
     axes.back = glm::normalize(from);
     Vec3 side = glm::cross(up, axes.back);
-    // Straight from above the picture's upper edge is the far one.
+    // Seen straight from above, the picture's upper edge is the far one.
     if (glm::length(side) < min_sine) side = Vec3(1, 0, 0);
     axes.right = glm::normalize(side - glm::dot(side, axes.back) * axes.back);
     axes.up = glm::cross(axes.back, axes.right);
     return axes;
 }
 
-// Round parts have no planes to be laid out anew. Where they end is sought in boxes, those first that reach farthest
-// and may hold some of the solid: to this share of the solid's own box, and in no more boxes than this for each
-// direction.
+// Round parts have no planes whose images could be computed. Their ends are searched for by halving boxes, first those
+// that reach farthest and may contain some of the solid: to this fraction of the solid's own box, with at most this
+// many boxes for each direction, and in solids with at most this many leaves.
 constexpr double close = 1.0 / 256;
 constexpr int most_boxes = 2'000;
-constexpr std::size_t max_sought = 1'000;  // leaves
+constexpr std::size_t max_sought = 1'000;
 
 bool has_fields(const SolidTree& tree) {
     return std::any_of(tree.leaves.begin(), tree.leaves.end(), [](const SolidLeaf& leaf) { return leaf.field; });
 }
 
-// Not below where the solid ends, along the map's axis k.
+// An upper bound of the solid's coordinate along the map's axis k.
 double end_along(const Affine& map, int k, const SolidTree& solid, const Box& box) {
     struct Part {
         double end;
         Box box;
-        std::shared_ptr<const SolidTree> tree;  // what is left in the box
+        std::shared_ptr<const SolidTree> tree;  // the solid pruned to the box
         bool operator<(const Part& other) const { return end < other.end; }
     };
     std::priority_queue<Part> parts;
@@ -87,7 +89,7 @@ double end_along(const Affine& map, int k, const SolidTree& solid, const Box& bo
     return parts.top().end;
 }
 
-// Not below where the solid ends, along each of the map's axes.
+// Upper bounds of the solid's coordinates along the map's axes.
 Vec3 ends_along(const Affine& map, const Solid& solid, const Box& box) {
     Vec3 ends = bounding_box(flatten(solid.transformed(map))).hi;
     const SolidTree tree = flatten(solid);
@@ -115,7 +117,7 @@ std::optional<Camera> framed_camera(const std::vector<Solid>& solids, const Fram
     const Affine second = rows(-axes.up + ty * axes.back, axes.right, axes.back);
 
     Box all;
-    Vec3 firsts(-infinity), seconds(-infinity);  // upper sides
+    Vec3 firsts(-infinity), seconds(-infinity);  // greatest upper bounds in either linear image
     const auto none_above = [](Vec3 side, Vec3 known) { return glm::all(glm::lessThanEqual(side, known)); };
     SolidSurvey survey;
     for (const Solid& solid : solids) {
@@ -123,7 +125,7 @@ std::optional<Camera> framed_camera(const std::vector<Solid>& solids, const Fram
         if (box.empty() || !box.finite()) continue;
         all = hull(all, box);
         Vec3 in_first = image(first, box).hi, in_second = image(second, box).hi;
-        // Most solids of a large scene lie between others.
+        // Most solids of a large scene are between others.
         if (none_above(in_first, firsts) && none_above(in_second, seconds)) continue;
         if (solid.node().leaves <= max_laid_out) {
             in_first = glm::min(in_first, ends_along(first, solid, box));

@@ -12,12 +12,12 @@
 namespace deburr {
 namespace {
 
-// Tree nodes that may be looked at in all, for each box that may be looked at for an operator: some 0.2 s for
-// the boxes of `render`, and 3 s for those of `info`.
+// Tree nodes that may be evaluated in all, for each box that may be examined for an operator: some 0.2 s with the boxes
+// of `render`, and 3 s with those of `info`.
 constexpr std::int64_t nodes_a_box = 10'000;
 
-/// The rounded leaves whose densities have sums or differences: each form once, where it is first
-/// placed. What has none is legal.
+/// The rounded leaves whose densities have sums or differences, each shape once, where it is placed first. Other
+/// densities are legal.
 class Suspects {
 public:
     explicit Suspects(const std::vector<Solid>& solids) {
@@ -49,7 +49,7 @@ std::vector<std::string> illegal_densities(const Scene& scene, int boxes) {
     std::vector<std::string> lines;
     std::vector<std::pair<int, Op>> reported;
     const Suspects suspects(scene.solids);
-    // However many there are, it should not take long.
+    // Limits the total time, however many there are.
     LegalityEffort effort{std::min(boxes, 500 * boxes / std::max(1, int(suspects.size())) + 1), nodes_a_box * boxes};
     for (std::size_t i = 0; i < suspects.size() && effort.nodes > 0; ++i)
         for (const IllegalDensity& d : find_illegal(suspects.tree(i), effort)) {

@@ -16,7 +16,7 @@ std::string KeepSharp::text() const {
 }
 
 FieldPtr rounded_mesh(ClosedMeshPtr mesh, double radius, const KeepSharp& keep, bool z_up) {
-    constexpr double usual_fade = 3;  // in radii: edges that end at a kept one get thin over twice their width
+    constexpr double usual_fade = 3;  // in radii; edges that end at a kept one become thin over twice their width
     KeptEdges kept{keep.edges, keep.boxes, keep.fade.value_or(usual_fade * radius)};
     const int up = z_up ? 2 : 1;
     Box below = Box::everything(), above = Box::everything();

@@ -1,9 +1,9 @@
-// How long a table is: # and the functions that ask for it.
+// The length of a table, which does not depend on how Lua stores it: # and the functions that ask for a length.
 //
-// Where a table has holes, Lua's # is some border, a number n with something at n and nothing at n + 1. Which one
-// depends on how much of the table Lua keeps as an array; that is found anew when its hash is full, which depends on
-// whether keys that were added fell on those that were removed; and texts fall where a seed wants them that Lua takes
-// from the clock and from addresses. Here the border is found by the table's content alone.
+// In a table with holes, Lua's # is some border: a number n with an item at n and none at n + 1. Which border depends
+// on how much of the table Lua keeps as an array; that is determined anew when its hash part is full, which depends on
+// whether added keys collided with removed ones; and strings are hashed with a seed that Lua takes from the clock and
+// from addresses. Here the border is determined by the table's content only.
 #include <algorithm>
 #include <lua.hpp>
 
@@ -19,10 +19,10 @@ bool has_item(lua_State* lua, int table, lua_Integer at) {
     return has;
 }
 
-// The end of what begins at `at`, if that is something that # must not be looked for in: a comment, a text, a long
-// text. Else `at`.
+// The end of a comment, a string or a long string that begins at `at`, in which # is not an operator; `at` if none
+// does.
 std::size_t skipped(std::string_view text, std::size_t at) {
-    const auto long_end = [&](std::size_t from) {  // of [==[ … ]==], or `from`
+    const auto long_end = [&](std::size_t from) {  // the end of [==[ … ]==], or `from`
         std::size_t level = from + 1;
         while (level < text.size() && text[level] == '=') ++level;
         if (from >= text.size() || text[from] != '[' || level >= text.size() || text[level] != '[') return from;
@@ -43,7 +43,7 @@ std::size_t skipped(std::string_view text, std::size_t at) {
     return std::min(end + 1, text.size());
 }
 
-// __pow of booleans.
+// The metamethod __pow of booleans.
 int length_or_power(lua_State* lua) {
     if (!lua_isboolean(lua, 1) || lua_toboolean(lua, 1))
         return luaL_error(lua, "attempt to perform arithmetic on a boolean value");
@@ -61,7 +61,7 @@ int length_or_power(lua_State* lua) {
 }  // namespace
 
 lua_Integer border(lua_State* lua, int table) {
-    // Doubled until nothing is there, then halved between.
+    // Doubles until there is no item, then halves between.
     lua_Integer something = 0, nothing = 1;
     std::int64_t looks = 0;
     for (; has_item(lua, table, nothing); ++looks) {

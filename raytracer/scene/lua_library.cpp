@@ -17,7 +17,7 @@
 namespace deburr {
 namespace {
 
-constexpr lua_Integer random_seed = 1991;  // any will do; it is the papers' decade
+constexpr lua_Integer random_seed = 1991;  // any would do; it is the papers' decade
 
 constexpr const char* gone_from_base[] = {"load", "loadfile", "loadstring",     "dofile",
                                           "warn", "next",     "collectgarbage", "require"};
@@ -34,11 +34,11 @@ std::int64_t as_work(double amount) {
     return amount < 1e18 ? std::int64_t(std::max(amount, 0.0)) : std::numeric_limits<std::int64_t>::max();
 }
 
-// Longer names are not compared, and of a larger table none is.
+// Longer names are not compared, and none in a larger table.
 constexpr std::size_t longest_name = 64, most_names = 2'000;
 
-// Of the table's names, index 1, the one that is nearest to `name`, as far as there is one. Nothing of C++ is left when
-// Lua jumps.
+// The key of the table at index 1 that is nearest to `name`, or "". No C++ object is alive when the caller raises a Lua
+// error.
 std::array<char, longest_name + 1> nearest_of_table(lua_State* lua, const char* name) noexcept {
     std::array<char, longest_name + 1> nearest{};
     try {
@@ -47,15 +47,15 @@ std::array<char, longest_name + 1> nearest_of_table(lua_State* lua, const char* 
             if (std::size_t size = 0;
                 lua_type(lua, -2) == LUA_TSTRING && lua_tolstring(lua, -2, &size) && size <= longest_name)
                 names.emplace_back(lua_tostring(lua, -2), size);
-        std::sort(names.begin(), names.end());  // the table's own order is another on every run
+        std::sort(names.begin(), names.end());  // the table's own order differs from run to run
         const std::string found = nearest_name(name, names);
         std::copy(found.begin(), found.end(), nearest.begin());
-    } catch (const std::bad_alloc&) {  // then there is no word on it
+    } catch (const std::bad_alloc&) {  // the message is then without a suggestion
     }
     return nearest;
 }
 
-// __index of the libraries; upvalue: "" or the prefix of the library's names.
+// The __index of the libraries. Upvalue: the prefix of the library's names, or "".
 int missing_name(lua_State* lua) {
     const char* prefix = lua_tostring(lua, lua_upvalueindex(1));
     if (lua_type(lua, 2) != LUA_TSTRING) {
@@ -72,7 +72,7 @@ int missing_name(lua_State* lua) {
         return luaL_error(lua, "expected a known name, got '%s'%s", name, instead);
     std::size_t count = 0;
     for (lua_pushnil(lua); lua_next(lua, 1); lua_pop(lua, 1)) ++count;
-    constexpr double work_of_name = 200;  // about as many steps as there are pairs of letters
+    constexpr double work_of_name = 200;  // about the number of pairs of letters
     Sandbox::spend(lua, as_work(work_of_name * double(std::min(count, most_names))));
     const auto nearest = nearest_of_table(lua, count <= most_names ? name : "");
     if (nearest[0] == 0) return luaL_error(lua, "expected a known name, got '%s%s'", prefix, name);
@@ -80,7 +80,7 @@ int missing_name(lua_State* lua) {
                       nearest.data());
 }
 
-// The library is at the top of the stack.
+// Makes missing names of the library at the top of the stack an error.
 void refuse_missing_names(lua_State* lua, const char* prefix) {
     lua_createtable(lua, 0, 2);
     lua_pushstring(lua, prefix);
@@ -91,19 +91,19 @@ void refuse_missing_names(lua_State* lua, const char* prefix) {
     lua_setmetatable(lua, -2);
 }
 
-// Goes on with the original, upvalue 1, which has no upvalues of its own: in the same frame, so
-// that its errors name the scene's line.
+// Continues with the original function, upvalue 1, which has no upvalues of its own, in the same frame, so that its
+// errors name the scene's line.
 int call_original(lua_State* lua) { return lua_tocfunction(lua, lua_upvalueindex(1))(lua); }
 
-// Puts `wrapper` before the function `name` of the library at the top of the stack.
+// Replaces the function `name` of the library at the top of the stack by `wrapper`, which gets it as upvalue 1.
 void wrap(lua_State* lua, const char* name, lua_CFunction wrapper) {
     lua_getfield(lua, -1, name);
     lua_pushcclosure(lua, wrapper, 1);
     lua_setfield(lua, -2, name);
 }
 
-// Finalizers run with hooks off. Lua marks an object for one when its metatable is set, so what is
-// added to the metatable later does not matter.
+// Finalizers run with hooks disabled. Lua marks an object for finalization when its metatable is set, so a __gc that is
+// added to the metatable later has no effect.
 int set_metatable(lua_State* lua) {
     if (lua_istable(lua, 2)) {
         lua_pushliteral(lua, "__gc");
@@ -114,20 +114,21 @@ int set_metatable(lua_State* lua) {
     return call_original(lua);
 }
 
-// Every coroutine counts instructions by itself, and what it does before its first sample would go
-// unseen: so it is paid for here.
+// Each coroutine counts instructions by itself, and what it does before its first sample would go unnoticed, so it is
+// charged here.
 int create_coroutine(lua_State* lua) {
     Sandbox::spend(lua, Sandbox::sample_interval);
     return call_original(lua);
 }
 
-// What may take long for long texts, so that the run need not be left behind in it.
+// Checks the time before functions that may take long for long texts, so that the thread need not be left behind in
+// them.
 int heeding_time(lua_State* lua) {
     Sandbox::spend(lua, 0);
     return call_original(lua);
 }
 
-// ("").rep(1e18) loops as often as it says.
+// string.rep loops as often as it is told, as in ("").rep(1e18).
 int repeat_string(lua_State* lua) {
     std::size_t size = 0, separator = 0;
     luaL_checklstring(lua, 1, &size);
@@ -140,7 +141,7 @@ int repeat_string(lua_State* lua) {
     return call_original(lua);
 }
 
-// `last`: the argument that is the table's length if it is not given.
+// Calls a function that loops over a whole table. `last` is the argument that defaults to the table's length.
 template <int last>
 int over_whole_table(lua_State* lua) {
     check_plain_table(lua, 1);
@@ -160,16 +161,16 @@ int move_range(lua_State* lua) {
     return call_original(lua);
 }
 
-// Without argument it would seed from the clock.
+// Without an argument, the original would seed from the clock.
 int seed_random(lua_State* lua) {
     if (lua_gettop(lua) == 0) lua_pushinteger(lua, random_seed);
-    lua_pushvalue(lua, lua_upvalueindex(1));  // not call_original: its upvalue is the generator
+    lua_pushvalue(lua, lua_upvalueindex(1));  // not by call_original, since its upvalue is the generator
     lua_insert(lua, 1);
     lua_call(lua, lua_gettop(lua) - 1, 0);
     return 0;
 }
 
-// A key of pairs(), in their order: numbers, strings, booleans. Plain data in Lua's own memory.
+// A key of pairs(), in the order numbers, strings, booleans. Plain data, whose text is in Lua's memory.
 struct Key {
     int type;  // 0 number, 1 string, 2 boolean
     bool integer;
@@ -190,9 +191,9 @@ struct Key {
     }
 };
 
-// State: the table. Upvalues: the keys in order, how many are done.
+// The iterator of pairs(). State: the table; upvalues: the sorted keys, and how many have been visited.
 int next_pair(lua_State* lua) {
-    luaL_checktype(lua, 1, LUA_TTABLE);  // a scene may call the iterator by itself
+    luaL_checktype(lua, 1, LUA_TTABLE);  // a scene may call the iterator itself
     lua_Integer done = lua_tointeger(lua, lua_upvalueindex(2));
     lua_settop(lua, 1);
     for (;;) {
@@ -200,7 +201,7 @@ int next_pair(lua_State* lua) {
         lua_replace(lua, lua_upvalueindex(2));
         if (lua_rawgeti(lua, lua_upvalueindex(1), done) == LUA_TNIL) return 1;
         lua_pushvalue(lua, -1);
-        if (lua_rawget(lua, 1) != LUA_TNIL) return 2;  // else it was removed on the way
+        if (lua_rawget(lua, 1) != LUA_TNIL) return 2;  // otherwise the key was removed meanwhile
         lua_pop(lua, 2);
     }
 }

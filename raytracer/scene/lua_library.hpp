@@ -1,5 +1,5 @@
-// What a scene may use of Lua's own library: base, math, string, table and coroutine, without
-// whatever reads files, loads code, cannot be interrupted, or gives different results on every run.
+// The part of Lua's library that a scene may use: base, math, string, table and coroutine, without functions that read
+// files, load code, cannot be interrupted, or give different results from run to run.
 //
 //   gone     load* dofile require collectgarbage warn next, string.dump, and string.find match
 //            gmatch gsub (matching backtracks in C, out of reach of the budget)
@@ -10,7 +10,7 @@
 //            advance
 //   names    one that is not there is an error where it is read, not nil
 //
-// Not promised: when an entry of a weak table goes. That depends on the memory that tables take, and so, where keys
+// Not promised: when an entry of a weak table is collected. That depends on the memory of tables, and so, where keys
 // other than numbers were removed, on the order of their hash and on Lua's seed.
 #pragma once
 
@@ -18,7 +18,7 @@ struct lua_State;
 
 namespace deburr {
 
-/// May raise Lua errors.
+/// Opens the library in a new state. May raise Lua errors.
 void open_library(lua_State* lua);
 
 }  // namespace deburr

@@ -24,21 +24,21 @@ namespace deburr {
 namespace {
 
 // Bytes allocated (and so written at least once) for one unit of work. Both take about 4 ns: 10⁹
-// instructions under the hook took 3.5 s, fresh memory comes at some 15 GB/s.
+// instructions with the hook took 3.5 s, and fresh memory comes at some 15 GB/s.
 constexpr std::size_t bytes_per_work = 64;
 
-// Before every block: a ring of all blocks, so that an abandoned state can be freed. 16 bytes keep
-// malloc's alignment.
+// Precedes every block and links all blocks in a ring, so that an abandoned state can be freed. 16 bytes keep malloc's
+// alignment.
 struct alignas(16) Block {
     Block *previous, *next;
 };
 
-// A block's share of the memory, its header included.
+// The memory that a block takes, with its header.
 std::size_t bytes_of(std::size_t size) { return block_bytes(sizeof(Block) + size); }
 
 enum class Spent { nothing, memory, system_memory, work, time, output };
 
-// What a run that heeds the end of its time needs to come back, which is a few instructions.
+// Time that a run needs to return once it has noticed that its time is over: a few instructions.
 constexpr std::chrono::milliseconds grace(200);
 
 }  // namespace
@@ -59,10 +59,10 @@ struct Sandbox::State {
     std::size_t printed = 0;
     std::atomic<int> line{0};  // of the latest sample
     Spent spent = Spent::nothing;
-    bool armed = false;  // escape may be jumped to
+    bool armed = false;  // whether `escape` may be jumped to
     std::jmp_buf escape;
 
-    // Between the interpreter's thread and the one that waits for it.
+    // Shared by the interpreter's thread and the thread that waits for it.
     std::mutex mutex;
     std::condition_variable ended;
     bool has_ended = false;
@@ -110,7 +110,7 @@ struct Sandbox::State {
 void* Sandbox::State::allocate(void* user, void* old, std::size_t old_size, std::size_t size) {
     State& state = *static_cast<State*>(user);
     Block* block = old ? static_cast<Block*>(old) - 1 : nullptr;
-    const std::size_t held = block ? bytes_of(old_size) : 0;  // without a block the size tells the kind of object
+    const std::size_t held = block ? bytes_of(old_size) : 0;  // without a block, old_size is the kind of object
     if (size == 0) {
         if (block) {
             block->previous->next = block->next;
@@ -168,7 +168,7 @@ int Sandbox::State::body(lua_State* lua) {
     return 1;
 }
 
-// Handles an uncaught error where it is raised: those from C and from error(x, 0) have no line.
+// Adds the line to an uncaught error where it is raised: errors from C and from error(x, 0) have none.
 int Sandbox::State::placed_error(lua_State* lua) {
     const bool is_text = lua_type(lua, 1) == LUA_TSTRING;
     const int line = current_line(lua);
@@ -181,7 +181,7 @@ int Sandbox::State::placed_error(lua_State* lua) {
     return 1;
 }
 
-// No object with a destructor may live in this function, nor a local that changes after setjmp.
+// No object with a destructor may live in this function, nor a local variable that changes after setjmp.
 int Sandbox::State::execute() {
     if (setjmp(escape)) return LUA_ERRERR;
     armed = true;
@@ -197,7 +197,7 @@ int Sandbox::State::execute() {
     return result;
 }
 
-// The values are texts. Whether that would be more than a scene may print, or than there is memory for.
+// Prints texts on the stack as a line. Returns what was used up by that: output or memory.
 Spent Sandbox::State::print_line(lua_State* caller, int first, int last) noexcept try {
     std::string text_line;
     for (int i = first; i <= last; ++i) {
@@ -275,7 +275,7 @@ static std::string reason(const SandboxLimits& limits, Spent spent) {
     }
 }
 
-// The error at the top of the stack, whatever its type.
+// The message of the error at the top of the stack, whatever its type.
 static std::string error_text(lua_State* lua) {
     if (lua_type(lua, -1) != LUA_TSTRING)
         return fmt::format("expected an error with a message, got one with a {} value", luaL_typename(lua, -1));
@@ -307,7 +307,7 @@ lua_State* Sandbox::run(std::string text, const std::string& file, Prepare prepa
         state->ended.notify_one();
     });
     {
-        constexpr double max_seconds = 1e6;  // what a clock's count has room for
+        constexpr double max_seconds = 1e6;  // as much as a clock's count can hold
         const auto ended = [&] { return state.has_ended; };
         std::unique_lock lock(state.mutex);
         if (!state.ended.wait_for(lock, std::chrono::duration<double>(std::min(state.limits.seconds, max_seconds)),

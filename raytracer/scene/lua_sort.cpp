@@ -1,5 +1,5 @@
-// table.sort: quicksort by the median of three, as Lua's own, which it agrees with wherever that draws no pivot from
-// the clock. Ties and order functions that contradict themselves so give what scenes have always got.
+// table.sort: quicksort with the median of three, which agrees with Lua's own wherever that draws no pivot from the
+// clock. So ties and inconsistent order functions give the results that scenes have always got.
 #include <cmath>
 #include <cstdint>
 #include <lua.hpp>
@@ -10,12 +10,12 @@
 namespace deburr {
 namespace {
 
-// Larger ranges may take their pivot from elsewhere than their middle.
+// Ranges larger than this may take their pivot from elsewhere than their middle.
 constexpr lua_Integer large_range = 100;
-// A range was cut unevenly where one part is this many times shorter than the other.
+// A range was divided unevenly if one part is this many times shorter than the other.
 constexpr lua_Integer uneven = 128;
 
-// The table is at stack index 1, the order function or nil at 2.
+// Sorts the table at stack index 1 by the order function (or nil) at index 2.
 class Sorting {
 public:
     explicit Sorting(lua_State* lua) : lua_(lua) {}
@@ -29,7 +29,7 @@ public:
             if (last - first == 2) return;
             const lua_Integer cut = partition(first, last, middle);
             const bool left_is_shorter = cut - first < last - cut;
-            // The shorter part in a call of its own, so that calls nest no deeper than the logarithm.
+            // The shorter part is sorted recursively, so that calls nest no deeper than the logarithm.
             if (left_is_shorter)
                 sort(first, cut - 1);
             else
@@ -41,7 +41,7 @@ public:
     }
 
 private:
-    // Pushes whether the value at stack index a comes before the one at b.
+    // Whether the value at stack index a comes before the one at index b.
     bool before(int a, int b) {
         if (lua_isnil(lua_, 2)) {
             Sandbox::spend(lua_, 0);  // texts may be long
@@ -58,7 +58,7 @@ private:
         return result;
     }
 
-    // Exchanges the items i < k if they are in the wrong order; returns whether they were.
+    // Exchanges items i < k if they are in the wrong order; returns whether they were.
     bool order(lua_Integer i, lua_Integer k) {
         lua_rawgeti(lua_, 1, i);
         lua_rawgeti(lua_, 1, k);
@@ -79,8 +79,8 @@ private:
         lua_rawseti(lua_, 1, k);
     }
 
-    // The middle, until some range was cut unevenly; then somewhere in the two inner quarters, so that no order of
-    // items is likely to be the worst one again and again.
+    // The middle, until a range was divided unevenly; then a place in the two inner quarters, so that no order of items
+    // is likely to be the worst case repeatedly.
     lua_Integer pivot(lua_Integer first, lua_Integer last) {
         const lua_Integer size = last - first;
         if (!scatter_ || size <= large_range) return first + size / 2;
@@ -89,8 +89,8 @@ private:
         return first + lua_Integer(quarter + (state_ >> 33) % (2 * quarter));
     }
 
-    // Items first, middle and last are in order. Returns where the pivot ends: nothing left of it comes after it,
-    // nothing right of it before it.
+    // Items first, middle and last must be in order. Returns the pivot's final place: nothing left of it comes after
+    // it, and nothing right of it before it.
     lua_Integer partition(lua_Integer first, lua_Integer last, lua_Integer middle) {
         exchange(middle, last - 1);
         lua_rawgeti(lua_, 1, last - 1);

@@ -1,4 +1,4 @@
-// How values become text: tostring, string.format, print.
+// Conversion of values to text: tostring, string.format, print.
 #include <cstring>
 #include <lua.hpp>
 
@@ -12,10 +12,10 @@ bool is_text(lua_State* lua, int index) {
     return lua_type(lua, index) == LUA_TSTRING || lua_type(lua, index) == LUA_TNUMBER;
 }
 
-// Numbers in a table up to which it is shown as a list.
+// A table of at most this many numbers is shown as a list.
 constexpr lua_Integer longest_list = 16;
 
-// Pushes "{1, 2, 0.5}" for a table of a few numbers and nothing else; false: it is another.
+// Pushes "{1, 2, 0.5}" for a table of a few numbers and nothing else; otherwise returns false.
 bool push_list(lua_State* lua, int index) {
     const lua_Integer size = border(lua, index);
     if (size == 0 || size > longest_list) return false;
@@ -53,7 +53,7 @@ void push_text(lua_State* lua, int index) {
         case LUA_TNUMBER:
         case LUA_TSTRING: luaL_tolstring(lua, index, nullptr); return;
         default: {
-            // Lua's own text goes on with the address.
+            // Lua's own text would continue with the address.
             const int name = luaL_getmetafield(lua, index, "__name");
             if (name == LUA_TSTRING) return;
             if (name != LUA_TNIL) lua_pop(lua, 1);

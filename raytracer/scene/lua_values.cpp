@@ -13,11 +13,11 @@
 namespace deburr {
 namespace {
 
-// Deeper than any table that a scene needs: solids may be grouped, vectors are inside.
+// Deeper than any table that a scene needs: grouped solids with vectors inside.
 constexpr int max_depth = 12;
 static_assert(read_value_slots > 3 * max_depth);
 
-// Names may be as long as memory allows; messages quote so much of them.
+// Names may be as long as memory allows; messages quote this many bytes of them.
 constexpr std::size_t longest_name = 40;
 
 std::string quotable(const std::string& name) { return shortened(name, longest_name); }
@@ -62,11 +62,11 @@ LuaValue Reader::read(int index, const std::string& location, int depth) {
 LuaValue Reader::read_table(int index, const std::string& location, int depth) {
     if (depth == max_depth)
         throw BadValue(location, fmt::format("expected tables nested at most {} deep, got deeper", max_depth));
-    // Lua's order of keys differs from run to run, and with it the error that is met first. So keys
-    // are sorted; those that are names wait on the stack, as pushing one anew might not return.
+    // Lua's order of keys differs from run to run, and so would the error that is found first; therefore keys are
+    // sorted. Those that are names wait on the stack, since pushing a string anew might not return.
     std::vector<lua_Integer> numbers;
-    std::vector<std::pair<std::string, int>> names;  // and where on the stack
-    std::string other;                               // the least key of another kind
+    std::vector<std::pair<std::string, int>> names;  // with their stack index
+    std::string other;                               // the least key of another type
     const int top = lua_gettop(lua);
     take(block_bytes(sizeof(LuaTable) + 2 * sizeof(void*)));
     const auto room = [&] {
@@ -80,7 +80,7 @@ LuaValue Reader::read_table(int index, const std::string& location, int depth) {
             take(3 * sizeof(names[0]) + block_bytes(sizeof(LuaTable::Field) + 4 * sizeof(void*)) +
                  block_bytes(size + 1));
             names.emplace_back(take_text(text, size), lua_gettop(lua));
-            lua_pushvalue(lua, -1);  // one stays, one leads on
+            lua_pushvalue(lua, -1);  // one copy stays, the other is for lua_next
         } else if (lua_isinteger(lua, -1)) {
             take(3 * sizeof(lua_Integer));
             numbers.push_back(lua_tointeger(lua, -1));

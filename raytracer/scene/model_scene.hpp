@@ -1,4 +1,4 @@
-// A scene that is made around a model file, where one stands in place of a scene.
+// Makes a scene around a model's file, for commands that are given a model instead of a scene.
 #pragma once
 #include <optional>
 #include <string>
@@ -9,19 +9,20 @@
 
 namespace deburr {
 
+/// How the model is shown.
 struct ModelSettings {
-    double round = 0;           // the rounding radius, in the file's units; 0: as it stands
-    KeepSharp keep;             // what is not rounded
-    std::optional<bool> z_up;   // none: GLB and glTF have y up, all others z
-    std::optional<Vec3> color;  // of its material
-    std::string material;       // "plastic", …; empty: plastic
-    bool ground = true;         // it stands on a floor
+    double round = 0;           // rounding radius in the file's units; 0: none
+    KeepSharp keep;             // what stays sharp
+    std::optional<bool> z_up;   // none: y for GLB and glTF, z for all others
+    std::optional<Vec3> color;  // of its material; none: the default
+    std::string material;       // "plastic" etc. (model_materials); empty: plastic
+    bool ground = true;         // whether it stands on a floor
 };
 
-/// Names that ModelSettings::material takes.
+/// The names that ModelSettings::material may have.
 const std::vector<std::string>& model_materials();
 
-/// The model, rounded, on a ground, with a camera that frames it and soft light. Throws what read_model throws.
+/// The model, rounded, on the ground, with a camera that frames it and soft light. Throws as read_model() does.
 Scene model_scene(const std::string& path, const ModelSettings& settings = {});
 
 }  // namespace deburr

@@ -7,7 +7,7 @@ struct Hint {
     const char *name, *instead;
 };
 
-// Names of OpenSCAD, of other scene languages, and of Lua without `math.`, none of which a scene has.
+// Names from OpenSCAD, from other scene languages, and from Lua's math without its prefix, none of which a scene has.
 constexpr Hint hints[] = {
     {"union", "; write a | b"},
     {"unite", "; write a | b"},

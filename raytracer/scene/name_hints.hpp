@@ -1,13 +1,13 @@
-// What to write where a scene uses words of other languages for models.
+// Hints for scenes that use words of other modelling languages.
 #pragma once
 #include <string_view>
 
 namespace deburr {
 
-/// A half-sentence for the message that a name is not known, "; write a | b" for `union`; empty where there is none.
+/// The end of the message about an unknown name, such as "; write a | b" for `union`; "" if there is no hint.
 const char* instead_of_name(std::string_view name);
 
-/// The same for the message of a syntax error.
+/// The end of the message about a syntax error; "" if there is no hint.
 const char* instead_of_syntax(std::string_view message);
 
 }  // namespace deburr

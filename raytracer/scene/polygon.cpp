@@ -1,7 +1,7 @@
-// The formula is found by cutting the polygon's boundary at two corners of its convex hull, and each part at further
-// ones: at a corner of a part's hull, its two sides can be extended to infinity without meeting the part again. So
-// either piece bounds a region of its own, and what the part bounds is their intersection where the corner is convex
-// and their union where it is not. A piece of one side bounds a half-plane.
+// The formula is found by cutting the polygon's boundary at two corners of its convex hull, and each part again at
+// further corners: at a corner of a part's hull, its two sides can be extended to infinity without meeting the part
+// again. So either piece bounds a region of its own, and the part bounds their intersection if the corner is convex,
+// and their union if it is not. A piece of one side bounds a half-plane.
 #include "raytracer/scene/polygon.hpp"
 
 #include <fmt/format.h>
@@ -13,8 +13,8 @@
 namespace deburr {
 namespace {
 
-// Relative to the size of the polygon: what is nearer than this to a line lies on it. Chosen as for hulls: points
-// computed in a scene are off by some 10⁻¹⁵, features as small as 10⁻⁹ of the whole are not meant.
+// Relative to the size of the polygon: a point closer than this to a line lies on it. Chosen as for hulls: points
+// computed in a scene have errors of some 10⁻¹⁵, and nobody means features as small as 10⁻⁹ of the whole.
 constexpr double flatness = 1e-9;
 
 double cross(Vec2 a, Vec2 b) { return a.x * b.y - a.y * b.x; }
@@ -23,7 +23,7 @@ bool before(Vec2 a, Vec2 b) { return std::tie(a.x, a.y) < std::tie(b.x, b.y); }
 
 std::string text_of(Vec2 p) { return fmt::format("({}, {})", p.x, p.y); }
 
-// Unit, and without rounding where it is parallel to an axis.
+// The unit vector, without rounding if it is parallel to an axis.
 Vec2 unit(Vec2 v) {
     v /= std::max(std::abs(v.x), std::abs(v.y));
     return v / glm::length(v) + Vec2(0.0);
@@ -36,7 +36,7 @@ public:
         find_size();
         drop_points_on_sides();
         if (area() < 0) std::reverse(points_.begin(), points_.end());
-        // The start does not matter: begin at the least point, which is a corner of the hull.
+        // Any start will do; this is the least point, which is a corner of the hull.
         std::rotate(points_.begin(), std::min_element(points_.begin(), points_.end(), before), points_.end());
         check_simple();
     }
@@ -44,7 +44,7 @@ public:
     std::size_t size() const { return points_.size(); }
     Vec2 point(std::size_t i) const { return points_[i % size()]; }
     Vec2 side(std::size_t i) const { return point(i + 1) - point(i); }
-    /// Of the corner where side i begins.
+    /// Whether the boundary turns left at the corner where side i begins.
     bool turns_left(std::size_t i) const { return cross(side(i + size() - 1), side(i)) > 0; }
     bool convex() const {
         for (std::size_t i = 0; i < size(); ++i)
@@ -54,7 +54,7 @@ public:
 
 private:
     void drop_repeated_points() {
-        for (Vec2& p : points_) p += Vec2(0.0);  // no negative zero
+        for (Vec2& p : points_) p += Vec2(0.0);  // removes negative zeros
         points_.erase(std::unique(points_.begin(), points_.end()), points_.end());
         while (size() > 1 && points_.front() == points_.back()) points_.pop_back();
         if (size() < 3)
@@ -81,7 +81,7 @@ private:
         throw std::runtime_error("expected a polygon with an area, got points on one line");
     }
 
-    // True where q lies on the way from p to r: not a spike, which turns back.
+    // Whether q lies between p and r on a straight line, and is not the tip of a spike.
     bool on_the_way(Vec2 p, Vec2 q, Vec2 r) const {
         const Vec2 in = q - p, out = r - q;
         return std::abs(cross(in, out)) <= flatness * extent_ * std::min(glm::length(in), glm::length(out)) &&
@@ -96,7 +96,7 @@ private:
         points_ = std::move(corners);
     }
 
-    // Which side of side i the point is on: 0 on it, within what is flat.
+    // On which side of side i the point is: 1 left, −1 right, 0 on it, within the flatness.
     int turn(std::size_t i, Vec2 p) const {
         const double c = cross(side(i), p - point(i));
         return std::abs(c) <= flatness * extent_ * glm::length(side(i)) ? 0 : c > 0 ? 1 : -1;
@@ -114,7 +114,7 @@ private:
                     fmt::format("expected a polygon that does not meet itself, got sides that turn back at {}",
                                 text_of(point(i + 1))));
             for (std::size_t k = i + 2; k < size(); ++k) {
-                if (i == 0 && k + 1 == size()) continue;  // neighbours
+                if (i == 0 && k + 1 == size()) continue;  // neighbours share a corner
                 check_apart(i, k);
             }
         }
@@ -140,10 +140,11 @@ private:
                         where.x, where.y));
     }
 
-    std::vector<Vec2> points_;  // corners alone, counterclockwise
+    std::vector<Vec2> points_;  // corners only, counter-clockwise
     double extent_ = 0;
 };
 
+// Builds the Boolean formula of a polygon's half-planes.
 class Formula {
 public:
     Formula(const Polygon& polygon, PrismAxis axis) : polygon_(polygon), axis_(axis) {}
@@ -154,14 +155,14 @@ public:
     }
 
     Density whole() const {
-        // The least and the greatest point: the ends there go opposite ways and do not meet.
+        // Cut at the least and the greatest point: the extended sides there run in opposite directions and do not meet.
         std::size_t greatest = 0;
         for (std::size_t i = 1; i < polygon_.size(); ++i)
             if (before(polygon_.point(greatest), polygon_.point(i))) greatest = i;
         return chain(0, greatest - 1) & chain(greatest, polygon_.size() - 1);
     }
 
-    /// The box around the polygon, that rounding does not touch.
+    /// The box around the polygon, enlarged so that rounding does not touch it.
     Density around() const {
         Vec2 lo(infinity), hi(-infinity);
         for (std::size_t i = 0; i < polygon_.size(); ++i) {
@@ -172,7 +173,7 @@ public:
                Density::cover(raised({0, 1}), hi.y) & Density::cover(raised({0, -1}), 0.0 - lo.y);
     }
 
-    // What the sides first … last bound, the first and the last of them extended to infinity.
+    // The region that the sides first … last bound, with the first and the last one extended to infinity.
     Density chain(std::size_t first, std::size_t last) const {
         if (first == last) return half_space(first);
         const std::size_t corner = hull_corner(first, last);
@@ -195,8 +196,8 @@ public:
     }
 
 private:
-    // The start of a side among those after the first that is a corner of the hull of all: the farthest one in a
-    // direction in which neither end goes.
+    // The side after the first one whose start is a corner of the hull of all these sides: the farthest start in a
+    // direction in which neither extended end runs.
     std::size_t hull_corner(std::size_t first, std::size_t last) const {
         const Vec2 back = -glm::normalize(polygon_.side(first)), forth = glm::normalize(polygon_.side(last));
         const Vec2 sum = back + forth;

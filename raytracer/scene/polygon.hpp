@@ -1,9 +1,9 @@
 // Simple polygons as Boolean functions of their sides' half-planes.
 //
-// Every simple polygon has a formula of "and" and "or" that names the half-plane of each side once and no others
-// [Peterson 1984; Dobkin, Guibas, Hershberger & Snoeyink 1993]. As a Boolean density it has no walls inside, so no
-// seams, and is rounded as it stands. Where no side of the polygon is one of its hull, nothing bounds it for certain:
-// so it is held by the box around it, moved out of the way of rounding.
+// Every simple polygon has a formula of "and" and "or" that names each side's half-plane exactly once and no others
+// [Peterson 1984; Dobkin, Guibas, Hershberger & Snoeyink 1993]. As a Boolean density it has no internal walls, and so
+// no seams, and can be rounded as it is. Where no side of the polygon is a side of its convex hull, its bounding box
+// could not be proved, so the formula is intersected with the box, enlarged to be out of the way of rounding.
 #pragma once
 #include <vector>
 
@@ -11,14 +11,14 @@
 
 namespace deburr {
 
-/// Across which axis a polygon lies, and along which it is raised: x has points {y, z}, y {x, z} and z {x, y}.
+/// The axis along which a polygon is extruded; its points are {y, z} for x, {x, z} for y and {x, y} for z.
 enum class PrismAxis { x, y, z };
 
-/// The polygon, either way round, raised from low to high along the axis. Several points on one side, and the first
-/// one again at the end, do no harm. Throws std::runtime_error where the polygon has no area or meets itself.
-/// Convex ones are products, as the papers have them; others are Boolean densities.
+/// The polygon, in either orientation, extruded from low to high along the axis. Collinear points, and the first point
+/// repeated at the end, are allowed. Throws std::runtime_error if the polygon has no area or intersects itself. Convex
+/// polygons become products, as in the papers; others are Boolean densities.
 Density prism(const std::vector<Vec2>& polygon, double low, double high, PrismAxis axis = PrismAxis::y);
-/// The same without ends and without bounds, to be taken out of another: a Boolean function whatever its shape.
+/// The polygon extruded infinitely in both directions, to be subtracted from another: always a Boolean density.
 Density raised_polygon(const std::vector<Vec2>& polygon, PrismAxis axis);
 
 }  // namespace deburr

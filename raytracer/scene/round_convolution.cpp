@@ -13,21 +13,22 @@
 namespace deburr {
 namespace {
 
-// In radii of the ball. What the mesh is off by moves the surface by as much at the most. Its edges are rounded, for
-// smooth surfaces take far fewer cells: by δ that takes some δ² off an edge's cross-section, and moves the surface by
-// some δ²/r, at seams of tangent surfaces by a part of 0.28 δ.
+// In radii of the ball. An error of the mesh moves the surface by at most as much. The mesh's edges are rounded, since
+// smooth surfaces take far fewer cells: rounding by δ removes some δ² of an edge's cross-section and moves the surface
+// by some δ²/r; at seams of tangent surfaces it moves it by a part of 0.28 δ.
 constexpr double mesh_tolerance = 0.005, mesh_rounding = 0.05;
-// More are refused: they would take minutes.
+// Solids with more are refused, since they would take minutes.
 constexpr std::size_t most_half_spaces = 400'000;
 constexpr double most_triangles = 400'000;
-// Of balls and tori, that of the area over tolerance times radius: measured on balls.
+// Triangles of balls and tori, per area over tolerance times radius; measured on balls.
 constexpr double triangles_for_area = 0.7;
-// Points may be this much farther from the mesh's surface, which is measured at few places.
+// Points may be this many tolerances from the surface, as the mesh is measured at few places.
 constexpr double check_slack = 2;
-// A mesh that fails its check is made anew with half the tolerance.
+// A mesh that fails its check is made again with half the tolerance, up to this many times.
 constexpr int attempts = 3;
 
-// At most that many triangles are needed of balls and tori; others need few, for they are straight along themselves.
+// Upper bound of the number of triangles for balls and tori; other parts need few, since they are straight in one
+// direction.
 double triangles_of(const DensityTree& tree, const Box& box, double tolerance) {
     constexpr double pi = std::numbers::pi;
     const double side = glm::distance(box.lo, box.hi), most_area = 2 * side * side;
@@ -48,7 +49,7 @@ NoRoundConvolution too_fine() {
         "it; rounded(r, d) takes any");
 }
 
-// Empty where nothing is left. Throws NoRoundConvolution.
+// A mesh of the solid that has passed its check; empty if the solid is. Throws NoRoundConvolution.
 Mesh polygonized(const SolidTree& solid, double tolerance) {
     const Box box = polygonization_box(solid);
     try {
@@ -64,7 +65,7 @@ Mesh polygonized(const SolidTree& solid, double tolerance) {
 }  // namespace
 
 Solid convolved_round(double radius, const Density& density, int line) {
-    // + - * mean what they mean below a Boolean operator.
+    // Operators + - * get the meaning that they have below a Boolean operator.
     const double rounding = mesh_rounding * radius;
     const Density function = density.node().may_be_illegal ? density | density : density;
     const double tolerance = mesh_tolerance * radius;

@@ -1,7 +1,7 @@
-// What the functions of a scene ask of their arguments: a density, something with an inside, a list.
+// Checks of the arguments of a scene's functions: a density, a set, a list.
 //
-// Each need_… returns what the argument is, or throws BadValue, whose message says what was expected at `location` and
-// what the scene gave.
+// Each need_… returns what the argument is, or throws BadValue with what was expected at `location` and what the scene
+// gave.
 #pragma once
 #include <string>
 #include <vector>
@@ -10,26 +10,26 @@
 
 namespace deburr {
 
-/// The density that `value` is, or null.
+/// The density in `value`; null if it is none.
 const Density* as_density(const LuaValue& value);
 
-/// Whether `value` has an inside: a density, a solid, a quadric or a model.
+/// Whether `value` is a set of points: a density, a solid, a quadric or a model.
 bool is_set(const LuaValue& value);
 
-/// The density, solid, quadric or model that `value` is.
+/// The density, solid, quadric or model in `value`.
 const SceneObject& need_set(const LuaValue& value, const char* location);
 
-/// As need_set, or a perturbation, which can be moved, too.
+/// As need_set(), but allows a perturbation, which can be transformed, too.
 const SceneObject& need_movable(const LuaValue& value, const char* location);
 
-/// The density that `value` is. `what` is expected, in the words of the message.
+/// The density in `value`; `what` names the expected value in the message.
 const Density& need_density(const LuaValue& value, const char* location, const char* what = "a density");
 
-/// The items of a list of at most `most`. `of_what`: their name in the plural, as "points".
+/// The items of a list of at most `most`; `of_what` is their name in the plural, such as "points".
 const std::vector<LuaValue>& need_list(const LuaValue& value, const std::string& location, const char* of_what,
                                        std::size_t most);
 
-/// "location[1]": the item at `index`, counted from 0, of the list at `location`.
+/// The location of a list's item: "location[1]" for index 0.
 std::string item(const std::string& location, std::size_t index);
 
 }  // namespace deburr

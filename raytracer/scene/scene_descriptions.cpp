@@ -11,21 +11,21 @@
 namespace deburr {
 namespace {
 
-// Boxes of larger things are left out: finding them takes longer than anyone wants to wait for a word.
+// Boxes of larger objects are left out, since computing them takes too long for a description.
 constexpr double max_leaves = 5'000;
 
 std::string text_of(double x) { return std::isfinite(x) ? fmt::format("{:.6g}", x + 0.0) : x > 0 ? "inf" : "-inf"; }
 
 std::string text_of(Vec3 v) { return fmt::format("{{{}, {}, {}}}", text_of(v.x), text_of(v.y), text_of(v.z)); }
 
-// A colour as it is written: one number for a grey.
+// A colour as scenes write it: one number for a grey.
 std::string color_of(Vec3 c) { return c.x == c.y && c.y == c.z ? text_of(c.x) : text_of(c); }
 
 std::string count_of(double half_spaces) {
     return fmt::format("{:.0f} half-space{}", half_spaces, half_spaces == 1 ? "" : "s");
 }
 
-// ", radius 0.1", or from the least to the greatest; nothing where all is sharp.
+// ", radius 0.1", or the least and greatest radius; "" if all is sharp.
 std::string radii_of(const std::set<double>& radii) {
     if (radii.empty() || *radii.rbegin() == 0) return "";
     if (radii.size() == 1) return fmt::format(", radius {}", text_of(*radii.begin()));

@@ -25,7 +25,7 @@ std::string SceneFiles::path_of(const std::string& name) const {
         std::error_code none;
         const fs::path path = fs::path(folder) / name;
         if (!fs::exists(path, none)) continue;
-        // What links lead to counts.
+        // The targets of links decide.
         const fs::path real = fs::canonical(path, none), within = fs::canonical(folder, none);
         const auto [end, rest] = std::mismatch(within.begin(), within.end(), real.begin(), real.end());
         if (fs::path(name).is_absolute() || end != within.end())

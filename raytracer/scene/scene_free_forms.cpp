@@ -1,4 +1,4 @@
-// Quadrics, perturbations and free forms of a scene [Vyatkin §3.1].
+// Quadrics, perturbations and free forms in scenes [Vyatkin §3.1].
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -8,12 +8,12 @@
 namespace deburr {
 namespace {
 
-// Cubes of quadrics stay far inside the range of a double.
+// Largest coefficient, with which cubes of quadrics stay far inside the range of a double.
 constexpr double largest_coefficient = 1e50;
 
 constexpr std::size_t max_perturbations = 100'000;
 
-// Instructions that take as long as bounding a free form, for each of its perturbations.
+// Instructions that take as long as bounding a free form, for each perturbation.
 constexpr std::int64_t work_per_perturbation = 20'000;
 
 const LuaValue& only_argument(const SceneCall& call, const char* what) {
@@ -55,7 +55,7 @@ SceneResult quadric(SceneCall& call) {
     return call.make(result);
 }
 
-// What the quadrics with an axis have in common.
+// The fields that all quadrics with an axis have.
 struct Placed {
     explicit Placed(const SceneCall& call, const char* at, std::initializer_list<const char*> known)
         : fields(only_argument(call, "a table of fields"), call.name, known) {
@@ -100,7 +100,7 @@ bool has_any(const SceneCall& call, std::initializer_list<const char*> names) {
            std::any_of(names.begin(), names.end(), [&](const char* name) { return table->fields.contains(name); });
 }
 
-// Round parts have ends; what those who know OpenSCAD write is meant for them, too.
+// Whether the fields are those of a round part, which has ends; OpenSCAD's names count, too.
 bool is_round(const SceneCall& call) {
     return has_any(call, {"from", "to", "h", "r", "r1", "r2", "d", "d1", "d2", "diameter"});
 }

@@ -27,11 +27,11 @@ void SceneBuilder::check_size(double half_spaces) {
                                              count_text(half_spaces)));
 }
 
-// A node as make_shared makes it.
+// Bytes of a node allocated by make_shared.
 template <class Node>
 constexpr std::size_t node_block = block_bytes(sizeof(Node) + 2 * sizeof(void*));
 
-// Its list of children, too, which has a block of its own if they are more than two.
+// Bytes of a node and its list of children, which has a block of its own if there are more than two.
 template <class Node>
 static std::size_t node_bytes(const Node& node) {
     const auto children = node.children();
@@ -64,7 +64,7 @@ const SceneObject* SceneBuilder::keep(SceneObject object) {
     const auto* solid = as<Solid>(&object);
     keep_parts(sizeof(SceneObject) + (density ? node_bytes(density->node()) : solid ? node_bytes(solid->node()) : 0));
     if (density) check_size(density->node().leaves);
-    // Unions share what is placed again and again; other operators lay out all that is below them.
+    // Unions share parts that are placed repeatedly; other operators flatten everything below them.
     if (solid && is_laid_out(solid->node())) check_size(solid->node().leaves);
     return &objects_.emplace_back(std::move(object));
 }
@@ -102,7 +102,7 @@ SceneResult SceneBuilder::parameter(const std::string& name, const LuaValue& fal
     if (!is_number && !is_bool && !std::holds_alternative<std::string>(fallback))
         expected(location, "a number, boolean or text as default", fallback);
 
-    // Both are kept here and in the scene.
+    // Name and value are stored here and in the scene.
     const auto keep = [&](const std::string& value) {
         if (parameters_.count(name) == 0)
             memory->take(2 * (block_bytes(sizeof(std::pair<std::string, std::string>) + 4 * sizeof(void*)) +
@@ -147,16 +147,16 @@ void SceneCall::at_most(std::size_t count) const {
 
 namespace {
 
-// Copying a value out of Lua takes as long as some 20 instructions.
+// Instructions that take as long as copying a value out of Lua.
 constexpr std::int64_t work_per_value = 20;
 
-// So do an exception and the message that it carries, of some 500.
+// Instructions that take as long as an exception with its message.
 constexpr std::int64_t work_per_failure = 500;
 
 enum class Ending { done, failed, memory_spent, no_memory, work_spent };
 
-// Everything between Lua's two worlds: no exception leaves it, and it calls nothing of Lua that
-// raises. If it failed, the message is set.
+// The boundary between Lua and C++: no exception leaves it, and it calls no Lua function that raises. If it fails,
+// builder.message is set.
 Ending call_body(lua_State* lua, SceneBuilder& builder, const SceneFunction& function) noexcept {
     int line = 0;
     const auto fail = [&](const char* what) {
@@ -210,7 +210,7 @@ int call_from_lua(lua_State* lua) {
 
 }  // namespace
 
-// No object with a destructor here: what follows the body may raise.
+// No object with a destructor may live here, since the code after the body may raise.
 int call_scene_function(lua_State* lua, const SceneFunction& function) {
     luaL_checkstack(lua, read_value_slots, "too many arguments");
     const HostCall visit = HostCall::enter(lua);
@@ -234,7 +234,7 @@ int call_scene_function(lua_State* lua, const SceneFunction& function) {
 
 namespace {
 
-// __index of objects; upvalue: the methods.
+// The __index of objects. Upvalue: the table of methods.
 int find_method(lua_State* lua) {
     lua_settop(lua, 2);
     lua_pushvalue(lua, 2);
@@ -248,7 +248,7 @@ int find_method(lua_State* lua) {
 
 SceneResult object_text(SceneCall& call) {
     const SceneObject& object = *as_object(call.argument(0));
-    // Finding a box takes as long as some 100 instructions for each half-space.
+    // Instructions that take as long as bounding one half-space.
     constexpr double work_per_half_space = 100;
     call.builder.spend(std::int64_t(work_per_half_space * work_to_describe(object)));
     return description(object);

@@ -1,7 +1,7 @@
-// The functions that a scene calls: what they take, check and make.
+// The functions that a scene can call: the values that they check and make, and how Lua calls them.
 //
-// Objects live in SceneBuilder until the scene has been read; Lua holds bare pointers to them
-// (light userdata, which scenes cannot forge), so nothing is left to a collector.
+// Objects belong to SceneBuilder until the scene has been read. Lua has bare pointers to them (light userdata, which
+// scenes cannot forge), so nothing depends on a garbage collector.
 #pragma once
 #include <deque>
 #include <map>
@@ -25,15 +25,15 @@ namespace deburr {
 
 using SceneName = std::shared_ptr<const std::string>;
 
-/// A closed mesh from a file, where the scene has moved it.
+/// A closed mesh from a file, with the transform that the scene gave it.
 struct PlacedModel {
     ClosedMeshPtr mesh;
     Affine map;
-    std::string file;  // as the scene names it
+    std::string file;  // name in the scene
 };
 
-/// What a scene's function made. A scene has a million of them where it places a block that often, so what is large and
-/// rare is kept elsewhere.
+/// A value made by a scene's function. A scene that places a block a million times has as many of these, so what is
+/// large and rare is stored elsewhere.
 struct SceneObject {
     template <class T>
     static constexpr bool is_handle = std::is_same_v<T, Density> || std::is_same_v<T, Solid>;
@@ -44,10 +44,10 @@ struct SceneObject {
                  Kept<Texture>, Kept<Background>, Kept<PlacedModel>, Kept<Framing>>
         is;
     SceneName name;  // of a solid; null: none
-    int line = 0;    // of the scene, where it was made
+    int line = 0;    // line of the scene that made it
 };
 
-/// The T that `object` is, or null.
+/// The T in `object`; null if it is none.
 template <class T>
 const T* as(const SceneObject* object) {
     const auto* kept = object ? std::get_if<SceneObject::Kept<T>>(&object->is) : nullptr;
@@ -57,24 +57,26 @@ const T* as(const SceneObject* object) {
         return kept ? kept->get() : nullptr;
 }
 
-/// The kind of object in the words of a message, as "a density".
+/// The kind of object for a message, such as "a density".
 std::string kind_of(const SceneObject& object);
 
-/// Thrown where work that is about to be done is more than is left of the budget.
+/// Thrown before work for which too little is left of the budget.
 struct WorkSpent : std::exception {};
 
-/// Result that a function gives back to the scene.
-struct Argument {  // the argument with this number, counted from 1
+/// Refers to one of the call's arguments.
+struct Argument {  // counted from 1
     int index;
 };
 using SceneResult = std::variant<Argument, const SceneObject*, bool, double, long long, std::string>;
 
+/// Makes and owns the objects of a scene while it is read.
 class SceneBuilder {
 public:
-    /// `max_part_bytes`: see SandboxLimits::parts.
+    /// `defines` are the parameters of the command line. `max_part_bytes`: see SandboxLimits::parts.
     SceneBuilder(const std::map<std::string, std::string>& defines, SceneFiles files, std::size_t max_part_bytes)
         : defines_(defines), files_(std::move(files)), max_part_bytes_(max_part_bytes) {}
 
+    /// Stores an object that the given line of the scene made.
     template <class T>
     const SceneObject* make(T object, int line, SceneName name = nullptr) {
         if constexpr (SceneObject::is_handle<T>) {
@@ -84,28 +86,28 @@ public:
             return keep({std::make_shared<const T>(std::move(object)), std::move(name), line});
         }
     }
-    /// The solid that `object` is or, for a density or a quadric, means.
+    /// The solid in `object`, or the one that a density or quadric stands for.
     Solid solid(const SceneObject& object);
-    /// The model of a file, which is read once. Throws std::runtime_error, SceneError and UnsupportedError.
+    /// The mesh in a file, which is read once. Throws std::runtime_error, SceneError and UnsupportedError.
     const ClosedMeshPtr& model(const std::string& file);
-    /// The model rounded by a ball of this radius, but for what is kept; 0: as it stands.
+    /// The model as a solid, rounded by a ball of this radius except for what is kept sharp; radius 0: not rounded.
     Solid solid(const PlacedModel& model, double radius, int line, const KeepSharp& keep = {});
-    /// Files that were read, and what was mended in them: "part.stl: turned 12 facets that faced inward".
+    /// Repairs of models, such as "part.stl: turned 12 facets that faced inward", and the files that were read.
     const std::vector<std::string>& notes() const { return notes_; }
     const std::vector<std::string>& files() const { return files_read_; }
-    /// The path of the scene's file of this name. Throws as SceneFiles does.
+    /// The path of the scene's file of this name. Throws as SceneFiles::path_of() does.
     std::string path_of(const std::string& file);
-    /// A file of Lua that include() has named.
+    /// A Lua file that include() has named.
     struct Part {
         std::string text;
         int lines_before = 0;  // in the numbering of all files
         std::string name;
     };
-    /// The part at this path in the scene's folders, which is read once. Throws std::runtime_error and SceneError.
+    /// The Lua file of this name in the scene's folders, which is read once. Throws std::runtime_error and SceneError.
     const Part& part(const std::string& name);
-    /// The place of a material in materials(); each has one, however often it is used.
+    /// The index of a material in materials(); each material has one, however often it is used.
     int index_of(const SceneObject* material);
-    /// param(): the value that the command line gives in place of `fallback`, if any.
+    /// The result of param(): the value that the command line gives, or else `fallback`.
     SceneResult parameter(const std::string& name, const LuaValue& fallback);
 
     const std::vector<Material>& materials() const { return materials_; }
@@ -113,28 +115,28 @@ public:
 
     /// Throws if there are more than max_half_spaces.
     static void check_size(double half_spaces);
-    /// Counts parts; throws if all take more than they may.
+    /// Counts memory of the scene's parts; these throw if all parts together exceed their limit.
     void keep_parts(std::size_t bytes);
     void keep_half_spaces(std::size_t count);
-    /// Charges work that is about to be done; throws WorkSpent if there is less left.
+    /// Charges work that is about to be done; throws WorkSpent if less is left.
     void spend(std::int64_t amount);
-    /// Takes memory until the present call from Lua ends; throws MemorySpent if there is less left.
+    /// Charges memory until the current call from Lua ends; throws MemorySpent if less is left.
     void borrow(std::size_t bytes);
 
-    MemoryMeter* memory = nullptr;  // of the sandbox
-    SourceMap* sources = nullptr;   // of the sandbox, while Lua runs
-    bool is_unsupported = false;    // the scene failed for a file that is right but not supported
-    bool z_up = false;              // the scene's axis, which some defaults follow
-    bool up_mattered = false;       // one of them was used
+    MemoryMeter* memory = nullptr;  // the sandbox's
+    SourceMap* sources = nullptr;   // the sandbox's, while Lua runs
+    bool is_unsupported = false;    // whether the scene failed because of a valid file that is not supported
+    bool z_up = false;              // the up axis that some defaults follow
+    bool up_mattered = false;       // whether such a default was used
 
     const Part* latest_part = nullptr;
 
-    // What the latest call from Lua left, kept here so that it outlives every C++ frame.
+    // The outcome of the latest call from Lua, stored here so that it outlives all C++ frames.
     SceneResult result;
     char message[2048] = "";
-    ReadCost cost;               // of its arguments, and what was borrowed
-    std::int64_t work = 0;       // besides, for the sandbox's budget
-    std::int64_t work_left = 0;  // before it
+    ReadCost cost;               // of reading the arguments, and what was borrowed
+    std::int64_t work = 0;       // further work for the sandbox's budget
+    std::int64_t work_left = 0;  // of the budget, before the call
 
 private:
     const SceneObject* keep(SceneObject object);
@@ -142,7 +144,7 @@ private:
     const std::map<std::string, std::string>& defines_;
     const SceneFiles files_;
     std::map<std::string, ClosedMeshPtr> models_;  // by name
-    std::map<std::string, Part> parts_;            // by path, without links
+    std::map<std::string, Part> parts_;            // by path, with links resolved
     std::size_t part_text_bytes_ = 0;
     std::vector<std::string> notes_, files_read_;
     std::map<std::string, std::string> parameters_;
@@ -153,18 +155,18 @@ private:
     std::size_t part_bytes_ = 0;
 };
 
-/// One call from a scene.
+/// A call of a function by a scene.
 struct SceneCall {
     SceneBuilder& builder;
     const char* name;
     int line;
     std::vector<LuaValue> arguments;
 
-    /// nil if there are fewer.
+    /// The argument; nil if there are fewer.
     const LuaValue& argument(std::size_t index) const;
-    /// Throws if there are more arguments than this.
+    /// Throws BadValue if there are more arguments than this.
     void at_most(std::size_t count) const;
-    /// "name: argument"
+    /// The location of an argument for messages: "name: argument".
     std::string location(const char* argument) const { return std::string(name) + ": " + argument; }
     template <class T>
     const SceneObject* make(T object, SceneName object_name = nullptr) const {
@@ -172,15 +174,17 @@ struct SceneCall {
     }
 };
 
+/// A function of the scene language.
 struct SceneFunction {
     enum class Kind { global, method, metamethod };
     Kind kind;
-    const char* name;    // in messages, and in the scene unless it is a metamethod
-    const char* symbol;  // metamethod: Lua's name for it
+    const char* name;    // in messages; in the scene, too, unless it is a metamethod
+    const char* symbol;  // Lua's name of a metamethod
     SceneResult (*body)(SceneCall&);
 };
 
-/// The tables of functions, each in a file of its name (scene_shapes.cpp, …); parameter_functions: param() alone.
+/// The tables of functions, each in the file of its name (scene_shapes.cpp etc.); parameter_functions() has param()
+/// only.
 const std::vector<SceneFunction>& shape_functions();
 const std::vector<SceneFunction>& round_functions();
 const std::vector<SceneFunction>& free_form_functions();
@@ -191,30 +195,32 @@ const std::vector<SceneFunction>& rounding_functions();
 const std::vector<SceneFunction>& material_functions();
 const std::vector<SceneFunction>& parameter_functions();
 
-/// All functions of these tables.
+/// The functions of all tables.
 std::vector<const SceneFunction*> scene_functions();
 
-/// What convolved(r, model, { … }) keeps sharp.
+/// Reads the table of convolved(r, model, { … }) that says what stays sharp.
 KeepSharp keep_sharp(const LuaValue& value, const std::string& location);
 
-/// cylinder{ from =, to =, radius = } and cone{ from =, to =, radius = }, which other fields make quadrics.
+/// cylinder{ from =, to =, radius = } and cone{ from =, to =, radius = }, which are round parts; with other fields
+/// these functions make quadrics.
 SceneResult round_cylinder(SceneCall& call);
 SceneResult round_cone(SceneCall& call);
 
-/// The quadric itself; throws if its coefficients are too large to be cubed.
+/// Returns the quadric; throws if its coefficients are too large to be cubed. `function` names the caller in the
+/// message.
 const Quadric& ordinary(const Quadric& quadric, const char* function);
 
-/// Q + Σ fᵢRᵢ as a solid. Throws where Q's sign is everywhere the same, and no perturbation could change it.
+/// Q + Σ fᵢRᵢ as a solid. Throws if Q has the same sign everywhere and no perturbation could change it.
 Solid solid_of_free_form(const std::string& function, const Quadric& base, std::vector<Perturbation> perturbations,
                          int line);
 
-/// include(name), as a C function of Lua; see open_scene_functions.
+/// include(name) as a lua_CFunction; see open_scene_functions().
 int include_part(lua_State* lua);
 
-/// Calls the function's body with the arguments on the stack and pushes its result; raises what went wrong as an error.
+/// Calls the function's body with the arguments on Lua's stack and pushes its result; raises errors as Lua errors.
 int call_scene_function(lua_State* lua, const SceneFunction& function);
 
-/// Registers all functions; the sandbox's host must be a SceneBuilder. May raise Lua errors.
+/// Registers all functions in the state, whose host must be a SceneBuilder. May raise Lua errors.
 void open_scene_functions(lua_State* lua);
 
 }  // namespace deburr

@@ -1,4 +1,4 @@
-// include("part.lua"): another file of the scene's folder, run in the same interpreter under the same limits.
+// include("part.lua"): runs another file of the scene's folder in the same interpreter, under the same limits.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -46,7 +46,8 @@ SceneResult find_part(SceneCall& call) {
 
 constexpr SceneFunction find_function{SceneFunction::Kind::global, "include", "", find_part};
 
-// Gives as many ends of lines as there are lines before the part, then the part.
+// A Lua reader that returns as many newlines as there are lines before the part, then the part, so that line numbers
+// fit.
 struct PartReader {
     const char* text;
     std::size_t size;
@@ -71,9 +72,9 @@ const char* read_piece(lua_State* lua, void* data, std::size_t* size) {
 
 }  // namespace
 
-// What a part has returned is kept in the registry by its first line; what is being run is `true` there.
+// The registry keeps the result of each part by the number of its first line; for a part that is still running, `true`.
 int include_part(lua_State* lua) {
-    call_scene_function(lua, find_function);  // the first line, by which parts differ
+    call_scene_function(lua, find_function);  // pushes the first line's number, which identifies the part
     const SceneBuilder* builder = static_cast<const SceneBuilder*>(host_of(lua));
     const SceneBuilder::Part* part = builder->latest_part;
     const lua_Integer key = lua_tointeger(lua, -1);

@@ -1,4 +1,4 @@
-// Materials, textures, lights, skies and views of a scene.
+// Materials, textures, lights, skies and framings in scenes.
 #include "raytracer/scene/frame_camera.hpp"
 #include "raytracer/scene/scene_functions.hpp"
 
@@ -9,7 +9,7 @@ constexpr int max_shadow_rays = 4096;
 constexpr int max_octaves = 10;
 constexpr double largest_ior = 10;  // diamond has 2.4
 
-// The only argument; missing, it is an empty table.
+// The only argument; an empty table if it is missing.
 const LuaValue& fields_argument(const SceneCall& call) {
     static const LuaValue no_fields = std::make_shared<const LuaTable>();
     call.at_most(1);
@@ -36,7 +36,7 @@ void read_texture(const Fields& fields, Texture& texture) {
     }
 }
 
-// A number from 0 to 1, or a texture, whose mean the number is then: of an image when it is read.
+// Reads a number from 0 to 1, or a texture, whose mean becomes the number (for an image, once it is read).
 void read_share(const Fields& fields, const char* name, double& share, std::shared_ptr<const Texture>& texture) {
     const LuaValue* given = fields.find(name);
     if (!given) return;
@@ -65,7 +65,7 @@ void read_bump(const Fields& fields, Material& m) {
     if (!given) throw BadValue(fields.location("bump_height"), "expected a bump beside it, got none");
 }
 
-// What reflects or refracts light shows the colour of its surface only by tinting it.
+// The colour of materials that reflect or refract light is only a tint, and defaults to white.
 const Texture untinted{.a = Vec3(1), .b = Vec3(1)};
 
 void read_share(const Fields& fields, const char* name, double& share) {
@@ -183,7 +183,7 @@ SceneResult marble(SceneCall& call) {
     return call.make(texture);
 }
 
-// Patterns that are shares or heights rather than colours.
+// Textures for factors and heights rather than colours.
 Texture black_to_white(Texture::Kind kind) { return {.kind = kind, .a = Vec3(0), .b = Vec3(1)}; }
 
 SceneResult noise_texture(SceneCall& call) {
@@ -204,7 +204,7 @@ SceneResult brushed(SceneCall& call) {
     return call.make(texture);
 }
 
-// The path of a picture in the scene's folder.
+// The path of a picture in the scene's folder; throws BadValue if there is none.
 std::string picture_file(const SceneCall& call, const Fields& fields) {
     const std::string& name = text(fields.get("file"), fields.location("file"));
     try {

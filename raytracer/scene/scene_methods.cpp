@@ -1,4 +1,4 @@
-// Methods of a scene's objects: placements (translate, scale, rotate, mirror), a solid's material and its name.
+// Methods of a scene's objects: transforms (translate, scale, rotate, mirror), a solid's material and its name.
 #include "raytracer/scene/scene_arguments.hpp"
 
 namespace deburr {
@@ -56,7 +56,7 @@ SceneResult scale(SceneCall& call) {
         const LuaValue& given = call.argument(even ? 1 : std::size_t(k) + 1);
         const std::string where = even ? call.name : call.location(&"x\0y\0z"[2 * k]);
         const double factor = number(given, where);
-        // Products of three of these and their inverses stay far inside the range of a double.
+        // With this limit products of three factors and their inverses stay far inside the range of a double.
         constexpr double largest = 1e100;
         if (!(std::abs(factor) <= largest && std::abs(factor) >= 1 / largest))
             expected(where, "a factor that leaves a volume, for 0 is singular", given);
@@ -65,7 +65,7 @@ SceneResult scale(SceneCall& call) {
     return transform(call, map);
 }
 
-// Exact at multiples of 90 degrees about an axis, so that planes stay parallel to axes.
+// Exact at multiples of 90 degrees about an axis, so that planes stay axis-parallel.
 SceneResult rotate(SceneCall& call) {
     call.at_most(3);
     need_movable(call.argument(0), call.name);
@@ -78,13 +78,13 @@ SceneResult rotate(SceneCall& call) {
     const double s = exact ? cosines[(quarters + 3) % 4] : std::sin(glm::radians(degrees));
     // Rodrigues' formula: R = k kᵀ + cos (1 − k kᵀ) + sin [k]×
     const Mat3 along = glm::outerProduct(k, k);
-    const Mat3 across(Vec3(0, k.z, -k.y), Vec3(-k.z, 0, k.x), Vec3(k.y, -k.x, 0));  // by columns
+    const Mat3 across(Vec3(0, k.z, -k.y), Vec3(-k.z, 0, k.x), Vec3(k.y, -k.x, 0));  // column by column
     Affine map;
     map.linear = along + c * (Mat3(1.0) - along) + s * across;
     return transform(call, map);
 }
 
-// In the plane through the origin with this normal.
+// Reflects in the plane through the origin with this normal.
 SceneResult mirror(SceneCall& call) {
     call.at_most(2);
     need_movable(call.argument(0), call.name);

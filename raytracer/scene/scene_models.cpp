@@ -1,4 +1,4 @@
-// Models in a scene: closed meshes from files.
+// Models in scenes: closed meshes from files.
 #include <fmt/format.h>
 
 #include "raytracer/model/model_file.hpp"

@@ -1,4 +1,4 @@
-// Operators of a scene: + * - of densities, and | & - ~ of densities and of solids.
+// Operators in scenes: + * - of densities, and | & - ~ of densities and of solids.
 #include "raytracer/scene/scene_arguments.hpp"
 
 namespace deburr {
@@ -7,7 +7,7 @@ namespace {
 using DensityOperator = Density (*)(Density, Density, int);
 using SolidOperator = Solid (*)(Solid, Solid);
 
-// On two densities the first, else, where there is one, the second.
+// Applies the first operator to two densities, and else the second one, if there is one, to two solids.
 SceneResult combine(SceneCall& call, DensityOperator of_densities, SolidOperator of_solids) {
     const LuaValue &a = call.argument(0), &b = call.argument(1);
     if (as_density(a) && as_density(b)) return call.make(of_densities(*as_density(a), *as_density(b), call.line));
@@ -43,7 +43,7 @@ SceneResult complement(SceneCall& call) {
     return call.make(~*density);
 }
 
-// In Lua a ~ b is an operator, too.
+// Lua has a binary operator ~, too.
 SceneResult complement_of_two(SceneCall& call) {
     throw BadValue(call.name, "expected one density, as in a & ~b, got two, as in a ~ b");
 }

@@ -24,7 +24,7 @@ namespace {
 constexpr int largest_side = 65'536;
 constexpr int max_bounces = 1'000;
 
-// Up and view this nearly parallel leave no direction for the picture's side. Chosen.
+// Sine of the angle between up and view below which they do not determine the picture's side (chosen).
 constexpr double min_sine = 1e-6;
 
 bool read_up(const LuaValue& value) {
@@ -47,7 +47,7 @@ void read_image(const LuaValue& value, Scene& scene) {
         scene.exposure = number_between(*given, fields.location("exposure"), -max_exposure, max_exposure);
 }
 
-// {x, y}, within a few pictures.
+// Reads {x, y}, each within a few widths or heights of the picture.
 Vec3 picture_shift(const LuaValue& value, const std::string& location) {
     constexpr double most = 10;
     const LuaTable* table = as_table(value);
@@ -178,7 +178,7 @@ void check_defines(const std::map<std::string, std::string>& defines,
     }
 }
 
-// Pictures on surfaces are upright where z is up.
+// Makes images on surfaces upright in a scene where z is up.
 void turn_up(Material& m) {
     const auto turned = [](Texture texture) {
         texture.z_up = true;
@@ -196,7 +196,7 @@ struct SceneSource {
     const std::vector<std::string>& model_folders;
 };
 
-// Whether up = "z" stands anywhere in the text.
+// Whether the text contains up = "z" anywhere.
 bool seems_z_up(const std::string& text) {
     for (std::size_t at = 0; (at = text.find("up", at)) != std::string::npos;) {
         const auto is_next = [&](const char* any) {
@@ -212,7 +212,7 @@ bool seems_z_up(const std::string& text) {
     return false;
 }
 
-// A run of the scene with z or y up: whether that mattered is told besides.
+// Runs the scene with y or z up; `up_mattered` is set to whether the result depends on that.
 Scene run_scene(const SceneSource& source, const SandboxLimits& limits, bool z_up, bool& up_mattered) {
     const auto& [text, file, defines, model_folders] = source;
     SceneBuilder builder(defines, SceneFiles(file, model_folders), limits.parts);
@@ -262,8 +262,8 @@ Scene read_scene_text(const std::string& given, const std::string& file,
                       const std::vector<std::string>& model_folders) {
     const std::string text = scene_text(given, file);
     const SceneSource source{text, file, defines, model_folders};
-    // A scene says which way is up when its prisms are made already, so it is run with what it seems to say. It cannot
-    // know the time nor remember: with the other axis it does the same again.
+    // A scene returns its up axis only after its prisms are made, so it is run with the axis that its text suggests. As
+    // it has neither clock nor memory, a second run with the other axis does the same.
     const bool guess = seems_z_up(text);
     bool up_mattered = false;
     Scene scene;

@@ -1,4 +1,4 @@
-// Round primitives of a scene: sphere, cylinder, cone and torus as densities [docs/design.md, Round primitives].
+// Round primitives in scenes: sphere, cylinder, cone and torus as densities [docs/design.md, Round primitives].
 #include <fmt/format.h>
 
 #include "raytracer/scene/scene_functions.hpp"

@@ -1,5 +1,5 @@
-// Rounding in a scene: rounded, convolved and sharp make a solid of a density or of a model, and d:radius(r) gives a
-// part of a density a radius of its own.
+// Rounding in scenes: rounded, convolved and sharp make a solid from a density or a model, and d:radius(r) gives a part
+// of a density its own radius.
 #include "bounds/density_tree.hpp"
 #include "raytracer/scene/round_convolution.hpp"
 #include "raytracer/scene/scene_arguments.hpp"
@@ -7,7 +7,7 @@
 namespace deburr {
 namespace {
 
-// Instructions that take as long as laying out a part.
+// Instructions that take as long as flattening one part.
 constexpr std::int64_t work_per_round_part = 20;
 
 SceneResult rounded(SceneCall& call) {

@@ -1,4 +1,4 @@
-// Shapes of a scene with flat faces, as densities: half-spaces, boxes, convex hulls and prisms.
+// Shapes with flat faces in scenes, as densities: half-spaces, boxes, convex hulls and prisms.
 #include <fmt/format.h>
 
 #include <optional>
@@ -12,15 +12,14 @@ namespace {
 
 constexpr std::size_t max_hull_points = 100'000;
 
-// Instructions that take as long as finding the hull, for each point: 100,000 points on a sphere
-// take 0.8 s.
+// Instructions that take as long as computing the hull, for each point: 100,000 points on a sphere take 0.8 s.
 constexpr std::int64_t work_per_hull_point = 2'500;
 
-// Memory of qhull's for each point of a hull, and ours for its faces, which are twice as many. Points on a sphere take
-// it.
+// Memory of qhull for each point of a hull, and of its faces here, which are twice as many; measured with points on a
+// sphere.
 constexpr std::size_t bytes_per_hull_point = 1'000;
 
-constexpr std::size_t max_polygon_points = 4'096;  // the check that no sides cross takes its square
+constexpr std::size_t max_polygon_points = 4'096;  // the check for crossing sides is quadratic
 constexpr std::size_t max_holes = 4'096;
 
 SceneResult half_space(SceneCall& call) {
@@ -28,7 +27,7 @@ SceneResult half_space(SceneCall& call) {
     const Vec3 given = vector(call.argument(0), call.location("normal"));
     const Vec3 normal = direction(call.argument(0), call.location("normal"));
     const double offset = number(call.argument(1), call.location("d"));
-    // The plane is given · x = offset; along an axis this is exact, and no length overflows.
+    // The plane given · x = offset; exact along an axis, and without a length that could overflow.
     const double length = glm::dot(given, normal), distance = offset / length;
     if (!(length > 0 && std::isfinite(length) && std::isfinite(distance)))
         throw BadValue(call.name, "expected a normal and a distance of ordinary size, got singular ones");
@@ -72,9 +71,9 @@ SceneResult convex(SceneCall& call) {
 
 std::vector<Vec2> polygon_of(SceneCall& call, const LuaValue& value, const std::string& location, PrismAxis axis) {
     const std::vector<LuaValue>& given = need_list(value, location, "points", max_polygon_points);
-    // Each side is compared with each.
+    // Each side is compared with every other.
     call.builder.spend(2 * std::int64_t(given.size()) * std::int64_t(given.size()));
-    call.builder.keep_half_spaces(2 * given.size() + 2);  // and the operators between them
+    call.builder.keep_half_spaces(2 * given.size() + 2);  // with the operators between them
     constexpr const char* pairs[] = {"two numbers {y, z}", "two numbers {x, z}", "two numbers {x, y}"};
     std::vector<Vec2> polygon;
     for (const LuaValue& point : given) {

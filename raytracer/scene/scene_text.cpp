@@ -33,7 +33,7 @@ std::string text_of_file(const std::string& file) {
     return text;
 }
 
-// Lua would stop at a NUL in silence or speak of symbols.
+// Refuses text that Lua would silently cut off at a NUL, or report in its own terms.
 static void check_text(const std::string& text, const std::string& file) {
     int line = 1;
     for (const char c : text) {
@@ -48,7 +48,7 @@ static void check_text(const std::string& text, const std::string& file) {
 std::string scene_text(std::string text, const std::string& file) {
     check_text(text, file);
     if (text.compare(0, 3, "\xEF\xBB\xBF") == 0) text.erase(0, 3);  // byte order mark
-    if (text.compare(0, 1, "#") == 0) text.insert(0, "--");         // #!, as the lua command allows
+    if (text.compare(0, 1, "#") == 0) text.insert(0, "--");         // makes #! a comment, as the lua command does
     return text;
 }
 
@@ -77,8 +77,8 @@ const char* other_language(std::string_view text) {
 }
 
 const char* other_language_in_lua(std::string_view text) {
-    if (text.find("return") != std::string_view::npos) return "";  // what every scene has, and no program for OpenSCAD
-    // A line that calls what OpenSCAD has and does nothing with the result, or goes on with a block.
+    if (text.find("return") != std::string_view::npos) return "";  // every scene has it, and no OpenSCAD program
+    // Looks for a line that calls an OpenSCAD function and ignores the result or continues with a block.
     while (!text.empty()) {
         std::string_view line = text.substr(0, text.find('\n'));
         text.remove_prefix(std::min(line.size() + 1, text.size()));

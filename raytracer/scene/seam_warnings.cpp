@@ -11,7 +11,7 @@
 namespace deburr {
 namespace {
 
-// Larger densities are not looked at, nor more of them than this: it should take no time that one notices.
+// Larger densities are not examined, nor more of them than this, so that the time is not noticeable.
 constexpr double max_leaves = 500;
 constexpr std::size_t max_densities = 100;
 

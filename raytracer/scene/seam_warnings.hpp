@@ -1,4 +1,4 @@
-// What a user is told of round parts that run on smoothly into other surfaces.
+// Warnings about round parts that run on smoothly into other surfaces.
 #pragma once
 #include <string>
 #include <vector>

@@ -13,7 +13,7 @@
 namespace deburr {
 namespace {
 
-// The other side of a cone, and the lower end of a draw, are no parts of their own.
+// Whether the half-space is a part of its own: not the other side of a cone, nor the lower end of a draw.
 bool is_part(const HalfSpace& h) { return h.round && !h.round->is_concave() && (h.offset > 0 || h.round->is_cone()); }
 
 SolidFacts facts_of(const SolidTree& tree) {
@@ -33,7 +33,7 @@ SolidFacts facts_of(const SolidTree& tree) {
     return facts;
 }
 
-// Of a scale by which the map makes volumes larger.
+// The mean factor by which the map scales lengths: the cube root of that of volumes.
 double scale_of(const Affine& map) { return std::cbrt(std::abs(glm::determinant(map.linear))); }
 
 void add_models(const Solid& solid, SolidFacts& facts) {
@@ -71,7 +71,7 @@ SolidFacts SolidSurvey::at(const Solid& solid) {
     return placed(placement.map, of_canonical(placement.canonical));
 }
 
-// With a stack of its own, for unions may be long chains.
+// Iterative, since unions may be long chains.
 const SolidFacts& SolidSurvey::of_canonical(int root) {
     std::vector<int> open{root};
     while (!open.empty()) {

@@ -1,4 +1,4 @@
-// What solids are made of, and where they are, however often they place a part.
+// Counts what solids are made of, and bounds them, in time that does not grow with the number of placements.
 #pragma once
 #include <unordered_map>
 
@@ -6,21 +6,22 @@
 
 namespace deburr {
 
+/// Facts about a solid; counts are per use, so a part that is placed twice counts twice.
 struct SolidFacts {
-    Box box;                               // holds the solid; sides may be infinite
-    double half_spaces = 0, quadrics = 0;  // counted once per use
-    double round_parts = 0;                // spheres, cylinders, cones and tori of densities, once per use
-    double triangles = 0, faces = 0;       // of models; faces: triangles of one plane that hang together count once
-    double model_volume = 0;               // of models, before they are rounded and combined
-    double model_radius = 0;               // greatest by which one is rounded
+    Box box;                               // contains the solid; sides may be infinite
+    double half_spaces = 0, quadrics = 0;  // in its densities and fields
+    double round_parts = 0;                // spheres, cylinders, cones and tori of densities
+    double triangles = 0, faces = 0;       // of models; faces: connected triangles in one plane count once
+    double model_volume = 0;               // of models, before rounding and CSG
+    double model_radius = 0;               // largest rounding radius of a model
 };
 
-/// Remembers parts that were met before, so one survey should see all solids of a scene, each of which must live as
-/// long as it does.
+/// Surveys solids. It remembers shared parts, so one survey should be used for all solids of a scene; each solid must
+/// outlive it.
 class SolidSurvey {
 public:
-    /// A solid that is too large to be laid out is a union that is looked at by its operands, each canonical one
-    /// once; its box is the hull of theirs.
+    /// The facts about a solid. A union that is too large to be flattened is surveyed by its operands, each canonical
+    /// one once; its box is the hull of theirs.
     SolidFacts at(const Solid& solid);
 
 private:

@@ -9,11 +9,11 @@ namespace deburr {
 namespace {
 
 struct Token {
-    std::string_view text;  // a name, or one other character
+    std::string_view text;  // a name, or a single other character
     int line;
 };
 
-// As much of Lua's syntax as it takes to leave out comments and texts.
+// Splits Lua text into tokens, as far as needed to skip comments and strings.
 class Lexer {
 public:
     explicit Lexer(std::string_view text) : text_(text) {}
@@ -57,7 +57,7 @@ private:
         step();
     }
 
-    // [[ … ]] or [==[ … ]==]; false: there is none here.
+    // Skips [[ … ]] or [==[ … ]==]; false if there is none here.
     bool long_bracket() {
         if (!starts("[")) return false;
         std::size_t level = at_ + 1;
@@ -79,7 +79,7 @@ int only_assignment(const std::vector<Token>& tokens, const std::string& name) {
     int line = 0;
     for (std::size_t i = 0; i + 1 < tokens.size(); ++i) {
         if (tokens[i].text != name || tokens[i + 1].text != "=") continue;
-        if (i + 2 < tokens.size() && tokens[i + 2].text == "=") continue;  // a comparison
+        if (i + 2 < tokens.size() && tokens[i + 2].text == "=") continue;  // it is a comparison
         if (line > 0) return 0;
         line = tokens[i].line;
     }

@@ -6,10 +6,11 @@
 namespace deburr {
 namespace {
 
-// Cosine between two faces' normals above which they are no wall but an edge that rounding takes off.
+// Cosine between two faces' normals above which they do not form a wall but an edge that is rounded off.
 constexpr double opposite = -0.9;
 
-// Where the line from x along the direction enters the triangle; infinity if it does not.
+// The distance at which the ray from x in this direction leaves the solid through the triangle; infinity if it does
+// not.
 double distance_along(const ClosedMesh& mesh, int t, Vec3 x, Vec3 direction) {
     const ClosedMesh::Plane& plane = mesh.plane(t);
     const double fall = glm::dot(plane.normal, direction);
@@ -23,8 +24,8 @@ double distance_along(const ClosedMesh& mesh, int t, Vec3 x, Vec3 direction) {
     return distance;
 }
 
-// How thick the solid is behind a point of the facet, if it is no thicker than `most` and ends at a face that looks the
-// other way; else infinity.
+// The thickness of the solid behind a point of the facet, if it is at most `most` and ends at a face that looks the
+// opposite way; else infinity.
 double thickness(const ClosedMesh& mesh, int facet, Vec3 x, double most, std::vector<int>& near) {
     const Vec3 inward = -mesh.plane(facet).normal, end = x + most * inward;
     near.clear();

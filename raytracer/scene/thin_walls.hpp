@@ -1,4 +1,4 @@
-// Walls of a closed mesh that are too thin for the radius it is rounded by.
+// Finds walls of a closed mesh that are too thin for its rounding radius.
 #pragma once
 #include <cstddef>
 
@@ -6,19 +6,20 @@
 
 namespace deburr {
 
-/// A wall of two parallel faces whose thickness is this many radii or less vanishes: half of a ball around its middle
-/// is outside. It is the root 4 sin 10° of a³ − 3a + 1 for half of it.
+/// A wall between two parallel faces vanishes if its thickness is at most this many radii: then half of a ball around
+/// its middle is outside. Half of it, 2 sin 10°, is the root of u³ − 3u + 1.
 constexpr double vanishing_thickness = 0.69459271066772139;
 
+/// The walls that vanish.
 struct ThinWalls {
-    std::size_t facets = 0;       // with a wall behind them that vanishes
-    double thickness = infinity;  // least of such a wall
-    Vec3 place{0.0};              // on a facet where it is that thin
+    std::size_t facets = 0;       // number of facets in front of such a wall
+    double thickness = infinity;  // the least one
+    Vec3 place{0.0};              // on a facet where the wall is that thin
 };
 
-/// Looks inward from a few points of each facet: a face that looks the other way nearby, and a share below ½ half-way,
-/// are a wall that vanishes. Walls that are thin between these points only are not found. Of a mesh with more than
-/// `most` facets some are looked at, evenly.
+/// Looks inward from a few points of each facet: a face nearby that looks the opposite way, and a share below ½
+/// half-way to it, mean a wall that vanishes. Walls that are thin only between these points are not found. Of a mesh
+/// with more than `most` facets, evenly spaced ones are examined.
 ThinWalls thin_walls(const MeshField& field, std::size_t most = 200'000);
 
 }  // namespace deburr

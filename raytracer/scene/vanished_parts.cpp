@@ -19,17 +19,19 @@
 namespace deburr {
 namespace {
 
-// Larger solids are not looked at: nothing of them fits into the time.
+// Larger solids are not examined: nothing would be found in the given time.
 constexpr double max_leaves = 3'000;
-// Halvings in search of the largest radius that keeps a part: three digits of it.
+// Halvings in the search for the largest radius at which a part stays: three digits of it.
 constexpr int halvings = 12;
-// Nodes that are looked at for one radius, to find a point that it keeps.
+// Most nodes evaluated for one radius to find a point that stays.
 constexpr std::int64_t nodes_of_radius = 1'000'000;
-// Points along each side of a part's box where it is compared with the whole.
+// Points along each side of a part's box at which the part is compared with the whole.
 constexpr int points_along = 12;
-// A plate of this many radii holds half of the ball around its middle: 3u - u³ = 1 of u, half of it, = 2 sin 10°.
+// A plate this many radii thick contains half of a ball around its middle: half of it, u = 2 sin 10°, solves 3u − u³ =
+// 1.
 constexpr double thinnest_plate = 0.694592;
-// A value of a true convolution takes as long as this many nodes for each of its own, and of more leaves much longer.
+// A value of a true convolution takes as long as this many nodes for each node of its own, and much longer with more
+// leaves than this.
 constexpr int nodes_of_convolution = 100;
 constexpr double max_convolved_leaves = 100;
 
@@ -43,8 +45,8 @@ DensityTree sharpened(DensityTree tree) {
     return tree;
 }
 
-// Whether the Boolean function below a true convolution lies between two planes too close to one another for it. So is
-// any plate or small box told at once; the ranges of true convolutions take long.
+// Whether the Boolean function of a true convolution lies between two planes that are too close for it. This finds
+// plates and small boxes at once; ranges of true convolutions take long.
 bool is_thin_plate(const DensityTree& tree) {
     constexpr double parallel = 1e-12;
     std::vector<HalfSpace> between;
@@ -63,7 +65,7 @@ bool is_thin_plate(const DensityTree& tree) {
     return false;
 }
 
-// A rounded density, or a true convolution, where it is placed first.
+// A rounded density or a true convolution, as it is placed first.
 class Leaf {
 public:
     Leaf(const SolidNode& node, const Affine& map, std::int64_t& nodes) : node_(node), map_(map), nodes_(nodes) {
@@ -72,7 +74,7 @@ public:
         for (const int part : parts_) sharp_parts_.push_back(sharpened(part_below(whole_, part)));
     }
 
-    // What to say of each part that vanishes, but for the place.
+    // The message for each part that vanishes, without the place.
     std::vector<std::string> vanished() {
         std::vector<std::string> said;
         for (std::size_t i = 0; i < parts_.size() && nodes_ > 0; ++i) {
@@ -89,7 +91,7 @@ private:
         return node_.convolved() ? flatten_convolved(node_.density(), r, map_) : flatten(node_.density(), r, map_);
     }
 
-    // One part of such a tree as if it were alone.
+    // Part i of such a tree as if it were alone.
     DensityTree rounded_part(const DensityTree& tree, std::size_t i) const {
         DensityTree part = part_below(tree, parts_[i]);
         if (!node_.convolved()) return part;
@@ -98,16 +100,16 @@ private:
         return part;
     }
 
-    // Errs towards yes.
+    // Whether the tree may keep some volume; if this is not proved either way, true.
     bool is_kept(const DensityTree& tree, const Box& box) {
         if (node_.convolved()) return !is_thin_plate(tree);
         return emptiness(tree, box, nodes_) != Emptiness::empty;
     }
 
-    // Errs towards no.
+    // Whether the tree surely keeps some volume; if this is not proved, false.
     bool is_surely_kept(const DensityTree& tree, const Box& box) {
         if (node_.convolved()) return some_point(box, [&](Vec3 x) { return value(tree, x) > 0.5; });
-        // Beyond the largest such radius no answer may be found at all.
+        // The work is limited, since beyond the largest such radius there may be no answer.
         const std::int64_t given = std::min(nodes_, nodes_of_radius);
         std::int64_t left = given;
         const Emptiness found = emptiness(tree, box, left);
@@ -131,7 +133,7 @@ private:
         return false;
     }
 
-    // It has a volume, none when it is rounded alone, and its neighbours do not hold it either.
+    // Whether part i has a volume and none when it is rounded alone, and is not contained in its neighbours either.
     bool vanishes(std::size_t i, const Box& box) {
         const DensityTree alone = rounded_part(whole_, i);
         if (is_kept(alone, box) || emptiness(sharp_parts_[i], box, nodes_) != Emptiness::not_empty) return false;
@@ -163,7 +165,7 @@ private:
             const double middle = 0.5 * (low + high);
             (kept(middle) ? low : high) = middle;
         }
-        // Radii that are fixed for some faces may leave none.
+        // Where faces have fixed radii of their own, no radius may keep the part.
         return low > 0 ? text + fmt::format("; up to {:.3g} it stays", rounded_down(low)) : text;
     }
 
@@ -175,7 +177,7 @@ private:
     std::vector<DensityTree> sharp_parts_;
 };
 
-// What to say of a model's walls that vanish, but for the place; nothing if there are none.
+// The message for a model's walls that vanish, without the place; "" if there are none.
 std::string thin_walls_text(const MeshField& model, const Affine& map) {
     const ThinWalls walls = thin_walls(model);
     if (walls.facets == 0) return {};
@@ -189,7 +191,7 @@ std::string thin_walls_text(const MeshField& model, const Affine& map) {
         rounded_down(thickness / vanishing_thickness));
 }
 
-// Errs towards no.
+// Whether the solid is proved to be empty.
 bool is_empty(const Solid& solid, std::int64_t& nodes) {
     if (solid.node().leaves > max_leaves || nodes <= 0) return false;
     const SolidTree tree = flatten(solid);
@@ -212,7 +214,7 @@ VanishedParts vanished_parts(const Scene& scene, std::int64_t nodes) {
     std::unordered_set<const SolidNode*> met;
     CanonicalSolids canonical;
     std::unordered_set<int> seen;
-    std::unordered_map<int, bool> is_empty_by_part;  // of canonical solids
+    std::unordered_map<int, bool> is_empty_by_part;  // by canonical solid
     for (std::size_t i = 0; i < scene.solids.size() && nodes > 0; ++i) {
         const Solid& solid = scene.solids[i];
         const std::string name = scene.names[i].empty() ? "" : fmt::format(" ({})", scene.names[i]);
@@ -242,11 +244,11 @@ VanishedParts vanished_parts(const Scene& scene, std::int64_t nodes) {
         try {
             for_each_leaf(
                 {solid}, [&](const SolidNode& node) { return nodes > 0 && met.insert(&node).second; }, look);
-            // One of all placements of a solid is looked at.
+            // Only one of all placements of a solid is examined.
             const auto [at, is_new] = is_empty_by_part.try_emplace(canonical.of(solid).canonical, false);
             if (is_new) at->second = is_empty(solid, nodes);
             if (!at->second) continue;
-        } catch (const TooEntangled&) {  // it is told when it is rendered
+        } catch (const TooEntangled&) {  // reported when it is rendered
             continue;
         }
         if (!told) result.empty.push_back(said(first_line, "it is empty: & or - leaves nothing of it"));

@@ -12,10 +12,10 @@
 namespace deburr {
 namespace {
 
-// Larger solids are not asked whether they hold a point.
+// Larger solids are not asked whether they contain a point.
 constexpr double max_leaves = 20'000;
 
-// An angle up to this, in degrees, is taken for one in radians; from the other on, a picture is all distortion.
+// In degrees: a smaller angle of view is taken to be meant in radians; a larger one shows mostly distortion.
 constexpr double least_fov = std::numbers::pi, greatest_fov = 130;
 
 bool is_black(Vec3 color) { return color == Vec3(0.0); }
@@ -32,12 +32,12 @@ bool is_clear(const SolidTree& tree, const std::vector<Material>& materials) {
 bool holds(const SolidTree& tree, Vec3 point) {
     try {
         return tree.contains(point);
-    } catch (const TooEntangled&) {  // it is told when it is rendered
+    } catch (const TooEntangled&) {  // reported when it is rendered
         return false;
     }
 }
 
-// Points of interest, and what is wrong where they lie inside a solid.
+// A point, and the warning if it is inside a solid.
 struct Place {
     Vec3 point;
     std::string what;
@@ -51,7 +51,7 @@ std::vector<Place> places(const Scene& scene) {
     return all;
 }
 
-// Whether all of the box is on the far side of one of the planes that bound the view.
+// Whether the whole box is beyond one of the planes that bound the view.
 bool out_of_view(const Box& box, const Camera& camera, double aspect) {
     const Vec3 view = glm::normalize(camera.target - camera.eye);
     const Vec3 right = glm::normalize(glm::cross(view, camera.up)), up = glm::cross(right, view);

@@ -1,4 +1,4 @@
-// What a user is told of a picture that will show nothing, or not what was meant.
+// Warnings about pictures that will show nothing, or not what was meant.
 #pragma once
 #include <string>
 #include <vector>
@@ -7,11 +7,11 @@
 
 namespace deburr {
 
-/// Returns whether nothing in the scene shines: no lamp, no background, no material.
+/// Whether nothing in the scene emits light: no light, no background, no material.
 bool is_unlit(const Scene& scene);
 
-/// A line each where no light reaches anything, where a lamp or the camera is inside a solid, where the camera sees
-/// none of the bounded solids in a picture with this width/height, and where its angle of view is hardly meant.
+/// A line for each problem: no light reaches anything; a light or the camera is inside a solid; the camera sees none of
+/// the bounded solids in a picture with this ratio of width to height; its angle of view is hardly meant.
 std::vector<std::string> view_warnings(const Scene& scene, double aspect);
 
 }  // namespace deburr
