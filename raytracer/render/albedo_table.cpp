@@ -8,11 +8,11 @@
 namespace deburr {
 namespace {
 
-// At a cosine of 0 the masking is 0/0.
+// Least cosine, since masking is 0/0 at a cosine of 0.
 constexpr double min_table_cosine = 1e-5;
 
-// Facets of one table's node: a lattice of golden steps over half a turn, for the other half mirrors it. With these,
-// the white tables of six roughnesses were within 3·10⁻⁴ of sums of 2²⁰ facets.
+// Facets sampled for each entry of a table: a lattice of golden steps over half a turn, since the other half is its
+// mirror image. With these, white tables of six roughnesses were within 3·10⁻⁴ of sums of 2²⁰ facets.
 constexpr int facets = 4096;
 
 const std::vector<Vec2>& half_turns() {
@@ -31,8 +31,8 @@ const std::vector<Vec2>& half_turns() {
 
 AlbedoTable::AlbedoTable(Kind kind, double alpha, double ior) {
     for (int i = 0; i <= steps; ++i) albedo_[i] = integral(kind, alpha, ior, double(i) * i / (double(steps) * steps));
-    // With cosine = t² and the albedo linear in t between nodes, the mean is ∫ 4 albedo t³ dt, of degree 4 in each
-    // step: Gauss' rule of three points is exact.
+    // With cosine = t² and an albedo linear in t between entries, the mean is ∫ 4 albedo t³ dt, of degree 4 in each
+    // step, for which Gauss' rule of three points is exact.
     constexpr double weights[3] = {5.0 / 18, 8.0 / 18, 5.0 / 18};
     const double nodes[3] = {0.5 - std::sqrt(0.15), 0.5, 0.5 + std::sqrt(0.15)};
     for (int i = 0; i < steps; ++i)
@@ -43,7 +43,7 @@ AlbedoTable::AlbedoTable(Kind kind, double alpha, double ior) {
     if (mean_ < 1) base_share_ = std::numbers::inv_pi / (1 - mean_);
 }
 
-// The mean weight of what visible facets reflect and refract.
+// The mean weight of reflection and transmission by visible facets.
 double AlbedoTable::integral(Kind kind, double alpha, double ior, double cosine) const {
     const double c = std::max(cosine, min_table_cosine);
     if (!(alpha >= smooth_alpha)) return kind == Kind::boundary ? fresnel_dielectric(cosine, ior) : 1.0;
@@ -64,7 +64,7 @@ double AlbedoTable::integral(Kind kind, double alpha, double ior, double cosine)
 
 double AlbedoTable::at(double cosine) const {
     const double t = std::sqrt(glm::clamp(cosine, 0.0, 1.0)) * steps;
-    const int i = t < steps ? int(t) : steps - 1;  // the last for no number, too
+    const int i = t < steps ? int(t) : steps - 1;  // the last one for NaN, too
     return glm::mix(albedo_[i], albedo_[i + 1], t - i);
 }
 

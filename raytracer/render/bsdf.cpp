@@ -8,7 +8,7 @@ namespace {
 
 using std::numbers::pi;
 
-// Cosines at a shading point are kept from 0, where G and E are 0/0.
+// Least cosine at a shading point, since G and E are 0/0 at 0.
 constexpr double min_cosine = 1e-5;
 
 struct Frame {
@@ -23,7 +23,7 @@ struct Frame {
     Vec3 to_local(Vec3 v) const { return {glm::dot(v, x), glm::dot(v, y), glm::dot(v, z)}; }
 };
 
-// Of the series in a²: ±1 / (2k + 1)! and ±1 / (2k)!, the last first.
+// Coefficients of the series in a²: ±1 / (2k + 1)! and ±1 / (2k)!, the last one first.
 constexpr double sine_terms[] = {-1.0 / 1307674368000, 1.0 / 6227020800, -1.0 / 39916800, 1.0 / 362880,
                                  -1.0 / 5040,          1.0 / 120,        -1.0 / 6,        1};
 constexpr double cosine_terms[] = {1.0 / 20922789888000,
@@ -36,7 +36,8 @@ constexpr double cosine_terms[] = {1.0 / 20922789888000,
                                    -1.0 / 2,
                                    1};
 
-// Cosine and sine of 2π u, for u from 0 to 1, to 2⁻⁵²: by their series up to π/4, in half of the time of the library's.
+// Cosine and sine of 2π u for u in [0, 1], to 2⁻⁵²: by their series up to π/4, in half the time of the library's
+// functions.
 Vec2 turn_by(double u) {
     const int quarter = int(4 * u + 0.5);
     const double a = (4 * u - quarter) * (pi / 2), s = a * a;
@@ -44,7 +45,7 @@ Vec2 turn_by(double u) {
     for (const double c : sine_terms) sine = sine * s + c;
     for (const double c : cosine_terms) cosine = cosine * s + c;
     sine *= a;
-    // By quarters, without a branch that nothing could foretell.
+    // By quarters, without a branch that could not be predicted.
     const double of[2] = {cosine, sine}, sign[4] = {1, -1, -1, 1};
     return {sign[quarter & 3] * of[quarter & 1], sign[(quarter + 3) & 3] * of[~quarter & 1]};
 }
@@ -55,10 +56,10 @@ double power5(double x) { return x * x * x * x * x; }
 
 double fresnel_dielectric(double cosine, double ior) {
     const double c = glm::clamp(std::abs(cosine), 0.0, 1.0);
-    const double g2 = ior * ior - 1 + c * c;  // (ior · cosine beyond)²
+    const double g2 = ior * ior - 1 + c * c;  // (ior · cosine of the refracted ray)²
     if (g2 <= 0) return 1.0;
     const double g = std::sqrt(g2);
-    // (c − g)/(c + g) and (ior² c − g)/(ior² c + g), by one division.
+    // (c − g)/(c + g) and (ior² c − g)/(ior² c + g), by a single division.
     const double d = ior * ior * c, inverse = 1 / ((c + g) * (d + g));
     const double s = (c - g) * (d + g) * inverse, p = (d - g) * (c + g) * inverse;
     return 0.5 * (s * s + p * p);
@@ -117,8 +118,8 @@ SurfaceLayer::SurfaceLayer(const Material& material)
     smooth_ = kind_ == Material::Kind::mirror || !(ggx_.alpha >= smooth_alpha);
     if (kind_ == Material::Kind::glass) return;
     for (int i = 0; i <= steps; ++i) albedo_[i] = integrate(double(i) * i / (double(steps) * steps));
-    // With cosine = t² and E linear in t between nodes, 2 E cosine d cosine = 4 E t³ dt, which
-    // Gauss' rule of three points integrates exactly.
+    // With cosine = t² and E linear in t between entries, 2 E cosine d cosine = 4 E t³ dt, which Gauss' rule of three
+    // points integrates exactly.
     constexpr double weights[3] = {5.0 / 18, 8.0 / 18, 5.0 / 18};
     const double nodes[3] = {0.5 - std::sqrt(0.15), 0.5, 0.5 + std::sqrt(0.15)};
     for (int i = 0; i < steps; ++i)
@@ -129,8 +130,8 @@ SurfaceLayer::SurfaceLayer(const Material& material)
     if (mean_ < 1) base_share_ = 1 / (pi * (1 - mean_));
 }
 
-// The mean weight of reflections about visible facets, over a lattice of golden steps. Over five
-// roughnesses, two indices and five angles a white furnace was off by at most 10⁻³.
+// The mean weight of reflections by visible facets, over a lattice of golden steps. Over five roughnesses, two indices
+// and five angles, a white furnace was off by at most 10⁻³.
 double SurfaceLayer::integrate(double cosine) const {
     if (kind_ == Material::Kind::matte) return 0.0;
     const double c = std::max(cosine, min_cosine);
@@ -148,7 +149,7 @@ double SurfaceLayer::integrate(double cosine) const {
         const Vec3 facet = ggx_.facet_about_z(eye, (i + 0.5) / points, turns[i]);
         const double out = reflected(to_eye, facet).z;
         if (!(out > 0)) continue;
-        // A white metal's Fresnel reflectance is 1.
+        // The Fresnel reflectance of white metal is 1.
         const double share = plastic ? fresnel_dielectric(glm::dot(to_eye, facet), ior_) : 1.0;
         sum += share * ggx_.shadowing(out, c);
     }
@@ -156,7 +157,7 @@ double SurfaceLayer::integrate(double cosine) const {
 }
 
 bool SurfaceLayer::polished() const {
-    // Roughness 0.3; blurrier, the missing blur would be more wrong than a missing object.
+    // Roughness 0.3. Beyond, a sharp reflection of objects would be more wrong than none.
     constexpr double polished_alpha = 0.09;
     if (kind_ == Material::Kind::matte) return false;
     return smooth_ || (kind_ == Material::Kind::metal && ggx_.alpha <= polished_alpha);
@@ -164,7 +165,7 @@ bool SurfaceLayer::polished() const {
 
 double SurfaceLayer::albedo(double cosine) const {
     const double at = std::sqrt(glm::clamp(cosine, 0.0, 1.0)) * steps;
-    const auto i = at < steps ? std::size_t(at) : std::size_t(steps - 1);  // the last for no number, too
+    const auto i = at < steps ? std::size_t(at) : std::size_t(steps - 1);  // the last one for NaN, too
     return glm::mix(albedo_[i], albedo_[i + 1], at - double(i));
 }
 

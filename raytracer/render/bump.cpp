@@ -5,11 +5,11 @@
 namespace deburr {
 namespace {
 
-// Between the points of which a pattern's slope is the difference, in its scale: a tenth of the finest noise of three
+// Distance of the points whose difference is a pattern's slope, in its scale: a tenth of the finest noise of three
 // octaves.
 constexpr double pattern_step = 1.0 / 64;
 
-// What is mirrored rises over the surface by at least this sine.
+// Least sine of the angle between the mirror direction and the surface.
 constexpr double min_rise = 1e-3;
 
 double step_of(const Texture& t) {
@@ -44,7 +44,7 @@ Vec3 shading_normal(const Material& material, Vec3 position, Vec3 normal, Vec3 t
     const Vec3 bumped = bumped_normal(*material.bump, material.bump_height, position, normal);
     const double side = glm::dot(normal, to_eye) < 0 ? -1.0 : 1.0;
     const Vec3 visible = side * visible_bump(side * bumped, side * normal, to_eye);
-    return glm::length(visible) > 0.5 ? visible : normal;  // false for no number, too
+    return glm::length(visible) > 0.5 ? visible : normal;  // false for NaN, too
 }
 
 }  // namespace deburr

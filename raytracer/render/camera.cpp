@@ -6,8 +6,8 @@
 namespace deburr {
 namespace {
 
-// Below this sine of the angle between `up` and the view, up decides nothing: its cross product
-// has lost half of its digits.
+// If the sine of the angle between `up` and the view is below this, up is ignored: their cross product has lost half of
+// its digits.
 const double min_sine = std::sqrt(epsilon);
 
 Vec3 unit_or(Vec3 v, Vec3 otherwise) {
@@ -15,7 +15,7 @@ Vec3 unit_or(Vec3 v, Vec3 otherwise) {
     return length > 0 && std::isfinite(length) ? v / length : otherwise;
 }
 
-// To the right of someone who looks forward with `up` above; any perpendicular where up fails.
+// The direction to the right of a viewer who looks forward with `up` above; any perpendicular one if up is parallel.
 Vec3 rightwards(Vec3 forward, Vec3 up) {
     const Vec3 right = glm::cross(forward, unit_or(up, {0, 1, 0}));
     const double sine = glm::length(right);
@@ -43,7 +43,7 @@ PinholeCamera::PinholeCamera(const Camera& camera, int width, int height)
     if (camera.shift != Vec3(0.0)) corner_ += camera.shift.x * width * dx_ - camera.shift.y * height * dy_;
 }
 
-// A disc from a square, without folding it [Shirley & Chiu 1997].
+// Maps the unit square to the unit disc [Shirley & Chiu 1997].
 static Vec2 disc(Vec2 u) {
     const Vec2 s = 2.0 * u - 1.0;
     if (s == Vec2(0.0)) return s;

@@ -8,10 +8,10 @@ namespace {
 
 constexpr double kilocandelas_of_one = 30;
 constexpr int sky_width = 512, sky_height = 256;
-// Perez' formula divides by the cosine of the zenith's angle.
+// Least height, since Perez' formula divides by the cosine of the zenith angle.
 constexpr double least_height = 0.01;
 
-// Perez' five parameters, linear in the turbidity [Preetham et al., appendix A.2].
+// Perez' five parameters, which are linear in the turbidity [Preetham et al., appendix A.2].
 struct Perez {
     double A, B, C, D, E;
 
@@ -33,7 +33,8 @@ Perez chroma_y(double T) {
             -0.0109 * T + 0.0529};
 }
 
-// At the zenith: rows by T², T and 1, columns by powers of the sun's angle from the third down.
+// A chromaticity at the zenith; the matrix's rows belong to T², T and 1, its columns to powers of the sun's angle from
+// 3 down to 0.
 double zenith_chroma(const double (&m)[3][4], double T, double angle) {
     const double powers[4] = {angle * angle * angle, angle * angle, angle, 1}, turbidities[3] = {T * T, T, 1};
     double sum = 0;
@@ -52,7 +53,7 @@ double zenith_luminance(double T, double angle) {
     return (4.0453 * T - 4.9710) * std::tan(chi) - 0.2155 * T + 2.4192;
 }
 
-// CIE xyY to linear Rec. 709 [IEC 61966-2-1].
+// Converts CIE xyY to linear Rec. 709 [IEC 61966-2-1].
 Vec3 rgb_of(double x, double y, double Y) {
     const double X = x / y * Y, Z = (1 - x - y) / y * Y;
     return glm::max(Vec3(3.2406 * X - 1.5372 * Y - 0.4986 * Z, -0.9689 * X + 1.8758 * Y + 0.0415 * Z,
@@ -93,7 +94,7 @@ std::shared_ptr<const PictureData> daylight(const Background& background) {
     return sky;
 }
 
-// What air, haze and ozone let pass, at one wavelength for each channel [Preetham et al., appendix A.1].
+// The sunlight that air, haze and ozone transmit, at one wavelength for each channel [Preetham et al., appendix A.1].
 Vec3 sun_irradiance(const Background& background) {
     constexpr double outside = 128;  // kilolux above the atmosphere
     const double wavelengths[3] = {0.61, 0.55, 0.465}, ozone[3] = {0.120, 0.085, 0.010};  // µm; 1/cm of ozone

@@ -7,10 +7,11 @@
 namespace deburr {
 namespace {
 
-// A solid of more half-spaces is found by reflections alone: to bound it could take longer than the picture.
+// Glowing solids with more half-spaces are found by scattering only, since bounding them could take longer than the
+// picture.
 constexpr double max_leaves_bounded = 10'000;
 
-// More of them are kept in trees.
+// More emitters than this are put into a tree.
 constexpr std::size_t max_in_list = 16;
 
 double mean_of(Vec3 c) { return (c.x + c.y + c.z) / 3; }
@@ -49,7 +50,7 @@ void Emitters::plant(Extended& extended, const std::vector<LightSource>& lights)
     std::vector<LightBounds> bounds;
     for (const std::size_t i : extended.lights) {
         bounds.push_back(lights[i].bounds());
-        bounds.back().power = 1;  // black ones hide what is behind them, too
+        bounds.back().power = 1;  // black lights are included, since they hide what is behind them
     }
     extended.tree = LightTree(bounds);
 }
@@ -160,7 +161,7 @@ bool Emitters::hidden(const Ray& ray, double t_max, std::size_t emitter) const {
     for_each_met(visible_, ray, end, [&](std::size_t i) {
         if (is_hidden || i == emitter || !(lights_[i].seen(ray, t_max).t < t_max)) return;
         is_hidden = true;
-        end = -infinity;  // no other box is near
+        end = -infinity;  // no other box is near enough
     });
     return is_hidden;
 }

@@ -1,10 +1,10 @@
-// What the path integrator takes light from by sampling: lights, solids that glow, and the environment.
+// The emitters that the path integrator samples: lights, glowing solids, and the environment.
 //
-// A solid of any shape is sampled by the cone around the ball that holds it: a direction that misses the solid brings
-// nothing, so no mesh of it is needed and the estimate is unbiased. Solids that are unbounded, or too large to be
-// bounded in time, are found by reflections alone.
+// A solid of any shape is sampled by the cone around its bounding ball: a direction that misses the solid adds nothing,
+// so no mesh of it is needed and the estimate is unbiased. Solids that are unbounded, or too large to be bounded in
+// time, are found by scattered rays only.
 //
-// Many of them are kept in a tree (light_tree.hpp), in which one is found by its importance without asking all.
+// If there are many emitters, a tree (light_tree.hpp) chooses one by importance without evaluating all.
 #pragma once
 #include <optional>
 #include <vector>
@@ -13,38 +13,43 @@
 
 namespace deburr {
 
+/// All emitters of a scene, by index.
 class Emitters {
 public:
-    /// Keeps a reference to the sky.
+    /// Keeps a reference to `sky`.
     Emitters(const Scene& scene, const SkyLight& sky);
 
     std::size_t size() const { return sun_ + (sky_.sun().shines() ? 1 : 0); }
-    /// Whether one direction alone leads to it: then reflections do not find it.
+    /// Whether only a single direction leads to it, so that scattered rays cannot find it.
     bool single(std::size_t i) const { return i < lights_.size() && !lights_[i].extended(); }
-    /// About as much light as it gives at a point; 0 only where it gives none that at() finds.
+    /// An estimate of the light that an emitter (or all together) gives at a point; 0 only if at() would find none.
     double importance(std::size_t i, Vec3 point) const;
     double importance(Vec3 point) const;
-    /// One of them for an even u from 0 to 1, as often as its part of all importance is; none where those left give
-    /// nothing. `importance` is that of all at the point, and more than 0.
+    /// Chooses an emitter for a uniform u in [0, 1), with a probability proportional to its importance. `importance` is
+    /// importance(point) and > 0. Returns none if the remaining candidates give no light.
     std::optional<std::size_t> choose(Vec3 point, double importance, double u) const;
 
+    /// A sample of an emitter.
     struct Sample : Incident {
-        int solid = -1;  // ≥ 0: the ray has to find what this solid emits; irradiance is then 1/density
+        // ≥ 0: index of a glowing solid, whose emission the ray has to find; irradiance is then 1/density
+        int solid = -1;
     };
+    /// A sample of emitter i as seen from a point, for a uniform u in the unit square.
     Sample at(std::size_t i, Vec3 point, Vec2 u) const;
 
     /// An emitter that a ray meets.
     struct Met {
+        // Radiance towards the ray's origin.
         Vec3 radiance{0.0};
-        double density = 0.0;  // with which at() would have found the direction; 0: it would not
+        double density = 0.0;  // of at() for this direction; 0: at() does not find it
         double t = infinity;
         std::size_t emitter = 0;
     };
-    /// The nearest visible light at a distance in (0, t_max), which hides what is behind it.
+    /// The nearest visible light that the ray meets in (0, t_max), which hides everything behind it.
     Met met(const Ray& ray, double t_max) const;
-    /// Whether a visible light other than `emitter` is there.
+    /// Whether the ray meets a visible light other than `emitter` in (0, t_max).
     bool hidden(const Ray& ray, double t_max, std::size_t emitter) const;
-    /// Calls each(met) for the invisible ones.
+    /// Calls each(Met) for the invisible lights that the ray meets in (0, t_max).
     template <class Each>
     void for_each_invisible(const Ray& ray, double t_max, Each each) const {
         for_each_met(invisible_, ray, t_max, [&](std::size_t i) {
@@ -52,13 +57,14 @@ public:
             if (e.density > 0) each(Met{e.radiance, e.density, e.t, i});
         });
     }
-    /// The emitter that samples a solid, and the density with which it finds a direction to it from `point`.
+    /// The emitter that samples a glowing solid, and the density with which it finds directions to it from `point`.
     struct OfSolid {
         std::size_t emitter;
         double density;
     };
+    /// None if the solid is not sampled.
     std::optional<OfSolid> of_solid(int solid, Vec3 point) const;
-    /// Calls each(Met) for the emitters that a ray meets if it hits nothing: the sky and, where it is, the sun.
+    /// Calls each(Met) for the emitters of a ray that hits nothing: the sky, and the sun if the ray leads to it.
     template <class Each>
     void for_each_at_infinity(Vec3 direction, Each each) const {
         each(Met{sky_.towards(direction), sky_.sampled() ? sky_.density(direction) : 0.0, infinity, first_sky_});
@@ -66,21 +72,21 @@ public:
     }
 
 private:
+    // The bounding ball of a glowing solid, and the mean of its emission.
     struct Ball {
         int solid;
         Vec3 center;
         double radius, emitted;
     };
     double importance_by_itself(std::size_t i, Vec3 point) const;
-    // Extended lights, visible or not, by their places in lights_; and whether there are so many that they are in a
-    // tree.
+    // Extended lights, visible or invisible, as indices in lights_, with a tree over them if they are many.
     struct Extended {
         std::vector<std::size_t> lights;
         LightTree tree;
     };
     void plant_tree(const Scene& scene);
     static void plant(Extended& extended, const std::vector<LightSource>& lights);
-    // Calls each(i) for those that a ray may meet.
+    // Calls each(i) for the lights that a ray may meet.
     template <class Each>
     static void for_each_met(const Extended& extended, const Ray& ray, const double& t_max, Each each) {
         if (extended.tree.empty())
@@ -91,14 +97,14 @@ private:
 
     std::vector<LightSource> lights_;
     std::vector<Ball> balls_;
-    std::vector<int> ball_of_;  // by solid; -1: none
+    std::vector<int> ball_of_;  // by solid; −1: none
     Extended visible_, invisible_;
-    // Where there are many: of those before first_sky_ that are somewhere. The others are asked one by one.
+    // If there are many: a tree over the emitters that have a position; the others are evaluated one by one.
     LightTree tree_;
     std::vector<std::size_t> in_tree_, others_;
-    std::vector<std::int64_t> place_in_tree_;  // by emitter; -1: one of the others
+    std::vector<std::int64_t> place_in_tree_;  // by emitter; −1: one of others_
     const SkyLight& sky_;
-    std::size_t first_sky_ = 0, sun_ = 0;  // emitters: the sky, if it is sampled, and the sun after it
+    std::size_t first_sky_ = 0, sun_ = 0;  // indices of emitters: the sky, if it is sampled, and the sun
 };
 
 }  // namespace deburr

@@ -5,8 +5,8 @@
 namespace deburr {
 namespace {
 
-// A place in a row of pixels that repeats: the pixel on its left, the one after, and how far it is between their
-// centres.
+// A position in a repeating row of pixels: the pixel to its left, the next one, and the position between their centers
+// from 0 to 1.
 struct Between {
     int left, right;
     double part;
@@ -19,7 +19,7 @@ Between between(double at, int count) {
     return {i, (i + 1) % count, x - left};
 }
 
-// `right` and `up` in widths of the picture.
+// The image's value at a position in widths of the image.
 Vec3 value_of(const PictureData& picture, double right, double up) {
     if (!std::isfinite(right + up)) return Vec3(0.0);
     const Between x = between(right * picture.width, picture.width);
@@ -32,7 +32,7 @@ Vec3 value_of(const PictureData& picture, double right, double up) {
                     glm::mix(pixel(x.left, y.right), pixel(x.right, y.right), x.part), y.part);
 }
 
-// How much of the pictures across the three axes a surface shows; their sum is 1.
+// The weights of the projections along the three axes, whose sum is 1.
 Vec3 shares(Vec3 normal, double blend) {
     const Vec3 size = glm::abs(normal);
     const double largest = std::max({size.x, size.y, size.z});

@@ -1,15 +1,14 @@
-// Pictures on surfaces without coordinates of their own: laid on from three sides, as light falls through a box's
-// walls.
+// Triplanar mapping: images on surfaces without texture coordinates, projected along the three axes.
 //
-// A face that looks along an axis shows the picture that lies across that axis, upright and readable from outside. What
-// looks between the axes shows a blend of two or three. The picture repeats without end.
+// A face perpendicular to an axis shows the image in that plane, upright and readable from outside; other faces show a
+// blend of two or three. The image repeats in both directions.
 #pragma once
 #include "raytracer/scene/scene.hpp"
 
 namespace deburr {
 
-/// The picture's value at `position` on a surface whose unit normal points out of the solid, between the centres of
-/// four of its pixels; texture.a where no picture was read.
+/// The image's value at `position` on a surface whose unit normal points out of the solid, interpolated between four
+/// pixels; texture.a if no image was read.
 Vec3 image_color(const Texture& texture, Vec3 position, Vec3 normal);
 
 }  // namespace deburr

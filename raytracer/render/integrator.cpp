@@ -10,10 +10,10 @@
 namespace deburr {
 namespace {
 
-// Both ways of glass are traced while they can change the pixel by this much.
+// Both reflection and refraction of glass are traced while they can change the pixel by this much.
 constexpr double min_weight = 1.0 / 512;
 
-// Surfaces of glass that a shadow ray passes; beyond more of them it is dark.
+// Most glass surfaces that a shadow ray passes; further ones block it.
 constexpr int glass_in_shadow = 16;
 
 }  // namespace
@@ -31,7 +31,7 @@ Integrator::Integrator(const Scene& scene, const RayTracer& tracer, RenderSettin
     }
     layers_.reserve(scene.materials.size());
     for (const Material& m : scene.materials) {
-        std::size_t first = 0;  // with this layer
+        std::size_t first = 0;  // the first material with this layer
         while (first < layers_.size() && !SurfaceLayer::same(scene.materials[first], m)) ++first;
         if (first < layers_.size())
             layers_.push_back(layers_[first]);
@@ -69,7 +69,7 @@ Vec3 Integrator::lights_seen(const Ray& ray, double t_max) const {
     return sum;
 }
 
-// Of glass in the way of a shadow ray; 0 if anything else is.
+// The share of light that glass transmits along a shadow ray's first `left` units; 0 if anything else is in the way.
 Vec3 Integrator::transmittance(Ray ray, double left, const Path& path) const {
     Vec3 share(1.0);
     for (int i = 0; i < glass_in_shadow; ++i) {
@@ -94,9 +94,8 @@ Vec3 Integrator::color_from(const Hit& hit, Vec3 color_here, Vec3 direction, con
     return surface.batch.vec(SurfaceField::shaded, 0);
 }
 
-// Deeper surfaces than the first show no area lights: those would be caustics.
-// The radiance in a denser medium is not scaled by its squared index: light seen from outside has
-// left it again.
+// Reflections at deeper surfaces than the first show no area lights, which would be caustics. The radiance in a denser
+// medium is not scaled by the square of its index, since light that is seen from outside has left it again.
 Vec3 Integrator::color_of_glass(const Hit& hit, Vec3 tint, Vec3 direction, const Path& path) const {
     const SurfaceLayer& layer = layers_[hit.material];
     const Vec3 to_eye = -direction;

@@ -1,22 +1,23 @@
-// Colour of a pixel: camera rays, lights, materials.
+// The integrators: from camera rays, lights and materials to the colour of a pixel.
 //
-// Every random number is a function of (seed, pixel, sample, dimension), so a pixel's value depends
-// on neither threads, tiles nor crop.
+// Every random number is a function of (seed, pixel, sample, dimension), so a pixel's value depends on neither threads,
+// tiles nor crops.
 //
-// There are two integrators. `path` (path_integrator.hpp) finds all light, with noise that samples take away. `preview`
-// has no noise unless area lights bring it, and finds
+// There are two integrators. `path` (path_integrator.hpp) finds all light, with noise that more samples reduce.
+// `preview` has no noise except from area lights, and finds
 //
-//   lights      Every surface but smooth mirrors and glass gets the light of every source, each with its shadow rays
-//               (point, directional: one; area, sphere: `samples` of them, stratified). Glass lets light pass straight
-//               on, tinted and weakened by Fresnel: its shadows are soft in tone but have no caustics. Lights are seen
-//               in polished surfaces only.
-//   ambient     seen by diffuse surfaces from all around, never hidden.
-//   background  The background lights diffuse surfaces as if nothing hid it; plastic and rough metal reflect the
-//               background, blurred by roughness, and no objects. Mirrors, polished metal and glass are traced, glass
-//               both ways and as if it were polished, with at most Scene::bounces rays; beyond, the background stands
-//               in for what was not traced.
+//   lights      Surfaces except smooth mirrors and glass get the light of every source, with shadow rays for each
+//   (point,
+//               directional: one; area, sphere: `samples`, stratified). Glass transmits light straight on, tinted and
+//               weakened by Fresnel: its shadows are soft in tone, without caustics. Lights themselves are visible in
+//               polished surfaces only.
+//   ambient     Constant light from all around on diffuse surfaces, never occluded.
+//   background  The background lights diffuse surfaces as if nothing occluded it; plastic and rough metal reflect the
+//               background, blurred by roughness, but no objects. Mirrors, polished metal and glass are traced, glass
+//               both by reflection and refraction and as if it were polished, with at most Scene::bounces rays; beyond,
+//               the background replaces what was not traced.
 //
-// A preview has one sample a pixel, through its centre, or several through its filter, each of them as said.
+// A preview has one sample per pixel, through its center, or several through its filter, each computed as above.
 #pragma once
 #include <cstdint>
 #include <functional>
@@ -34,16 +35,18 @@
 
 namespace deburr {
 
+/// Which integrator renders; automatic: a preview for one sample per pixel, else paths.
 enum class IntegratorKind { automatic, preview, path };
 
+/// How a picture is rendered.
 struct RenderSettings {
     int width = 0, height = 0;  // of the whole picture
-    int spp = 1;                // 1: one ray through the pixel's centre
+    int spp = 1;                // samples per pixel; 1: one ray through its center
     std::uint64_t seed = 0;
-    bool cost = true;        // PixelLayers::cost is asked for: then no two pixels' rays are traced together
-    bool background = true;  // false: where the camera sees it, colours are 0, so that alpha has weighed the others
-    double noise = 0;        // > 0: a block of paths ends where it has this little, with `spp` samples at most
-    IntegratorKind integrator = IntegratorKind::automatic;  // a preview with one sample, else paths
+    bool cost = true;        // PixelLayers::cost is wanted, so no two pixels' rays may be traced together
+    bool background = true;  // false: colours are 0 where the camera sees the background (premultiplied by alpha)
+    double noise = 0;        // > 0: blocks end at this noise (noise_bound.hpp), with at most `spp` samples
+    IntegratorKind integrator = IntegratorKind::automatic;
 
     bool uses_paths() const {
         return integrator == IntegratorKind::path || (integrator == IntegratorKind::automatic && spp > 1);
@@ -52,18 +55,20 @@ struct RenderSettings {
 
 class PathIntegrator;
 
+/// Renders blocks of a picture. Its functions may be called from many threads.
 class Integrator {
 public:
-    /// Keeps references to both.
+    /// Keeps references to the scene and the tracer.
     Integrator(const Scene& scene, const RayTracer& tracer, RenderSettings settings);
-    /// Takes these samples of a block's pixels, each by itself, and adds them to what earlier ranges have brought, row
-    /// by row; to `layers`, too, unless it is null. Whether a picture has one sample, and so rays through centres, is
-    /// what settings.spp says; settings.noise does not matter.
+    /// Takes these samples of a block's pixels and adds each to `sums`, and to `layers` unless that is null (both row
+    /// by row). Samples are independent of the ranges in which they are taken. settings.spp decides whether the picture
+    /// has one sample, through the pixels' centers; settings.noise is ignored.
     void take(SampleRange range, const Window& block, PixelSums* sums, LayerSums* layers,
               TraceCounters& counters) const;
-    /// A block with all of its samples, row by row; sets `layers` unless it is null. Neither ever holds a NaN.
+    /// Renders a block with all of its samples: sets `pixels`, and `layers` unless that is null (both row by row). They
+    /// never contain a NaN.
     void block(const Window& block, Pixel* pixels, PixelLayers* layers, TraceCounters& counters) const;
-    /// The same of one pixel.
+    /// block() for one pixel.
     Pixel pixel(int x, int y, PixelLayers* layers, TraceCounters& counters) const;
 
 private:
@@ -72,18 +77,18 @@ private:
     template <std::size_t capacity>
     struct SurfaceRoom;
     class CameraRays;
-    using PathOf = std::function<Path(std::size_t)>;  // that meets surface i
-    // block() of one sample a pixel.
+    using PathOf = std::function<Path(std::size_t)>;  // returns the path that meets surface i
+    // block() for one sample per pixel.
     void take_centers(const Window& block, Pixel* pixels, TraceCounters& counters) const;
     Vec3 color_along(const Ray& ray, const Path& path) const;
     Vec3 lights_seen(const Ray& ray, double t_max) const;
-    // `color_here`, `tint`: the material's at the hit.
+    // `color_here` and `tint` are the material's colour at the hit.
     Vec3 color_from(const Hit& hit, Vec3 color_here, Vec3 direction, const Path& path) const;
     Vec3 color_of_glass(const Hit& hit, Vec3 tint, Vec3 direction, const Path& path) const;
-    // One more surface, which `direction` meets; keeps a pointer to the hit.
+    // Appends a surface that `direction` meets; keeps a pointer to the hit.
     template <std::size_t capacity>
     void add(SurfaceRoom<capacity>& room, const Hit& hit, Vec3 color_here, Vec3 direction) const;
-    // Sets `shaded` of all.
+    // Sets `shaded` of all surfaces.
     void shade(const Surfaces& surfaces, const PathOf& path) const;
     void light(const Surfaces& surfaces, const LightSource& source, std::uint32_t purpose, const PathOf& path) const;
     void find_incident(const Surfaces& surfaces, const LightSource& source, std::uint32_t purpose, int k,
@@ -99,12 +104,12 @@ private:
     const RayTracer& tracer_;
     RenderSettings settings_;
     PinholeCamera camera_;
-    std::vector<SurfaceLayer> layers_;  // of the materials
+    std::vector<SurfaceLayer> layers_;  // by material
     std::vector<LightSource> lights_;
-    SkyLight seen_, sky_;                          // by the camera; by all else
-    bool glass_ = false, emits_ = false;           // is there any
-    bool polished_ = false;                        // may mirrors be traced
-    bool samples_lights_ = false;                  // is any extended
+    SkyLight seen_, sky_;                          // background as the camera sees it; as lights all else
+    bool glass_ = false, emits_ = false;           // whether there is glass; whether materials emit
+    bool polished_ = false;                        // whether there may be mirrors to trace
+    bool samples_lights_ = false;                  // whether any light is extended
     std::shared_ptr<const PathIntegrator> paths_;  // null: a preview
 };
 

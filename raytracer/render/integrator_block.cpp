@@ -1,4 +1,4 @@
-// The camera's rays and the shadow rays of what they hit, traced together.
+// Traces the camera rays of a block, and the shadow rays of their hits, together.
 #include <memory>
 
 #include "raytracer/render/integrator_path.hpp"
@@ -8,12 +8,12 @@
 namespace deburr {
 namespace {
 
-// Pixels each way whose rays travel together: at one sample, a packet.
+// Side of a patch of pixels whose rays are traced together; at one sample, a packet.
 constexpr int patch = 4;
-// Camera rays at a time: many packets, whose hits fit into the processor's cache.
+// Camera rays of a batch: several packets, whose hits fit into the processor's cache.
 constexpr std::size_t max_rays = 128;
 
-// Calls pixel(x, y, i) for all of a block, i its number row by row, by patches.
+// Calls pixel(x, y, i) for all pixels of a block, patch by patch; i is the index row by row.
 template <class Each>
 void for_patches(const Window& block, Each pixel) {
     for (int top = 0; top < block.height; top += patch)
@@ -27,30 +27,31 @@ void for_patches(const Window& block, Each pixel) {
 
 class Integrator::CameraRays {
 public:
+    // What a camera ray's result is used for.
     struct Use {
-        int x, y, sample;     // of which the random numbers are
-        std::uint32_t pixel;  // of the block
-        bool center, counts;  // for the layers; for the colour
+        int x, y, sample;     // determine the random numbers
+        std::uint32_t pixel;  // index in the block
+        bool center, counts;  // for layers of the center's ray; for the colour
     };
-    // Lists.
+    // The memory of a batch.
     struct Memory {
-        std::size_t count = 0;  // of rays and their uses
+        std::size_t count = 0;  // number of rays
         std::vector<Ray> rays = std::vector<Ray>(max_rays);
         std::vector<Use> uses = std::vector<Use>(max_rays);
         std::vector<Hit> hits = std::vector<Hit>(max_rays);
         std::vector<Vec3> colors = std::vector<Vec3>(max_rays);
-        std::vector<Sampler> samplers;  // of all rays, where lights are sampled
-        // Of those that hit something opaque.
+        std::vector<Sampler> samplers;  // of all rays, if lights are sampled
+        // Opaque surfaces that were hit, and the ray that sees each.
         SurfaceRoom<max_rays> surfaces;
         std::array<std::uint32_t, max_rays> seen_by;
     };
 
-    // The thread's, which it uses again for every block.
+    // The thread's memory, which is reused for every block.
     static Memory& memory() {
         thread_local Memory of_thread;
         return of_thread;
     }
-    // Where samples go: to sums, or pixels of one sample each. `layers` may be null.
+    // Where samples are added: to sums, or to pixels with one sample each. `layers` may be null.
     struct Film {
         PixelSums* sums = nullptr;
         Pixel* pixels = nullptr;
@@ -62,14 +63,14 @@ public:
         clear();
     }
 
-    // Into its place at once: what is put together elsewhere and then copied waits for its parts.
+    // Written in place: a ray that is assembled elsewhere and then copied would wait for its parts.
     void add(Ray ray, const Use& use) {
         m_.rays[m_.count] = ray;
         m_.uses[m_.count++] = use;
         if (m_.count == max_rays) finish();
     }
 
-    /// Of all rays so far.
+    /// Traces and shades all rays so far.
     void finish() {
         in_.tracer_.closest_hits({m_.rays.data(), m_.count}, m_.hits.data(), counters_);
         for (std::uint32_t i = 0; i < m_.count; ++i) take(i);

@@ -1,4 +1,4 @@
-// A path from the camera, on its way, and the surfaces that it meets: what the integrator's own files share.
+// A camera path and the surfaces that it meets; shared by the files that implement the integrator.
 #pragma once
 #include <algorithm>
 #include <array>
@@ -10,7 +10,7 @@
 
 namespace deburr {
 
-// What a path draws random numbers for, at each depth; and once, for its way through the filter.
+// The purposes for which a path draws random numbers at each depth; and, once, for the lens.
 enum Purpose : std::uint32_t { first_light = 3, purposes = 1024 };
 constexpr std::uint32_t lens = 0xffffffffu;
 
@@ -18,20 +18,23 @@ inline double brightest(Vec3 c) { return std::max({c.x, c.y, c.z}); }
 inline bool finite(Vec3 v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
 inline Vec3 finite_or_zero(Vec3 v) { return finite(v) ? v : Vec3(0.0); }
 
+/// The state of a path from the camera.
 struct Integrator::Path {
     Sampler sampler;
     TraceCounters& counters;
-    int depth = 0;             // rays since the camera's
-    double weight = 1.0;       // bound of its share in the pixel, kept where glass forks
-    bool sees_lights = false;  // it was reflected last
+    int depth = 0;             // number of rays after the camera's
+    double weight = 1.0;       // upper bound of its share in the pixel, while glass splits paths
+    bool sees_lights = false;  // whether it was reflected last, so that it sees lights
 
     std::uint32_t dimension(std::uint32_t purpose) const { return std::uint32_t(depth) * purposes + purpose; }
+    // The path after a further bounce that carries this share of its light.
     Path on(double share = 1.0) const {
         Path p = *this;
         ++p.depth;
         p.weight *= share;
         return p;
     }
+    // The path after a reflection that carries this share of its light.
     Path reflected(double share = 1.0) const {
         Path p = on(share);
         p.sees_lights = true;
@@ -39,18 +42,18 @@ struct Integrator::Path {
     }
 };
 
-// Opaque surfaces that are shaded together, and room for the rays that this takes. It owns none of them.
+// A batch of opaque surfaces that are shaded together, with memory for shadow rays; it owns none of it.
 struct Integrator::Surfaces {
     SurfaceBatch batch;
     const Hit** hits;
-    // To one light; each ray's surface.
+    // Shadow rays to one light, with the index of each ray's surface.
     Ray* shadows;
     double* t_max;
     std::uint32_t* shaded;
     bool* hidden;
 };
 
-// Room for them.
+// The memory for Surfaces.
 template <std::size_t capacity>
 struct Integrator::SurfaceRoom {
     std::size_t count = 0;  // of surfaces

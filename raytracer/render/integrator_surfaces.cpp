@@ -1,4 +1,4 @@
-// The light that opaque surfaces of a preview return to the eye, of many at a time.
+// Shades batches of opaque surfaces in previews.
 #include "raytracer/render/integrator_path.hpp"
 #include "raytracer/render/shading_kernels.hpp"
 
@@ -21,12 +21,12 @@ void Integrator::shade(const Surfaces& surfaces, const PathOf& path) const {
     }
 }
 
-// Adds to `lit` what the surfaces scatter to the eye of the source's light.
+// Adds the source's light that the surfaces scatter to the eye to `lit`.
 void Integrator::light(const Surfaces& surfaces, const LightSource& source, std::uint32_t purpose,
                        const PathOf& path) const {
     const SurfaceBatch& batch = surfaces.batch;
     const int samples = source.samples();
-    // Of the values in `from`, so many make one.
+    // Adds the values of `from` to those of `to`, divided by `many`.
     const auto add = [&batch](SurfaceField to, SurfaceField from, int many) {
         for (int axis = 0; axis < 3; ++axis) {
             double* const sum = batch.array(to, axis);
@@ -45,7 +45,7 @@ void Integrator::light(const Surfaces& surfaces, const LightSource& source, std:
     if (samples > 1) add(SurfaceField::lit, SurfaceField::lit_by, samples);
 }
 
-// The light of sample k of the source.
+// Finds the light of sample k of the source.
 void Integrator::find_incident(const Surfaces& surfaces, const LightSource& source, std::uint32_t purpose, int k,
                                const PathOf& path) const {
     const SurfaceBatch& batch = surfaces.batch;
@@ -71,7 +71,7 @@ void Integrator::find_incident(const Surfaces& surfaces, const LightSource& sour
     shading_functions.incident(source, batch);
 }
 
-// Takes from `scattered` what is hidden from the light.
+// Removes the light of occluded sources from `scattered`.
 void Integrator::hide(const Surfaces& surfaces, const PathOf& path) const {
     const SurfaceBatch& batch = surfaces.batch;
     const double* const red = batch.array(SurfaceField::scattered, 0);
@@ -85,7 +85,7 @@ void Integrator::hide(const Surfaces& surfaces, const PathOf& path) const {
         surfaces.shaded[asked++] = std::uint32_t(i);
     }
     if (asked == 0) return;
-    if (glass_) {  // shadow rays go on through it
+    if (glass_) {  // shadow rays continue through it
         for (std::size_t s = 0; s < asked; ++s) {
             const std::uint32_t i = surfaces.shaded[s];
             const Vec3 share = transmittance(surfaces.shadows[s], surfaces.t_max[s], path(i));
@@ -102,7 +102,7 @@ void Integrator::hide(const Surfaces& surfaces, const PathOf& path) const {
         if (surfaces.hidden[s]) batch.set(SurfaceField::scattered, surfaces.shaded[s], Vec3(0.0));
 }
 
-// What the surfaces return of the background.
+// Finds the light that the surfaces reflect from the background.
 void Integrator::find_sky(const SurfaceBatch& batch) const {
     if (!sky_.sampled()) return shading_functions.sky(sky_, layers_, batch);
     for (std::size_t i = 0; i < batch.count; ++i) {
@@ -114,7 +114,7 @@ void Integrator::find_sky(const SurfaceBatch& batch) const {
     }
 }
 
-// Sets `mirrored` of polished surfaces to what is there.
+// Sets `mirrored` of polished surfaces to the light that their mirror ray finds.
 void Integrator::trace_mirrors(const Surfaces& surfaces, const PathOf& path_of) const {
     const SurfaceBatch& batch = surfaces.batch;
     for (std::size_t i = 0; i < batch.count; ++i) {
@@ -123,7 +123,7 @@ void Integrator::trace_mirrors(const Surfaces& surfaces, const PathOf& path_of) 
         const Path path = path_of(i);
         if (path.depth >= scene_.bounces) continue;
         const Vec3 albedo = batch.vec(SurfaceField::layer_albedo, i);
-        // Where the layer is not smooth its lights have been found already.
+        // A layer that is not smooth has already been lit by the lights.
         Path next = path.reflected(brightest(albedo));
         next.sees_lights = next.sees_lights && layer.smooth();
         batch.set(SurfaceField::mirrored, i,

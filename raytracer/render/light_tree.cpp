@@ -9,18 +9,18 @@ namespace {
 
 using std::numbers::pi;
 
-// Boxes are wider by this part of their coordinates, which is more than a ray's distances are rounded by.
+// Boxes are enlarged by this fraction of their coordinates, which exceeds the rounding of a ray's distances.
 constexpr double box_slack = 1e-9;
-// Clusters are split within so many of their radii. Of a thousand lights in a hall a sample's variance over its squared
-// mean was 1.27, in 2.4 µs; without splits 11.3, with twice as far ones 1.11 in 8.0 µs, asking all lights 0.68 in 40
-// µs, and by power alone 41.
+// Clusters are split within this many of their radii. For a thousand lights in a hall, a sample's variance over its
+// squared mean was 1.27, in 2.4 µs; without splits 11.3; with twice this distance 1.11, in 8.0 µs; with all lights
+// evaluated 0.68, in 40 µs; and by power only 41.
 constexpr double near_radii = 1.5;
-// Places at which a list may be cut, along each axis; from this depth on it is cut in the middle.
+// Candidates for a cut along each axis; from this depth on, lists are cut in the middle.
 constexpr int cuts = 16, deepest_cut_by_cost = 64;
 
 double angle_between(Vec3 a, Vec3 b) { return std::acos(glm::clamp(glm::dot(a, b), -1.0, 1.0)); }
 
-// The narrowest cone around two.
+// Makes `a` the narrowest cone around both.
 void unite_cones(LightBounds& a, const LightBounds& b) {
     const double apart = angle_between(a.axis, b.axis);
     if (std::min(apart + b.spread, pi) <= a.spread) return;
@@ -50,8 +50,8 @@ LightBounds united(const LightBounds& a, const LightBounds& b) {
     return both;
 }
 
-// Solid angle into which the bounds shine, weighted by the cosine beyond the cone [Conty Estevez & Kulla, eq. 1, for an
-// angle of emission of π/2].
+// The solid angle into which the bounds emit, weighted by the cosine beyond the cone [Conty Estevez & Kulla, eq. 1, for
+// an emission angle of π/2].
 double orientation_measure(double spread) {
     const double widest = std::min(spread + pi / 2, pi), sine = std::sin(spread), cosine = std::cos(spread);
     return 2 * pi * (1 - cosine) +
@@ -143,7 +143,7 @@ double LightTree::importance(const Node& node, Vec3 point) {
     const LightBounds& b = node.bounds;
     const Vec3 from = point - 0.5 * (b.box.lo + b.box.hi), half = 0.5 * (b.box.hi - b.box.lo);
     const double square = glm::dot(from, from), radius2 = glm::dot(half, half);
-    // Within the ball around the box nothing is known of where the light comes from.
+    // Inside of the ball around the box, nothing is known of the direction of the light.
     if (!(square > radius2)) return radius2 > 0 ? b.power / radius2 : 0.0;
     if (b.spread >= pi) return b.power / square;
     const double distance = std::sqrt(square);

@@ -1,10 +1,10 @@
-// A tree over many lights, which finds one of them by its importance, and those that a ray may meet, without asking all
-// [Conty Estevez & Kulla, Importance Sampling of Many Lights with Adaptive Tree Splitting, 2018; Pharr, Jakob &
+// A tree over many lights, which chooses a light by importance, and finds those that a ray may meet, without visiting
+// all [Conty Estevez & Kulla, Importance Sampling of Many Lights with Adaptive Tree Splitting, 2018; Pharr, Jakob &
 // Humphreys, Physically Based Rendering, 4th edition, §12.6.3].
 //
-// As there, what is near is split, for nothing is known of a cluster that one stands in; but one of all that the
-// splitting leaves is then chosen, in place of one of each. The choice has its exact probability, which is 0 only where
-// the light gives nothing.
+// As there, clusters near the point are split, since nothing is known of a cluster that contains it; but then a single
+// light of all remaining clusters is chosen, instead of one of each. The probability of the choice is exact, and 0 only
+// if the light gives nothing.
 #pragma once
 #include <numbers>
 #include <optional>
@@ -15,29 +15,31 @@
 
 namespace deburr {
 
-/// Where a light is and where it shines. At a distance d from it, far away, it gives about power · cosine / d².
+/// Bounds of a light's position and emission. Far away, at distance d, it gives about power · cosine / d².
 struct LightBounds {
     Box box;
     double power = 0.0;
-    // It shines up to 90 degrees from the directions within `spread`, an angle, around the axis; π: everywhere.
+    // It emits up to 90 degrees from the directions within the angle `spread` (radians) around the axis; π: in all
+    // directions.
     Vec3 axis{0, 0, 1};
     double spread = std::numbers::pi;
 };
 
+/// A tree over lights, which are named by their index in the list.
 class LightTree {
 public:
     LightTree() = default;
-    /// The lights are named by their places in the list. Those without power are left out.
+    /// Builds the tree; lights without power are left out.
     explicit LightTree(const std::vector<LightBounds>& lights);
 
     bool empty() const { return nodes_.empty(); }
-    /// About the irradiance that all of them give at a point; 0 only where there is none.
+    /// An estimate of the irradiance that all lights give at a point; 0 only if there is none.
     double importance(Vec3 point) const;
-    /// A light for an even number from 0 to importance(point), none where those left give nothing.
+    /// The light at `at`, a uniform number from 0 to importance(point); none if the remaining candidates give nothing.
     std::optional<std::size_t> choose(Vec3 point, double at) const;
-    /// Its part of all importance, which is the probability with which choose() finds the light.
+    /// A light's part of importance(point): divided by that, the probability with which choose() returns it.
     double importance(std::size_t light, Vec3 point) const;
-    /// Calls each(light) for those whose boxes the ray may meet at distances up to t_max, which each() may lower.
+    /// Calls each(light) for the lights whose box the ray may meet at distances up to t_max, which each() may lower.
     template <class Each>
     void for_each_near(const Ray& ray, const double& t_max, Each each) const {
         std::uint32_t stack[max_depth];
@@ -62,16 +64,16 @@ private:
         LightBounds bounds;
         std::uint32_t right = 0;  // the left child follows its parent
         std::uint32_t parent = 0;
-        int light = -1;
+        int light = -1;  // index of a leaf's light; −1: inner node
     };
-    // Halves of a list of 2³¹ lights, were they all cut in the middle, and as many cuts by cost before that.
+    // As many levels as halving a list of 2³¹ lights takes, after as many cuts by cost.
     static constexpr int max_depth = 128;
 
     std::uint32_t build(const std::vector<LightBounds>& lights, std::vector<int>& order, int begin, int end,
                         std::uint32_t parent, int depth);
     static bool is_split(const Node& node, Vec3 point);
     static double importance(const Node& node, Vec3 point);
-    // Calls each(node, importance) for what the splitting leaves, until it returns true.
+    // Calls each(node, importance) for the clusters that remain after splitting, until it returns true.
     template <class Each>
     void for_each_cluster(Vec3 point, Each each) const;
     std::optional<std::size_t> choose_below(std::uint32_t node, Vec3 point, double u) const;
@@ -80,14 +82,14 @@ private:
         double from = 0, to = t_max;
         for (int k = 0; k < 3; ++k) {
             const double a = (box.lo[k] - origin[k]) * inverse[k], b = (box.hi[k] - origin[k]) * inverse[k];
-            from = std::max(from, std::min(a, b));  // NaN leaves it as it is
+            from = std::max(from, std::min(a, b));  // if NaN, unchanged
             to = std::min(to, std::max(a, b));
         }
         return from <= to;
     }
 
     std::vector<Node> nodes_;
-    std::vector<std::int64_t> node_of_;  // by light; -1: it is left out
+    std::vector<std::int64_t> node_of_;  // by light; −1: left out
 };
 
 }  // namespace deburr

@@ -80,7 +80,7 @@ LightSource::Emission LightSource::seen(const Ray& ray, double t_max) const {
     const double t = -glm::dot(position_ - ray.origin, direction_) / cosine;
     if (!(t > 0 && t < t_max)) return {};
     const Vec3 offset = ray.origin + t * ray.direction - position_;
-    // Coordinates in the oblique frame (u, v) by Cramer's rule.
+    // Coordinates in the oblique frame (u, v), by Cramer's rule.
     const double a = glm::dot(glm::cross(offset, v_), direction_) / area_;
     const double b = glm::dot(glm::cross(u_, offset), direction_) / area_;
     if (std::abs(a) > 0.5 || std::abs(b) > 0.5) return {};
@@ -98,8 +98,8 @@ LightBounds LightSource::bounds() const {
     return {{position_ - Vec3(radius_), position_ + Vec3(radius_)}, emitted * shine};
 }
 
-// 1 − cosine of the half angle of the cone around a sphere of radius `r` at a distance `d` > r: without cancellation
-// for a far one.
+// 1 − cosine of the half angle of the cone around a sphere of radius `r` at distance `d` > r, without cancellation for
+// a distant one.
 double cone_depth(double r, double d) {
     const double s2 = r * r / (d * d);
     return s2 / (1 + std::sqrt(std::max(0.0, 1 - s2)));
@@ -122,7 +122,7 @@ Incident LightSource::at_sphere(Vec3 point, Vec2 u) const {
     const double d = glm::length(to_center);
     if (!(d > radius_) || !(area_ > 0) || !std::isfinite(d)) return light;
     light.direction = cone_direction(to_center, radius_, d, u);
-    // The nearer crossing; at the cone's rim its root may be rounded below 0.
+    // The nearer intersection; at the cone's rim rounding may make its radicand negative.
     const double b = glm::dot(to_center, light.direction);
     const double root2 = b * b - (d - radius_) * (d + radius_);
     light.distance = b - std::sqrt(std::max(0.0, root2));
@@ -138,7 +138,7 @@ LightSource::Emission LightSource::sphere_seen(const Ray& ray, double t_max) con
     if (!(root2 >= 0) || !(area_ > 0)) return {};
     const double root = std::sqrt(root2);
     if (d <= radius_) return b + root < t_max ? Emission{Vec3(0.0), 0.0, b + root} : Emission{};
-    const double t = c / (b + root);  // b − root, which cancels for a far one
+    const double t = c / (b + root);  // b − root, without cancellation for a distant sphere
     if (!(b > 0 && t > 0 && t < t_max)) return {};
     return {emitted_, cone_density(radius_, d), t};
 }
@@ -153,15 +153,15 @@ double LightSource::importance(Vec3 point) const {
         case Light::Kind::sphere: return square > radius_ * radius_ ? emitted * pi * radius_ * radius_ / square : 0.0;
         default: break;
     }
-    if (!(glm::dot(direction_, to_light) < 0)) return 0.0;  // the light is a plane one: all of it faces away
+    if (!(glm::dot(direction_, to_light) < 0)) return 0.0;  // the light is planar, so all of it faces away
     return emitted * area_ / std::max(square, area_ / pi);
 }
 
 namespace {
 
-// The sky's gradient is mix(horizon, zenith, √y). The cosine-weighted mean of √max(0, y) around a
-// normal at height c, by a product rule in polar coordinates around the normal, equal areas of the
-// projected disk: sin²θ and φ uniform.
+// The sky's gradient is mix(horizon, zenith, √y). This is the cosine-weighted mean of √max(0, y) around a normal at
+// height c, by a product rule in polar coordinates around the normal with equal areas of the projected disc: sin²θ and
+// φ uniform.
 double mean_zenith_share(double c) {
     constexpr int rings = 48, sectors = 48;
     static const auto cosines = [] {
@@ -183,7 +183,7 @@ double mean_zenith_share(double c) {
 
 SkyLight::SkyLight(const Background& background) : background_(background) {
     if (!background.file.empty() || background.by_day()) {
-        Background y_up = background;  // as pictures and the day are reckoned
+        Background y_up = background;  // the orientation of pictures and of the day model
         if (background.z_up) y_up.sun = {background.sun.x, background.sun.z, -background.sun.y};
         picture_ = background.by_day() ? daylight(y_up) : background.picture;
         if (background.by_day()) {
@@ -205,7 +205,7 @@ SkyLight::SkyLight(const Background& background) : background_(background) {
 
 Vec3 SkyLight::mean(Vec3 normal) const {
     if (picture_) {
-        // Bands are weakened by 1, 2/3 and 1/4 [Ramamoorthi & Hanrahan 2001, eq. 8, over π].
+        // The bands are attenuated by 1, 2/3 and 1/4 [Ramamoorthi & Hanrahan 2001, eq. 8, over π].
         const auto& [one, x, y, z, xy, yz, zx, xx_yy, zz] = harmonics_;
         const Vec3 n = normal;
         const Vec3 sum = one + 2.0 * (x * n.x + y * n.y + z * n.z) +
@@ -215,7 +215,7 @@ Vec3 SkyLight::mean(Vec3 normal) const {
     }
     if (!background_.sky) return background_.color;
     const double at = glm::clamp(0.5 * (background_.height(normal) + 1), 0.0, 1.0) * steps;
-    const auto i = at < steps ? std::size_t(at) : std::size_t(steps - 1);  // the last for no number, too
+    const auto i = at < steps ? std::size_t(at) : std::size_t(steps - 1);  // the last one for NaN, too
     const double share = glm::mix(zenith_share_[i], zenith_share_[i + 1], at - double(i));
     return glm::mix(background_.horizon, background_.zenith, share);
 }
@@ -242,7 +242,7 @@ Vec3 SkyLight::direction_of(Vec2 place) const {
     return background_.z_up ? Vec3(d.x, -d.z, d.y) : d;
 }
 
-// Between the centres of four pixels.
+// Interpolates between the centers of four pixels.
 Vec3 SkyLight::picture_towards(Vec3 direction) const {
     const Vec2 place = place_of(direction);
     const int width = picture_->width, height = picture_->height;
@@ -265,7 +265,7 @@ void SkyLight::prepare_picture() {
     columns_.assign(std::size_t(height) * (width + 1), 0.0);
     double area = 0;
     for (int j = 0; j < height; ++j) {
-        const double weight = std::cos(pi * j / height) - std::cos(pi * (j + 1) / height);  // of the row's solid angle
+        const double weight = std::cos(pi * j / height) - std::cos(pi * (j + 1) / height);  // the row's solid angle
         double* column = &columns_[std::size_t(j) * (width + 1)];
         for (int i = 0; i < width; ++i) {
             const float* rgb = &picture_->rgb[3 * (std::size_t(j) * width + i)];
@@ -285,7 +285,7 @@ void SkyLight::prepare_picture() {
 
 namespace {
 
-// The interval of a running sum in which `at` falls, and how far into it from 0 to 1.
+// The interval of a cumulative sum that contains `at`, and the position in it from 0 to 1.
 std::pair<int, double> interval(const double* sums, int count, double at) {
     const int i = std::clamp(int(std::upper_bound(sums, sums + count + 1, at) - sums) - 1, 0, count - 1);
     const double width = sums[i + 1] - sums[i];
@@ -299,7 +299,7 @@ Vec3 SkyLight::sample(Vec2 u) const {
     const auto [row, down] = interval(rows_.data(), height, u.y * rows_[height]);
     const double* columns = &columns_[std::size_t(row) * (width + 1)];
     const auto [column, right] = interval(columns, width, u.x * columns[width]);
-    // Even in solid angle within the row.
+    // Uniform in solid angle within the row.
     const double cosine = glm::mix(std::cos(pi * row / height), std::cos(pi * (row + 1) / height), down);
     return direction_of({(column + right) / width, std::acos(glm::clamp(cosine, -1.0, 1.0)) / pi});
 }

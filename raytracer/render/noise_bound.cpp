@@ -8,23 +8,23 @@
 namespace deburr {
 namespace {
 
-// Pixels each way of a cell, and samples before it may end: fewer could miss what is small and bright.
+// Side of a cell in pixels, and samples before it may end: with fewer, small bright details could be missed.
 constexpr int cell_side = 8, min_cell_samples = 32;
-// Darker than this, noise is seen as if it were this bright: a hundredth of white is 10 % of the display's range.
+// Noise in darker pixels is judged as if they were this bright: a hundredth of white is 10 % of the display's range.
 constexpr double dark = 0.01;
 
 int down(int i) { return i / cell_side * cell_side; }
 int up(int i, int end) { return std::min((i + cell_side - 1) / cell_side * cell_side, end); }
 
-// A cell, apart from the window that it lies in.
+// A copy of a cell's part of the window.
 struct Cell {
     std::array<PixelSums, cell_side * cell_side> sums;
     std::array<LayerSums, cell_side * cell_side> layers;
     std::array<ColorSum, cell_side * cell_side> halves;
 };
 
-// How far two pictures of a cell, each of half of the samples, are apart as a display shows it (its curve is near a
-// root, so that d√I = dI / 2√I): the root of the mean square.
+// The root mean square, in display values, of the difference between the averages of both halves of a cell's samples.
+// The display's curve is taken to be a square root, so that d√I = dI / 2√I.
 double seen_noise(const Cell& cell, std::size_t count) {
     double sum = 0;
     for (std::size_t i = 0; i < count; ++i) {

@@ -15,7 +15,7 @@
 namespace deburr {
 namespace {
 
-// Of a tile, apart from the window that it lies in.
+// A copy of a tile's part of the window, with room for its pixels.
 struct TileWork {
     std::vector<PixelSums> sums;
     std::vector<LayerSums> layers;
@@ -31,17 +31,17 @@ Window common(const Window& a, const Window& b) {
 
 }  // namespace
 
-// It outlives its caller where tiles are abandoned.
+// The state of a rendering; it outlives its owner if tiles are abandoned.
 struct Passes::Store {
     Settings settings;
     std::shared_ptr<const Integrator> integrator;
     PassState state;
     Film film;
-    SampleRange pass;  // under way
+    SampleRange pass;  // the pass under way
     TraceCounters counters;
-    std::array<std::uint64_t, 8> counter_list{};  // the same, for files
+    std::array<std::uint64_t, 8> counter_list{};  // `counters` as a list, for files
     PixelsDone done;
-    std::shared_mutex tiles;  // shared by those who add a tile of their own
+    std::shared_mutex tiles;  // shared: a tile is being added; exclusive: the state must not change
     std::mutex counting;
     bool closed = false;
     tbb::enumerable_thread_specific<TileWork> work;
@@ -67,7 +67,7 @@ struct Passes::Store {
         return std::size_t(y - state.window.y) * std::size_t(state.window.width) + std::size_t(x - state.window.x);
     }
 
-    // What the film shows of a tile becomes the averages of its sums.
+    // Shows the averages of a tile's sums in the film.
     void show(const Window& part, TileWork& mine) {
         const Window shown = common(part, film.window);
         if (shown.width <= 0 || shown.height <= 0) return;
@@ -114,7 +114,7 @@ struct Passes::Store {
         if (done) done(gained);
     }
 
-    // Pixels times samples of a tile that are taken, or not needed.
+    // Pixels times samples of a tile that are taken or not needed.
     std::int64_t work_of(const Window& part) const {
         const int all = state.samples.end - state.samples.first;
         std::int64_t sum = 0;
@@ -183,7 +183,7 @@ std::int64_t Passes::pixels_begun() const {
     return pixels;
 }
 
-// Tiles that the pass under way has brought on are shown as they were before.
+// Tiles that are already ahead in the pass under way are shown as they were before it.
 const Film& Passes::film() const {
     Store& s = *store_;
     const int least = *std::min_element(s.state.taken.begin(), s.state.taken.end());
@@ -206,7 +206,7 @@ double Passes::work() const {
 
 namespace {
 
-// Numbers one after the other, as they are in memory.
+// Writes numbers as they are in memory.
 class Writer {
 public:
     template <class List>
@@ -235,14 +235,14 @@ private:
     std::string_view left_;
 };
 
-// Everything that is kept, in its order.
+// Passes everything that is saved to `with`, in a fixed order.
 template <class Archive, class Store>
 void exchange(Archive&& with, Store& store, std::vector<double>& planes) {
     with(store.state.taken);
     with(store.state.sums);
     with(store.state.layers);
     with(store.state.halves);
-    // What the film shows of tiles that a pass under way has brought on.
+    // The film's values of tiles that are ahead in the pass under way.
     with(store.film.pixels);
     with(planes);
     with(store.counter_list);

@@ -1,7 +1,7 @@
-// A picture in passes: sums of samples that grow evenly all over a window.
+// Renders a picture in passes over a window, each of which adds samples to all pixels.
 //
-// What comes out after n samples depends on n alone: not on tiles, threads, crops, pauses, nor on where a run ended and
-// another took its state over. While a pass is under way, the film holds what all pixels have.
+// The result after n samples depends on n only: not on tiles, threads, crops, pauses, nor on where one run ended and
+// another continued from its state. While a pass is under way, the film shows the samples that all pixels have.
 #pragma once
 #include <memory>
 #include <string>
@@ -13,64 +13,66 @@
 
 namespace deburr {
 
-/// Everything that has been summed up. Its arrays hold the window row by row; the window of a picture with a noise
-/// bound is whole cells.
+/// The state of a rendering: all sums. Its arrays hold the window row by row; with a noise bound the window consists of
+/// whole cells.
 struct PassState {
-    SampleRange samples;  // all that are to be taken
+    SampleRange samples;  // all samples that are to be taken
     Window window;
     LargeVector<PixelSums> sums;
-    std::vector<LayerSums> layers;  // empty: none are kept
-    std::vector<ColorSum> halves;   // empty: no noise bound
-    std::vector<int> taken;         // of each tile: all samples before this one
+    std::vector<LayerSums> layers;  // empty: no layers are kept
+    std::vector<ColorSum> halves;  // colour sums of the first half of the samples; empty: no noise bound
+    std::vector<int> taken;  // of each tile: the samples before this one are taken
 };
 
+/// A rendering in progress.
 class Passes {
 public:
     struct Settings {
         int width = 0, height = 0;  // of the whole picture
-        Window window;              // that the film holds
+        Window window;              // that the film shows
         std::vector<ImageLayer> layers;
         SampleRange samples;
-        double noise = 0;   // > 0: as RenderSettings has it
-        int max_pass = 32;  // samples of a pass at most: with fewer, tiles in hand are sooner done
+        double noise = 0;   // > 0: see RenderSettings::noise
+        int max_pass = 32;  // most samples of a pass; fewer let the tiles in hand end sooner
     };
 
-    /// `integrator` shares in the ownership of all that it uses: abandoned tiles go on with it.
+    /// `integrator` must share the ownership of all that it uses, since abandoned tiles continue to use it.
     Passes(const Settings& settings, std::shared_ptr<const Integrator> integrator);
     ~Passes();
     Passes(Passes&&) noexcept;
 
-    /// Takes the rest of the pass under way, or the next one; `done` is told of pixels times samples. After a pause it
-    /// can be called again, after tiles were abandoned it cannot.
+    /// Continues the pass under way, or begins the next one; `done` is told pixels times samples. It can be called
+    /// again after a pause, but not after tiles were abandoned.
     TilesEnd go_on(const std::atomic<bool>& stop, const Pause& pause, const PixelsDone& done,
                    std::chrono::milliseconds grace);
 
     bool finished() const;
-    /// Samples that all pixels have; 0 while the first pass is under way.
+    /// The number of samples that all pixels have; 0 during the first pass.
     int samples_of_all() const;
-    /// Pixels of the film that have any.
+    /// The number of the film's pixels that have samples.
     std::int64_t pixels_begun() const;
-    /// Of samples_of_all(); while that is 0, of pixels that have the first one, and the others are empty.
-    /// film.complete says whether it is finished(). The reference holds, but not what it shows, until passes go on.
+    /// The picture with samples_of_all() samples; during the first pass, of the pixels that have the first sample, with
+    /// the others empty. film.complete is finished(). The reference stays valid, but its content changes when passes
+    /// continue.
     const Film& film() const;
     TraceCounters counters() const;
 
-    /// Pixels times samples that are taken, of pixels() times samples in all; those that a quiet cell does without
-    /// count as taken.
+    /// The work done and the whole work, in pixels times samples; samples that a quiet cell does not need count as
+    /// done.
     double work_done() const;
     double work() const;
 
-    /// Everything that has been summed up, as bytes for restore() of passes with the same settings by the same program,
-    /// while no pass is going on.
+    /// The state as bytes for restore() by passes with the same settings in the same program. Must not be called during
+    /// a pass.
     std::string bytes() const;
-    /// Takes over what bytes() gave; false where it cannot have, and then nothing has changed.
+    /// Restores the state from bytes(). False, and nothing changes, if the bytes do not fit these settings.
     bool restore(std::string_view bytes);
 
-    /// The sums of the film's pixel i; layers where some are kept.
+    /// The sums of the film's pixel i; layers only if some are kept.
     const PixelSums& sums_at(std::size_t i) const;
     const LayerSums& layers_at(std::size_t i) const;
 
-    /// Memory for a pixel.
+    /// Memory for each pixel.
     static double bytes_per_pixel(const Settings& settings);
 
 private:

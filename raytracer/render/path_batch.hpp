@@ -1,5 +1,5 @@
-// Paths that are traced together, a bounce at a time: what the path integrator does with each surface that they meet.
-// For path_integrator.cpp alone.
+// Traces camera paths together, one bounce at a time, and shades the surfaces that they meet. Part of the
+// implementation of path_integrator.cpp.
 #pragma once
 #include <algorithm>
 
@@ -10,7 +10,7 @@
 
 namespace deburr {
 
-// What a path draws random numbers for, at each depth.
+// The random numbers that a path draws at each depth, as dimensions of its sampler.
 enum PathDraw : std::uint32_t {
     lobe,
     lobe_direction,
@@ -21,55 +21,59 @@ enum PathDraw : std::uint32_t {
     draws_a_depth = 64
 };
 
-// So many lights are all sampled where the camera looks: each has its own dimension.
+// Up to this many lights are all sampled at the first surface; each has a dimension of its own.
 inline constexpr std::size_t max_all_lights = 16;
 static_assert(light_places + max_all_lights <= roughness_level);
 
-// What is added to the dimensions of a path that was split from another.
+// Added to the dimensions of a path that was split from another.
 inline constexpr std::uint32_t split_draws = 1u << 30;
 
-// Rays at a time: many packets, whose hits fit into the processor's cache.
+// Paths of a batch: several packets, whose hits fit into the processor's cache.
 inline constexpr std::size_t max_paths = 128;
 
-// Roulette begins at this depth, where a path carries less than one over the factor: earlier, it was noise for no time
-// (of 120x80 pixels of the teapot at 64 samples, from depth 2 without the factor: 1.9 times the error for 0.84 of the
-// time). Beyond the other depth, nothing that is white lives for ever.
+// Russian roulette begins at this depth, for paths that carry less than 1/survival_factor: earlier, it adds noise and
+// saves no time (120x80 pixels of the teapot at 64 samples, from depth 2 without the factor: 1.9 times the error in
+// 0.84 of the time). Beyond last_certain, even paths between white surfaces may end.
 inline constexpr int first_roulette = 3, last_certain = 32;
 inline constexpr double survival_factor = 8;
 inline constexpr double min_survival = 0.05, max_late_survival = 0.95;
 
-// Surfaces of glass that light passes straight on; beyond more of them it is dark.
+// Most glass surfaces that light passes straight through; it is lost at further ones.
 inline constexpr int max_glass_passed = 16;
 
 inline double brightest_of(Vec3 c) { return std::max({c.x, c.y, c.z}); }
 inline bool all_finite(Vec3 v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
 inline Vec3 zero_unless_finite(Vec3 v) { return all_finite(v) ? v : Vec3(0.0); }
 
+/// A batch of paths for one block of the picture.
 class PathIntegrator::Batch {
 public:
+    // What a camera ray's result is used for.
     struct Use {
         Sampler sampler;
-        std::uint32_t pixel;
-        bool center, sample;  // for the layers; for the colour
+        std::uint32_t pixel;  // index in the block
+        bool center, sample;  // for layers of the center's ray; for the colour
     };
+    // The state of a path.
     struct Path {
         Ray ray;
         Vec3 throughput{1.0}, color{0.0};
-        double density = infinity;  // with which the ray was sampled; infinity: a mirror or the camera
-        Vec3 from{0.0};             // where from
+        double density = infinity;  // with which the ray was sampled; infinity: by a mirror or the camera
+        Vec3 from{0.0};             // the point where it was sampled
         double importance = 0.0;    // of all emitters there; 0: each of them was sampled
         std::uint32_t draws = 0;    // added to its dimensions
-        std::uint32_t parent = 0;   // of a path that was split from another
+        std::uint32_t parent = 0;   // index of the path that it was split from
         int blur = 0;
-        bool over_glass = false;  // was met since the last rough surface
-        bool diffused = false;    // by a rough surface
-        bool guides = true;       // has met mirrors and polished glass alone
+        bool over_glass = false;  // whether it met glass since the last rough surface
+        bool diffused = false;    // whether a rough surface scattered it
+        bool guides = true;       // whether it met only mirrors and polished glass so far
     };
+    // The light that a path gets if a shadow ray is not occluded.
     struct Shadow {
         Vec3 color;
         std::uint32_t path;
     };
-    // Lists that a thread uses again for every block.
+    // Memory that a thread reuses for every block.
     struct Memory {
         std::vector<Use> uses;
         std::vector<Path> paths;
@@ -82,24 +86,26 @@ public:
         std::size_t hidden_size = 0;
     };
 
+    /// Results are added to `sums` and, unless it is null, `layers`, row by row.
     Batch(const PathIntegrator& integrator, PixelSums* sums, LayerSums* layers, TraceCounters& counters, Memory& memory)
         : in_(integrator), sums_(sums), layers_(layers), counters_(counters), m_(memory) {
         clear();
     }
 
+    /// Adds a camera ray; a full batch is traced at once.
     void add(const Ray& ray, const Use& use) {
         m_.paths.push_back({.ray = ray, .from = ray.origin});
         m_.uses.push_back(use);
         if (m_.paths.size() == max_paths) finish();
     }
 
-    /// All paths so far, to their ends.
+    /// Traces all paths to their ends.
     void finish() {
         m_.alive.clear();
         rays_ = m_.paths.size();
         for (std::uint32_t i = 0; i < rays_; ++i) m_.alive.push_back(i);
         for (depth_ = 0; !m_.alive.empty(); ++depth_) bounce();
-        // In their order: a sample does not depend on what travels with it.
+        // In order of the paths, so that a sample does not depend on the rest of the batch.
         for (std::size_t i = rays_; i < m_.paths.size(); ++i) m_.paths[m_.paths[i].parent].color += m_.paths[i].color;
         for (std::size_t i = 0; i < rays_; ++i)
             if (m_.uses[i].sample) sums_[m_.uses[i].pixel].color += zero_unless_finite(m_.paths[i].color);
@@ -112,10 +118,12 @@ private:
         m_.uses.clear();
     }
 
+    // The dimension of a random number at the present depth.
     std::uint32_t dimension(const Path& path, std::uint32_t draw) const {
         return path.draws + std::uint32_t(depth_) * draws_a_depth + draw;
     }
 
+    // Traces all living paths to their next surface and shades it.
     void bounce() {
         m_.shadows.clear();
         m_.shadow_rays.clear();
@@ -150,7 +158,7 @@ private:
             if (!m_.hidden[s]) m_.paths[m_.shadows[s].path].color += m_.shadows[s].color;
     }
 
-    // Layers and alpha; false where no colour is asked for.
+    // Sets the layers of the center's ray; false if the path's colour is not wanted.
     bool begin(std::uint32_t i, const Hit& hit) {
         const Use& use = m_.uses[i];
         const Vec3 direction = m_.paths[i].ray.direction;
@@ -159,16 +167,17 @@ private:
         return use.sample;
     }
 
-    // Share of light found by a reflection, where sampling the emitter would have found it, too.
+    // The weight of light found by scattering that sampling the emitter could have found, too.
     double reflection_weight(const Path& path, std::size_t emitter, double density) const {
         if (path.density == infinity || !(density > 0)) return 1;
         const double times = path.importance > 0 ? in_.emitters_.importance(emitter, path.from) / path.importance : 1.0;
         return path.density / (path.density + times * density);
     }
 
-    // Light that has come straight through glass is not found behind it, too.
+    // Light that was already counted as passing straight through glass is not found again behind it.
     bool is_counted_already(const Path& path) const { return !in_.scene_.caustics && path.over_glass && path.diffused; }
 
+    // Adds the light of invisible lights that the ray meets before t_max.
     void take_lights(Path& path, double t_max) const {
         if (depth_ > 0 && !is_counted_already(path))
             in_.emitters_.for_each_invisible(path.ray, t_max, [&](const Emitters::Met& met) {
@@ -200,7 +209,7 @@ private:
         });
     }
 
-    // Layers for denoisers, once for a path.
+    // Adds the layers for denoisers, once for a path.
     void add_guides(Path& path, const Use& use, Vec3 color, Vec3 normal) {
         if (layers_ && path.guides) {
             const Vec3 share = glm::min(path.throughput, Vec3(1.0));
@@ -210,7 +219,7 @@ private:
         path.guides = false;
     }
 
-    // Where metal is a texture, it is put together in `mixed`.
+    // The material at the hit; if its metallic share is a texture, it is composed in `mixed`.
     const ScatteringMaterial& material_at(const Path& path, const Use& use, const Hit& hit, const Material& material,
                                           ScatteringMaterial& mixed) const {
         const ScatteringMaterial& level = in_.material_at(
@@ -221,10 +230,10 @@ private:
         return mixed;
     }
 
-    // Light that arrives at a path's end, and the way on; false if there is none.
+    // Adds the light at the surface that a path has met, and continues the path; false if it ends.
     bool shade(std::uint32_t i, const Hit& hit) {
         Path& path = m_.paths[i];
-        const Use use = m_.uses[i];  // a copy: the list may grow
+        const Use use = m_.uses[i];  // a copy, since the list may grow
         const Emitters::Met met = in_.emitters_.met(path.ray, hit.t);
         take_lights(path, std::min(hit.t, met.t));
         if (met.t < hit.t) {
@@ -236,7 +245,7 @@ private:
         }
         if (!hit) {
             take_background(path);
-            if (depth_ > 0) add_guides(path, use, Vec3(1.0), Vec3(0.0));  // light alone, as a white surface
+            if (depth_ > 0) add_guides(path, use, Vec3(1.0), Vec3(0.0));  // light only, as of a white surface
             return false;
         }
         const Material& material = in_.scene_.materials[hit.material];
@@ -251,7 +260,7 @@ private:
                            shading_normal(material, hit.position, hit.normal, to_eye), hit.normal, to_eye);
         if (surface.diffuses()) add_guides(path, use, color, surface.normal());
         path.color += path.throughput * surface.base_albedo() * in_.scene_.ambient;
-        // Where the camera looks, a choice between a base and a layer of another colour would be noise.
+        // At the first surface, choosing at random between a base and a layer of different colours would be noisy.
         const bool both = depth_ == 0 && surface.split();
         double importance = 0;
         if (surface.diffuses()) importance = take_samples(i, hit, surface);
@@ -268,7 +277,8 @@ private:
         return go_on(m_.paths[i], m_.uses[i].sampler, hit, surface, importance, 0.0);
     }
 
-    // Light by sampling emitters. Returns the importance of all of them, where one was chosen.
+    // Adds light by sampling emitters. Returns the importance of all emitters at the hit if one of them is chosen by it
+    // (infinity: none gives light), or 0 if each of them is sampled.
     double take_samples(std::uint32_t i, const Hit& hit, const Scattering& surface) {
         const std::size_t count = in_.emitters_.size();
         if (count == 0) return 0;
@@ -288,12 +298,12 @@ private:
         return importance;
     }
 
-    // Where an emitter is sampled.
+    // The place on an emitter that is sampled, in the unit square.
     Vec2 place_on(std::uint32_t i, std::size_t emitter, std::uint32_t draw) const {
         return in_.emitters_.single(emitter) ? Vec2(0.5) : m_.uses[i].sampler.square(dimension(m_.paths[i], draw));
     }
 
-    // `times`: samples of this emitter that are expected.
+    // Samples one emitter; `times` is the expected number of samples of this emitter.
     void take_sample(std::uint32_t i, const Hit& hit, const Scattering& surface, std::size_t emitter, double times,
                      Vec2 u) {
         const Emitters::Sample light = in_.emitters_.at(emitter, hit.position, u);
@@ -319,7 +329,7 @@ private:
         m_.shadows.push_back({color, i});
     }
 
-    // What a ray that was sent to a solid finds of its light.
+    // The light of a glowing solid that a ray sent to it finds.
     Vec3 emission_of(int solid, Ray ray, std::size_t emitter) {
         Vec3 share(1.0);
         for (int k = 0; k < max_glass_passed; ++k) {
@@ -336,7 +346,7 @@ private:
         return Vec3(0.0);
     }
 
-    // Share of light that goes straight on.
+    // The share of light that passes straight through the surface.
     Vec3 passed_by(const Hit& hit, Vec3 direction) const {
         const Material& m = in_.scene_.materials[hit.material];
         if (!in_.lets_light_pass(m)) return Vec3(0.0);
@@ -346,6 +356,8 @@ private:
                (passed * (1 - fresnel_dielectric(glm::dot(hit.normal, direction), m.ior)));
     }
 
+    // The share of light that passes straight through all glass on the ray's first `left` units; 0 if anything else is
+    // in the way.
     Vec3 through_glass(Ray ray, double left) {
         Vec3 share(1.0);
         for (int k = 0; k < max_glass_passed; ++k) {
@@ -359,6 +371,7 @@ private:
         return Vec3(0.0);
     }
 
+    // Continues the path in a sampled direction; false if it ends.
     bool go_on(Path& path, const Sampler& sampler, const Hit& hit, const Scattering& surface, double importance,
                double first_choice) {
         Scattering::Sample next;
@@ -394,7 +407,7 @@ private:
     TraceCounters& counters_;
     Memory& m_;
     int depth_ = 0;
-    std::size_t rays_ = 0;  // of the camera; the other paths were split from theirs
+    std::size_t rays_ = 0;  // number of camera paths, which precede those split from them
 };
 
 }  // namespace deburr

@@ -8,10 +8,10 @@
 namespace deburr {
 namespace {
 
-// What a path draws random numbers for once: its ways through the filter and through the lens.
+// Dimensions of random numbers that a path draws once: for the filter and for the lens.
 constexpr std::uint32_t filter_draw = 0xffffffffu, lens_draw = 0xfffffffeu;
 
-// Pixels each way whose rays travel together.
+// Side of a patch of pixels whose rays are traced together.
 constexpr int path_patch = 4;
 
 }  // namespace
@@ -53,7 +53,7 @@ const ScatteringMaterial& PathIntegrator::material_at(const Hit& hit, int blur, 
     return materials_[blur][level];
 }
 
-// Of one pixel, named `pixel` in the batch.
+// Adds the samples of one pixel, whose index is `pixel`, to the batch.
 void PathIntegrator::samples(Batch& batch, int x, int y, std::uint32_t pixel, SampleRange range) const {
     for (int s = range.first; s < range.end; ++s) {
         const Sampler sampler(settings_.seed, x, y, s);

@@ -5,7 +5,7 @@
 namespace deburr {
 namespace {
 
-// Samples of a pass at most: a tile of them is soon done, and to hand it out costs nothing beside it.
+// Most samples of a pass: a tile of them is soon done, and its scheduling costs little in comparison.
 constexpr int largest_pass = 32;
 
 Vec3 zero_unless_all_finite(Vec3 v) {

@@ -1,8 +1,8 @@
-// What the samples of a pixel add up to, exactly.
+// Exact sums of a pixel's samples.
 //
-// Sums are whole numbers of 2⁻⁶⁰, so that they depend on neither the order of samples nor how they were parted into
+// Sums are integers in units of 2⁻⁶⁰, so that they depend on neither the order of samples nor their distribution over
 // passes, runs and machines: a picture after n samples is a function of n. A sample is rounded to 2⁻⁶⁰ once, which is
-// less than a double loses above 2⁻⁷, and what is brighter than 2⁴⁶ counts as that.
+// less than a double's rounding above 2⁻⁷; values above 2⁴⁶ count as 2⁴⁶.
 #pragma once
 #include <array>
 #include <cmath>
@@ -13,18 +13,18 @@
 
 namespace deburr {
 
-/// Samples `first` to `end` - 1 of every pixel.
+/// The samples first … end − 1 of every pixel.
 struct SampleRange {
     int first = 0, end = 0;
 
     bool operator==(const SampleRange&) const = default;
 };
 
-/// The pass that follows once the samples before `done` are taken: 1 sample, then 1, 2, 4, … 32, 32, …; none, and so
-/// first = end = all.end, at the end. Every power of two from the beginning on ends a pass.
+/// The pass after all samples before `done` are taken: of 1 sample, then 1, 2, 4, … 32, 32, …; empty (first = end =
+/// all.end) at the end. Every power of two, counted from the beginning, ends a pass.
 SampleRange next_pass(SampleRange all, int done);
 
-/// A sum of numbers, in 2⁻⁶⁰.
+/// An exact sum of numbers, in units of 2⁻⁶⁰.
 class ExactSum {
 public:
     using Whole = __int128;
@@ -32,9 +32,9 @@ public:
     ExactSum() = default;
     explicit ExactSum(Whole value) : value_(value) {}
 
-    /// x is finite.
+    /// Adds a number, which must be finite.
     ExactSum& operator+=(double x) {
-        // In 64 bits where they are enough: a conversion to 128 is a call.
+        // In 64 bits if that is enough, because conversion to 128 bits is a function call.
         if (std::abs(x) < 8)
             value_ += std::int64_t(x * unit);
         else
@@ -45,14 +45,14 @@ public:
         value_ += other.value_;
         return *this;
     }
-    /// The sum of one number, x finite.
+    /// The number as a sum would hold it; x must be finite.
     static double rounded(double x) {
-        // Nothing is lost on the way back: a double's whole part is a double.
+        // Exact on the way back, since a double's integer part is a double.
         return std::abs(x) < 8 ? double(std::int64_t(x * unit)) / unit : (ExactSum() += x).value();
     }
     ExactSum operator-(ExactSum other) const { return ExactSum(value_ - other.value_); }
     double value() const {
-        const auto low = std::int64_t(value_);  // the same, where it is enough
+        const auto low = std::int64_t(value_);  // equal to value_ if it fits
         return (Whole(low) == value_ ? double(low) : double(value_)) / unit;
     }
     bool operator==(const ExactSum&) const = default;
@@ -62,6 +62,7 @@ private:
     Whole value_ = 0;
 };
 
+/// An exact sum of colours.
 struct ColorSum {
     std::array<ExactSum, 3> of;
 
@@ -80,33 +81,35 @@ struct ColorSum {
     bool operator==(const ColorSum&) const = default;
 };
 
+/// The sums of one pixel.
 struct PixelSums {
     ColorSum color;
-    std::uint32_t hits = 0, samples = 0;
+    std::uint32_t hits = 0, samples = 0;  // samples that hit a solid; all samples
     std::uint64_t is_quiet = 0;  // 1: its cell has so little noise that it gets no more samples (noise_bound.hpp)
 
     PixelSums& operator+=(const PixelSums& other);
 };
-static_assert(sizeof(PixelSums) == 64);  // without gaps: it is written as it is
+static_assert(sizeof(PixelSums) == 64);  // without padding, since it is written to files as it is
 
-/// Layers of a pixel, of which those for denoisers are kept apart.
+/// The layers of one pixel; those for denoisers are exact sums.
 struct LayerSums {
-    PixelLayers rest;  // of the centre's ray; but cost and shares of solids are sums
+    PixelLayers rest;  // of the center's ray, except for sums of cost and of solids' shares
     ColorSum albedo, guide_normal;
 
-    /// Adds later samples, without the centre's ray.
+    /// Adds later samples; the center's ray stays.
     LayerSums& operator+=(const LayerSums& other);
+    /// Sets the layers of the center's ray, which has this direction; `forward` is the camera's.
     void set_center(const Hit& hit, Vec3 direction, Vec3 forward);
 };
 
-/// Where a block's samples go, row by row; `layers` may be null, and `halves` is used with a noise bound only.
+/// Where the samples of a block are added, row by row. `layers` may be null; `halves` is used with a noise bound only.
 struct SampleArrays {
     PixelSums* sums = nullptr;
     LayerSums* layers = nullptr;
     ColorSum* halves = nullptr;
 };
 
-/// Averages of what there is; without samples the empty pixel.
+/// The averages; an empty pixel without samples.
 inline Pixel mean(const PixelSums& sums) {
     if (sums.samples == 0) return {};
     return {sums.color.value() / double(sums.samples), double(sums.hits) / sums.samples};

@@ -15,12 +15,12 @@
 namespace deburr {
 namespace {
 
-// Tiles that pixels from `first` on lie in.
+// The number of tiles that `pixels` pixels from `first` on touch along one axis.
 std::int64_t tiles_along(int first, int pixels) {
     return pixels > 0 ? (std::int64_t(first) + pixels - 1) / tile_side - first / tile_side + 1 : 0;
 }
 
-// A picture in the making. It outlives its caller where tiles are abandoned.
+// A rendering in progress; it outlives its caller if tiles are abandoned.
 class Making {
 public:
     Making(Film film, const BlockFunction& block, const PixelsDone& done)
@@ -48,7 +48,7 @@ public:
         if (done_) done_(pixels);
     }
 
-    // What is finished by now; nothing is added to it any more.
+    // The result so far; nothing is added to it afterwards.
     Rendering take() {
         const std::unique_lock all(film_);
         closed_ = true;
@@ -69,7 +69,7 @@ private:
     const Window window_;
     const bool with_layers_;
     tbb::enumerable_thread_specific<Work> work_;
-    std::shared_mutex film_;  // shared by those who add tiles of their own
+    std::shared_mutex film_;  // shared: a tile is being added; exclusive: the result is taken
     std::mutex sums_;
     bool closed_ = false;
     Rendering result_;
@@ -94,8 +94,8 @@ Window tile(const Window& window, std::int64_t index) {
 
 namespace {
 
-// The scheduler hands out tickets in an order of its own; whoever holds one takes the next tile from the top, so that
-// an interrupted picture has no holes above its lower edge.
+// The scheduler chooses when each call runs, but every call takes the next tile from the top, so that an interrupted
+// picture has no holes above its lower edge.
 void run_tiles(const Window& window, const std::function<void(const Window&)>& work, const std::atomic<bool>& stop,
                const std::atomic<bool>& pause) {
     std::atomic<std::int64_t> next{0};
@@ -122,7 +122,7 @@ TilesEnd for_each_tile(const Window& window, const std::function<void(const Wind
     std::thread thread;
     try {
         thread = std::thread(std::move(run));
-    } catch (const std::system_error&) {  // none is to be had: then this one does the work
+    } catch (const std::system_error&) {  // no thread is available, so this one does the work
         run_tiles(window, work, stop, *paused);
         return ended();
     }

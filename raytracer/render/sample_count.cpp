@@ -1,6 +1,5 @@
-// Two independent estimates x, y of one pixel, of n samples each, have E(x − y)²/2 = σ²/n. The mean of it over pixels
-// and channels, of values as a screen shows them, falls as 1/n; stratified samples do better, so the number errs to
-// the side of more.
+// Two independent estimates x, y of one pixel with n samples each have E(x − y)²/2 = σ²/n. Its mean over pixels and
+// channels, in display values, falls as 1/n; stratified samples do better, so the number errs on the side of more.
 #include "raytracer/render/sample_count.hpp"
 
 #include <tbb/parallel_for.h>
@@ -11,19 +10,19 @@
 namespace deburr {
 namespace {
 
-// Root mean square of what is left, of a scale from 0 to 1. Chosen: of flat grey areas with it the grain can just be
-// seen.
+// Accepted root mean square of the noise, on a scale from 0 to 1 (chosen): in flat grey areas this grain is just
+// visible.
 constexpr double accepted_noise = 1.5 / 255;
 
-// Pixels that are looked at along each side, and samples of each estimate.
+// Trial pixels along each side, and samples of each estimate.
 constexpr int pixels_along = 40, trial_samples = 8;
 
-// Samples of a whole picture, above which more pixels get fewer: noise between small pixels is seen less, and nobody
-// waits for ever. 64 for a picture of 3840 x 2160.
+// Most samples of a whole picture; pictures with more pixels get fewer for each, since noise is less visible between
+// small pixels: 64 for 3840 x 2160.
 constexpr double max_total = 0x1p29;
 
-// CPU time of what tracers count: the sum was 0.4 to 1.7 times the time that eight of the scenes in scenes/ took on one
-// core, 1/2.6 of that of bearing.lua and 1/7 of that of convolution.lua, whose densities cost more to evaluate.
+// CPU time for what tracers count. The estimate was 0.4 to 1.7 times the real time of eight of the scenes in scenes/ on
+// one core, 1/2.6 of that of bearing.lua and 1/7 of that of convolution.lua, whose densities are more expensive.
 constexpr double seconds_per_ray = 1e-7, seconds_per_cell = 3e-8, seconds_per_evaluation = 1e-7;
 
 double estimated_seconds(const TraceCounters& c) {
@@ -31,7 +30,7 @@ double estimated_seconds(const TraceCounters& c) {
            seconds_per_evaluation * double(c.evaluations);
 }
 
-// The trial's seeds, apart from the picture's own: noise must not be judged by the samples that it keeps.
+// The trial's seeds differ from the picture's: noise must not be judged by the samples that the picture uses.
 constexpr std::uint64_t trial_seed = 0x9e3779b97f4a7c15;
 
 double shown(double linear, double scale) {

@@ -25,9 +25,9 @@ std::uint32_t reversed(std::uint32_t x) {
     return ((x >> 1) & 0x55555555u) | ((x & 0x55555555u) << 1);
 }
 
-// A permutation in which a bit depends on the bits below it only, as each step below has it: adding
-// a constant, multiplying by an odd one, and x ^= x·even. On reversed numbers that is a nested
-// uniform scramble. The multipliers are arbitrary dense bit patterns, used twice with two keys.
+// A permutation in which each bit depends only on the bits below it, as in each step: adding a constant, multiplying by
+// an odd number, and x ^= x·even. On bit-reversed numbers this is a nested uniform scramble. The multipliers are
+// arbitrary dense bit patterns, used twice with two keys.
 std::uint32_t nested(std::uint32_t x, std::uint64_t key) {
     const std::uint32_t low = std::uint32_t(key), high = std::uint32_t(key >> 32);
     x += low;
@@ -41,9 +41,8 @@ std::uint32_t nested(std::uint32_t x, std::uint64_t key) {
     return x;
 }
 
-// Sobol's second dimension with its bits reversed. The generator matrix is Pascal's triangle modulo
-// 2, C(k, j) is odd where the bits of j are among those of k, so the product is a sum over
-// supersets, five steps instead of 32.
+// Sobol's second dimension, bit-reversed. The generator matrix is Pascal's triangle modulo 2; C(k, j) is odd where the
+// bits of j are among those of k, so the product is a sum over supersets: five steps instead of 32.
 std::uint32_t pascal(std::uint32_t x) {
     x ^= (x >> 1) & 0x55555555u;
     x ^= (x >> 2) & 0x33333333u;
@@ -52,13 +51,13 @@ std::uint32_t pascal(std::uint32_t x) {
     return x ^ ((x >> 16) & 0x0000ffffu);
 }
 
-// What a pixel's place in its block adds to the digits of its points: of the functions zᶜ/qʲ with q = z² + z + 1 the
-// first 32 coefficients at z = 0, for x, and at z = 1, for y. c and j say which bit of the place: c is 0 for columns, j
+// The digits that a pixel's position in its block adds to its points: the first 32 coefficients of the functions zᶜ/qʲ,
+// q = z² + z + 1, at z = 0 (for x) and at z = 1 (for y). c and j select a bit of the position: c is 0 for columns, j
 // counts levels from the finest, whose four pixels have j = 1. The first digit is bit 0.
 constexpr int block_levels = Sampler::block_levels;
 using PlaceDigits = std::array<std::array<std::uint32_t, 1 << (2 * block_levels)>, 2>;
 
-// A power series times 1/q, modulo 2: p[l] = s[l] + p[l - 1] + p[l - 2].
+// A power series divided by q, modulo 2: p[l] = s[l] + p[l - 1] + p[l - 2].
 constexpr std::uint32_t divided(std::uint32_t s) {
     std::uint32_t p = 0;
     for (int l = 0; l < 32; ++l) {
@@ -74,7 +73,7 @@ constexpr PlaceDigits all_place_digits() {
     PlaceDigits digits{};
     for (int around = 0; around < 2; ++around)
         for (int c = 0; c < 2; ++c) {
-            // 1, or z: which is w + 1 around z = 1, where q = w² + w + 1 again.
+            // 1, or z, which is w + 1 around z = 1, where q = w² + w + 1 again.
             std::uint32_t series = c == 0 ? 1 : around == 0 ? 2 : 3;
             for (int j = 1; j <= block_levels; ++j) {
                 series = divided(series);
@@ -88,7 +87,7 @@ constexpr PlaceDigits all_place_digits() {
 
 constexpr PlaceDigits place_digits = all_place_digits();
 
-// The bits of a column or row in its block, the coarsest first, at every other place.
+// The bits of a column or row in its block, the coarsest first, at every other bit.
 constexpr std::array<std::uint32_t, 1 << block_levels> place_bits = [] {
     std::array<std::uint32_t, 1 << block_levels> all{};
     for (std::uint32_t at = 0; at < all.size(); ++at)
@@ -114,8 +113,8 @@ Sampler::Sampler(std::uint64_t seed, int x, int y, int sample) : sample_(std::ui
 Sampler::Point Sampler::point(std::uint32_t dimension, std::uint32_t index) const {
     Point p;
     p.key = mixed(block_ + golden * (std::uint64_t(dimension) + 1));
-    // Each pixel takes the samples from 2ᵐ to 2ᵐ⁺¹ in an order of its own, and none earlier: a nested scramble of the
-    // bits below the highest one.
+    // Each pixel takes the samples from 2ᵐ to 2ᵐ⁺¹ in its own order, and none earlier: a nested scramble of the bits
+    // below the highest one.
     const std::uint32_t kept = index ? (2u << __builtin_clz(index)) - 1 : ~0u;
     const std::uint32_t in_order = reversed(index);
     p.index = reversed((in_order & kept) | (nested(in_order, mixed(p.key ^ pixel_)) & ~kept));
@@ -136,10 +135,10 @@ Vec2 Sampler::square(std::uint32_t dimension, int part, int parts) const {
 
 namespace {
 
-// Harris 1978, the four-term window with side lobes below -92 dB.
+// [Harris 1978], the four-term window with side lobes below -92 dB.
 constexpr std::array<double, 4> window = {0.35875, 0.48829, 0.14128, 0.01168};
 
-// ∫ of the filter from -radius to x.
+// The integral of the filter from -filter_radius to x.
 double filter_area(double x) {
     const double turn = std::numbers::pi * x / filter_radius;  // from -π to π
     double sum = 0.5 * window[0] * (turn / std::numbers::pi + 1.0);
@@ -147,7 +146,7 @@ double filter_area(double x) {
     return sum / window[0];
 }
 
-// The inverse for the left half, at areas (i / steps)²/2: dense at the end, where it is steep.
+// The inverse of filter_area for the left half, at areas (i / steps)²/2: dense at the end, where it is steep.
 constexpr int inverse_steps = 512;
 
 std::array<double, inverse_steps + 1> inverse_areas() {

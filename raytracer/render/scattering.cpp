@@ -6,11 +6,11 @@
 namespace deburr {
 namespace {
 
-// Cosines at a shading point are kept from 0, where masking is 0/0.
+// Least cosine at a shading point, since masking is 0/0 at 0.
 constexpr double min_eye_cosine = 1e-5;
-// A boundary between indices this close bends nothing, and a half vector says nothing of its facets.
+// A boundary between indices this close does not refract, and a half vector then says nothing about its facets.
 constexpr double min_ior_step = 1e-3;
-// Least probability of a part that is there: else the rare brightness of a dim part were noise.
+// Least probability of sampling a part that exists; otherwise a dim part would be noisy.
 constexpr double min_part = 0.1;
 
 double largest_component(Vec3 c) { return std::max({c.x, c.y, c.z}); }
@@ -34,7 +34,7 @@ ScatteringMaterial::ScatteringMaterial(const Material& material, AlbedoTables& t
         case Kind::glass: glass = 1; break;
         case Kind::pbr:
             transmission = material.transmission;
-            // Of a texture all shares are there, so that all tables are.
+            // With a texture, all parts exist, so that all tables are made.
             set_metallic(material.metallic_texture ? 0.5 : material.metallic);
             coat = material.clearcoat;
             break;
@@ -90,7 +90,7 @@ Scattering::Scattering(const ScatteringMaterial& material, Vec3 color, Vec3 outw
         const double e = m_.white->at(cos_eye_), mean = m_.white->mean();
         metal_kept_ = 1 - e;
         if (mean < 1) {
-            // Light that leaves after one, two … more reflections, each of mean Fresnel reflectance.
+            // Light that leaves after one, two, … further reflections, each with the mean Fresnel reflectance.
             const Vec3 f = m_.kind == Material::Kind::mirror ? color : color + (1.0 - color) / 21.0;
             metal_base_ = m_.metal * f * f * mean / (1.0 - f * (1 - mean));
         }
@@ -127,7 +127,7 @@ bool Scattering::split() {
     return true;
 }
 
-// Without the coat and the cosine.
+// The base's value without the coat and the cosine.
 Vec3 Scattering::base(double cosine) const {
     using std::numbers::inv_pi;
     Vec3 sum(0.0);
@@ -187,7 +187,7 @@ Scattering::Value Scattering::value(Vec3 l) const {
         return v;
     }
     if (!(cosine < 0) || !rough_glass) return v;
-    // The facet that refracts from one direction to the other, and how its solid angle stretches [Walter et al. 2007,
+    // The facet that refracts one direction into the other, and the Jacobian of its solid angle [Walter et al. 2007,
     // eq. 16 and 17].
     Vec3 facet = to_eye_ + ior_ * l;
     if (glm::dot(facet, normal_) < 0) facet = -facet;
@@ -205,7 +205,7 @@ Scattering::Value Scattering::value(Vec3 l) const {
     return v;
 }
 
-// False if nothing goes that way. Where rough, the direction alone is set.
+// Samples glass; false if no light goes that way. For rough glass, only the direction is set.
 bool Scattering::sample_glass(double choice, Vec2 u, Sample& s) const {
     const Vec3 facet = m_.smooth ? normal_ : m_.ggx.facet(to_eye_, normal_, u);
     Vec3 through(0.0);
@@ -221,7 +221,7 @@ bool Scattering::sample_glass(double choice, Vec2 u, Sample& s) const {
     return true;
 }
 
-// False if the direction lies on the wrong side. The weight is set for mirrors.
+// Samples base, layer or coat; false if the direction is on the wrong side. The weight is set for mirrors only.
 bool Scattering::sample_lobe(double choice, Vec2 u, Sample& s) const {
     const auto reflect = [&](const Ggx& ggx, bool smooth) {
         s.direction = glm::normalize(reflected(to_eye_, smooth ? normal_ : ggx.facet(to_eye_, normal_, u)));

@@ -4,7 +4,7 @@
 
 #include "raytracer/simd/disabled_targets.hpp"
 
-// This file is compiled once for each set of instructions, as raytracer/simd/packet_kernels.cpp is.
+// This file is compiled once for each instruction set, like raytracer/simd/packet_kernels.cpp.
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "raytracer/render/shading_kernels.cpp"
 #include <hwy/foreach_target.h>
@@ -20,10 +20,10 @@ namespace {
 using std::numbers::inv_pi;
 using std::numbers::pi;
 
-// Cosines at a shading point are kept from 0, where G and E are 0/0.
+// Least cosine at a shading point, since G and E are 0/0 at 0.
 constexpr double min_cosine = 1e-5;
 
-// Three coordinates of several surfaces.
+// Vectors of several surfaces.
 struct V3 {
     V x, y, z;
 };
@@ -39,10 +39,10 @@ DEBURR_INLINE V3 select3(M m, V3 a, V3 b) { return {select(m, a.x, b.x), select(
 DEBURR_INLINE V dot(V3 a, V3 b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
 DEBURR_INLINE V3 mix(V3 a, V3 b, V t) { return a * (number(1) - t) + b * t; }
 DEBURR_INLINE V3 unit(V3 a) { return a * (number(1) / hn::Sqrt(dot(a, a))); }
-// As glm::clamp chooses, which differs from std::clamp for what is no number.
+// Chooses as glm::clamp does, which differs from std::clamp for NaN.
 DEBURR_INLINE V clamped_as_glm(V x, V lo, V hi) { return least(most(x, lo), hi); }
 
-// Surfaces of a batch from `first` on, as many as a vector holds: all of them, or `asked`.
+// The surfaces of a batch from `first` on, as many as a vector holds: all of them, or those in `asked`.
 class Some {
 public:
     Some(const SurfaceBatch& batch, std::size_t first) : batch_(batch), first_(first) {}
@@ -71,13 +71,13 @@ private:
     M asked_ = mask_of(all);
 };
 
-// Calls each(some) for all surfaces, and for what is in the arrays after the last one.
+// Calls each(some) for all surfaces, and for the unused elements after the last one.
 template <class Each>
 DEBURR_INLINE void for_all(const SurfaceBatch& batch, Each each) {
     for (std::size_t first = 0; first < batch.count; first += hn::Lanes(d)) each(Some(batch, first));
 }
 
-// Calls each(layer, some) for all surfaces, by the layers of those that are in a vector together.
+// Calls each(layer, some) for all surfaces, once for each layer among the surfaces in a vector.
 template <class Each>
 DEBURR_INLINE void for_layers(std::span<const SurfaceLayer> layers, const SurfaceBatch& batch, Each each) {
     constexpr std::size_t lanes = hn::MaxLanes(D());
@@ -94,13 +94,13 @@ DEBURR_INLINE void for_layers(std::span<const SurfaceLayer> layers, const Surfac
     }
 }
 
-// Numbers of a table of `steps` + 1, linearly in between, at a place from 0 to `steps`.
+// Interpolates linearly in a table of `steps` + 1 values at a position from 0 to `steps`.
 DEBURR_INLINE V interpolated(const double* table, int steps, V at) {
     using Whole = hn::RebindToSigned<D>;
     const Whole w;
-    // The last for no number, too.
+    // The last interval for NaN, too.
     const V left = select(at < number(steps), hn::Floor(at), number(steps - 1));
-    // The lowest bits of a whole number added to 2⁵² are that number's.
+    // The lowest bits of 2⁵² plus an integer are those of the integer.
     const auto index = hn::And(hn::BitCast(w, left + number(0x1p52)), hn::Set(w, 0xffff));
     const V a = hn::GatherIndex(d, table, index), b = hn::GatherIndex(d, table + 1, index), t = at - left;
     return a * (number(1) - t) + b * t;
@@ -146,7 +146,7 @@ void see(std::span<const SurfaceLayer> layers, const SurfaceBatch& batch) {
         if (layer.kind() == Material::Kind::mirror || (metal && layer.smooth())) {
             base = numbers(Vec3(0));
         } else if (metal) {
-            // Light that leaves after one, two … more reflections, each of mean Fresnel reflectance.
+            // Light that leaves after one, two, … further reflections, each with the mean Fresnel reflectance.
             const V3 one = numbers(Vec3(1)), f = color + (one - color) / number(21);
             const double e = layer.mean_albedo();
             base = f * f * number(e) / (one - f * number(1 - e));
@@ -206,7 +206,7 @@ DEBURR_INLINE V visibility(const Ggx& ggx, V cos_in, V cos_out) {
     return number(0.5) / (cos_out * in + cos_in * out);
 }
 
-// What the base and the layer scatter, times the cosine of the light.
+// The light that base and layer scatter, times the cosine of the light's direction.
 DEBURR_INLINE V3 scattered(const SurfaceLayer& layer, const Some& some, V3 normal, V3 towards, V cos_light) {
     const V3 base = some.get3(SurfaceField::base);
     if (layer.kind() == Material::Kind::matte) return base * (cos_light * number(inv_pi));
@@ -244,7 +244,7 @@ void mirror(std::span<const SurfaceLayer> layers, const SurfaceBatch& batch) {
     });
 }
 
-// Of a gradient or a single colour, as SkyLight has them.
+// As SkyLight for a gradient or a constant colour.
 DEBURR_INLINE V height(const Background& sky, V3 direction) { return sky.z_up ? direction.z : direction.y; }
 
 DEBURR_INLINE V3 mean_sky(const SkyLight& light, V3 normal) {

@@ -1,5 +1,5 @@
-// Opaque surfaces that rays of a preview have met, many at a time, in arrays of their coordinates (structure of
-// arrays), so that one vector instruction shades as many of them as the processor's vectors hold (shading_kernels.hpp).
+// A batch of opaque surfaces in a preview, as a structure of arrays, so that one vector instruction shades as many as a
+// register holds (shading_kernels.hpp).
 #pragma once
 #include <array>
 #include <cstdint>
@@ -8,36 +8,36 @@
 
 namespace deburr {
 
-/// What is kept of a surface: the first of the arrays of its coordinates or, where it is a number, the only one.
+/// The values of a surface, each named by the index of its first array; vectors and colours have three arrays.
 /// Directions are unit and lead away from the surface.
 enum class SurfaceField {
     position = 0,
-    normal = 3,  // shading normal; once seen, on the side of `to_eye`
+    normal = 3,  // shading normal; after see() on the side of `to_eye`
     to_eye = 6,
-    color = 9,        // of the material here
-    base = 12,        // colour of the base below the layer, once seen
-    lit = 15,         // what it scatters to the eye of the lights so far
-    towards = 18,     // the light, then the mirrored eye
-    irradiance = 21,  // of the light, if nothing hides it
-    scattered = 24,   // what it scatters to the eye of that
+    color = 9,        // of the material at the point
+    base = 12,        // of the base below the layer, after see()
+    lit = 15,         // light scattered to the eye so far
+    towards = 18,     // direction to the light, later the eye's mirror direction
+    irradiance = 21,  // of the light, without occlusion
+    scattered = 24,   // the share of `irradiance` that is scattered to the eye
     sky = 27,         // mean radiance of the sky around the normal
-    mirrored = 30,    // what the layer reflects of the sky
-    shaded = 33,      // radiance to the eye
-    cos_eye = 36,     // cosine of `to_eye`, once seen
-    albedo_eye = 37,  // the layer's, from there
+    mirrored = 30,    // the layer's reflection of the sky
+    shaded = 33,      // radiance towards the eye
+    cos_eye = 36,     // cosine of `to_eye`, after see()
+    albedo_eye = 37,  // of the layer, seen from the eye
     distance = 38,    // to the light
     place = 39,       // on an extended light: two numbers from 0 to 1
     layer_albedo = 41,
-    lit_by = 44,  // what it scatters of one light's samples so far
+    lit_by = 44,  // light of one source's samples scattered so far
     end = 47
 };
 
-/// Numbers and layers of `count` surfaces. It does not own them.
+/// A view of the arrays of `count` surfaces; it does not own them.
 struct SurfaceBatch {
     std::size_t count = 0;
-    std::size_t stride = 0;  // from an array to the next; a multiple of the widest vector's numbers
+    std::size_t stride = 0;  // between arrays; a multiple of the widest vector's size
     double* numbers = nullptr;
-    std::int32_t* layer = nullptr;  // of each surface, its material's
+    std::int32_t* layer = nullptr;  // of each surface: index of its layer (material)
 
     double* array(SurfaceField field, int axis = 0) const { return numbers + (int(field) + axis) * stride; }
     double get(SurfaceField field, std::size_t i) const { return array(field)[i]; }
@@ -50,7 +50,7 @@ struct SurfaceBatch {
     }
 };
 
-/// Room for a batch of up to `capacity` surfaces.
+/// Memory for a batch of at most `capacity` surfaces.
 template <std::size_t capacity>
 class SurfaceArrays {
 public:

@@ -8,8 +8,8 @@
 namespace deburr {
 namespace {
 
-// A surface that lies in a wall of the checker's cubes belongs to the cube below it. Positions come
-// with rounding errors (single precision through a mesh): look this part of a cube deeper.
+// A surface in a wall between the checker's cubes belongs to the cube below it. Since positions have rounding errors
+// (single precision through a mesh), the lookup is this fraction of a cube deeper.
 constexpr double depth_of_lookup = 1.0 / 1024;
 
 std::uint32_t hashed(std::int64_t x, std::int64_t y, std::int64_t z) {
@@ -18,12 +18,12 @@ std::uint32_t hashed(std::int64_t x, std::int64_t y, std::int64_t z) {
     return std::uint32_t((h ^ (h >> 29)) >> 16);
 }
 
-// Whole numbers end here; from there on, and for a NaN, the noise is flat.
+// Beyond this, doubles are integers; there, and for NaN, the noise is flat.
 constexpr double lattice_end = 0x1p52;
 
 std::int64_t lattice(double floor) { return std::abs(floor) < lattice_end ? std::int64_t(floor) : 0; }
 
-// Slope along d of the lattice point's linear function: one of the 12 edges of a cube.
+// The value at offset d of the lattice point's linear function, whose gradient is one of the 12 edges of a cube.
 double gradient(std::uint32_t h, Vec3 d) {
     const double signs[2] = {1.0, -1.0};
     const double a = signs[h & 1], b = signs[(h >> 1) & 1];
@@ -39,15 +39,15 @@ double checker_parity(Vec3 x) {
     return std::abs(std::fmod(cell.x + cell.y + cell.z, 2.0));
 }
 
-// Wood: concentric year's rings, each light and then gradually darker until it ends at once; wavy
-// by noise that is long along the trunk; over it fine fibres. Lengths in rings; chosen by eye.
+// Wood: concentric year rings, each light and then gradually darker until it ends abruptly; wavy by noise that is long
+// along the trunk; with fine fibres. Lengths are in rings and were chosen by eye.
 constexpr double waviness = 0.9, wave_length = 5.0, wave_stretch = 6.0;
 constexpr double ripple = 0.12, ripple_length = 1.1, ripple_stretch = 5.0;
 constexpr double fibre_width = 0.09, fibre_length = 2.4, fibre_depth = 0.22;
 constexpr double pore_width = 0.035, pore_length = 0.8, pore_depth = 0.35;
 constexpr double late_start = 0.25, late_full = 0.9, late_end = 0.985;
 
-// A place beside the texture's axis and along it, in its scale.
+// A position relative to the texture's axis, perpendicular to it and along it, in its scale.
 struct AxisPlace {
     Vec3 section;
     double along;
@@ -80,7 +80,7 @@ Vec3 wood(const Texture& t, Vec3 p) {
     return glm::mix(t.a, t.b, darkness) * (1 - pore * (1 - darkness));
 }
 
-// Noise and, upon it, of half the size and strength each, octaves - 1 more; within [-1, 1].
+// Noise with octaves − 1 layers more, each of half the size and strength of the one before; in [-1, 1].
 double fractal(Vec3 x, int octaves) {
     double sum = 0, strength = 1, total = 0;
     for (int i = 0; i < octaves; ++i, x *= 2.0, strength *= 0.5) {
@@ -90,8 +90,8 @@ double fractal(Vec3 x, int octaves) {
     return sum / total;
 }
 
-// Marble: planes of veins, sharp and thin, that noise of this many octaves bends [after Perlin, An Image Synthesizer,
-// 1985]. A bend of 1 is this part of the veins' distance; chosen by eye.
+// Marble: planes of veins, sharp and thin, bent by noise of this many octaves [after Perlin, An Image Synthesizer,
+// 1985]. `bend` is in distances of veins; chosen by eye.
 constexpr int bending_octaves = 6;
 constexpr double bend = 1.5, bend_length = 1.5, vein_sharpness = 5;
 
@@ -102,7 +102,7 @@ double vein(const Texture& t, Vec3 p) {
     return std::pow(std::abs(std::cos(std::numbers::pi * at)), vein_sharpness);
 }
 
-// Streaks this much longer than wide; around the axis they are rings, as a lathe leaves them.
+// Streaks are this much longer than wide; around the axis they are rings, as on a lathe.
 constexpr double streak_length = 100;
 constexpr int streak_octaves = 2;
 
@@ -113,7 +113,7 @@ double streak(const Texture& t, Vec3 p) {
     return fractal(q, streak_octaves);
 }
 
-// From -1 to 1, of noise that hardly ever comes near either.
+// Stretches noise, which rarely comes near -1 or 1.
 constexpr double contrast = 1.6;
 double share_of(double noise) { return glm::clamp(0.5 + 0.5 * contrast * noise, 0.0, 1.0); }
 
