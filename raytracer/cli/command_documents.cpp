@@ -7,11 +7,12 @@
 namespace deburr {
 namespace {
 
+// An option or argument as documents need it.
 struct OptionText {
-    std::vector<std::string> names;  // "-o", "--output"; none for an argument without a dash
-    std::string argument;            // the word that follows the option, or stands for the argument; "" for a flag
+    std::vector<std::string> names;  // such as "-o", "--output"; empty for a positional argument
+    std::string argument;            // metavariable of the option or name of the argument; "" for a flag
     std::string help;
-    bool optional_argument = false;  // an argument without a dash
+    bool optional_argument = false;  // whether a positional argument may be omitted
 };
 
 OptionText text_of(const CLI::Option& option) {
@@ -40,7 +41,7 @@ std::string replaced(std::string text, const std::string& from, const std::strin
     return text;
 }
 
-// "exact|lobb" as words: the values that an option takes. None where its type names a kind of value.
+// The values that an option takes, from a type such as "exact|lobb"; empty if its type names a kind of value.
 std::vector<std::string> choices_of(const OptionText& option) {
     std::vector<std::string> choices;
     if (option.argument.find('|') == std::string::npos) return choices;
@@ -96,7 +97,7 @@ complete -o default -F _deburr deburr
                        names, cases);
 }
 
-// In single quotes, as zsh's _arguments takes a description.
+// Escaped for single quotes in a description of zsh's _arguments.
 std::string zsh_text(const std::string& text) {
     std::string safe = replaced(text, "'", "'\\''");
     for (const char* c : {"[", "]", ":"}) safe = replaced(safe, c, std::string("\\") + c);
@@ -184,7 +185,7 @@ std::string markdown_options(const CLI::App& command) {
     for (const OptionText& option : options_of(command)) {
         std::string names = fmt::format("{}", fmt::join(option.names, ", "));
         if (!option.argument.empty()) names += (names.empty() ? "" : " ") + option.argument;
-        // A bar would end the cell, in quotes too.
+        // A bar would end the table's cell even inside code quotes.
         text += fmt::format("| `{}` | {} |\n", replaced(names, "|", "\\|"), replaced(option.help, "|", "\\|"));
     }
     return text;

@@ -34,14 +34,14 @@ int fail(int code, const std::string& what) {
     return code;
 }
 
-// A file that is opened while one of the three standard ones is closed would take its place, and
-// messages would end up in it.
+// Opens closed standard files. Otherwise the next file that is opened would take their place, and messages would be
+// written to it.
 void open_standard_files() {
     for (int descriptor = 0; descriptor < 3; ++descriptor)
         if (fcntl(descriptor, F_GETFD) < 0 && open("/dev/null", O_RDWR) < 0) _exit(1);
 }
 
-// What the system says where a thread cannot start: as a rule there is no memory for its stack.
+// The message if a thread cannot start; usually memory for its stack is lacking.
 constexpr const char* no_thread = "out of memory, or no further thread may be started";
 
 bool is_no_thread(const std::exception& error) {
@@ -49,10 +49,10 @@ bool is_no_thread(const std::exception& error) {
     return known && known->code() == std::errc::resource_unavailable_try_again;
 }
 
-// Where an exception cannot get out, of a library's thread or for want of memory to throw it, the program would be
-// aborted without a word.
+// The terminate handler: reports an exception that cannot be propagated, such as one of a library's thread or one that
+// cannot be thrown for lack of memory; otherwise the program would abort without a message.
 [[noreturn]] void end_with_error() {
-    char line[256] = "deburr: out of memory\n";  // if nothing could be thrown
+    char line[256] = "deburr: out of memory\n";  // used if nothing could be thrown
     constexpr const char* inside = "deburr: an error inside the program: %.200s\n";
     if (const std::exception_ptr error = std::current_exception()) try {
             std::rethrow_exception(error);
@@ -70,7 +70,8 @@ bool is_no_thread(const std::exception& error) {
     _exit(1);
 }
 
-// Refuses the first word that the command has no use for, with the nearest of its options or of `words`.
+// Throws UsageError for the first word that the command did not use, suggesting the nearest of its options or of
+// `words`.
 void refuse_rest(const CLI::App& app, const std::string& name, const char* kind,
                  const std::vector<std::string>& words = {}) {
     bool options = true;  // until "--", which CLI11 leaves among the rest
@@ -82,7 +83,7 @@ void refuse_rest(const CLI::App& app, const std::string& name, const char* kind,
         const bool option = options && given.size() > 1 && given[0] == '-';
         const std::string word = option ? given.substr(0, given.find('=')) : given;
         std::string nearest = suggestion(word, option ? option_names(app) : words);
-        // Where a command is missing the first word may be a scene or a model.
+        // Where a command is missing, the first word may be a scene or a model.
         if (!option && !words.empty() && nearest.empty() && word.find('.') != std::string::npos)
             nearest = ", did you mean render " + word + "?";
         throw UsageError(
@@ -90,9 +91,9 @@ void refuse_rest(const CLI::App& app, const std::string& name, const char* kind,
     }
 }
 
-// CLI11's errors carry no option and no value but in their words; tests hold these words on every system that is
-// supported. They begin with the option, "--size: 1 required WxH missing",
-// or, where a flag was given a value, are "Could not convert: --quiet = foo".
+// Turns CLI11's error message into this program's form. The errors contain option and value only in their text, which
+// tests check with every supported version: it begins with the option, as in "--size: 1 required WxH missing", or, if a
+// flag was given a value, is like "Could not convert: --quiet = foo".
 std::string in_our_words(const CLI::ParseError& error) {
     const std::string what = error.what();
     const std::string option = what.substr(0, what.find(':'));
@@ -108,7 +109,7 @@ std::string in_our_words(const CLI::ParseError& error) {
 int run(CLI::App& program, const std::vector<Command>& commands, int argc, char** argv) {
     try {
         program.parse(argc, argv);
-    } catch (const CLI::Success& asked) {  // --help, --version
+    } catch (const CLI::Success& asked) {  // --help or --version was given
         program.exit(asked);
         return 0;
     } catch (const CLI::ParseError& error) {
@@ -126,7 +127,7 @@ int run(CLI::App& program, const std::vector<Command>& commands, int argc, char*
     throw UsageError(fmt::format("expected a command: {} (see deburr --help)", fmt::join(names, ", ")));
 }
 
-// Where threads are still at work, nothing that they use may be destroyed.
+// If threads are still working on abandoned tiles, no object that they use may be destroyed.
 int leave(int code) {
     if (!any_tiles_abandoned()) return code;
     std::fflush(nullptr);
@@ -137,7 +138,7 @@ int answer(int argc, char** argv, const std::vector<Command (*)(CLI::App&)>& mor
     std::set_terminate(end_with_error);
     end_on_interrupt();
     open_standard_files();
-    signal(SIGXFSZ, SIG_IGN);  // a file that grows too large is an error of write, not an end
+    signal(SIGXFSZ, SIG_IGN);  // writing a file that grows too large then fails with an error
     try {
         CLI::App program("Deburr renders CSG models with every edge rounded.", "deburr");
         program.set_version_flag("--version", "deburr " DEBURR_VERSION);

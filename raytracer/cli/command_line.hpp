@@ -1,5 +1,5 @@
-// From the words of a call to the exit code: 0 done, 1 the work failed, 2 the call or the scene is
-// wrong, 3 not supported, 130 interrupted. An error is one line on stderr.
+// Runs the program from its arguments to the exit code: 0 success, 1 the work failed, 2 wrong usage or scene, 3 not
+// supported, 130 interrupted. Errors are one line on stderr.
 #pragma once
 #include <vector>
 
@@ -7,7 +7,7 @@
 
 namespace deburr {
 
-/// `more`: commands from folders above this one.
+/// Runs the program. `more` adds commands from folders above this one.
 int run_program(int argc, char** argv, const std::vector<Command (*)(CLI::App&)>& more = {});
 
 }  // namespace deburr

@@ -1,4 +1,4 @@
-// The program's commands. Each is a file of its own, NAME_command.cpp; it is declared here and added to the program by
+// The program's commands. Each is implemented in its own file, NAME_command.cpp, declared here and added by
 // run_program().
 #pragma once
 #include <CLI/App.hpp>
@@ -7,14 +7,15 @@
 
 namespace deburr {
 
-/// `run` returns the exit code and may throw; it is called once the whole command line was read.
+/// A command of the program. `run` is called after the whole command line was parsed; it returns the exit code and may
+/// throw.
 struct Command {
     CLI::App* app;
     std::function<int()> run;
 };
 
-/// Adds an empty command to the program. So only command_line.cpp compiles what CLI11 constructs with it, the parser
-/// and the writer of help, and <CLI/CLI.hpp>, which defines them: 2 s of every other file with <CLI/App.hpp> instead.
+/// Adds an empty command to the program. Through this function only command_line.cpp needs <CLI/CLI.hpp>, which defines
+/// CLI11's parser and help; all other files include <CLI/App.hpp>, which saves 2 s of compiling each.
 CLI::App* add_command(CLI::App& program, const std::string& name, const std::string& description);
 
 Command add_render_command(CLI::App& program);

@@ -1,4 +1,5 @@
-// deburr compare SCENE, deburr compare A B: how far the two roads, or two files, are apart.
+// `deburr compare SCENE` or `deburr compare A B`: the difference between implicit and mesh rendering, or between two
+// files.
 #include <fmt/format.h>
 #include <tbb/global_control.h>
 
@@ -63,10 +64,10 @@ std::vector<double> radii(const SceneMesh& mesh) {
     return all;
 }
 
-// Two pictures of one scene, and what the figures say of them.
+// The two pictures, and what is reported about them.
 struct Compared {
     Film a, b;
-    std::vector<double> units;  // lengths in which distances are told, of each solid; none: the scene's
+    std::vector<double> units;  // unit of distances for each solid; empty: the scene's unit
     Json j;
 };
 

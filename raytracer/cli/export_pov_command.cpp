@@ -1,4 +1,4 @@
-// deburr export-pov SCENE -o FILE: the scene for POV-Ray, to compare with.
+// `deburr export-pov SCENE -o FILE`: writes the scene for POV-Ray, for comparisons.
 #include <fmt/format.h>
 
 #include <memory>

@@ -16,7 +16,7 @@
 namespace deburr {
 namespace {
 
-// More shares than any picture has rows.
+// Most shares: no picture has more rows.
 constexpr int most_shares = largest_picture_side;
 
 std::optional<int> environment_number(const char* name) {
@@ -40,7 +40,7 @@ int count_of_array(std::string_view option) {
         fmt::format("{}: expected auto/N where the environment has no SLURM_ARRAY_TASK_COUNT, got auto", option));
 }
 
-// The quota of this folder of the second version's tree, in processors.
+// The quota of a folder of the unified hierarchy (cgroup v2), in processors.
 std::optional<double> quota_in(const std::string& folder) {
     std::ifstream file(folder + "/cpu.max");
     std::string quota;
@@ -63,7 +63,7 @@ std::optional<double> control_group_quota(const std::string& root, const std::st
         for (std::string path = line.substr(3); path.size() > 1; path = path.substr(0, path.rfind('/')))
             take(quota_in(root + path));
     }
-    // The first version's.
+    // The quota of cgroup v1.
     std::ifstream quota(root + "/cpu/cpu.cfs_quota_us"), period(root + "/cpu/cpu.cfs_period_us");
     double q = 0, p = 0;
     if (quota >> q && period >> p && q > 0 && p > 0) take(q / p);

@@ -1,6 +1,6 @@
-// deburr help NAME …: what a command does, or what the scene language has under a name.
+// `deburr help NAME …`: explains a command, or a name of the scene language.
 //
-// Hidden options write the documents that the build installs and that docs/cli.md holds.
+// Hidden options write the documents that the build installs and that docs/cli.md contains.
 #include <fmt/format.h>
 
 #include <memory>
@@ -20,7 +20,7 @@ struct HelpOptions {
     bool man = false;
 };
 
-// The topics of the scene language, each with its entries.
+// The topics of the scene language with their entries.
 std::string contents(const std::vector<PagePart>& parts) {
     std::string text, line;
     for (const PagePart& part : parts) {
@@ -82,7 +82,7 @@ int run_help(const CLI::App& program, const HelpOptions& o) {
     }
     const std::vector<PagePart> parts = parts_of_page(scene_page());
     if (o.names.empty()) {
-        // App::help() is that of the command which was given.
+        // App::help() would print the help of the parsed subcommand.
         const std::string help = program.get_formatter()->make_help(&program, "deburr", CLI::AppFormatMode::Normal);
         fmt::print("{}\nThe scene language, deburr help TOPIC or NAME:\n{}", help, contents(parts));
         return 0;

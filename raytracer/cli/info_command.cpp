@@ -1,4 +1,4 @@
-// deburr info SCENE: what is in a scene, and whether its densities are legal.
+// `deburr info SCENE`: what a scene contains, and whether its densities are legal.
 #include <fmt/format.h>
 
 #include <memory>
@@ -35,17 +35,17 @@ const char* name_of(Light::Kind kind) {
 }
 
 Json json_of(Vec3 v) {
-    // JSON has no infinity: a side that lies there is null.
+    // JSON has no infinity, so an infinite side is null.
     Json j = Json::array();
-    for (int k = 0; k < 3; ++k) j.push_back(std::isfinite(v[k]) ? Json(v[k] + 0.0) : Json(nullptr));  // -0 is 0
+    for (int k = 0; k < 3; ++k) j.push_back(std::isfinite(v[k]) ? Json(v[k] + 0.0) : Json(nullptr));  // turns −0 into 0
     return j;
 }
 
-// A box that holds a solid for certain is a little too large: by this share of its largest coordinate, or by this where
-// all of its planes go through the origin (bounds/polyhedron_box.cpp).
+// Boxes are larger than their solid by this fraction of their largest coordinate, or by this if all planes pass through
+// the origin (bounds/polyhedron_box.cpp).
 constexpr double box_slack = 1e-9;
 
-// The box with each side rounded to the decimal place above its slack: a cube begins at 0, not at -1e-09.
+// The box with each side rounded to the decimal place above its slack, so that a cube begins at 0 and not at -1e-09.
 Json json_of(const Box& box) {
     if (box.empty()) return nullptr;
     double largest = 0;
@@ -58,7 +58,7 @@ Json json_of(const Box& box) {
     const auto rounded = [&](double x) {
         if (!std::isfinite(x)) return x;
         const double r = places > 0 ? std::round(x * unit) / unit : std::round(x / unit) * unit;
-        return std::isfinite(r) ? r + 0.0 : x;  // -0 becomes 0
+        return std::isfinite(r) ? r + 0.0 : x;  // turns −0 into 0
     };
     Box shown = box;
     for (int k = 0; k < 3; ++k) {
@@ -68,10 +68,10 @@ Json json_of(const Box& box) {
     return {{"lo", json_of(shown.lo)}, {"hi", json_of(shown.hi)}};
 }
 
-// How long to look for parts that vanish: ten times as long as `render` does.
+// Work limit for finding parts that vanish: ten times that of `render`.
 constexpr std::int64_t nodes_to_look_at = 200'000'000;
 
-// All that info has to say; the text is made from it too.
+// All information about the scene; the text is made from it, too.
 Json describe(const Scene& scene, Size size) {
     Json j;
     j["scene"] = scene.file;
@@ -124,7 +124,7 @@ Json describe(const Scene& scene, Size size) {
     return j;
 }
 
-// Coordinates of vectors; what is nothing beside the largest of them, as rounding leaves, is 0.
+// The coordinates of vectors as text; those that are rounding errors compared with the largest one become 0.
 std::vector<std::string> texts_of(const std::vector<Json>& vectors) {
     constexpr double nothing = 1e-9;
     double largest = 0;
@@ -142,7 +142,7 @@ std::vector<std::string> texts_of(const std::vector<Json>& vectors) {
     return texts;
 }
 
-// lo .. hi, where a side at infinity has the sign of its end.
+// "lo .. hi", where an infinite side is -inf or inf.
 std::string text_of_box(const Json& box) {
     if (box.is_null()) return "empty";
     std::string text;
@@ -155,12 +155,12 @@ std::string text_of_box(const Json& box) {
     return text;
 }
 
-// As in "12 half-spaces "; nothing of none.
+// A count such as "12 half-spaces "; "" for 0.
 std::string some(const Json& count, const char* of_what) {
     return count > 0 ? fmt::format("{:.0f} {} ", count.get<double>(), of_what) : "";
 }
 
-// As in "12 triangles on 6 faces, volume 8 when sharp, rounded by 0.5, "; nothing of a solid without models.
+// A text such as "12 triangles on 6 faces, volume 8 when sharp, rounded by 0.5, "; "" for a solid without models.
 std::string text_of_models(const Json& solid) {
     if (!solid.contains("models")) return "";
     const Json& m = solid["models"];
@@ -215,7 +215,8 @@ int run_info(const InfoOptions& o) {
     const Scene scene = load_scene(o);
     const Json description = describe(scene, picture_size(o, scene));
     if (o.json)
-        fmt::print("{}\n", description.dump(2, ' ', true, Json::error_handler_t::replace));  // ASCII: nothing to escape
+        // printable ASCII, so nothing must be escaped for terminals
+        fmt::print("{}\n", description.dump(2, ' ', true, Json::error_handler_t::replace));
     else
         print(description);
     return 0;

@@ -1,4 +1,4 @@
-// deburr merge PART … -o FILE …: one picture of parts that were rendered apart.
+// `deburr merge PART … -o FILE …`: combines parts that were rendered separately into one picture.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -51,7 +51,7 @@ void check_of_one_picture(const std::vector<Part>& parts) {
                                 parts[0].path, std::string(key) == "scene" ? "scene or options" : key));
 }
 
-// Parts are rows with samples: every row of the whole must have every sample once.
+// Throws unless the parts, which are rows and samples, contain every sample of every row exactly once.
 void check_whole(std::vector<Part> parts) {
     const Window whole = window_of(parts[0].head.at("whole"));
     const int spp = parts[0].head.at("spp");
@@ -81,7 +81,7 @@ void check_whole(std::vector<Part> parts) {
     }
 }
 
-// What the parts of a picture add up to, in the order of their samples.
+// The sums of a picture's parts, added in the order of their samples.
 class Sum {
 public:
     Sum(const Part& any, std::vector<ImageLayer> layers)

@@ -1,4 +1,4 @@
-// deburr mesh SCENE -o FILE …: the solids as a closed mesh.
+// `deburr mesh SCENE -o FILE …`: writes the solids as a closed mesh.
 #include <fmt/format.h>
 #include <tbb/global_control.h>
 
@@ -25,7 +25,7 @@
 namespace deburr {
 namespace {
 
-// The same material by glTF's names.
+// The material in glTF's terms.
 SurfaceNotes surface_notes(const Material& m) {
     SurfaceNotes s{.ior = m.ior, .emission = m.emission};
     switch (m.kind) {
@@ -62,7 +62,7 @@ std::vector<std::string> failures(const Scene& scene, const std::vector<MeshChec
     return lines;
 }
 
-// Says what the checks found; false if nothing is to be written.
+// Reports the faults that the checks found; false if nothing is to be written.
 bool passes(const MeshCommandOptions& o, const Scene& scene, const SceneMesh& mesh) {
     const std::vector<std::string> lines = failures(scene, mesh.checks);
     if (lines.empty() || (o.force && o.quiet)) return true;
@@ -73,7 +73,7 @@ bool passes(const MeshCommandOptions& o, const Scene& scene, const SceneMesh& me
     return o.force;
 }
 
-// The finite ones of these solids, or of all, go to the origin, by their middle; returns the way.
+// Moves the middle of the finite solids (of these, or all) to the origin; returns the translation.
 Vec3 recenter(Scene& scene, const std::vector<std::size_t>& only) {
     Box all;
     for (std::size_t i = 0; i < scene.solids.size(); ++i) {
@@ -87,13 +87,13 @@ Vec3 recenter(Scene& scene, const std::vector<std::size_t>& only) {
     return move.shift;
 }
 
-// Says what files of single precision lose, if that is to be seen.
+// Warns if files in single precision lose visible detail.
 void warn_of_single_precision(const MeshCommandOptions& o, const SceneMesh& mesh) {
     const SinglePrecisionLoss loss = single_precision_loss(mesh.mesh);
     double radius = infinity;
     for (const SolidTree& tree : mesh.trees)
         if (const double r = tree.min_radius(); r > 0) radius = std::min(radius, r);
-    constexpr double visible = 0.02;  // of a radius
+    constexpr double visible = 0.02;  // in radii
     if (loss.spoiled == 0 && loss.step <= visible * radius) return;
     for (const std::string& path : o.outputs) {
         const MeshFormat format = *mesh_format(path);
@@ -106,7 +106,7 @@ void warn_of_single_precision(const MeshCommandOptions& o, const SceneMesh& mesh
     }
 }
 
-// A model's file goes out the way it came in.
+// Loads the scene; a model's file is written in the orientation in which it was read.
 Scene load_to_mesh(const MeshCommandOptions& o) {
     Options load = o;
     load.model_only = true;
@@ -114,23 +114,23 @@ Scene load_to_mesh(const MeshCommandOptions& o) {
     return load_scene(load);
 }
 
-// The files are such that they can be written, as far as can be told before the work. Reads what they show of textures.
+// Checks that the files can be written, as far as possible in advance, and loads the textures that they need.
 void prepare_files(const MeshCommandOptions& o, Scene& scene, std::vector<std::string> files) {
     std::vector<std::string> inputs = scene.model_files;
     inputs.push_back(o.scene);
     check_outputs(files, {o.stats_json}, inputs);
-    // All but STL keep colours.
+    // All formats but STL store colours.
     if (std::any_of(files.begin(), files.end(), [](const std::string& path) { return !path.ends_with(".stl"); }))
         load_textures(scene);
     if (!o.stats_json.empty()) files.push_back(o.stats_json);
     for (const std::string& path : files) check_writable(path);
 }
 
-// The scene's mesh, with a progress bar unless that would be gone at once. `faces` > 0: at most so many.
+// Makes the mesh, with a progress bar unless it takes no noticeable time. `faces` > 0 limits the number of triangles.
 SceneMesh mesh_of(const MeshCommandOptions& o, const Scene& scene, const MeshSettings& method, std::size_t faces,
                   PhaseClock& clock) {
     clock.begin("polygonize");
-    // How many meshes --faces takes is not known before.
+    // With --faces the number of meshes to be made is unknown.
     Progress progress(1, Progress::standard_error(o.quiet || faces));
     SceneMesh mesh;
     try {
@@ -141,7 +141,7 @@ SceneMesh mesh_of(const MeshCommandOptions& o, const Scene& scene, const MeshSet
         throw;
     }
     clock.end();
-    constexpr double worth_a_line = 1;  // second
+    constexpr double worth_a_line = 1;  // seconds
     if (clock.wall("polygonize") < worth_a_line)
         progress.stop();
     else
@@ -175,7 +175,7 @@ int run_mesh(const MeshCommandOptions& o) {
         throw UsageError("mesh: expected an output file, -o FILE");
     check_mesh_names(o.outputs);
     MeshSettings method = mesh_settings(o);
-    length_unit(o);  // before the work, as the next two
+    length_unit(o);  // checks these options before the work
     parse_up(o.up, false);
     const std::size_t faces = max_faces(o);
     const int threads = o.threads.value_or(default_threads());

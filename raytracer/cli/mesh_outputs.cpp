@@ -18,7 +18,8 @@ namespace fs = std::filesystem;
 
 constexpr std::string_view solid_mark = "%n";
 
-// In the OBJ's folder, of the same name; what would end the line that names it is replaced.
+// The path of the MTL: in the OBJ's folder, with its stem; control characters, which would end its line in the OBJ, are
+// replaced.
 std::string material_path(const fs::path& obj) {
     std::string name = obj.stem().string() + ".mtl";
     for (char& c : name)
@@ -26,7 +27,7 @@ std::string material_path(const fs::path& obj) {
     return (obj.parent_path() / name).string();
 }
 
-// The pattern with the name in every place of the mark.
+// The pattern with all marks replaced by the name.
 std::string with_name(std::string pattern, const std::string& name) {
     for (std::size_t at = pattern.find(solid_mark); at != std::string::npos;
          at = pattern.find(solid_mark, at + name.size()))
@@ -34,10 +35,11 @@ std::string with_name(std::string pattern, const std::string& name) {
     return pattern;
 }
 
-// A quarter of a turn about the x axis: y goes to z, or z to y.
+// Rotates by a quarter turn about the x axis, from y up to z up or back.
 void turn(Mesh& mesh, UpAxis to) {
     for (std::vector<Vec3>* vectors : {&mesh.positions, &mesh.normals})
-        for (Vec3& v : *vectors) v = to == UpAxis::z ? Vec3(v.x, 0.0 - v.z, v.y) : Vec3(v.x, v.z, 0.0 - v.y);  // no −0
+        // avoids −0
+        for (Vec3& v : *vectors) v = to == UpAxis::z ? Vec3(v.x, 0.0 - v.z, v.y) : Vec3(v.x, v.z, 0.0 - v.y);
 }
 
 }  // namespace

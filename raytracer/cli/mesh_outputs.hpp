@@ -1,4 +1,4 @@
-// The files that `deburr mesh` writes. "%n" in a name stands for a solid's name or number, and asks for a file for each
+// The files that `deburr mesh` writes. "%n" in a file name stands for a solid's name or number, and writes one file per
 // solid.
 #pragma once
 #include <optional>
@@ -10,32 +10,32 @@
 
 namespace deburr {
 
-/// A file of a mesh, and what must be written with it.
+/// A mesh file to be written, with its companion.
 struct MeshOutput {
     std::string path;
     MeshFormat format;
-    std::string material_path = {};         // the MTL beside an OBJ; "": none
-    std::optional<std::size_t> solid = {};  // of the scene, from 0; none: all
+    std::string material_path = {};         // the MTL of an OBJ; "": none
+    std::optional<std::size_t> solid = {};  // index of the only solid in it; none: all solids
 };
 
-/// Throws UsageError if one of `paths` (-o) has an ending that is no format.
+/// Throws UsageError if one of `paths` (-o) has an extension that is not a mesh format.
 void check_mesh_names(const std::vector<std::string>& paths);
 
-/// The files that `paths` ask for, of these solids of the scene, in order; no solids: of all.
+/// The files for `paths`, of these solids of the scene; an empty list means all solids.
 std::vector<MeshOutput> mesh_outputs(const std::vector<std::string>& paths, const Scene& scene,
                                      const std::vector<std::size_t>& solids);
 
-/// The names of all of them.
+/// The paths of all files, companions included.
 std::vector<std::string> files_of(const std::vector<MeshOutput>& outputs);
 
-/// Which way is up in the files.
+/// The up axis of mesh files.
 enum class UpAxis { y, z };
 
-/// --up; "" is the scene's own. Throws UsageError.
+/// Parses --up; "" is the scene's own axis. Throws UsageError.
 UpAxis parse_up(const std::string& text, bool scene_is_z_up);
 
-/// Throws WorkError; the files of one output appear together or not at all, and none for a solid that has no mesh. GLB
-/// is y-up whatever is asked, for glTF is.
+/// Writes the files of one output together or not at all, and none for a solid without a mesh. GLB always has y up, as
+/// glTF requires. Throws WorkError.
 void write_mesh(const MeshOutput& output, const SceneMesh& mesh, MeshNotes notes, bool scene_is_z_up, UpAxis up);
 
 }  // namespace deburr

@@ -79,7 +79,7 @@ Json json_of(const std::vector<MeshCheck>& checks, std::size_t made_again) {
             {"pairs", sum.pairs},       {"points", sum.points},     {"solids", solids}};
 }
 
-// What the run did and made, but for the times.
+// The settings of the run and the measures of the mesh, without times.
 Json statistics(const Scene& scene, const SceneMesh& mesh) {
     Json j;
     j["scene"] = scene.file;

@@ -1,4 +1,4 @@
-// What `deburr mesh` did and made, in numbers: a table for people (--stats), JSON for programs (--stats-json).
+// Statistics of `deburr mesh`: a table (--stats) and JSON (--stats-json).
 #pragma once
 #include "raytracer/cli/mesh_options.hpp"
 #include "raytracer/cli/statistics.hpp"
@@ -6,8 +6,8 @@
 
 namespace deburr {
 
-/// Measures the mesh, where --stats or --stats-json asks for it, and prints or writes the figures. Adds the phase
-/// "measure" to the clock.
+/// If --stats or --stats-json is given, measures the mesh and prints or writes the statistics. Adds the phase "measure"
+/// to the clock.
 void report_statistics(const MeshCommandOptions& options, const Scene& scene, const SceneMesh& mesh, PhaseClock& clock);
 
 }  // namespace deburr

@@ -20,7 +20,7 @@ namespace {
     throw UsageError(fmt::format("{}: expected {}, got '{}'", option, what, found));
 }
 
-// Digits alone, without sign or blanks.
+// A number that consists of digits only, without sign or blanks.
 std::optional<std::uint64_t> digits(std::string_view text) {
     std::uint64_t value = 0;
     const char* end = text.data() + text.size();
@@ -35,7 +35,7 @@ std::optional<std::int64_t> whole(std::string_view text, std::int64_t least, std
     return std::int64_t(*value);
 }
 
-// NaN if the text is no finite number.
+// The number; NaN if the text is not a finite number.
 double number_of(std::string_view text) {
     double x = 0;
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), x);
@@ -43,7 +43,7 @@ double number_of(std::string_view text) {
     return whole && std::isfinite(x) ? x : std::nan("");
 }
 
-// "A,B,C"; what is no number is NaN.
+// Parses "A,B,C"; a part that is not a number becomes NaN.
 std::optional<Vec3> three_numbers(std::string_view text) {
     const std::size_t first = text.find(','), second = text.find(',', first + 1);
     if (first == std::string_view::npos || second == std::string_view::npos) return std::nullopt;
@@ -51,7 +51,7 @@ std::optional<Vec3> three_numbers(std::string_view text) {
                 number_of(text.substr(second + 1)));
 }
 
-// "AxB"
+// Parses "AxB".
 std::optional<Size> sides(std::string_view text, int largest) {
     const std::size_t x = text.find('x');
     if (x == std::string_view::npos) return std::nullopt;
@@ -208,7 +208,7 @@ IntegratorKind parse_integrator(std::string_view option, std::string_view text) 
 }
 
 Accel parse_accel(std::string_view option, std::string_view text) {
-    if (text == "bvh" || text == "bsp") return Accel::bvh;  // bsp: the older name
+    if (text == "bvh" || text == "bsp") return Accel::bvh;  // bsp is the older name
     if (text == "embree") return Accel::embree;
     expected(option, "bvh or embree", text);
 }
@@ -254,12 +254,12 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// What two names of one file have in common: its number, or the place where it is to be.
+// The same for all paths of one file: its device and inode if it exists, else its canonical path.
 std::string identity(const std::string& path) {
     struct stat status {};
     if (stat(path.c_str(), &status) == 0) return fmt::format("{}:{}", status.st_dev, status.st_ino);
     fs::path file = path;
-    std::error_code error;  // a folder that cannot be looked into is found when it is written to
+    std::error_code error;  // errors of access are reported when the file is written
     for (int links = 0; links < 40 && fs::is_symlink(file, error); ++links)
         file = file.parent_path() / fs::read_symlink(file, error);
     fs::path canonical = fs::weakly_canonical(fs::absolute(file, error), error);
@@ -285,7 +285,7 @@ void check_outputs(std::vector<std::string> outputs, const std::vector<std::stri
         if (!path.empty()) outputs.push_back(path);
     check_distinct(outputs);
     for (const std::string& input : inputs) {
-        if (!is_regular(input)) continue;  // a terminal may be read and written
+        if (!is_regular(input)) continue;  // a terminal may be both read and written
         for (const std::string& output : outputs)
             if (identity(output) == identity(input))
                 expected("outputs", fmt::format("other files than the input '{}'", input), output);

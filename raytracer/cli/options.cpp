@@ -18,7 +18,7 @@ namespace {
 
 constexpr int max_threads = 1024;
 
-// An option whose text goes to a function; CLI11's own conversions know nothing of our ranges.
+// Adds an option whose text is passed to a function, since CLI11's own conversions do not check these ranges.
 template <class Function>
 void add(CLI::App& command, const char* name, const char* type, const std::string& help, Function take) {
     command.add_option_function<std::string>(name, std::function<void(const std::string&)>(take), help)
@@ -66,7 +66,7 @@ void add_scene_options(CLI::App& command, Options& o) {
         ->allow_extra_args(false);
     add_of_model("--fade", "W", "the width over which --keep-sharp's rounding fades; default: three radii",
                  [&o](const std::string& text) { o.model.keep.fade = parse_positive("--fade", text); });
-    if (command.get_name() != "mesh")  // where it is the files' axis, too
+    if (command.get_name() != "mesh")  // `mesh` has its own --up, which is the files' axis, too
         add_of_model("--up", "y|z", "the axis that is up; default: z, of GLB y",
                      [&o](const std::string& text) { o.model.z_up = parse_axis("--up", text) == 'z'; });
     add_of_model("--color", "R,G,B", "its colour, linear, from 0 to 1",
@@ -124,7 +124,7 @@ void add_statistics_options(CLI::App& command, Options& o) {
 
 namespace {
 
-// Neither overflows nor vanishes, nor do a few hundred of its like.
+// Whether a number, and products of a few hundred like it, neither overflow nor vanish.
 bool is_ordinary(double x) { return std::abs(x) < 1e20; }
 
 bool is_ordinary(const Affine& map) {
@@ -136,11 +136,11 @@ bool is_ordinary(const Affine& map) {
     return fine;
 }
 
-// Of more, what is wrong is told when the solids are laid out.
+// Errors in larger scenes are reported when their solids are flattened.
 constexpr std::int64_t max_nodes_checked = 20'000'000;
 
-// What only shows once all placements of a solid are taken together. A leaf that is ordinary once
-// it is placed by an ordinary map is one wherever such a map places it.
+// Finds errors that only show when all transforms of a placement are composed. A leaf that is ordinary after one
+// ordinary transform is so after any other.
 void check_placements(const Scene& scene) {
     std::unordered_set<const SolidNode*> ordinary;
     const auto check = [&](const Solid& leaf, const Affine& map) {
@@ -151,7 +151,7 @@ void check_placements(const Scene& scene) {
         if (node.kind == SolidNode::Kind::rounded)
             for (const HalfSpace& h : flat_half_spaces(node.density(), node.radius(), map))
                 all &= is_ordinary(h.offset) && is_ordinary(h.radius) && std::isfinite(glm::length(h.normal));
-        if (!all || node.field()) flatten(leaf.transformed(map));  // says so where it leaves no planes
+        if (!all || node.field()) flatten(leaf.transformed(map));  // throws if the transform leaves no planes
         if (all) ordinary.insert(&node);
     };
     try {
@@ -202,7 +202,7 @@ Window picture_window(const Options& o, const Scene& scene, double bytes_per_pix
     const Window window = o.crop.value_or(Window{0, 0, size.width, size.height});
     check_crop("--crop", window, size);
     check_pixels(o.crop ? "--crop" : o.size ? "--size" : scene.file + ": image", window);
-    // Better now than killed by the system in the middle of the work.
+    // Fails now rather than being killed by the system in the middle of the work.
     const double needed = double(window.width) * window.height * bytes_per_pixel;
     const double there = double(sysconf(_SC_PHYS_PAGES)) * double(sysconf(_SC_PAGESIZE));
     if (needed > there)

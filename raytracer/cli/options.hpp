@@ -1,5 +1,4 @@
-// The command line's options. Those that several commands share are added here, so that they are
-// spelled, explained and checked alike everywhere.
+// Options of the command line that several commands share, so that they are spelled, explained and checked alike.
 #pragma once
 #include <CLI/App.hpp>
 #include <cstdint>
@@ -14,13 +13,14 @@
 
 namespace deburr {
 
+/// The shared options as parsed. A comment names the option where it is not obvious.
 struct Options {
     std::string scene;
     std::map<std::string, std::string> defines;  // -D
     std::vector<std::string> model_folders;      // --model-path
-    ModelSettings model;                         // of a model file in place of a scene
+    ModelSettings model;                         // for a model file instead of a scene
     bool is_model_option_given = false;
-    bool model_only = false;  // the solids of a model, without a ground
+    bool model_only = false;  // show a model's solid only, without ground
 
     std::vector<std::string> outputs;  // -o
 
@@ -28,7 +28,7 @@ struct Options {
     std::optional<int> spp;
     std::optional<Window> crop;
     bool frame = false;        // --frame
-    std::optional<Vec3> from;  // --from, which implies it
+    std::optional<Vec3> from;  // --from, which implies --frame
     std::uint64_t seed = 0;
     std::vector<ImageLayer> layers;  // --aov
     bool float_color = false;
@@ -41,25 +41,25 @@ struct Options {
     std::string stats_json;
 };
 
-/// Each adds a group of options to a command and keeps a reference to `options`.
+/// Each of these functions adds a group of options to a command and keeps a reference to `options`.
 void add_scene_options(CLI::App& command, Options& options);  // SCENE -D
-/// -o. `more` is what its help says besides the formats.
+/// Adds -o. `more` is appended to the formats in its help.
 void add_output_option(CLI::App& command, Options& options, const std::string& formats, const std::string& more = "");
 void add_view_options(CLI::App& command, Options& options);  // --size --frame --from
-/// Those, --spp --crop --seed …; `default_spp` is what its help says of the default.
+/// Adds the view options, --spp, --crop, --seed and further ones; `default_spp` describes the default in the help.
 void add_picture_options(CLI::App& command, Options& options, const std::string& default_spp);
 void add_run_options(CLI::App& command, Options& options);         // --threads -q -v
 void add_statistics_options(CLI::App& command, Options& options);  // --stats --stats-json
 
-/// The scene that the options name, with their parameters, its camera placed for the picture's size. Throws UsageError
-/// if there is none or if it does not ask for a parameter that was given, SceneError if it is wrong.
+/// Reads the scene that the options name, with their parameters, and places its camera for the picture's size. Throws
+/// UsageError if no scene is named or it does not ask for a given parameter, and SceneError if it is wrong.
 Scene load_scene(const Options& options);
 
-/// The whole picture's size: --size, or else what the scene says.
+/// The size of the whole picture: --size, or else the scene's.
 Size picture_size(const Options& options, const Scene& scene);
 
-/// The part of it that is rendered: --crop, or all. Throws UsageError if it does not lie in the picture or is too much,
-/// WorkError if `bytes_per_pixel` of it are more than the machine has.
+/// The part of the picture that is rendered: --crop, or all of it. Throws UsageError if it is not within the picture or
+/// too large, and WorkError if its memory (bytes_per_pixel) exceeds the machine's.
 Window picture_window(const Options& options, const Scene& scene, double bytes_per_pixel);
 
 }  // namespace deburr

@@ -1,4 +1,4 @@
-// deburr render SCENE -o FILE …: a picture, exact from the implicit surfaces.
+// `deburr render SCENE -o FILE …`: renders a picture, exactly from the implicit surfaces unless told otherwise.
 #include <fmt/format.h>
 #include <tbb/global_control.h>
 
@@ -31,13 +31,13 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-// Of a mesh's edges, in pixels: fine, and still black.
+// Width of wires in pixels: fine, but still black.
 constexpr double line_width = 1;
-// What tiles in hand are given once a stop is asked for.
+// Time for tiles in hand to finish after a stop was requested.
 constexpr std::chrono::milliseconds grace(300);
-// From one picture in a viewer to the next: it costs the tiles in hand some rest.
+// Least time between pictures sent to a viewer, since that delays tiles.
 constexpr double seconds_of_display = 0.5;
-// EX_TEMPFAIL of sysexits.h: schedulers run the job again, and it goes on from its checkpoint.
+// EX_TEMPFAIL of sysexits.h: schedulers run the job again, and it continues from its checkpoint.
 constexpr int to_be_resumed_exit_code = 75;
 
 bool is_for_screen(const std::string& path) { return image_kind(path) == ImageKind::display; }
@@ -47,7 +47,7 @@ void write_statistics(const RenderOptions& o, const RunStatistics& run) {
     if (!o.stats_json.empty()) write_whole_file(o.stats_json, statistics_json(run));
 }
 
-// Something that is due every so many seconds, or never.
+// Tells when something is due that is done every so many seconds, or never.
 class Timer {
 public:
     explicit Timer(std::optional<double> seconds) : seconds_(seconds) {}
@@ -59,7 +59,7 @@ private:
     Clock::time_point begin_ = Clock::now();
 };
 
-// One picture on its way.
+// The rendering of one picture.
 class RenderRun {
 public:
     RenderRun(const RenderOptions& options, int threads)
@@ -91,7 +91,7 @@ public:
     }
 
 private:
-    // What pixels depend on, but for windows and samples.
+    // A hash of everything that pixels depend on, except window and samples.
     std::string scene_hash() const {
         ContentHash hash;
         const Scene& scene = world_->scene;
@@ -140,7 +140,7 @@ private:
 
     SampleRange samples() const { return o_.samples.value_or(SampleRange{0, frame_.spp}); }
 
-    // What cannot be kept is told, and the work goes on: the picture may still be written elsewhere.
+    // Writes a checkpoint. An error is only reported, since the picture may still be written elsewhere.
     void keep() {
         if (o_.checkpoint.empty()) return;
         SumsFile file;
@@ -193,7 +193,7 @@ private:
 
     double pixels() const { return double(frame_.window.width) * frame_.window.height; }
 
-    // One sample needs no sums, which take twice the film's memory.
+    // Renders a single sample per pixel without sums, which would take twice the film's memory.
     void trace_at_once() {
         const std::atomic<bool>& stop = catch_interrupts(!o_.quiet);
         begin_progress(pixels(), 0);
@@ -262,14 +262,14 @@ private:
         passes_.reset();
     }
 
-    // With all that is done to a film before it is written.
+    // The film with everything that is done before it is written: wires and denoising.
     Film finished(Film film) const {
         draw_strokes(film, world_->strokes, Vec3(0.0), line_width, o_.alpha);
         denoise(film, o_.denoiser, threads_);
         return film;
     }
 
-    // A viewer that is closed is not the picture's end.
+    // Shows the film in the viewer, if there is one; if the viewer was closed, rendering continues.
     void show(const Film& film) {
         if (!viewer_) return;
         try {
@@ -287,7 +287,7 @@ private:
     }
 
     void finish(const Film& film) {
-        // Of a first pass that was not finished, pixels have one sample or none.
+        // If the first pass was not finished, pixels have one sample or none.
         const int taken = complete_ ? samples().end - samples().first : std::max(samples_, 1);
         clock_.begin("write");
         show(film);
@@ -302,7 +302,7 @@ private:
             progress_->finish();
         else
             progress_->stop();
-        // A scene without light was told of before.
+        // For a scene without light there was a warning already.
         if (!o_.quiet && complete_ && !is_unlit(world_->scene) &&
             std::any_of(o_.outputs.begin(), o_.outputs.end(), is_for_screen))
             if (const auto advice = exposure_advice(film, exposure_)) message("warning: " + *advice);
@@ -330,18 +330,18 @@ private:
     Frame frame_;
     double exposure_ = 0;
     std::optional<Passes> passes_;
-    std::unique_ptr<DisplayServer> viewer_;  // or null
+    std::unique_ptr<DisplayServer> viewer_;  // may be null
     std::optional<Progress> progress_;
     std::optional<Film> film_;
     bool complete_ = false;
-    bool kept_ = false;  // the checkpoint holds all samples
-    std::string hash_;   // scene_hash(), where there are checkpoints
-    int samples_ = 0;    // that all pixels have, of a picture in passes
+    bool kept_ = false;  // whether the checkpoint contains all samples
+    std::string hash_;   // scene_hash(), if there are checkpoints
+    int samples_ = 0;    // that all pixels have, when rendering in passes
     std::int64_t pixels_done_ = 0;
     TraceCounters counters_;
 };
 
-// One after the other: each is a picture of its own, with checkpoint and exit code.
+// Renders frames one after the other, each as a separate picture with its own checkpoint and exit code.
 int render_frames(const RenderOptions& o, int threads) {
     Options asking = o;
     asking.quiet = true;
@@ -371,7 +371,7 @@ int run_render(const RenderOptions& given) {
         for (const ImageLayer layer : {ImageLayer::guide_normal, ImageLayer::albedo})
             if (std::count(o.layers.begin(), o.layers.end(), layer) == 0) o.layers.push_back(layer);
     }
-    check_source_date_epoch();  // or what is wrong with it is said when the work is done
+    check_source_date_epoch();  // otherwise its error would be reported after the work
     const int threads = o.threads.value_or(default_threads());
     const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, std::size_t(threads));
     if (!o.checkpoint.empty()) {

@@ -32,7 +32,7 @@ void check_mesh_options(const RenderOptions& o) {
         throw UsageError("--wire: expected visible or front, got '" + o.wire + "'");
 }
 
-// Where samples are taken until something is reached.
+// Checks options that take samples until a goal is reached.
 void check_sample_options(const RenderOptions& o) {
     if (o.draft && o.spp) throw UsageError("--draft: expected it without --spp, for it is --spp 1");
     if (o.integrator == IntegratorKind::preview)
@@ -44,7 +44,7 @@ void check_sample_options(const RenderOptions& o) {
     if (o.seconds && o.spp) throw UsageError("--time: expected no --spp beside it, got one");
 }
 
-// What goes on later, or elsewhere, is passes of samples.
+// Checks options of checkpoints, which work in passes of samples.
 void check_checkpoint_options(const RenderOptions& o) {
     if (o.checkpoint.empty()) {
         if (o.resume) throw UsageError("--resume: expected --checkpoint FILE, which it goes on from");
@@ -96,7 +96,7 @@ namespace {
 
 using SharedOptions = std::shared_ptr<RenderOptions>;
 
-// An option whose text parse(name, text) reads into a member.
+// Adds an option whose text parse(name, text) converts for a member.
 template <class Member, class Parse>
 void add_parsed(CLI::App& command, const SharedOptions& options, const std::string& name, const std::string& type,
                 Member RenderOptions::*member, Parse parse, const std::string& description) {
@@ -121,7 +121,7 @@ Progress::Style parse_progress(const std::string& name, const std::string& text)
     return word == "json" ? Progress::Style::json : Progress::Style::none;
 }
 
-// How light and surfaces are found, and in how many samples.
+// Adds the options that say how light and surfaces are found, and with how many samples.
 void add_tracing_options(CLI::App& command, const SharedOptions& options) {
     command.add_flag("--draft", options->draft, "one sample per pixel, whatever the scene says: quick, without noise");
     command
@@ -142,7 +142,7 @@ void add_tracing_options(CLI::App& command, const SharedOptions& options) {
                "paths only: as many samples as take about so many seconds");
 }
 
-// What becomes of the light in a file for the screen.
+// Adds the options of files for the screen.
 void add_screen_options(CLI::App& command, const SharedOptions& options) {
     add_parsed(
         command, options, "--view", "standard|agx", &RenderOptions::view, parse_view,
@@ -160,7 +160,7 @@ void add_screen_options(CLI::App& command, const SharedOptions& options) {
         });
 }
 
-// Of pictures by way of a mesh.
+// Adds the options for pictures of meshes.
 void add_facet_options(CLI::App& command, const SharedOptions& options) {
     command
         .add_option("--tolerance", options->tolerance,
@@ -186,7 +186,7 @@ void add_pixel_options(CLI::App& command, const SharedOptions& options) {
                      "without the background that the camera sees: a PNG is transparent there, and an EXR black");
 }
 
-// What a run says and writes before its end.
+// Adds the options for output before the end of the run.
 void add_progress_options(CLI::App& command, const SharedOptions& options) {
     add_parsed(command, options, "--write-every", "SECONDS", &RenderOptions::write_every, parse_positive,
                "write the outputs every so many seconds, too, with the samples that all pixels have by then");
@@ -199,7 +199,7 @@ void add_progress_options(CLI::App& command, const SharedOptions& options) {
         ->type_name("HOST:PORT");
 }
 
-// Shares of the work, in time and among machines.
+// Adds the options that divide the work in time and among machines.
 void add_share_options(CLI::App& command, const SharedOptions& options) {
     command
         .add_option("--checkpoint", options->checkpoint,

@@ -11,7 +11,7 @@
 namespace deburr {
 namespace {
 
-// https://reproducible-builds.org/specs/source-date-epoch/
+// The time that SOURCE_DATE_EPOCH gives; see https://reproducible-builds.org/specs/source-date-epoch/.
 std::optional<std::time_t> source_date_epoch() {
     const char* text = std::getenv("SOURCE_DATE_EPOCH");
     if (!text || !*text) return std::nullopt;

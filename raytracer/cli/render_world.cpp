@@ -21,7 +21,7 @@
 namespace deburr {
 namespace {
 
-// Boxes to look at for each sum and difference before rendering; `info` looks longer.
+// Boxes examined for each sum and difference before rendering; `info` examines more.
 constexpr int boxes_to_warn = 1000;
 
 void build_implicit(const RenderOptions& o, RenderWorld& world) {
@@ -47,11 +47,11 @@ void build_mesh(const RenderOptions& o, const Frame& frame, RenderWorld& world) 
                                o.wire == "front" ? WireMode::front : WireMode::visible);
 }
 
-// Samples per pixel that take about so long, by one sample of some of the tiles. What a picture of so many samples
-// looks like does not depend on the time.
+// The number of samples per pixel that takes about `seconds`, estimated from one sample of some tiles. The picture with
+// a given number of samples does not depend on the time.
 int samples_in(double seconds, const Scene& scene, const RayTracer& tracer, const Frame& frame,
                RenderSettings settings) {
-    // A share of the picture, and of the time left that a fair guess uses.
+    // Number of tiles tried, and the fraction of the remaining time that the estimate uses.
     constexpr std::int64_t tiles_tried = 64;
     constexpr double used = 0.95;
     const auto start = std::chrono::steady_clock::now();
@@ -95,7 +95,7 @@ Frame frame_of(const RenderOptions& o, const Scene& scene) {
         frame.whole = frame.window = picture_window(o, scene, bytes);
         return frame;
     }
-    // The whole picture need not fit in here.
+    // The whole picture need not fit into this machine's memory.
     frame.whole = o.crop.value_or(Window{0, 0, frame.size.width, frame.size.height});
     check_crop("--crop", frame.whole, frame.size);
     Options share = o;
@@ -119,7 +119,7 @@ void build_tracer(const RenderOptions& o, const Frame& frame, RenderWorld& world
 }
 
 void build_integrator(const RenderOptions& o, Frame& frame, RenderWorld& world) {
-    // With a bound of noise a picture is finished by it, and the samples are only their limit.
+    // With a noise bound the picture is finished by that, and the number of samples is only a limit.
     constexpr int most_samples = 4096;
     if (o.noise && !o.spp) frame.spp = most_samples;
     const bool cost = std::count(o.layers.begin(), o.layers.end(), ImageLayer::cost) > 0;

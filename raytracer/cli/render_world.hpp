@@ -1,4 +1,4 @@
-// What deburr render traces rays in, made from its options.
+// What `deburr render` traces rays in, built from its options.
 #pragma once
 #include <memory>
 #include <optional>
@@ -12,39 +12,39 @@
 
 namespace deburr {
 
-/// The scene and how its rays are traced. Tiles that are abandoned share in it.
+/// The scene and its tracer and integrator. It is shared with tiles that are abandoned.
 struct RenderWorld {
     Scene scene;
     std::unique_ptr<RayTracer> tracer;
     std::optional<Integrator> integrator;
     std::optional<BspStatistics> bsp;
-    std::vector<Stroke> strokes;  // that are drawn over the picture
+    std::vector<Stroke> strokes;  // drawn over the picture
 };
 
-/// The picture's size and the part of it that is rendered.
+/// The picture's size, and the part of it that is rendered.
 struct Frame {
     Size size;
     Window window;
-    Window whole;  // of which --tile has left the window
-    int spp = 0;   // 0: to be found
+    Window whole;  // the window before --tile took a share of it
+    int spp = 0;   // 0: still to be chosen
 };
 
-/// Throws as picture_window() does.
+/// The frame that the options ask for. Throws as picture_window() does.
 Frame frame_of(const RenderOptions& options, const Scene& scene);
 
-/// Exposure of pictures for the screen, in stops; 0 for a wire frame, which is black on white.
+/// The exposure of pictures for the screen, in stops; 0 for wire frames, which are black on white.
 double exposure_of(const RenderOptions& options, const Scene& scene);
 
-/// Warns of what can be known of a scene before it is rendered.
+/// Prints warnings about the scene that are known before rendering; `aspect` is width / height.
 void warn_of_scene(const Scene& scene, double aspect);
 
-/// Makes world.tracer from world.scene, and the strokes.
+/// Sets world.tracer and world.strokes from world.scene.
 void build_tracer(const RenderOptions& options, const Frame& frame, RenderWorld& world);
 
-/// Makes world.integrator, and finds frame.spp where options leave it open.
+/// Sets world.integrator, and frame.spp if the options do not give it.
 void build_integrator(const RenderOptions& options, Frame& frame, RenderWorld& world);
 
-/// A line on stderr with --verbose.
+/// Prints a line on stderr if --verbose was given.
 void say(const RenderOptions& options, const std::string& line);
 
 }  // namespace deburr

@@ -31,7 +31,8 @@ std::vector<std::string> lines_of(std::string_view text) {
     return lines;
 }
 
-// "rounded" of "rounded(radius, density)", "translate" of "x:translate(…)", "|" of "a | b", "~" of "~a".
+// The name in a heading: "rounded" of "rounded(radius, density)", "translate" of "x:translate(…)", "|" of "a | b", "~"
+// of "~a".
 std::string entry_name(const std::string& heading) {
     const std::size_t call = heading.find_first_of("({");
     if (call != std::string::npos) {
@@ -64,7 +65,7 @@ std::vector<std::string> names_of(const std::string& heading, int level) {
     return names;
 }
 
-// The cells of a table's row, or nothing.
+// The cells of a table's row; empty if the line is none.
 std::vector<std::string> cells_of(const std::string& line) {
     std::vector<std::string> cells;
     if (!starts(line, "|")) return cells;
@@ -82,7 +83,7 @@ std::vector<std::string> cells_of(const std::string& line) {
     return cells;
 }
 
-// Without quotes, links and stars.
+// The text without code quotes, links and asterisks.
 std::string plain(const std::string& text) {
     std::string out;
     bool code = false;
@@ -101,11 +102,11 @@ std::string plain(const std::string& text) {
     return out;
 }
 
-std::size_t columns(const std::string& text) {  // code points
+std::size_t columns(const std::string& text) {  // counts code points
     return std::size_t(std::count_if(text.begin(), text.end(), [](char c) { return (c & 0xC0) != 0x80; }));
 }
 
-// `first` is what the first line begins with, others are indented as far.
+// Appends the text wrapped to the page's width. `first` begins the first line; further lines are indented as far.
 void wrap(std::string& out, const std::string& first, const std::string& text) {
     const std::string indent(columns(first), ' ');
     std::string line = first, word;
@@ -132,7 +133,7 @@ void wrap(std::string& out, const std::string& first, const std::string& text) {
     out += line + "\n";
 }
 
-// Paragraphs, items, code and tables of a part, one after the other.
+// Converts the Markdown of a part (paragraphs, lists, code, tables) to plain text.
 class PlainText {
 public:
     explicit PlainText(const std::string& markdown) {
@@ -162,7 +163,8 @@ private:
         }
     }
 
-    // "name  takes; default: this. Meaning." Tables of other things than fields and arguments are pictures.
+    // Appends a row of a table of fields or arguments as "name  takes; default: this. Meaning.". Other tables contain
+    // pictures, and are dropped.
     void add_row(const std::vector<std::string>& cells) {
         if (!in_table_) {
             header_ = cells;
@@ -206,7 +208,7 @@ private:
     bool code_ = false, in_table_ = false, in_list_ = false;
 };
 
-// The table of the part's text with the row for `name` alone; "" if it has none.
+// The table of the part's text that has a row for `name`, with that row only; "" if there is none.
 std::string row_of(const PagePart& part, const std::string& name) {
     std::string header, rule;
     for (const std::string& line : lines_of(part.text)) {

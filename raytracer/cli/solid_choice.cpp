@@ -18,7 +18,7 @@ std::string name_of(const Scene& scene, std::size_t solid) {
     return solid < scene.names.size() ? scene.names[solid] : "";
 }
 
-// "1 plate, 2, 3 knob"
+// A list such as "1 plate, 2, 3 knob".
 std::string list_of_solids(const Scene& scene) {
     constexpr std::size_t most = 20;
     std::string list;
@@ -57,11 +57,11 @@ bool is_plain(char c) {
 }
 
 std::string as_file_name(const std::string& name) {
-    constexpr std::size_t longest = 100;  // bytes; a file's name may have 255, with what stands around
+    constexpr std::size_t longest = 100;  // bytes; a file name may have 255, including what surrounds it
     std::string plain = shortened(printable(name), longest);
     for (char& c : plain)
         if (!is_plain(c)) c = '_';
-    if (plain[0] == '.' || plain[0] == '-') plain[0] = '_';  // a hidden file, an option
+    if (plain[0] == '.' || plain[0] == '-') plain[0] = '_';  // otherwise a hidden file or an option
     return plain;
 }
 
@@ -82,7 +82,7 @@ std::vector<std::size_t> chosen_solids(const Scene& scene, const std::vector<std
 std::vector<std::string> file_names(const Scene& scene) {
     std::vector<std::string> names;
     std::set<std::string> taken;
-    std::map<std::string, int> last;  // number behind a name that several want
+    std::map<std::string, int> last;  // number appended to a name that several solids have
     for (std::size_t i = 0; i < scene.solids.size(); ++i) {
         const std::string name = name_of(scene, i);
         const std::string wanted = name.empty() ? fmt::format("{}", i + 1) : as_file_name(name);

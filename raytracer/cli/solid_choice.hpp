@@ -1,4 +1,4 @@
-// Which solids of a scene a command is about, and what files of theirs are called.
+// The solids of a scene that a command is about, and their names in files.
 #pragma once
 #include <string>
 #include <vector>
@@ -7,13 +7,12 @@
 
 namespace deburr {
 
-/// The places in the scene of the solids that `only` (--only) names, each by its name or its number from 1; in order,
-/// each once. A name may be that of several solids. Throws UsageError, with the names that there are, for what is
-/// neither.
+/// The indices of the solids that `only` (--only) names, each by its name or its number from 1; sorted, each once. A
+/// name may belong to several solids. Throws UsageError, with the known names, for an unknown one.
 std::vector<std::size_t> chosen_solids(const Scene& scene, const std::vector<std::string>& only);
 
-/// What stands for each solid of the scene in the name of a file: its name or else its number, with "_" for what file
-/// systems or shells may stumble over. All are different, without regard to small and capital letters.
+/// A name for each solid in file names: its own name or else its number, with "_" for characters that are problematic
+/// in file systems or shells. All are different, ignoring case.
 std::vector<std::string> file_names(const Scene& scene);
 
 }  // namespace deburr

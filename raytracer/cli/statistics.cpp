@@ -108,7 +108,7 @@ std::string statistics_json(const RunStatistics& run) {
                     {"depth", run.bsp->depth},
                     {"half_spaces", run.bsp->half_spaces},
                     {"mean_local_half_spaces", run.bsp->mean_local_half_spaces}};
-    // A name that is not UTF-8 is no reason to lose the figures.
+    // Names that are not UTF-8 are replaced instead of losing the statistics.
     return j.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
 }
 

@@ -112,7 +112,7 @@ void read_notes(const Json& j, ImageNotes& notes, ImageFormat& format, Denoiser&
 void ContentHash::add(std::string_view text) {
     const auto mix = [this](unsigned char c) { hash_ = (hash_ ^ c) * 0x100000001b3; };
     for (const char c : text) mix(static_cast<unsigned char>(c));
-    // Where one ends and the next begins matters, too.
+    // The length is hashed, too, so that boundaries between texts matter.
     for (std::size_t size = text.size(), i = 0; i < sizeof size; ++i) mix(static_cast<unsigned char>(size >> 8 * i));
 }
 

@@ -1,10 +1,11 @@
-// Files of sums: checkpoints of a picture on its way, which are also the parts that `deburr merge` takes.
+// Files of sums: checkpoints of a rendering, which are also the parts that `deburr merge` combines.
 //
-//   "deburr sums 1\n", bytes of the head (8, little-endian), the head as JSON, the sums (Passes::bytes), and the CRC-32
-//   of all that (4). They are numbers as this kind of machine has them, for the same version of the program.
+//   "deburr sums 1\n", the size of the header (8 bytes, little-endian), the header as JSON, the sums (Passes::bytes),
+//   and the CRC-32 of all that (4 bytes). Sums are stored as in memory, for machines of the same kind and the same
+//   version.
 //
-// The head says what was rendered: a hash of everything that pixels depend on but for window and samples (`scene`), the
-// version, size, windows and samples, and what a picture's files need (`notes`).
+// The header tells what was rendered: `scene` is a hash of everything that pixels depend on except window and samples;
+// further the version, size, windows and samples, and the information for picture files (`notes`).
 #pragma once
 #include <nlohmann/json.hpp>
 #include <string>
@@ -16,29 +17,32 @@
 
 namespace deburr {
 
+/// The content of a file of sums.
 struct SumsFile {
     nlohmann::ordered_json head;
     std::string bytes;  // of the passes
 };
 
-/// Throws WorkError.
+/// Writes the file. Throws WorkError.
 void write_sums(const std::string& path, const SumsFile& file);
 
-/// Throws WorkError with one line: where it cannot be read, is no such file, is damaged, or of another version.
+/// Reads a file. Throws WorkError with one line if it cannot be read, is not such a file, is damaged, or is of another
+/// version.
 SumsFile read_sums(const std::string& path);
 
 nlohmann::ordered_json window_head(const Window& window);
 Window window_of(const nlohmann::ordered_json& head);
 
-/// What the header of a picture says, and how its file is written.
+/// The information for a picture's header and file format, as part of the file's header, and its inverse.
 nlohmann::ordered_json notes_head(const ImageNotes& notes, const ImageFormat& format, Denoiser denoiser);
 void read_notes(const nlohmann::ordered_json& head, ImageNotes& notes, ImageFormat& format, Denoiser& denoiser);
 
-/// Hash of texts and of files' contents, in their order [FNV-1a, 64 bits]: it tells changes, and is no protection.
+/// A hash of texts and of files' contents, in order [FNV-1a, 64 bits]: it detects changes, but does not protect against
+/// attacks.
 class ContentHash {
 public:
     void add(std::string_view text);
-    /// Throws WorkError if it cannot be read.
+    /// Adds a file's content. Throws WorkError if it cannot be read.
     void add_file(const std::string& path);
     std::string text() const;
 

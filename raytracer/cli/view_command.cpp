@@ -1,4 +1,4 @@
-// deburr view FILE: a page in the browser that shows the exact picture while the file is being edited.
+// `deburr view FILE`: a page in the browser that shows the exact picture while the file is being edited.
 #include <fmt/format.h>
 #include <tbb/global_control.h>
 
@@ -28,10 +28,10 @@ struct ViewOptions : RenderOptions {
     int port = 0;
 };
 
-// How soon Ctrl-C is noticed, in milliseconds.
+// Interval in milliseconds at which Ctrl-C is noticed.
 constexpr int poll_interval = 100;
 
-// What `deburr render` and `deburr mesh` would write.
+// The bytes that `deburr render` or `deburr mesh` would write for this extension.
 std::string encoded(const RenderOptions& o, const std::string& extension, const Scene& scene, const Film* film,
                     int samples) {
     if (extension == ".stl") {
