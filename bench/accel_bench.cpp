@@ -1,4 +1,4 @@
-// What leads exact rays to surfaces: a BVH of Embree's against the tree of boxes, by the same rays to the same hits.
+// Embree's BVH against Bvh8 for finding exact surfaces: the same rays with the same hits.
 #include <fmt/format.h>
 
 #include "bench/blocks.hpp"
@@ -13,7 +13,7 @@ ImplicitTracer by_embree(const std::vector<Solid>& solids) {
     return ImplicitTracer(solids, Criterion::exact, RootMethod::where_needed, Accel::embree);
 }
 
-// Knows nothing of rays that are asked for together.
+// Traces all rays one by one, even if they are passed together.
 class RaysAlone final : public RayTracer {
 public:
     explicit RaysAlone(const RayTracer& tracer) : tracer_(tracer) {}

@@ -1,4 +1,4 @@
-// Many placements of one block, and rays through them.
+// Scenes of many blocks, and rays through them.
 #pragma once
 #include <vector>
 
@@ -7,13 +7,13 @@
 
 namespace deburr::bench {
 
-/// Tilted rounded blocks, placements of one, on a cubic grid.
+/// Placements of one tilted rounded block on a cubic grid.
 std::vector<Solid> blocks(int count);
 
-/// As many rounded blocks, no two of one size, on such a grid.
+/// Rounded blocks on such a grid, all of different sizes.
 std::vector<Solid> different_blocks(int count);
 
-/// From all sides to everywhere in a cube of this side: points of two Kronecker sequences, the same in every run.
+/// Rays from all sides to all places in a cube with this side, by two Kronecker sequences: the same in every run.
 std::vector<Ray> rays_through(double side, int count);
 
 }  // namespace deburr::bench

@@ -1,4 +1,4 @@
-// What a picture takes, counted.
+// Counts the work that a picture takes.
 #include <fmt/format.h>
 
 #include "bench/picture.hpp"

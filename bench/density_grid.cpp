@@ -6,7 +6,7 @@
 namespace deburr::bench {
 namespace {
 
-// What a node is over a row: one value, or as many as the row has.
+// The values of a node along a row: a single one if constant, else one for each sample.
 struct Row {
     bool constant = false;
     float value = 0;

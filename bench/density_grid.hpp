@@ -1,6 +1,6 @@
-// A density on a regular grid of single-precision values, as fast as it goes without looking for what
-// need not be evaluated: row by row, operator by operator, so that the compiler vectorizes. A row in
-// which a half-space is certainly 0 or 1 is not evaluated for it.
+// Samples a density on a regular grid in single precision, as fast as possible without a hierarchy: row by row and
+// operator by operator, so that the compiler vectorizes. A half-space that is certainly 0 or 1 in a whole row is not
+// evaluated there.
 #pragma once
 #include <vector>
 
@@ -8,14 +8,15 @@
 
 namespace deburr::bench {
 
+/// A grid of samples.
 struct DensityGrid {
     Vec3 origin{0.0};
     double step = 0;
     int size[3] = {0, 0, 0};
-    std::vector<float> values;  // x fastest, then y, z
+    std::vector<float> values;  // x fastest, then y, then z
 };
 
-/// Over the box, which grows to whole steps. The papers' arithmetic only; no sharp half-spaces.
+/// Samples over the box, enlarged to whole steps. Only the papers' arithmetic without sharp half-spaces is supported.
 DensityGrid density_grid(const DensityTree& tree, const Box& box, double step);
 
 }  // namespace deburr::bench

@@ -1,5 +1,5 @@
-// The exact surface against its triage mesh in Embree: the same rays, asked by packets of 16 of both where a picture
-// asks for them together, and one by one of both elsewhere.
+// The exact surface against its triage mesh in Embree: the same rays, traced by both in packets of 16 where a picture
+// traces them together, and singly elsewhere.
 #include <fmt/format.h>
 
 #include "bench/embree_rays.hpp"
@@ -13,7 +13,7 @@
 namespace deburr::bench {
 namespace {
 
-// Rays of a picture of one sample, which are packets, and the same one by one.
+// The rays of a picture with one sample, in packets and singly.
 void compare_rays(Report& report, const char* name, const Scene& scene, const ImplicitTracer& implicit,
                   const EmbreeMesh& embree, double packets_bar) {
     TraceCounters counters;
@@ -30,10 +30,10 @@ void compare_rays(Report& report, const char* name, const Scene& scene, const Im
     report.figure(fmt::format("{}: exact single rays", name), rays / single.a, "million/s");
 }
 
-// Rays of paths: a picture of 16 samples, whose bounces go anywhere.
+// The rays of paths: a picture with 16 samples, whose bounces go in all directions.
 void compare_paths(Report& report, const char* name, Scene scene, const ImplicitTracer& implicit,
                    const EmbreeMesh& embree) {
-    scene.width /= 2;  // as many samples take as long on a smaller picture
+    scene.width /= 2;  // so that as many samples take as long
     scene.height /= 2;
     TraceCounters counters;
     const Recording recording(implicit);

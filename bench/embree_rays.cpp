@@ -71,7 +71,7 @@ EmbreeRays::EmbreeRays(const Recording& recording, bool alone) {
     }
 }
 
-// A query writes into its rays: each works on a copy.
+// Works on copies, since a query writes its result into the rays.
 void EmbreeRays::ask(const EmbreeMesh& mesh) const {
     const RTCScene scene = mesh.scene();
 #if RTC_VERSION_MAJOR >= 4

@@ -1,5 +1,5 @@
-// Embree itself as the peer: its own entry points for packets of 16 and for single rays, in single precision, with
-// nothing of ours around them.
+// Embree itself, for comparison: its own entry points for packets of 16 and for single rays, in single precision,
+// without this project's code.
 #pragma once
 #include <memory>
 #include <vector>
@@ -10,7 +10,7 @@
 
 namespace deburr::bench {
 
-/// A mesh in Embree, built for fast rays. It is not robust, as Embree's fastest is not.
+/// A mesh in Embree, built for the fastest rays, which excludes its robust mode.
 class EmbreeMesh {
 public:
     explicit EmbreeMesh(const Mesh& mesh);
@@ -21,11 +21,12 @@ private:
     std::unique_ptr<RTCSceneTy, void (*)(RTCScene)> scene_;
 };
 
-/// The rays of a recording, laid out as Embree takes them.
+/// The rays of a recording in Embree's layout.
 class EmbreeRays {
 public:
-    /// Rays that were asked together are packets of 16, unless all are to be `alone`.
+    /// Rays that were traced together become packets of 16, unless all are to be `alone`.
     EmbreeRays(const Recording& recording, bool alone);
+    /// Traces all rays.
     void ask(const EmbreeMesh& mesh) const;
 
 private:

@@ -33,7 +33,7 @@ FlyingEdges::~FlyingEdges() { delete vtk_; }
 void FlyingEdges::run(const DensityTree& tree, const Box& box, double step) {
     DensityGrid grid = density_grid(tree, box, step);
     vtkNew<vtkFloatArray> values;
-    values->SetArray(grid.values.data(), vtkIdType(grid.values.size()), 1);  // and not VTK's to delete
+    values->SetArray(grid.values.data(), vtkIdType(grid.values.size()), 1);  // 1: VTK must not delete the array
     vtkNew<vtkImageData> image;
     image->SetDimensions(grid.size[0], grid.size[1], grid.size[2]);
     image->SetOrigin(grid.origin.x, grid.origin.y, grid.origin.z);
@@ -54,13 +54,13 @@ Mesh FlyingEdges::mesh() const {
         surface->GetPoint(i, p);
         mesh.positions.push_back({p[0], p[1], p[2]});
     }
-    mesh.normals.push_back({0, 1, 0});  // the measures ask for none
+    mesh.normals.push_back({0, 1, 0});  // normals are not measured
     const auto cells = vtk::TakeSmartPointer(surface->GetPolys()->NewIterator());
     for (cells->GoToFirstCell(); !cells->IsDoneWithTraversal(); cells->GoToNextCell()) {
         vtkIdType count = 0;
         const vtkIdType* points = nullptr;
         cells->GetCurrentCell(count, points);
-        // Densities fall outward, so its triangles face inward.
+        // Densities fall outward, so VTK's triangles face inward and are turned.
         Triangle t{{int(points[0]), int(points[2]), int(points[1])}, {0, 0, 0}};
         mesh.triangles.push_back(t);
     }

@@ -1,5 +1,5 @@
-// VTK's Flying Edges [Schroeder, Maynard & Geveci 2015], the fastest of the grid methods, where VTK is
-// installed: the yardstick for triage.
+// VTK's Flying Edges [Schroeder, Maynard & Geveci 2015], the fastest of the grid methods, to compare triage with where
+// VTK is installed.
 #pragma once
 #include <optional>
 
@@ -8,18 +8,20 @@
 
 namespace deburr::bench {
 
-/// What the method itself does, the grid's evaluation included; nothing else.
+/// Runs Flying Edges, including the evaluation of the grid, and nothing else.
 class FlyingEdges {
 public:
+    /// Whether this program was built with VTK; if not, no other function may be called.
     static bool installed();
     FlyingEdges();
     ~FlyingEdges();
     FlyingEdges(const FlyingEdges&) = delete;
     FlyingEdges& operator=(const FlyingEdges&) = delete;
-    /// The surface ρ = ½ on a grid of this step.
+    /// Extracts the surface ρ = ½ on a grid with this step.
     void run(const DensityTree& tree, const Box& box, double step);
+    /// The number of triangles of the last run.
     std::size_t triangles() const;
-    /// Of the last run, as a mesh of ours.
+    /// The surface of the last run as a Mesh.
     Mesh mesh() const;
 
 private:

@@ -1,4 +1,4 @@
-// How the cost of a ray grows with the number of objects, and with the half-spaces of one.
+// How the cost of a ray grows with the number of objects, and with the half-spaces of one object.
 #include <fmt/format.h>
 #include <malloc.h>
 
@@ -14,13 +14,13 @@ namespace deburr::bench {
 namespace {
 
 constexpr int rays = 40'000;
-// A scene whose tracer would take longer to build than this is left out, and said so.
+// Seconds. A scene whose tracer would take longer to build is left out, with a note.
 constexpr double longest_build = 60;
 
 double fraction(double x) { return x - std::floor(x); }
 
-// A unit plate with k × k square pits, 6 + 5 k² half-spaces in the papers' arithmetic, the clip of all
-// pits counted as one more; everything, the radius too, in proportion to a pit.
+// A unit plate with k × k square pits, with 6 + 5 k² half-spaces in the papers' arithmetic, as the clip of all pits
+// counts as one more. All sizes are proportional to a pit, the radius too.
 Solid plate(int k) {
     const double pitch = 1.0 / k;
     Density pits = Density::box(Vec3(0.0), Vec3(1.0));
@@ -37,13 +37,13 @@ Solid plate(int k) {
     return Solid::rounded(0.05 * pitch, Density::box({0, -1, 0}, {1, 0, 1}) - top * pits);
 }
 
-// To the middles of the pits' floors and of the crossings between them, steeply from above.
+// Rays to the middles of the pits' floors and of the rims' crossings, steeply from above.
 std::vector<Ray> rays_to_flat_parts(int k) {
     const double pitch = 1.0 / k;
     std::vector<Ray> all;
     for (int n = 1; n <= rays; ++n) {
         const double i = std::floor(k * fraction(0.8192 * n)), j = std::floor(k * fraction(0.5497 * n));
-        const double shift = n % 2 ? 0.5 : 0.125;  // floor, or rim
+        const double shift = n % 2 ? 0.5 : 0.125;  // floor or rim
         const Vec3 target((i + shift) * pitch, n % 2 ? -0.5 * pitch : 0, (j + shift) * pitch);
         const Vec3 eye(target + Vec3(0.1 * fraction(0.618 * n) - 0.05, 2, 0.1 * fraction(0.7549 * n) - 0.05));
         all.push_back({eye, glm::normalize(target - eye)});
@@ -61,7 +61,7 @@ double seconds_a_ray(const RayTracer& tracer, const std::vector<Ray>& all) {
            double(all.size());
 }
 
-// The last cost over the one where `x` was `reference`.
+// The growth of a cost: the last one over the one at x = reference_x.
 struct Growth {
     double reference_x = 0, reference = 0, last_x = 0, last = 0;
 
@@ -72,7 +72,7 @@ struct Growth {
     }
 };
 
-// A plate with k x k holes of 12 sides, in one Boolean density.
+// A plate with k × k holes of 12 sides as one Boolean density.
 Solid holed_plate(int k, double radius = 0.03) {
     Density plate = Density::box({0, 0, 0}, {double(k), 0.3, double(k)});
     for (int i = 0; i < k * k; ++i) {
@@ -88,7 +88,7 @@ Solid holed_plate(int k, double radius = 0.03) {
     return Solid::rounded(radius, plate);
 }
 
-// n half-spaces around a ball, spread evenly.
+// A convex body of n half-spaces around a ball, evenly distributed.
 Solid ball(int n) {
     const auto half_space = [n](int i) {
         const double z = 1 - (2 * i + 1.0) / n, a = i * std::numbers::pi * (3 - std::sqrt(5.0));

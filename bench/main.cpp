@@ -1,5 +1,5 @@
-// deburr_bench [--json FILE] [--markdown FILE] [--plot-data FOLDER] [LETTER …]: measures, and says which bars are
-// reached.
+// deburr_bench [--json FILE] [--markdown FILE] [--plot-data FOLDER] [LETTER …]: runs the benchmarks, and reports which
+// limits are met.
 #include <fmt/format.h>
 
 #include <algorithm>

@@ -1,5 +1,5 @@
-// What meshes cost: triage against a grid of half the radius [Triage §6.2], and against half-spaces
-// [Triage §6.3].
+// The cost of meshing: triage against a grid of half the radius [Triage §6.2], and its growth with the number of
+// half-spaces [Triage §6.3].
 #include <fmt/format.h>
 
 #include <cmath>
@@ -19,7 +19,7 @@ SolidTree obj4(double r) {
                               Density::half_space({0, 1, 0}, 1) * Density::box({0.25, 0.8, 0.25}, {0.75, 1.8, 0.75})));
 }
 
-// Boxes on a cubic grid, six half-spaces each, as one Boolean density.
+// Boxes of six half-spaces each on a cubic grid, as one Boolean density.
 SolidTree boxes(int count) {
     const int side = int(std::ceil(std::cbrt(count) - 1e-9));
     std::vector<Density> row;
@@ -32,10 +32,10 @@ SolidTree boxes(int count) {
     return flatten(Solid::rounded(0.05, all));
 }
 
-// One mesh of 2 ms, alone between two grids, would tell what flying edges leave in the caches.
+// A single mesh of 2 ms between two runs of Flying Edges would mainly measure the caches that these leave.
 constexpr int meshes_in_turn = 16;
 
-// Bars of the two radii that the paper's yardstick is set at.
+// Limits at the two radii of the paper's comparison.
 struct Bars {
     std::optional<Bar> triangles, time, distance;
 };
@@ -75,7 +75,7 @@ void triage_against_flying_edges(Report& report) {
         report.point("time of triage", "radius", "seconds", r, time.b);
         report.point("triangles of flying edges", "radius", "triangles", r, double(theirs.triangles()));
         report.point("triangles of triage", "radius", "triangles", r, double(ours.triangles.size()));
-        if (r < 0.01) continue;  // two million root searches
+        if (r < 0.01) continue;  // too slow with two million root searches
         const double our_distance = measure(ours, tree).distance.max / r;
         const double their_distance = measure(theirs.mesh(), tree).distance.max / r;
         report.figure(fmt::format("obj4, r = {}: greatest distance of triage", r), our_distance, "r");
@@ -101,7 +101,7 @@ void growth_of_triage(Report& report) {
         sxx += x * x;
         sxy += x * y;
     }
-    // n log n from 6 to 6,000 has the mean exponent 1 + log(log 6000 / log 6) / log 1000 = 1.23.
+    // n log n from 6 to 6,000 has a mean exponent of 1 + log(log 6000 / log 6) / log 1000 = 1.23.
     report.figure("exponent of growth", (n * sxy - sx * sy) / (n * sxx - sx * sx), "(paper: 1.3)", at_most(1.23));
 }
 

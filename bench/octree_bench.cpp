@@ -1,4 +1,4 @@
-// What the octree costs: with the surface, not with the volume [Vyatkin §5].
+// The cost of the octree: it grows with the surface and not with the volume [Vyatkin §5].
 #include <fmt/format.h>
 
 #include <cmath>
@@ -18,7 +18,7 @@ SolidTree obj4() {
                   Density::half_space({0, 1, 0}, 1) * Density::box({0.25, 0.8, 0.25}, {0.75, 1.8, 0.75})));
 }
 
-// Step by step, every voxel is asked whether the surface passes: the way that the paper compares with.
+// The method that the paper compares with: tests every voxel for the surface.
 std::size_t every_voxel(const SolidTree& solid, const Box& box, double edge) {
     const SignedDistance whole(solid);
     std::size_t open = 0;
@@ -34,7 +34,7 @@ std::size_t every_voxel(const SolidTree& solid, const Box& box, double edge) {
 
 }  // namespace
 
-// 2^level cells along the box: tests grow by 4 a level for a surface, by 8 for a volume.
+// With 2^level cells along the box, tests grow by a factor of 4 a level for a surface, and of 8 for a volume.
 void octree_against_every_voxel(Report& report) {
     const SolidTree solid = obj4();
     const Box box = polygonization_box(solid);

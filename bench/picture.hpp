@@ -1,4 +1,4 @@
-// Pictures of scenes on one thread, and the rays they are made of.
+// Renders scenes on one thread, and records the rays that this takes.
 #pragma once
 #include <algorithm>
 #include <array>
@@ -14,9 +14,11 @@
 
 namespace deburr::bench {
 
+/// The path of a scene in scenes/, by its name without extension; and the scene.
 inline std::string scene_path(const std::string& name) { return DEBURR_SOURCE_DIR "/scenes/" + name + ".lua"; }
 inline Scene scene_of(const std::string& name) { return read_scene(scene_path(name), {}); }
 
+/// Renders the whole picture on this thread.
 inline void render_picture(const Scene& scene, const RayTracer& tracer, TraceCounters& counters, int spp = 1) {
     const Integrator integrator(scene, tracer, {scene.width, scene.height, spp, 0});
     const Window window{0, 0, scene.width, scene.height};
@@ -27,13 +29,14 @@ inline void render_picture(const Scene& scene, const RayTracer& tracer, TraceCou
     }
 }
 
-/// Every ray that a picture asks for, in the order it does and together with those it does, to be asked again
-/// of any tracer. Rays lie one after the other, so that whoever is asked reads them as fast as memory allows.
+/// Forwards all rays to a tracer and records them, in order and grouped as they were traced, so that they can be traced
+/// again by any tracer. Rays are contiguous in memory, so that replaying them is limited by the tracer.
 class Recording final : public RayTracer {
 public:
+    /// A recorded call.
     struct Question {
-        std::size_t first, count;  // in rays() and t_max()
-        bool any, alone;
+        std::size_t first, count;  // range in rays() and t_max()
+        bool any, alone;           // any-hit query; a single ray
     };
 
     explicit Recording(const RayTracer& tracer) : tracer_(tracer) {}
@@ -59,6 +62,7 @@ public:
     const std::vector<Ray>& rays() const { return rays_; }
     const std::vector<double>& t_max() const { return t_max_; }
 
+    /// Repeats all calls with another tracer.
     void ask(const RayTracer& tracer, TraceCounters& counters) const {
         std::size_t most = 1;
         for (const Question& q : questions_) most = std::max(most, q.count);
@@ -76,7 +80,7 @@ public:
         keep(hits);
         keep(occluded);
     }
-    /// Ray by ray, though they were asked together.
+    /// Traces all rays one by one, even if they were traced together.
     void ask_alone(const RayTracer& tracer, TraceCounters& counters) const {
         for (const Question& q : questions_)
             for (std::size_t i = q.first; i < q.first + q.count; ++i) ask_alone(tracer, i, q.any, counters);

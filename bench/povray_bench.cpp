@@ -1,7 +1,7 @@
-// Deburr's rounded pictures against POV-Ray's, of the same scenes (deburr export-pov): whole processes
-// on one thread. POV-Ray's isosurfaces at a proven max_gradient, once as accurate as they must be for
-// the right picture, once at its default accuracy, with the profile clamped by min and max and by cases,
-// which POV-Ray evaluates in half of the time; and its sharp CSG of planes and boxes.
+// Deburr's rounded pictures against POV-Ray's of the same scenes (deburr export-pov), as whole processes on one thread.
+// POV-Ray renders isosurfaces with a proven max_gradient, at the accuracy that the right picture needs and at its
+// default accuracy, with the profile clamped by min and max and by cases, which POV-Ray evaluates in half the time; and
+// sharp CSG of planes and boxes.
 #include <fmt/format.h>
 
 #include "bench/picture.hpp"
@@ -13,13 +13,13 @@ namespace deburr::bench {
 namespace {
 
 constexpr int rounds = 7;
-constexpr int rounds_of_hits = 51;  // of some 10 ms each
-constexpr int patch = 4;            // pixels each way whose rays follow each other, as in a picture
+constexpr int rounds_of_hits = 51;  // each takes some 10 ms
+constexpr int patch = 4;            // side in pixels of patches whose rays follow each other, as in a picture
 
-// Lobb's obj4 alone, and how fast camera rays find it: of each that meets it, the exact hit.
+// How fast camera rays find the exact hit on Lobb's obj4 alone, for the rays that meet it.
 void primary_hits(Report& report) {
     Scene scene = scene_of("first");
-    scene.solids.pop_back();  // the ground
+    scene.solids.pop_back();  // removes the ground
     const ImplicitTracer tracer(scene.solids);
     const PinholeCamera camera(scene.camera, scene.width, scene.height);
     TraceCounters counters;
@@ -73,7 +73,7 @@ void deburr_against_povray(Report& report) {
             };
             report.ratio(fmt::format("{}: {}", name, what), ratio_of_times(theirs, ours, rounds), bar);
         };
-        // The form that POV-Ray is faster with is the one that counts.
+        // The form in which POV-Ray is faster decides.
         against("isosurface, right picture", {}, at_least(50));
         against("isosurface, right picture, by min and max", {"--min-max"}, std::nullopt);
         against("isosurface, default accuracy", {"--accuracy", "0.001"}, at_least(15));

@@ -1,4 +1,4 @@
-// Programs as a user would run them, and what they cost.
+// Runs programs and measures their CPU time; temporary folders.
 #pragma once
 #include <optional>
 #include <string>
@@ -6,12 +6,12 @@
 
 namespace deburr::bench {
 
-/// CPU seconds of the program with these words, and of all it starts; nothing if it is not installed.
-/// What it says goes to `log` (or nowhere). Throws if it fails.
+/// CPU seconds of the program with these arguments and of all its children; none if it is not installed. Its output
+/// goes to `log`. Throws if it fails.
 std::optional<double> cpu_seconds_of_program(const std::vector<std::string>& words,
                                              const std::string& log = "/dev/null");
 
-/// A folder for the benchmark's files, which vanishes with them at the end.
+/// A temporary folder that is removed with its files at the end.
 class Folder {
 public:
     Folder();
@@ -24,7 +24,7 @@ private:
     std::string path_;
 };
 
-/// The deburr program of this build.
+/// The path of the deburr program of this build.
 std::string deburr_program();
 
 }  // namespace deburr::bench

@@ -1,4 +1,4 @@
-// What rounding costs [Lobb table 1: 1.2 to 5.3 times], what round parts cost in place of prisms, and what the exact
+// The cost of rounding [Lobb table 1: 1.2 to 5.3 times] and of round parts instead of prisms, and what the exact
 // criterion saves.
 #include <fmt/format.h>
 
@@ -13,7 +13,7 @@
 namespace deburr::bench {
 namespace {
 
-// Figures 12 and 13, and the staplers, if there are any.
+// The scenes of figures 12 and 13, and the staplers if they exist.
 std::vector<std::string> scenes() {
     std::vector<std::string> names{"csg_examples", "variable_rounding"};
     for (const auto& entry : std::filesystem::directory_iterator(DEBURR_SOURCE_DIR "/scenes"))
@@ -24,7 +24,7 @@ std::vector<std::string> scenes() {
     return names;
 }
 
-// A bored block with four pins, in pictures of one sample.
+// A bored block with four pins, round or with many sides, in pictures with one sample.
 void compare_round_parts(Report& report) {
     const auto picture = [](const char* sides) {
         return read_scene(DEBURR_SOURCE_DIR "/bench/scenes/pins.lua", {{"sides", sides}});

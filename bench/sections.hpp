@@ -1,4 +1,4 @@
-// The benchmark's sections; each is a file of its own.
+// The benchmark's sections, each in a file of its own; the comment is its letter on the command line.
 #pragma once
 #include "bench/report.hpp"
 

@@ -5,7 +5,7 @@
 namespace deburr::bench {
 namespace {
 
-// Depth is that of the scene's expressions; scenes with long chains are not for this.
+// Recursive to the depth of the scene's expressions; not for scenes with long chains.
 Density without_radii(const Density& density) {
     const DensityNode& n = density.node();
     const auto child = [&](std::size_t i) { return without_radii(n.children()[i]); };

@@ -1,5 +1,5 @@
-// One thread and two: time on the wall, the one figure here that another program at work distorts, and
-// the CPU time that the second thread adds.
+// One thread against two: wall-clock time, the only figure here that other programs distort, and the CPU time that the
+// second thread adds.
 #include <fmt/format.h>
 #include <tbb/global_control.h>
 

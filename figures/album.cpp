@@ -15,7 +15,7 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
-// Changes when what is remembered means something else.
+// Increased when the meaning of the record changes.
 constexpr int format_version = 1;
 constexpr const char* memory_name = "figures.json";
 
@@ -27,7 +27,7 @@ std::optional<std::string> contents(const fs::path& path) {
     return out.str();
 }
 
-// FNV-1a: whether bytes have changed, not whether somebody forged them.
+// FNV-1a: detects changes, not forgery.
 std::string hash_of(const std::string& bytes) {
     std::uint64_t hash = 0xcbf29ce484222325;
     for (const char c : bytes) hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001b3;
@@ -127,7 +127,7 @@ void Album::write(const std::string& scene_folder) const {
     all["version"] = format_version;
     all["figures"] = Json::object();
     std::vector<ShownFigure> shown;
-    for (const Figure& figure : all_figures()) {  // what is no figure any more is forgotten
+    for (const Figure& figure : all_figures()) {  // figures that no longer exist are dropped
         const auto found = entries_.find(figure.name);
         if (found == entries_.end()) continue;
         const Entry& entry = found->second;
@@ -149,7 +149,7 @@ std::string find_scene_folder() {
     std::error_code error;
     const fs::path program = fs::read_symlink("/proc/self/exe", error);
     const auto holds_scenes = [](const fs::path& folder) { return fs::exists(folder / "csg_examples.lua"); };
-    // Installed: PREFIX/bin/deburr and PREFIX/share/deburr/scenes. Built: somewhere in the checkout.
+    // Installed: PREFIX/bin/deburr and PREFIX/share/deburr/scenes. Built: anywhere in the source tree.
     const fs::path installed = program.parent_path().parent_path() / DEBURR_DATA_FOLDER / "scenes";
     if (holds_scenes(installed)) return installed.string();
     for (fs::path folder = program.parent_path(); !folder.empty(); folder = folder.parent_path()) {

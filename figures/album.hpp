@@ -1,5 +1,5 @@
-// A folder of finished figures: which are there and what they were made of (figures.json), and the
-// page that shows them (README.md).
+// An album: a folder of finished figures, with a record of what they were made of (figures.json) and the page that
+// shows them (README.md).
 #pragma once
 #include <map>
 #include <string>
@@ -8,25 +8,25 @@
 
 namespace deburr {
 
-/// Of the program's own file: whatever changes in it may change a picture.
+/// A hash of the program's own file, any change of which may change a picture.
 std::string program_fingerprint();
 
-/// Of all that a figure is made of: the program, its scenes' bytes and the settings. Throws
-/// UsageError for a scene that is not there.
+/// A hash of everything that a figure is made of: the program, the bytes of its scenes, and the settings. Throws
+/// UsageError if a scene does not exist.
 std::string fingerprint(const Figure& figure, const std::string& program, const std::string& scene_folder, bool draft);
 
+/// The figures in one folder.
 class Album {
 public:
-    /// Reads what is in the folder; a folder that is not there is an empty one. A figures.json that
-    /// cannot be understood counts as none.
+    /// Reads the album in the folder; a missing folder is an empty album, and an unreadable figures.json is ignored.
     explicit Album(std::string folder);
 
-    /// The figure was made with this fingerprint, and its files are as they were written.
+    /// Whether the figure was made with this fingerprint and its files are unchanged.
     bool has(const Figure& figure, const std::string& fingerprint) const;
-    /// Remembers the figure and writes both files. Throws WorkError.
+    /// Records the figure, and writes figures.json and the page. Throws WorkError.
     void add(const Figure& figure, const std::string& fingerprint, const FigureResult& result,
              const std::string& scene_folder);
-    /// Writes the page anew, from what is remembered.
+    /// Writes the page again from the record.
     void write(const std::string& scene_folder) const;
 
     const std::string& folder() const { return folder_; }
@@ -35,7 +35,7 @@ private:
     struct Entry {
         std::string fingerprint;
         FigureResult result;
-        std::map<std::string, std::string> files;  // hash of the bytes, by name
+        std::map<std::string, std::string> files;  // hash of the bytes, by file name
     };
     void read();
 
@@ -43,8 +43,8 @@ private:
     std::map<std::string, Entry> entries_;  // by the figure's name
 };
 
-/// The folder scenes/ that belongs to the program: installed beside it, or of the checkout it was
-/// built in. Throws UsageError if there is none.
+/// The program's folder scenes/: installed with it, or in the source tree that it was built in. Throws UsageError if
+/// there is none.
 std::string find_scene_folder();
 
 }  // namespace deburr

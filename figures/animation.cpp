@@ -44,7 +44,7 @@ struct Chunk {
 
 std::vector<Chunk> chunks_of(const std::string& png) {
     std::vector<Chunk> chunks;
-    constexpr std::size_t signature = 8, frame = 12;  // bytes; of a chunk: length, type and checksum
+    constexpr std::size_t signature = 8, frame = 12;  // bytes; a chunk's frame is length, type and checksum
     for (std::size_t at = signature; at + frame <= png.size();) {
         const std::uint32_t size = number_at(png, at);
         chunks.push_back({png.substr(at + 4, 4), png.substr(at + 8, size)});
@@ -67,13 +67,13 @@ std::string animated_png(const std::vector<Film>& frames, double seconds) {
             for (const Chunk& c : chunks) {
                 if (c.type == "IDAT") break;
                 out += chunk(c.type, c.data);
-                // Frames, and how often they are shown: 0, for ever.
+                // Number of frames, and of repetitions (0: unlimited).
                 if (c.type == "IHDR") out += chunk("acTL", number(std::uint32_t(frames.size())) + number(0));
             }
         }
         const double delay = i + 1 < frames.size() ? seconds : 1;
         const auto milliseconds = std::uint32_t(std::lround(1000 * delay));
-        // Size, place, delay as a fraction; the frame replaces what was there.
+        // Size, position, delay as a fraction; the frame replaces the previous one.
         out += chunk("fcTL", number(sequence++) + number(std::uint32_t(frames[i].window.width)) +
                                  number(std::uint32_t(frames[i].window.height)) + number(0) + number(0) +
                                  number(milliseconds, 2) + number(1000, 2) + number(0, 1) + number(0, 1));

@@ -1,4 +1,4 @@
-// A sequence of pictures as one file: an animated PNG [PNG Specification, 3rd edition, §11.3.6].
+// Animated PNG files [PNG Specification, 3rd edition, §11.3.6].
 #pragma once
 #include <string>
 #include <vector>
@@ -7,8 +7,8 @@
 
 namespace deburr {
 
-/// The bytes of the file; frames have one size. Shows each for `seconds`, the last one for a second,
-/// and starts over.
+/// The bytes of an animated PNG of frames of one size. Each is shown for `seconds`, the last one for a second; then it
+/// repeats.
 std::string animated_png(const std::vector<Film>& frames, double seconds);
 
 }  // namespace deburr

@@ -1,5 +1,5 @@
-// True convolution as a solid: rendered beside quasi-convolution, polygonized, and the distance between the two as a
-// map.
+// True convolution as a solid: rendered beside quasi-convolution and polygonized, and a map of the distance between
+// both.
 #include "bounds/bounding_box.hpp"
 #include "figures/figure.hpp"
 #include "figures/studio.hpp"
@@ -11,7 +11,7 @@ namespace {
 
 constexpr int shades = 16;
 
-// From pale to red, linear.
+// Colours from pale grey to red, linear.
 std::vector<Vec3> palette() {
     std::vector<Vec3> all;
     for (int k = 0; k < shades; ++k) {

@@ -1,4 +1,4 @@
-// How far quasi-convolution, true convolution and a fillet are apart, over the dihedral angle.
+// The greatest distances between quasi-convolution, true convolution and a fillet, as functions of the dihedral angle.
 #include "bounds/rounded_edge.hpp"
 #include "figures/figure.hpp"
 #include "figures/plot.hpp"
@@ -6,10 +6,11 @@
 namespace deburr {
 namespace {
 
+// Values of the curves for the measured sentences, in filter radii.
 struct Summary {
-    double towards_180 = 0;             // quasi – truth
-    double max_fillet = 0;              // truth – fillet, from 60° on
-    double nearest = infinity, at = 0;  // quasi – truth, and the angle in degrees
+    double towards_180 = 0;             // quasi-convolution to true convolution, near 180°
+    double max_fillet = 0;              // true convolution to fillet, the greatest one from 60° on
+    double nearest = infinity, at = 0;  // the least one of quasi- to true convolution, and its angle in degrees
 };
 
 Plot over_angles(Summary& summary) {

@@ -1,4 +1,4 @@
-// How far a true convolution would move round surfaces, which densities of the distance leave where they are.
+// How far a true convolution would move round surfaces, which densities of a round coordinate leave where they are.
 #include <cmath>
 
 #include "bounds/profile.hpp"
@@ -11,7 +11,7 @@ namespace {
 
 constexpr double pi = 3.14159265358979323846;
 
-// A round surface u = offset, a point of it, its outward normal and mean curvature there.
+// A round surface u = offset, a point on it, and the outward normal and mean curvature there.
 struct Surface {
     RoundCoordinate coordinate;
     double offset;
@@ -19,7 +19,8 @@ struct Surface {
     double curvature;
 };
 
-// How much of the line x + z·direction, |z| ≤ half, is inside: from −half, which is, to the surface.
+// The length of the part of the line x + z·direction, |z| ≤ half, that is inside; it begins inside, if at all, at
+// −half.
 double length_inside(const Surface& s, Vec3 x, Vec3 direction, double half) {
     const auto inside = [&](double z) { return s.coordinate.at(x + z * direction) <= s.offset; };
     if (!inside(-half)) return 0;
@@ -33,15 +34,15 @@ double length_inside(const Surface& s, Vec3 x, Vec3 direction, double half) {
     return in + half;
 }
 
-// The share of a ball of radius r, whose center is `distance` beyond the surface, that is inside: lines along the
-// normal, added up over the disc across it.
+// The share of a ball of radius r inside the surface, when its center is `distance` outside of it: an integral over
+// lines along the normal.
 double share(const Surface& s, double distance, double r) {
     const Vec3 u = glm::normalize(glm::cross(s.normal, std::abs(s.normal.x) < 0.5 ? Vec3(1, 0, 0) : Vec3(0, 1, 0)));
     const Vec3 v = glm::cross(s.normal, u), center = s.at + distance * s.normal;
     constexpr int rings = 40, spokes = 24;
     double volume = 0;
     for (int i = 0; i < rings; ++i) {
-        // The disc's ring: with ρ = sin of an angle the half length, its cosine, is smooth.
+        // A ring of the disc; with ρ = r sin of an angle, half the line's length is r times its cosine, and smooth.
         const double angle = 0.5 * pi * (i + 0.5) / rings, rho = r * std::sin(angle), half = r * std::cos(angle);
         const double area = rho * r * std::cos(angle) * (0.5 * pi / rings) * (2 * pi / spokes);
         for (int k = 0; k < spokes; ++k) {
@@ -52,7 +53,7 @@ double share(const Surface& s, double distance, double r) {
     return volume / (4 * pi / 3 * r * r * r);
 }
 
-// Where the share is ½, in radii: less than 0 is inwards.
+// Where the share is ½, in radii; negative: inward.
 double shift(const Surface& s, double r) {
     double in = -0.6, out = 0.6;
     constexpr int halvings = 16;
@@ -65,12 +66,12 @@ double shift(const Surface& s, double r) {
 
 Surface sphere() { return {RoundCoordinate::distance_from_point(Vec3(0.0)), 1, {1, 0, 0}, {1, 0, 0}, 1}; }
 Surface cylinder() { return {RoundCoordinate::distance_from_axis(Vec3(0.0), {0, 0, 1}), 1, {1, 0, 0}, {1, 0, 0}, 0.5}; }
-// Of half an angle of 30°, where the distance along its normal from the axis is 1.
+// A cone with half an angle of 30°, at the point where the distance from the axis along the normal is 1.
 Surface cone() {
     const double a = std::cos(pi / 6), b = std::sin(pi / 6);
     return {RoundCoordinate::across_cone(Vec3(0.0), {0, 0, 1}, a, b), a * a, {a, 0, 0}, {a, 0, b}, 0.5};
 }
-// A ring of three times the tube's radius, on its outer equator.
+// A torus with a ring of three times the tube's radius, at its outer equator.
 Surface torus() {
     return {RoundCoordinate::distance_from_circle(Vec3(0.0), {0, 0, 1}, 3), 1, {4, 0, 0}, {1, 0, 0}, 0.5 * (1 + 0.25)};
 }

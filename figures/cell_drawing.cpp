@@ -10,7 +10,7 @@
 namespace deburr {
 namespace {
 
-constexpr double far = 1000;  // of the eye: next to parallel
+constexpr double far = 1000;  // distance of the eye: the projection is nearly parallel
 
 bool inside(const std::vector<std::vector<Vec3>>& walls, Vec3 x) {
     for (const auto& wall : walls)
@@ -59,7 +59,7 @@ CellDrawing::CellDrawing(const Solid& solid, Vec3 seed, Plane cut, Vec3 eye_dire
     subspace.polygonize();
     const CellComplex& after = subspace.complex();
     std::map<int, int> known;
-    std::map<std::pair<int, int>, int> next;  // half-edges without a twin, from one point to the next
+    std::map<std::pair<int, int>, int> next;  // from a point to the next, along half-edges without a twin
     for (int f = 0; f < int(after.faces.size()); ++f) {
         const auto& face = after.faces[f];
         if (subspace.leaf_of(f) < 0 || face.back < 0 || subspace.origin(face.back) != cell) continue;
@@ -109,7 +109,7 @@ Curve CellDrawing::dots(const std::vector<Vec3>& at, const std::string& color) c
 Plot CellDrawing::plot(int width, int height) const {
     Plot plot = drawing(width, height);
     Vec2 lo(1e9), hi(-1e9);
-    // What is behind first: an edge is in front if a wall beside it is.
+    // Draws the back first; an edge is in front if a face beside it is.
     for (const bool front : {false, true})
         for (const auto& wall : walls_) {
             const bool faces_eye = glm::dot(glm::cross(wall[1] - wall[0], wall[2] - wall[0]), towards_eye_) > 0;

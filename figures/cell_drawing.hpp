@@ -1,5 +1,5 @@
-// One unclassified cell and what subspace polygonization makes of it, drawn as the Triage paper draws
-// it: from afar, in lines [Triage, figures 13, 15, 16].
+// Line drawings, as in the Triage paper, of a single unclassified cell and its subspace polygonization [Triage, figures
+// 13, 15, 16], seen from afar.
 #pragma once
 #include "figures/plot.hpp"
 #include "polygonizer/triage/subspace.hpp"
@@ -7,28 +7,31 @@
 
 namespace deburr {
 
-/// A cell before and after.
+/// A cell before and after its polygonization.
 class CellDrawing {
 public:
-    /// The open cell that holds `inside`, cut by `cut` first so that it has a general form; of the two
-    /// parts, the one that the plane's normal points away from.
+    /// Draws the open cell that contains `inside`, as seen from `eye_direction`. It is first cut by `cut`, to give it a
+    /// general shape; the part on the side that the plane's normal points away from is kept.
     CellDrawing(const Solid& solid, Vec3 inside, Plane cut, Vec3 eye_direction);
 
+    /// A point of the polygonization, and the part of the cell that it is on.
     struct Point {
         Vec3 x;
         enum class On { edge, face, inside } on;
     };
     const std::vector<Point>& points() const { return points_; }
-    /// Around the isosurface's polygon, points of it.
+    /// The vertices of the isosurface's polygon, in order, as indices of points().
     const std::vector<int>& loop() const { return loop_; }
-    /// The flat polygons that it is divided into.
+    /// The flat polygons that it is divided into, as indices of points().
     const std::vector<std::vector<int>>& faces() const { return faces_; }
+    /// The density in the cell.
     const DensityTree& density() const { return solid_.leaves.at(0).density; }
-    /// Corners of the cell's faces, counter-clockwise from outside.
+    /// The faces of the cell as polygons, counter-clockwise from outside.
     const std::vector<std::vector<Vec3>>& walls() const { return walls_; }
 
-    /// A frame, with the cell in grey: what is behind, dashed.
+    /// An empty plot of the projected cell in grey; edges at the back are dashed.
     Plot plot(int width, int height) const;
+    /// Projection to the plot; the functions below draw points in space.
     Vec2 project(Vec3 x) const;
     Curve polygon(const std::vector<Vec3>& corners, const std::string& color, double opacity) const;
     Curve line(const std::vector<Vec3>& through, const std::string& color, double width,

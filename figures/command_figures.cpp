@@ -88,7 +88,7 @@ int run_figures(const FiguresOptions& o) {
             FigureContext context(task.figure, scenes, o.folder, o.draft);
             task.figure.make(context);
             album.add(task.figure, task.fingerprint, context.result(), scenes);
-        } catch (const std::exception& error) {  // the others can still be made
+        } catch (const std::exception& error) {  // the other figures can still be made
             say(fmt::format("{}: {}", task.figure.name, error.what()));
             code = 1;
         }

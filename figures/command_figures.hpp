@@ -1,4 +1,4 @@
-// deburr figures: the papers' figures and tables, made anew.
+// `deburr figures`: reproduces the papers' figures and tables.
 #pragma once
 #include "raytracer/cli/commands.hpp"
 

@@ -30,7 +30,7 @@ std::size_t paper_index(const Figure& figure) {
     return i;
 }
 
-// Numbers by value, and before words: lobb-2, lobb-12, lobb-table-1.
+// Order of names: numbers by value, and before words: lobb-2, lobb-12, lobb-table-1.
 bool name_less(const std::string& a, const std::string& b) {
     const auto digit = [](char c) { return c >= '0' && c <= '9'; };
     std::size_t i = 0, j = 0;

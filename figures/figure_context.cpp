@@ -54,7 +54,7 @@ Film FigureContext::render(const Scene& scene, const RayTracer& tracer, const Fi
                                                                        PixelLayers* layers, TraceCounters& counters) {
             integrator.block(block, pixels, layers, counters);
         }).film;
-    // A figure shows the scene as its picture for the screen does.
+    // A figure shows the scene with the exposure of its pictures for the screen.
     for (Pixel& pixel : film.pixels) pixel.color *= std::exp2(scene.exposure);
     return film;
 }

@@ -1,4 +1,4 @@
-// What a figure's function works with: scenes, renderings, and places to put what comes of them.
+// The interface for functions that make figures: reading scenes, rendering, and adding results to the page.
 #pragma once
 #include <map>
 #include <string>
@@ -13,60 +13,63 @@ namespace deburr {
 struct Figure;
 struct Plot;
 
-/// Cells as text; they may hold Markdown, but no line ends.
+/// A table of texts, which may be Markdown but must not contain newlines.
 struct FigureTable {
     std::vector<std::string> head;
     std::vector<std::vector<std::string>> rows;
 };
 
-/// One thing on the page: a picture or a table.
+/// An item on the page: a picture or a table.
 struct FigureItem {
-    std::string file;                 // PNG, "" for a table
+    std::string file;                 // PNG; "": a table
     std::vector<std::string> others;  // the same in other formats
     std::string caption;
-    int width = 0;  // on the page, pixels
+    int width = 0;  // on the page, in pixels
     FigureTable table;
 };
 
+/// Everything that a figure's function has produced.
 struct FigureResult {
     std::vector<FigureItem> items;
     std::vector<std::string> measured;
-    int columns = 1;  // of pictures on the page
+    int columns = 1;  // pictures side by side on the page
 };
 
+/// Overrides of a scene's picture settings.
 struct FigurePictureSettings {
     int width = 0, height = 0;  // 0: the scene's
     int spp = 0;                // 0: the scene's
-    double noise = 0;           // > 0: samples until this little noise is left, 16 times `spp` at most
+    double noise = 0;           // > 0: noise bound, with at most 16 times `spp` samples
 };
 
+/// The context of one figure.
 class FigureContext {
 public:
-    /// Keeps references.
+    /// Keeps a reference to the figure. With `draft`, pictures are small and have few samples.
     FigureContext(const Figure& figure, std::string scene_folder, std::string output_folder, bool draft);
 
-    /// Reads a scene that the figure names.
+    /// Reads a scene, which must be one of the figure's `scenes`.
     Scene scene(const std::string& file, const std::map<std::string, std::string>& parameters = {}) const;
-    /// The implicit surfaces, or whatever `tracer` sees.
+    /// A picture of the scene's implicit surfaces, or of what `tracer` sees.
     Film render(const Scene& scene, const FigurePictureSettings& settings = {}) const;
     Film render(const Scene& scene, const RayTracer& tracer, const FigurePictureSettings& settings = {}) const;
 
-    /// Write NAME.png, or NAME-SUFFIX.png and, of a plot, also the .svg. Suffixes are a, b, c, … where
-    /// none is given and there are several pictures: call columns() first then.
+    /// Each of these writes NAME.png or NAME-SUFFIX.png (of a plot also .svg) and adds it to the page. Default suffixes
+    /// are a, b, c, …, if there are several pictures; in that case columns() must be called first.
     void picture(const Film& film, const std::string& caption = "", std::string suffix = "");
     void plot(const Plot& plot, const std::string& caption = "", std::string suffix = "");
-    /// A PNG's bytes, made by the caller; `width` in pixels.
+    /// A PNG that the caller has encoded; `width` in pixels.
     void picture_bytes(std::string_view png, int width, const std::string& caption = "", std::string suffix = "");
-    /// A file in another format, made by the caller: the bytes, and the extension with its dot. It
-    /// goes with the picture before it.
+    /// A file in another format that the caller has encoded, which belongs to the latest picture; `extension` includes
+    /// the dot.
     void also(const std::string& extension, std::string_view bytes);
     void table(FigureTable table);
-    /// A sentence with what this run found.
+    /// Adds a sentence with a result of this run.
     void measured(const std::string& sentence);
-    /// How many of the pictures stand side by side on the page.
+    /// Sets how many pictures stand side by side on the page.
     void columns(int n) { result_.columns = n; }
 
-    /// Quick and rough: fewer samples and smaller pictures.
+    /// Whether pictures are drafts: small, with few samples.
     bool draft() const { return draft_; }
     const FigureResult& result() const { return result_; }
 

@@ -31,7 +31,7 @@ std::string contents(const std::string& path) {
     return out.str();
 }
 
-// Its exit code; what it says goes to `log`.
+// Runs the program with its output in `log`; returns its exit code.
 int call(const std::vector<std::string>& words, const std::string& log) {
     std::vector<char*> argv;
     for (const std::string& word : words) argv.push_back(const_cast<char*>(word.c_str()));
@@ -49,12 +49,12 @@ int call(const std::vector<std::string>& words, const std::string& log) {
     int status = 0;
     while (waitpid(pid, &status, 0) < 0)
         if (errno != EINTR) throw WorkError(fmt::format("cannot wait for gnuplot: {}", std::strerror(errno)));
-    // A child that could not be started after all ends with 127.
+    // The exit code 127 means that the program could not be started.
     if (WIFEXITED(status) && WEXITSTATUS(status) == 127) throw UnsupportedError(absent);
     return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
 }
 
-// The first lines that say something, as one.
+// The first lines of a text, as one line.
 std::string first_words(const std::string& text) {
     std::istringstream in(text);
     std::string out;
@@ -72,11 +72,11 @@ std::string first_words(const std::string& text) {
 std::string run_gnuplot(const std::string& terminal, const std::string& script) {
     const TemporaryFolder folder;
     const std::string picture = folder / "picture", log = folder / "log", file = folder / "script";
-    std::string quoted;  // for gnuplot's single quotes
+    std::string quoted;  // escaped for gnuplot's single quotes
     for (const char c : picture) quoted += c == '\'' ? std::string("''") : std::string(1, c);
     std::ofstream(file, std::ios::binary) << terminal << "set output '" << quoted << "'\n"
                                           << script << "unset output\n";
-    // Without the user's own settings: the pictures are the same everywhere.
+    // -d ignores the user's own settings, so that pictures are the same everywhere.
     const int code = call({"gnuplot", "-d", file}, log);
     const std::string bytes = contents(picture);
     if (code != 0 || bytes.empty())

@@ -22,7 +22,7 @@ Mesh height_field(const std::function<double(Vec2)>& f, Vec2 lo, Vec2 hi, int co
     for (int j = 0; j < rows; ++j)
         for (int i = 0; i < columns; ++i) {
             const int a = index(i, j), b = index(i + 1, j), c = index(i + 1, j + 1), d = index(i, j + 1);
-            // A cell with a jump is flat, with a normal of its own for either half.
+            // A cell with a jump is flat, with its own normal for each half.
             const Vec3 &pa = mesh.positions[a], &pb = mesh.positions[b], &pc = mesh.positions[c],
                        &pd = mesh.positions[d];
             const double jump = std::max({pa.y, pb.y, pc.y, pd.y}) - std::min({pa.y, pb.y, pc.y, pd.y});
@@ -40,7 +40,7 @@ Mesh height_field(const std::function<double(Vec2)>& f, Vec2 lo, Vec2 hi, int co
                 add(a, c, d, a, c, d, 0);
             }
         }
-    // Sides and bottom.
+    // Adds the vertical sides and the bottom.
     const auto side = [&](int i0, int j0, int i1, int j1, Vec3 outward) {
         mesh.normals.push_back(outward);
         const int n = int(mesh.normals.size()) - 1;

@@ -6,7 +6,7 @@
 namespace deburr {
 namespace {
 
-// f″ = push for a time, then f‴s next: f and its slope from piece to piece.
+// A stretch of a motion with constant f″ = push, of duration `time`.
 struct Piece {
     double push, time;
 };
@@ -30,7 +30,7 @@ struct Motion {
     }
 };
 
-// The quickest way to rest at f = 0 under |f″| ≤ G [root_finder.cpp].
+// The fastest motion to f = 0 with f′ = 0 under |f″| ≤ G [root_finder.cpp].
 Motion quickest(double f, double slope, double G) {
     const double w = std::sqrt(G * f + 0.5 * slope * slope);
     Motion m{.f = f, .slope = slope};
@@ -67,7 +67,7 @@ void make(FigureContext& context) {
     context.columns(3);
     const RayBounds bounds{1, 1, 1};
 
-    // (a) The slope points to the root already.
+    // (a) The slope points towards the root.
     {
         const SegmentEnd end{0.45, -0.5};
         const double printed = lobb_turning_distance(end, bounds), exact = min_turning_distance(end, bounds);
@@ -84,13 +84,13 @@ void make(FigureContext& context) {
         context.plot(plot,
                      fmt::format("ρ₁ and ρ₁′ of different signs: at least {:.2f}, exactly {:.2f}", printed, exact));
     }
-    // (b) The slope points away: the turn-around.
+    // (b) The slope points away from it: the turn-around.
     {
         const SegmentEnd end{0.12, 0.7};
         const double printed = lobb_turning_distance(end, bounds), exact = min_turning_distance(end, bounds);
         const Vec2 y{-0.15, 0.6};
         Plot plot = panel("(b) away from the root", {0, 3}, y);
-        // Eq. 6 takes the density to come back to its value with the slope negated.
+        // Eq. 6 assumes that the density returns to its value with the opposite slope.
         Motion back{.f = end.f, .slope = end.slope};
         const double turn_around = 2 * end.slope / bounds.G;
         back.follow({{-bounds.G, turn_around}, {bounds.G, end.slope / bounds.G}});
@@ -110,7 +110,7 @@ void make(FigureContext& context) {
         context.plot(plot,
                      fmt::format("Of one sign: eq. 6 says {:.2f}, but braking early needs {:.2f}", printed, exact));
     }
-    // (c) A segment that eq. 6 accepts, with two roots: down to a lowest point in its middle, and back.
+    // (c) A segment with two roots that eq. 6 accepts: down to a lowest point in its middle, and back.
     double lowest = 0, length = 5.5;
     const SegmentEnd end{1e-12, 1};
     const bool printed_accepts = at_most_one_root(end, end, bounds, length, Criterion::lobb);

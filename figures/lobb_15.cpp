@@ -6,12 +6,12 @@
 namespace deburr {
 namespace {
 
-// How far the round between planes of radii r1 and r2 is from the quarter of an ellipse with these half axes,
-// which starts on the planes where they leave each other's filter; as a share of the axes.
+// The greatest distance of the rounding between planes with radii r1 and r2 from a quarter of an ellipse with these
+// semi-axes, which begins on the planes where they leave each other's filter; relative to the axes.
 double from_ellipse() {
     double most = 0;
     for (int i = 1; i < 200; ++i) {
-        // ρ1 ρ2 = ½, both in terms of α.
+        // ρ1 ρ2 = ½, both as functions of α.
         const double rho = 0.5 + 0.5 * i / 200;
         const double u = 1 + displacement(rho), v = 1 + displacement(0.5 / rho);
         most = std::max(most, std::abs(std::hypot(u, v) - 1));

@@ -5,7 +5,7 @@
 namespace deburr {
 namespace {
 
-// What of the polygon is within a convex outline [Sutherland & Hodgman 1974].
+// The part of the polygon inside a convex outline [Sutherland & Hodgman 1974].
 std::vector<Vec2> clipped(std::vector<Vec2> polygon, const std::vector<Vec2>& outline) {
     for (std::size_t k = 0; k + 1 < outline.size() && !polygon.empty(); ++k) {
         const Vec2 a = outline[k], along = outline[k + 1] - a;
@@ -21,7 +21,7 @@ std::vector<Vec2> clipped(std::vector<Vec2> polygon, const std::vector<Vec2>& ou
     return polygon;
 }
 
-// Outside positive.
+// The signed distance, positive outside.
 double distance(const std::vector<Vec2>& polygon, Vec2 x) {
     double least = infinity;
     bool inside = false;
@@ -56,7 +56,7 @@ void make(FigureContext& context) {
             in = std::max(in, -distance(polygon, x));
             ++points;
         }
-    // Circles where the outline comes nearest to these: corners, the notch and a side.
+    // Circles where the outline is nearest to these points: corners, the notch and a side.
     double uneven = 0;
     for (const Vec2 near : {polygon[1], polygon[3], polygon[5], polygon[0], Vec2(2.9, 0), Vec2(-0.2, 1.4)}) {
         Vec2 c = lines.at(0)[0];

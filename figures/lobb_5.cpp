@@ -6,7 +6,7 @@
 namespace deburr {
 namespace {
 
-constexpr int steps = 400;  // of a curve, to either side
+constexpr int steps = 400;  // of a curve, on either side
 
 double radians(double degrees) { return glm::radians(degrees); }
 
@@ -19,10 +19,10 @@ std::vector<Vec2> curve(const SectionCurve& y, double width) {
 Plot section(double degrees) {
     const RoundedEdge edge(radians(degrees));
     const double half = radians(degrees / 2), s = std::sin(half);
-    // As much of the planes as shows where they are left.
+    // The width of the picture: the part of the planes where the curves leave them.
     const double along = 1.25 * edge.quasi_reach(), width = along * s, bottom = edge.plane(width);
     Plot plot = drawing(400, 430);
-    // Square, and the section in its middle.
+    // A square picture with the section in its middle.
     const double center_y = -edge.exact_reach() / std::cos(half);
     const double lowest = std::min(bottom, center_y), size = std::max(2 * width, 0.12 - lowest) * 1.06;
     plot.x_range = Vec2(-size / 2, size / 2);
@@ -55,7 +55,7 @@ Plot section(double degrees) {
     plot.labels.push_back({.at = Vec2(-0.46, 0.43) * size + Vec2(0, 0.5 * (lowest + 0.1)),
                            .text = fmt::format("{:g}°", degrees),
                            .size = 15});
-    if (degrees == 30) {  // where there is room between the curves
+    if (degrees == 30) {  // only there is room between the curves
         const auto name = [&](double y, const char* text, const char* color) {
             plot.labels.push_back({.at = {0, y - 0.035 * size},
                                    .text = text,

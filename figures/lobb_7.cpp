@@ -9,7 +9,7 @@ namespace {
 
 constexpr double r = 0.34;
 
-// Seen along z, in which everything is the same.
+// A block, infinite along z, in which direction the picture is seen.
 Density block(double x0, double y0, double x1, double y1) {
     return Density::product({Density::half_space({-1, 0, 0}, -x0), Density::half_space({1, 0, 0}, x1),
                              Density::half_space({0, -1, 0}, -y0), Density::half_space({0, 1, 0}, y1)});
@@ -24,7 +24,7 @@ double length_of(const std::vector<Span>& spans) {
 }
 
 void make(FigureContext& context) {
-    // A block with a slot, and beside it a wedge: a legal difference and a legal sum.
+    // A block with a slot and a wedge beside it: a legal difference and a legal sum.
     const Density wedge = Density::half_space({0.35, 1, 0}, 0.35 * 5.1 + 1.75) * block(4.6, 0, 6.1, 4);
     const DensityTree tree = flatten(block(0, 0, 3.6, 2.3) - block(1.2, 0.8, 2.2, 2.3) + wedge, r);
     const LocalDensity density(tree);
@@ -67,7 +67,7 @@ void make(FigureContext& context) {
         plot.curves.push_back({.points = {at(s.lo), at(s.hi)}, .color = house::amber, .width = 6});
     plot.arrows.push_back({.from = start, .to = end, .color = house::ink, .width = 1.6});
 
-    // The ray's state, from outside (low) to inside (high).
+    // Draws the ray's state, from outside (low) to inside (high).
     const auto state = [&](double base, const std::vector<Span>& inside, const std::string& name, const char* color) {
         std::vector<Vec2> points{{at(0).x, base}};
         for (const Span& s : inside)

@@ -12,7 +12,7 @@
 namespace deburr {
 namespace {
 
-// One ray through each pixel's centre, as in the paper.
+// Traces one ray through each pixel's center, as in the paper.
 void trace(const Scene& scene, const RayTracer& tracer) {
     const Integrator integrator(scene, tracer, {scene.width, scene.height, 1, 0});
     const Window window{0, 0, scene.width, scene.height};
@@ -26,7 +26,7 @@ void trace(const Scene& scene, const RayTracer& tracer) {
 void make(FigureContext& context) {
     struct Row {
         const char *scene, *parameter, *figure;
-        double paper;  // minutes with rounding / without
+        double paper;  // the paper's minutes with rounding over those without
     };
     const std::vector<Row> rows = {{"csg_examples.lua", "r", "12, CSG examples", 55.0 / 45},
                                    {"variable_rounding.lua", "softness", "13, variable rounding", 105.0 / 20},

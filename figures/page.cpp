@@ -8,7 +8,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// As wide as a page of text is on screens that people read on.
+// Width of the text on the page, in pixels.
 constexpr int page_width = 880;
 
 std::string image(const FigureItem& item, int width) {
@@ -33,7 +33,7 @@ std::string rule(std::size_t columns, const char* how) {
 }
 
 std::string table_of(const FigureTable& table) {
-    // Names to the left, numbers to the right.
+    // Names are aligned to the left, numbers to the right.
     std::string out = row(table.head) + "|---|";
     for (std::size_t i = 1; i < table.head.size(); ++i) out += "--:|";
     out += "\n";
@@ -41,7 +41,7 @@ std::string table_of(const FigureTable& table) {
     return out + "\n";
 }
 
-// Neighbouring pictures in rows.
+// The items of a figure in Markdown; neighbouring pictures form rows.
 std::string items_of(const FigureResult& result) {
     std::string out;
     for (std::size_t i = 0; i < result.items.size();) {

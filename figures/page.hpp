@@ -1,5 +1,4 @@
-// The page that shows an album's figures, in Markdown: what each shows, what the paper claims of it,
-// and what was measured.
+// The page of an album in Markdown: what each figure shows, what the paper claims, and what was measured.
 #pragma once
 #include <string>
 #include <vector>
@@ -8,12 +7,13 @@
 
 namespace deburr {
 
+/// A figure on the page.
 struct ShownFigure {
     const Figure* figure;
     const FigureResult* result;
 };
 
-/// `folder` is where the page will be, for the links to scenes.
+/// The text of the page; `folder` is where it will be, for links to scenes.
 std::string page_of(const std::vector<ShownFigure>& figures, const std::string& folder,
                     const std::string& scene_folder);
 

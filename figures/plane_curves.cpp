@@ -9,7 +9,7 @@
 namespace deburr {
 namespace {
 
-// Where f, of different signs at the ends, is 0; by bisection to the last digit.
+// The point between a and b, at which f − level has different signs, where f = level; by bisection to the last digit.
 Vec2 root(const std::function<double(Vec2)>& f, double level, Vec2 a, Vec2 b) {
     const bool above = f(a) > level;
     for (int k = 0; k < 60; ++k) {
@@ -19,7 +19,7 @@ Vec2 root(const std::function<double(Vec2)>& f, double level, Vec2 a, Vec2 b) {
     return 0.5 * (a + b);
 }
 
-// The signed area of the part of the triangle (0, a, b) within the circle about 0.
+// The signed area of the part of the triangle (0, a, b) inside the circle around 0.
 double triangle_in_disc(Vec2 a, Vec2 b, double r) {
     const Vec2 d = b - a;
     const double dd = glm::dot(d, d), ad = glm::dot(a, d), disc = ad * ad - dd * (glm::dot(a, a) - r * r);
@@ -54,18 +54,19 @@ std::vector<std::vector<Vec2>> level_lines(const std::function<double(Vec2)>& f,
         for (int i = 0; i <= columns; ++i)
             above[std::size_t(j) * std::size_t(columns + 1) + std::size_t(i)] = f(corner(i, j)) > level;
 
-    // A grid line's number: 2·corner for the one to the right, + 1 for the one upwards.
+    // Number of a grid line's segment: 2·corner for the one to the right of a corner, + 1 for the one upward.
     const auto edge = [&](int i, int j, int upwards) { return 2 * (j * (columns + 1) + i) + upwards; };
     std::map<int, std::vector<int>> joined;
     for (int j = 0; j < rows; ++j)
         for (int i = 0; i < columns; ++i) {
-            // Around the cell, from the lower left corner.
+            // The corners of the cell, counter-clockwise from the lower left.
             const bool s[4] = {is_above(i, j), is_above(i + 1, j), is_above(i + 1, j + 1), is_above(i, j + 1)};
             const int e[4] = {edge(i, j, 0), edge(i + 1, j, 1), edge(i, j + 1, 0), edge(i, j, 1)};
             std::vector<int> cut;
             for (int k = 0; k < 4; ++k)
                 if (s[k] != s[(k + 1) % 4]) cut.push_back(e[k]);
-            // Four: the corners that the middle belongs to are joined, the others cut off one by one.
+            // With four intersections, the two corners on the same side as the middle are connected, and the others cut
+            // off.
             if (cut.size() == 4 && (f(corner(i, j) + 0.5 * step) > level) != s[0])
                 std::rotate(cut.begin(), cut.begin() + 3, cut.end());
             for (std::size_t k = 0; k + 1 < cut.size(); k += 2) {

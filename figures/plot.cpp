@@ -11,7 +11,7 @@
 namespace deburr {
 namespace {
 
-// In gnuplot's single quotes nothing but a quote is special, and no line may end.
+// The text in gnuplot's single quotes, in which only a quote is special and no newline is allowed.
 std::string quoted(const std::string& text) {
     std::string out = "'";
     for (const char c : text) {
@@ -23,7 +23,7 @@ std::string quoted(const std::string& text) {
     return out + "'";
 }
 
-// gnuplot spoils areas that reach beyond the ranges [Sutherland & Hodgman 1974].
+// Clips a polygon to the plot's ranges, since gnuplot draws areas beyond them wrongly [Sutherland & Hodgman 1974].
 std::vector<Vec2> clipped(std::vector<Vec2> polygon, const Plot& plot) {
     for (int side = 0; side < 4; ++side) {
         const int k = side / 2;
@@ -39,7 +39,7 @@ std::vector<Vec2> clipped(std::vector<Vec2> polygon, const Plot& plot) {
         }
         polygon = std::move(kept);
     }
-    if (!polygon.empty()) polygon.push_back(polygon.front());  // or one side has no outline
+    if (!polygon.empty()) polygon.push_back(polygon.front());  // otherwise one side would have no outline
     return polygon;
 }
 
@@ -79,7 +79,7 @@ std::string script_of(const PlotField& f) {
     }
     out += "EOD\n";
     out += fmt::format("set cbrange [{}:{}]\n", f.least, f.greatest);
-    // From paper to deep blue: light for empty space, even in lightness.
+    // From white (empty space) to deep blue, with even steps of lightness.
     out += "set palette defined (0 '#ffffff', 0.25 '#d3e2ef', 0.5 '#8fb8d9', 0.75 '#4c86bd', 1 '#1f4e84')\n";
     if (f.label.empty())
         out += "unset colorbox\n";
@@ -147,7 +147,7 @@ std::string gnuplot_script(const Plot& p) {
             parts.push_back(fmt::format("$contours using 1:2 with lines linecolor rgb {} linewidth 2 notitle",
                                         quoted(p.field->contour_color)));
     }
-    // After the contours' table, which has no use for ranges.
+    // After the table of contours, which must not be clipped by the ranges.
     if (p.x_range) s += fmt::format("set xrange [{:.10g}:{:.10g}]\n", p.x_range->x, p.x_range->y);
     if (p.y_range) s += fmt::format("set yrange [{:.10g}:{:.10g}]\n", p.y_range->x, p.y_range->y);
     for (std::size_t i = 0; i < p.curves.size(); ++i) {

@@ -1,4 +1,4 @@
-// A scene's mesh as the Triage paper shows it: (a) as a wire frame, (b) Gouraud shaded.
+// Pictures of a scene's mesh as in the Triage paper: (a) as a wire frame, (b) Gouraud shaded.
 #pragma once
 #include "figures/figure_context.hpp"
 #include "raytracer/mesh/scene_mesh.hpp"
@@ -6,26 +6,26 @@
 
 namespace deburr {
 
-/// The scene without solids that reach to infinity: a floor is no part of the object.
+/// The scene without unbounded solids, such as floors.
 Scene bounded_part(Scene scene);
 
+/// How a wire frame is drawn.
 struct WirePicture {
     int width = 0, height = 0;  // 0: the scene's
     EdgeChoice edges = EdgeChoice::polygons;
     WireMode mode = WireMode::visible;
-    double line_width = 0.9;
+    double line_width = 0.9;  // pixels
 };
 
-/// Black lines on white paper. `mesh` is that of a scene, or of some of its solids.
+/// Black lines on white. `mesh` is that of the scene or of some of its solids.
 Film wire_picture(const FigureContext& context, const Scene& scene, const Mesh& mesh,
                   const WirePicture& appearance = {});
 
-/// The whole scene's mesh, made with these settings, under the scene's own light.
+/// The mesh of the whole scene, made with these settings, under the scene's own light.
 Film gouraud_picture(const FigureContext& context, const Scene& scene, MeshSettings settings,
                      const FigurePictureSettings& picture);
 
-/// The scene with its camera turned to `target` and the picture filled by about `size` there: for
-/// enlargements.
+/// The scene with its camera turned to `target`, so that about `size` (a scene length) fills the picture.
 Scene enlarged(Scene scene, Vec3 target, double size);
 
 }  // namespace deburr

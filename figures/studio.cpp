@@ -7,7 +7,7 @@
 namespace deburr {
 namespace {
 
-// The room's light, from all around, and the lamp's, from behind the viewer's left shoulder.
+// Radiance of the room from all around, and irradiance of the lamp behind the viewer's left shoulder.
 constexpr double room = 0.42, lamp = 1.7;
 
 Scene studio_scene(const std::vector<Vec3>& colors, const Camera& camera, double gloss) {
@@ -50,8 +50,7 @@ Camera framing(const Box& box, Vec3 direction, int width, int height, double fov
     camera.fov = fov;
     const Vec3 away = glm::normalize(direction);
     double distance = glm::length(box.hi - box.lo);
-    // As near as the eight corners allow, with a margin; and the same again where perspective has
-    // changed.
+    // As near as the projections of the eight corners allow, with a margin; iterated, since perspective changes.
     for (int pass = 0; pass < 16; ++pass) {
         camera.eye = camera.target + distance * away;
         const PinholeCamera pinhole(camera, width, height);
@@ -65,7 +64,7 @@ Camera framing(const Box& box, Vec3 direction, int width, int height, double fov
         const Vec2 size = (hi - lo) / Vec2(width, height);
         constexpr double fill = 0.94;
         const double much = std::max(size.x, size.y) / fill;
-        // Moves the middle of what is seen to the picture's.
+        // Moves the middle of the projected box to the picture's.
         const Vec2 off = 0.5 * (lo + hi) - 0.5 * Vec2(width, height);
         const Vec3 right = glm::normalize(glm::cross(-away, camera.up)), above = glm::cross(right, -away);
         const double pixel = 2 * std::tan(fov * (std::numbers::pi / 360)) / height * distance;
@@ -89,7 +88,7 @@ Film mesh_picture(const FigureContext& context, const Mesh& mesh, const std::vec
         const Scene scene = studio_scene(colors, camera, appearance.gloss);
         film = context.render(scene, tracer,
                               {.width = appearance.width, .height = appearance.height, .spp = appearance.spp});
-        // The room is dimmer than paper.
+        // The room is dimmer than the paper, so the background is made white.
         for (Pixel& p : film.pixels) p.color += (1 - p.alpha) * (Vec3(1.0) - scene.background.color);
     }
     if (appearance.lines)

@@ -28,7 +28,7 @@ void make(FigureContext& context) {
             worst = std::max(worst, std::abs(share(x) - 0.5));
             ++points;
         }
-    // The test volume on the outline, where it is farthest from a corner's own place.
+    // The test disc at three points of the outline.
     for (const double at : {0.13, 0.42, 0.73}) {
         const Vec2 x = lines.at(0)[at * double(lines[0].size())];
         plot.curves.push_back({.points = circle(x, r), .color = house::red, .width = 1.4});

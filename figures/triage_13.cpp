@@ -11,7 +11,7 @@ namespace {
 
 using On = CellDrawing::Point::On;
 
-// The corner of a block, r = 1, cut askew, so that edges and not corners of the cell are met.
+// The corner of a block with r = 1, cut obliquely, so that the surface meets edges of the cell and no corners.
 CellDrawing corner_cell() {
     const Vec3 normal = glm::normalize(Vec3(0.75, 0.55, -0.9));
     return CellDrawing(Solid::rounded(1, Density::box(Vec3(-4), Vec3(0))), Vec3(-0.4, -0.45, -0.5),
@@ -47,7 +47,7 @@ void add_faces(Plot& plot, const CellDrawing& cell, const std::vector<std::vecto
 void four_steps(FigureContext& context) {
     context.columns(4);
     const CellDrawing cell = corner_cell();
-    std::vector<Vec3> coarse;  // the loop before its edges are refined
+    std::vector<Vec3> coarse;  // the polygon before its edges are refined
     for (const int p : cell.loop())
         if (cell.points()[p].on == On::edge) coarse.push_back(cell.points()[p].x);
     constexpr int width = 330, height = 330;
@@ -79,7 +79,7 @@ void four_steps(FigureContext& context) {
         std::max(worst, 1e-16)));
 }
 
-// The face of the cell, as a plane figure, in which the polygon's edge is refined most.
+// Draws the face of the cell in which the polygon's edge is refined most, as a plane figure.
 void refinement(FigureContext& context) {
     context.columns(3);
     const CellDrawing cell = corner_cell();
@@ -102,7 +102,7 @@ void refinement(FigureContext& context) {
         for (const Vec3 x : {a, b, refined}) far = std::max(far, std::abs(glm::dot(n, x - w[0])));
         if (far < 1e-7) wall = &w, normal = n;
     }
-    // The face's own axes: x along the polygon's edge.
+    // Axes in the face: x along the polygon's edge.
     const Vec3 u = glm::normalize(b - a), v = glm::cross(normal, u);
     const auto flat = [&](Vec3 x) { return Vec2(glm::dot(x - middle, u), glm::dot(x - middle, v)); };
     const auto space = [&](Vec2 p) { return middle + p.x * u + p.y * v; };
@@ -113,7 +113,7 @@ void refinement(FigureContext& context) {
         lo = glm::min(lo, face.back());
         hi = glm::max(hi, face.back());
     }
-    // ∇ρ in p_mid, projected into the face: where its line leaves the face are s_start and s_end.
+    // ∇ρ at p_mid, projected into the face; its line leaves the face at s_start and s_end.
     const Vec3 gradient = cell.density().gradient_at(middle).gradient;
     const Vec2 g = glm::normalize(Vec2(glm::dot(gradient, u), glm::dot(gradient, v)));
     double t0 = -infinity, t1 = infinity;
@@ -203,7 +203,7 @@ void two_half_spaces(FigureContext& context) {
     a.curves.push_back(cell.line(closed(loop), house::blue, 2));
     a.curves.push_back(cell.dots(loop, house::red));
 
-    // The general method: a fan about the centroid, moved along the gradient onto the isosurface.
+    // The general method: a fan around the centroid, moved along the gradient onto the isosurface.
     Vec3 center(0.0);
     for (const Vec3& x : loop) center += x / double(loop.size());
     const LocalDensity local(cell.density());

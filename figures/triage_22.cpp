@@ -7,7 +7,7 @@
 namespace deburr {
 namespace {
 
-// Each object's grid is half of its own radius.
+// Marching cubes with a grid of half of each object's own radius.
 SceneMesh cubes(const Scene& scene) {
     SceneMesh all;
     for (std::size_t i = 0; i < scene.solids.size(); ++i) {
@@ -34,7 +34,7 @@ void make(FigureContext& context) {
     context.picture(wire(triage.mesh, EdgeChoice::polygons, 0.8), "(a) Triage, wire frame");
     context.picture(gouraud_picture(context, scene, {}, size), "(a) Triage, Gouraud shaded");
     context.picture(wire(marching.mesh, EdgeChoice::triangles, 0.3), "(b) marching cubes, wire frame");
-    // The floor is the same for both.
+    // The floor is the same in both pictures.
     Scene ground = scene;
     ground.solids = {scene.solids.at(0)};
     SceneMesh with_floor = mesh_scene(ground, {.reach = rendering_reach});

@@ -15,7 +15,7 @@ const Vec2 lo(-2.2, -2.2), hi(1.4, 1.4);
 double sharp(Vec2 x) { return x.x < 0 && x.y < 0 ? 1 : 0; }
 double smooth(Vec2 x) { return profile(x.x / radius) * profile(x.y / radius); }
 
-// Lines of the grid, as one draws a surface by hand, and the isosurface in black.
+// The density's graph with grid lines, and the isosurface in black.
 Film picture(const FigureContext& context, const std::function<double(Vec2)>& f,
              const std::vector<std::vector<Vec2>>& level) {
     const Mesh mesh = height_field(f, lo, hi, 360, 360, height);

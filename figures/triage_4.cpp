@@ -10,10 +10,10 @@
 namespace deburr {
 namespace {
 
-// Which of the scene's objects.
+// Index of the object among the scene's solids.
 constexpr std::size_t pitted_cube = 4;
 
-// The box that ρ > 0 fills, as the paper's bounding polyhedron of the outer planes.
+// The box around ρ > 0, which stands for the paper's bounding polyhedron of the outer planes.
 Box support_of(const SolidTree& solid) {
     const DensityTree& density = solid.leaves.at(0).density;
     const int support = density.nodes.back().support;
@@ -36,7 +36,7 @@ Mesh cells_of(const Subdivision& s, const DensityTree& density, std::initializer
     return mesh;
 }
 
-// The triangles that lie on planes, or those that do not.
+// The triangles that lie on planes, or the others.
 Mesh part_of(const Mesh& mesh, const std::vector<Origin>& origins, bool on_planes) {
     Mesh part = mesh;
     part.triangles.clear();

@@ -30,19 +30,19 @@ const char* color_of(DensityClass c) {
 }
 
 void make(FigureContext& context) {
-    // H1: x ≤ 0 with r1; H2 leans, so that it is no drawing of squares.
+    // H1: x ≤ 0 with radius r1; H2 leans, so that the regions are no squares.
     constexpr double r1 = 1, r2 = 0.65, angle = 1.25;
     const Vec2 n1(1, 0), n2(std::cos(angle), std::sin(angle));
     const auto rho = [&](Vec2 x) { return profile(glm::dot(n1, x) / r1) * profile(glm::dot(n2, x) / r2); };
     const Vec2 lo(-2.6, -2.1), hi(2.4, 2.0);
-    // Where two planes at signed distances d1, d2 meet.
+    // The point at signed distances d1 and d2 from the planes.
     const auto meet = [&](double d1, double d2) { return Vec2(d1, (d2 - n2.x * d1) / n2.y); };
 
     Plot plot = drawing(640, 520);
     plot.x_range = Vec2(lo.x, hi.x);
     plot.y_range = Vec2(lo.y, hi.y + 0.25);
 
-    // The four intervals of either half-space, from inside; the outermost reach beyond the picture.
+    // The four intervals of each half-space, from inside; the outermost ones reach beyond the picture.
     const double far = 8;
     const std::array<double, 5> a = {-far, -r1, 0, r1, far}, b = {-far, -r2, 0, r2, far};
     const std::array<DensityClass, 4> classes = {DensityClass::one, DensityClass::high, DensityClass::low,
@@ -57,7 +57,7 @@ void make(FigureContext& context) {
             std::vector<Vec2> corners = {meet(a[i], b[j]), meet(a[i + 1], b[j]), meet(a[i + 1], b[j + 1]),
                                          meet(a[i], b[j + 1])};
             plot.curves.push_back({.points = corners, .color = color_of(c), .kind = Curve::Kind::fill, .width = 0});
-            // The class must hold what the density is.
+            // Counts places where the density is not in the region's class.
             for (int u = 1; u < 20; ++u)
                 for (int v = 1; v < 20; ++v) {
                     const double value =
@@ -66,7 +66,7 @@ void make(FigureContext& context) {
                              : c == DensityClass::high ? value < 0.5
                                                        : c == DensityClass::zero && value > 0;
                 }
-            // A name where the region is seen.
+            // The label is at the middle of the visible part of the region.
             Vec2 middle(0.0);
             int inside = 0;
             for (int u = 0; u < 60; ++u)
@@ -79,7 +79,7 @@ void make(FigureContext& context) {
                 }
             if (inside == 0) continue;
             Vec2 at = middle / double(inside);
-            if (c == DensityClass::unclassified) at -= Vec2(0.14, 0.1);  // off the curve
+            if (c == DensityClass::unclassified) at -= Vec2(0.14, 0.1);  // away from the curve
             plot.labels.push_back({.at = at, .text = name_of(c), .align = Label::Align::center, .size = 9.5});
             if (i == 2 && j == 1)
                 plot.labels.push_back(

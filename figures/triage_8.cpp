@@ -1,5 +1,5 @@
-// Triage, figure 8: from a CSG object with a rounding radius to a classified density field. In the
-// plane: prisms without ends.
+// Triage, figure 8: from a CSG object with a rounding radius to a classified density field, in the plane: the objects
+// are infinite prisms.
 #include "figures/figure.hpp"
 #include "figures/plane_curves.hpp"
 #include "polygonizer/triage/cell_mesh.hpp"
@@ -45,10 +45,10 @@ void outline(Plot& plot, const Block& block, const char* color, double width, co
     plot.curves.push_back({.points = line, .color = color, .width = width, .dash = dash});
 }
 
-// The planes of a block and their parallels at ±r.
+// The planes of a block, and their parallels at ±r.
 std::vector<double> planes(double a, double b) { return {a - r, a, a + r, b - r, b, b + r}; }
 
-// Table 1 in every region between the planes.
+// Adds every region between the planes with its class from table 1.
 void add_regions(Plot& plot, const Block& block) {
     const std::vector<double> x = planes(block.lo.x, block.hi.x), y = planes(block.lo.y, block.hi.y);
     const std::vector<DensityClass> across = {DensityClass::low, DensityClass::high, DensityClass::one,
@@ -61,7 +61,7 @@ void add_regions(Plot& plot, const Block& block) {
                                    .width = 0.8});
 }
 
-// The cells' corners at the front, as they are seen along z.
+// The corners of the cell's front face, as seen along z.
 std::vector<Vec2> front_of(const CellComplex& complex, int cell) {
     std::vector<Vec2> corners;
     for (const int f : complex.cells[std::size_t(cell)]) {
@@ -76,7 +76,7 @@ std::vector<Vec2> front_of(const CellComplex& complex, int cell) {
     return corners;
 }
 
-// The tree, leaves from left to right, in class colours.
+// The subdivision tree with its leaves from left to right, in class colours.
 Plot tree_of(const Subdivision& s, const std::vector<DensityClass>& classes) {
     std::vector<std::vector<int>> children(s.nodes.size());
     for (std::size_t p = 1; p < s.nodes.size(); ++p) children[std::size_t(s.nodes[p].parent)].push_back(int(p));

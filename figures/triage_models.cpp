@@ -5,7 +5,7 @@
 namespace deburr {
 namespace {
 
-// The object, without the ground it stands on: the first finite solid, or all of them.
+// The object without the ground: the first bounded solid, or all of them.
 Scene object_of(const Scene& scene, bool only_first) {
     Scene object = bounded_part(scene);
     if (only_first) object.solids = {object.solids.at(0)};
@@ -21,7 +21,7 @@ std::string count(const SceneMesh& mesh) {
 const FigurePictureSettings whole{.width = 720, .height = 456, .spp = 96, .noise = 0.01};
 const FigurePictureSettings detail{.width = 420, .height = 300, .spp = 96, .noise = 0.01};
 
-// (a) and (b) of a scene.
+// Adds pictures (a) and (b) of a scene.
 void pair(FigureContext& context, const Scene& scene, const Mesh& lines, const FigurePictureSettings& size,
           const std::string& what) {
     context.picture(wire_picture(context, scene, lines, {.width = size.width, .height = size.height}), "(a) " + what);
@@ -51,7 +51,7 @@ void stapler(FigureContext& context, const char* show) {
     context.measured(fmt::format("{}.", count(mesh)));
 }
 
-// Triangles all of whose corners are within `reach` of x.
+// The number of triangles all of whose corners are within `reach` of x.
 std::size_t triangles_near(const Mesh& mesh, Vec3 x, double reach) {
     std::size_t n = 0;
     for (const Triangle& t : mesh.triangles) {
@@ -69,7 +69,7 @@ void csg_example(FigureContext& context) {
     const Scene objects = object_of(scene, false);
     const SceneMesh mesh = mesh_scene(objects, {});
     pair(context, scene, mesh.mesh, whole, "the six objects");
-    // The scene's own places: object i stands in column (i − 1) mod 3 and row (i − 1) div 3.
+    // As in the scene: object i is in column (i − 1) mod 3 and row (i − 1) div 3.
     const auto corner_of = [](int i) {
         return Vec3(1.8 * ((i - 1) % 3 - 1) - 0.5, 0, 2.1 * ((i - 1) / 3 - 0.5) - 0.5);
     };

@@ -9,7 +9,7 @@ namespace deburr {
 namespace {
 
 void make(FigureContext& context) {
-    // Each frame's radius is this many times the last one's.
+    // The first radius, and its growth from frame to frame.
     constexpr double first = 0.02, factor = 1.15;
     constexpr int max_frames = 60;
     const FigurePictureSettings size{.width = 240, .height = 300, .spp = 16};
@@ -32,7 +32,7 @@ void make(FigureContext& context) {
     context.columns(4);
     context.picture_bytes(animated_png(frames, 0.12), frames.at(0).width,
                           fmt::format("animated: {} frames", frames.size()));
-    // Seven of them, evenly from sharp to gone.
+    // Seven frames, evenly from sharp to vanished.
     for (int k = 0; k < 7; ++k) {
         const std::size_t i = std::size_t(std::lround(k * double(frames.size() - 2) / 6));
         context.picture(frames[i], fmt::format("r = {:.2f}", radii[i]));

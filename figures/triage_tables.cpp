@@ -1,5 +1,4 @@
-// Triage §6.2 and §6.3: time, polygons and distance against marching cubes; growth with the number
-// of half-spaces.
+// Triage §6.2 and §6.3: time, polygons and distance against marching cubes; growth with the number of half-spaces.
 #include "figures/figure.hpp"
 #include "figures/plot.hpp"
 #include "polygonizer/marching_cubes/marching_cubes.hpp"
@@ -10,7 +9,7 @@
 namespace deburr {
 namespace {
 
-// Two digits where there are two.
+// A factor: a whole number from 10 on, with one decimal below.
 std::string times(double x) { return x >= 10 ? fmt::format("{:.0f}", x) : fmt::format("{:.1f}", x); }
 
 void against_marching_cubes(FigureContext& context) {
@@ -70,7 +69,7 @@ void against_marching_cubes(FigureContext& context) {
                                      : std::string("Marching cubes does not win up to a quarter of the object.")));
 }
 
-// Rounded boxes on a cubic grid, six half-spaces each, as one Boolean density.
+// Rounded boxes of six half-spaces each on a cubic grid, as one Boolean density.
 SolidTree boxes(int count) {
     const int side = int(std::ceil(std::cbrt(count) - 1e-9));
     const auto box = [&](int k) {
@@ -98,7 +97,7 @@ void growth(FigureContext& context) {
         table.rows.push_back({fmt::format("{:g}", n), fmt::format("{}", triangles),
                               fmt::format("{:.2f}", 1e3 * seconds), fmt::format("{:.0f}", 1e6 * seconds / n)});
     }
-    // Least squares of log t = log c + p log n.
+    // Least squares for log t = log c + p log n.
     double sx = 0, sy = 0, sxx = 0, sxy = 0;
     const double m = double(measured.points.size());
     for (const Vec2& p : measured.points) {

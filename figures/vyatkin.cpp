@@ -15,7 +15,7 @@ double size_of(const Scene& scene) {
     return largest(box.hi - box.lo);
 }
 
-// As near to as many triangles as the octree comes, and no more.
+// An octree mesh with at most this many triangles, as near to that as possible.
 Mesh mesh_of(const Scene& scene, std::size_t triangles) {
     return mesh_scene_with_faces(bounded_part(scene), {.method = MeshMethod::octree}, triangles).mesh;
 }
@@ -36,7 +36,7 @@ Film shaded(const FigureContext& context, const Scene& scene, const Mesh& mesh, 
     return context.render(scene, MeshTracer(all.mesh, all.near), size);
 }
 
-// The vertices that are seen, as dots.
+// The visible vertices as dots.
 Film cloud(const FigureContext& context, const Scene& scene, const Mesh& mesh, int width, int height) {
     const int shrink = context.draft() ? 2 : 1;
     width /= shrink, height /= shrink;

@@ -214,8 +214,7 @@ void print(const Json& j) {
 int run_info(const InfoOptions& o) {
     const Scene scene = load_scene(o);
     const Json description = describe(scene, picture_size(o, scene));
-    if (o.json)
-        // printable ASCII, so nothing must be escaped for terminals
+    if (o.json)  // in ASCII, so that nothing must be escaped for terminals
         fmt::print("{}\n", description.dump(2, ' ', true, Json::error_handler_t::replace));
     else
         print(description);

@@ -35,10 +35,9 @@ std::string with_name(std::string pattern, const std::string& name) {
     return pattern;
 }
 
-// Rotates by a quarter turn about the x axis, from y up to z up or back.
+// Rotates by a quarter turn about the x axis, from y up to z up or back; 0.0 - x makes no −0.
 void turn(Mesh& mesh, UpAxis to) {
     for (std::vector<Vec3>* vectors : {&mesh.positions, &mesh.normals})
-        // avoids −0
         for (Vec3& v : *vectors) v = to == UpAxis::z ? Vec3(v.x, 0.0 - v.z, v.y) : Vec3(v.x, v.z, 0.0 - v.y);
 }
 
