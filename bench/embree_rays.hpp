@@ -30,6 +30,7 @@ public:
     void ask(const EmbreeMesh& mesh) const;
 
 private:
+    // A packet of 16 rays and the lanes that are used.
     template <class Rays>
     struct Packet {
         alignas(64) int valid[16];

@@ -1,4 +1,4 @@
-// How the cost of a ray grows with the number of objects, and with the half-spaces of one object.
+// Growth of the cost of a ray with the number of objects, and with the half-spaces of one object.
 #include <fmt/format.h>
 #include <malloc.h>
 

@@ -16,7 +16,7 @@ constexpr int rounds = 7;
 constexpr int rounds_of_hits = 51;  // each takes some 10 ms
 constexpr int patch = 4;            // side in pixels of patches whose rays follow each other, as in a picture
 
-// How fast camera rays find the exact hit on Lobb's obj4 alone, for the rays that meet it.
+// The time in which camera rays find the exact hit on Lobb's obj4 alone, for the rays that meet it.
 void primary_hits(Report& report) {
     Scene scene = scene_of("first");
     scene.solids.pop_back();  // removes the ground

@@ -16,7 +16,7 @@ struct Bar {
 
     /// Whether the figure x meets the limit.
     bool reached(double x) const { return is == Is::at_most ? x <= value : x >= value; }
-    /// By which factor x is better than the limit; below 1: not met.
+    /// The factor by which x is better than the limit; below 1: not met.
     double margin(double x) const { return is == Is::at_most ? value / x : x / value; }
 };
 

@@ -32,6 +32,7 @@ public:
     const std::string& folder() const { return folder_; }
 
 private:
+    // The record of one figure.
     struct Entry {
         std::string fingerprint;
         FigureResult result;

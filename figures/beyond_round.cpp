@@ -53,7 +53,7 @@ double share(const Surface& s, double distance, double r) {
     return volume / (4 * pi / 3 * r * r * r);
 }
 
-// Where the share is ½, in radii; negative: inward.
+// The distance from the surface at which the share is ½, in radii; negative: inward.
 double shift(const Surface& s, double r) {
     double in = -0.6, out = 0.6;
     constexpr int halvings = 16;

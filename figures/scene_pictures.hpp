@@ -9,7 +9,7 @@ namespace deburr {
 /// The scene without unbounded solids, such as floors.
 Scene bounded_part(Scene scene);
 
-/// How a wire frame is drawn.
+/// The appearance of a wire frame.
 struct WirePicture {
     int width = 0, height = 0;  // 0: the scene's
     EdgeChoice edges = EdgeChoice::polygons;

@@ -9,7 +9,7 @@ namespace deburr {
 
 enum class Shading { none, flat, smooth };  // none: white like paper
 
-/// How a mesh is shown.
+/// The appearance of a mesh in a picture.
 struct MeshAppearance {
     int width = 380, height = 380;
     Shading shading = Shading::smooth;

@@ -47,6 +47,7 @@ public:
 
     private:
         friend class Bvh8;
+        // A subtree, or a single item.
         struct Part {
             Box box;
             int a, b;  // children; b < 0: an item, whose number is a

@@ -17,6 +17,7 @@ struct NumberedBox {
     Box box;  // finite, not empty
 };
 
+/// A BVH over numbered boxes. Queries are thread-safe.
 class EmbreeBvh {
 public:
     /// Throws UnsupportedError if Embree cannot be loaded, WorkError if it does not start or runs out of memory.
@@ -25,6 +26,7 @@ public:
     EmbreeBvh& operator=(EmbreeBvh&&) noexcept;
     ~EmbreeBvh();
 
+    /// Whether boxes are visited roughly by distance, or in any order, which is faster.
     enum class Order { nearest_first, any };
     /// Calls visit(number) for the boxes that the ray may meet in [t0, t1], as Bvh8::visit does. visit() returns the
     /// distance up to which the search goes on; a negative one ends it.

@@ -254,7 +254,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// The same for all paths of one file: its device and inode if it exists, else its canonical path.
+// An identity that is the same for all paths of one file: its device and inode if it exists, else its canonical path.
 std::string identity(const std::string& path) {
     struct stat status {};
     if (stat(path.c_str(), &status) == 0) return fmt::format("{}:{}", status.st_dev, status.st_ino);

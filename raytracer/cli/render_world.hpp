@@ -1,4 +1,4 @@
-// What `deburr render` traces rays in, built from its options.
+// The scene, tracer and integrator of `deburr render`, built from its options.
 #pragma once
 #include <memory>
 #include <optional>

@@ -5,7 +5,7 @@
 
 namespace deburr {
 
-/// How a format stores colour.
+/// The kind of colour that a format stores.
 enum class ImageKind {
     exr,      // scene-linear, alpha, layers, attributes
     linear,   // scene-linear RGB in floating point

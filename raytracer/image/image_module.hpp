@@ -35,7 +35,7 @@ const ImageModule& image_module();
 /// The type of the function that encodes an EXR; throws std::runtime_error.
 using ExrEncoder = std::string(const ImageRaster& image, int threads, const ShareDone& done);
 
-/// That function, loaded on first use. Throws UnsupportedError if that fails.
+/// The EXR encoder, loaded on first use. Throws UnsupportedError if that fails.
 ExrEncoder* exr_encoder();
 
 /// Types and names of the functions that the modules export.

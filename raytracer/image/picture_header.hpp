@@ -9,7 +9,7 @@
 
 namespace deburr {
 
-/// What a header says of a file.
+/// The claims of a file's header.
 struct PictureHeader {
     const char* format = nullptr;        // OpenImageIO's name of the format
     std::int64_t width = 0, height = 0;  // of the stored picture

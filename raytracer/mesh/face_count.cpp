@@ -247,7 +247,7 @@ SceneMesh thinned(SceneMesh mesh, std::size_t faces, bool check, CancelFlag canc
     return mesh;
 }
 
-// By triage, or by the method that each solid needs.
+// Meshes by triage, or by the method that each solid needs, to the wanted number of triangles.
 SceneMesh by_tolerance(const Scene& scene, MeshSettings settings, std::size_t faces, CancelFlag cancel) {
     if (!std::isfinite(settings.tolerance) && !std::isfinite(settings.tolerance_in_radii))
         settings.triage_tolerance_in_radii = std::min(settings.triage_tolerance_in_radii, default_tolerance_in_radii);
@@ -260,8 +260,8 @@ SceneMesh by_tolerance(const Scene& scene, MeshSettings settings, std::size_t fa
     return mesh;
 }
 
-// By even cells of one size. Their number changes in steps, of more than a tenth where it is small, so a mesh with
-// slightly too many triangles is thinned out.
+// Meshes by even cells of one size, to the wanted number of triangles. The number changes in steps, of more than a
+// tenth where it is small, so a mesh with slightly too many triangles is thinned out.
 SceneMesh by_cells(const Scene& scene, MeshSettings settings, std::size_t faces, CancelFlag cancel) {
     constexpr int max_rounds = 12;
     constexpr double near_enough = 0.99, aim = 0.995;  // fractions of the wanted number

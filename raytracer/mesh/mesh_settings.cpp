@@ -3,8 +3,8 @@
 namespace deburr {
 namespace {
 
-// As rendering_tolerance, for free forms, which have no radius; in their sizes: a fifth of a pixel where they fill a
-// picture of 1000 pixels.
+// The counterpart of rendering_tolerance for free forms, which have no radius; in their sizes: a fifth of a pixel where
+// they fill a picture of 1000 pixels.
 constexpr double rendering_tolerance_in_sizes = 2e-4;
 
 }  // namespace

@@ -8,6 +8,7 @@
 
 namespace deburr {
 
+/// How a solid is polygonized.
 enum class MeshMethod { triage, marching_cubes, octree };
 
 /// All methods as a list for messages.
@@ -24,7 +25,7 @@ inline constexpr double rendering_tolerance = 0.03;
 /// Tolerance of triage where none was given, in radii.
 inline constexpr double default_tolerance_in_radii = 0.05;
 
-/// How the solids of a scene are meshed. Lengths are scene units unless a name says otherwise; a comment that begins
+/// Settings of meshing. Lengths are scene units unless a name says otherwise; a comment that begins
 /// with methods applies to these only. Of several tolerances the least counts.
 struct MeshSettings {
     /// Default: triage, or the octree for solids with free forms, which triage cannot follow.

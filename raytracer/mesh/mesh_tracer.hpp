@@ -11,6 +11,7 @@
 
 namespace deburr {
 
+/// Traces a mesh. Queries are thread-safe.
 class MeshTracer final : public RayTracer {
 public:
     /// Takes the mesh, whose triangles name their solid and material. Rays are most exact in and around `near`. Throws

@@ -32,6 +32,7 @@ public:
     bool before(int a, int b) const { return comes_before(points_[a], points_[b]); }
 
 private:
+    // The lexicographic order of points, by index.
     struct Before {
         const std::vector<ExactPoint>* points;
         bool operator()(int a, int b) const { return comes_before((*points)[a], (*points)[b]); }

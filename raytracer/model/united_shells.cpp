@@ -247,7 +247,7 @@ private:
         std::map<int, int> vertex;
         std::size_t inside_out = 0;
         Vec3 place(0.0);
-        // By the side that the surface faces, since the axes of a sheet's parts differ.
+        // Indexed by sheet; in front and behind as the surface faces, since the axes of a sheet's parts differ.
         std::map<int, std::optional<Sides>> sides;
         for (std::size_t i = 0; i < parts_.size(); ++i) {
             const Part& p = parts_[i];

@@ -11,7 +11,7 @@
 namespace deburr {
 namespace {
 
-// As for families of parallel planes (bounds/decision_diagram.cpp).
+// Tolerances for equal planes, as for families of parallel planes (bounds/decision_diagram.cpp).
 constexpr double same_direction = 1e-9, same_offset = 1e-12;
 // Three normals whose parallelepiped has less volume than this do not make a box.
 constexpr double min_volume = 1e-6;

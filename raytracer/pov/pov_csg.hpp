@@ -32,6 +32,7 @@ public:
     std::string text(const std::string& modifiers = "") const;
 
 private:
+    // The last operator; a single object or half-space is an intersection.
     enum class Kind { nothing, everything, intersect, unite };
     explicit PovCsg(Kind kind) : kind_(kind) {}
     PovCsg as(Kind kind) &&;

@@ -30,6 +30,7 @@ public:
     double greatest_slope(const Box& box) const;
 
 private:
+    // A node of the formula.
     enum class Step : unsigned char { constant, half_space, sum, product, difference, decision };
     struct Node {
         Step step = Step::constant;

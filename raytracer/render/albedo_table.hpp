@@ -12,6 +12,7 @@ namespace deburr {
 /// The albedo of one boundary, tabulated by the cosine.
 class AlbedoTable {
 public:
+    /// What the boundary does with light.
     enum class Kind {
         white,     // reflects all light
         boundary,  // reflects by Fresnel's equations, the rest is lost

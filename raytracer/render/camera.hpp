@@ -20,7 +20,8 @@ public:
     /// shows.
     Ray ray(double x, double y, Vec2 u) const;
     bool has_lens() const { return lens_radius_ > 0; }
-    /// Where a point is seen: x and y as for ray(), and as z its distance along the axis. x and y have no meaning if z
+    /// The projection of a point: x and y as for ray(), and as z its distance along the axis. x and y have no meaning
+    /// if z
     /// <= 0.
     Vec3 project(Vec3 point) const;
     Vec3 forward() const { return forward_; }

@@ -10,7 +10,7 @@
 namespace deburr {
 namespace {
 
-// Both reflection and refraction of glass are traced while they can change the pixel by this much.
+// Reflection and refraction of glass are both traced while they can change the pixel by this much.
 constexpr double min_weight = 1.0 / 512;
 
 // Most glass surfaces that a shadow ray passes; further ones block it.

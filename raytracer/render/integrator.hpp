@@ -38,7 +38,7 @@ namespace deburr {
 /// Which integrator renders; automatic: a preview for one sample per pixel, else paths.
 enum class IntegratorKind { automatic, preview, path };
 
-/// How a picture is rendered.
+/// Settings of a rendering.
 struct RenderSettings {
     int width = 0, height = 0;  // of the whole picture
     int spp = 1;                // samples per pixel; 1: one ray through its center

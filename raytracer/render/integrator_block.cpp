@@ -27,7 +27,7 @@ void for_patches(const Window& block, Each pixel) {
 
 class Integrator::CameraRays {
 public:
-    // What a camera ray's result is used for.
+    // The use of a camera ray's result.
     struct Use {
         int x, y, sample;     // determine the random numbers
         std::uint32_t pixel;  // index in the block
@@ -51,7 +51,7 @@ public:
         thread_local Memory of_thread;
         return of_thread;
     }
-    // Where samples are added: to sums, or to pixels with one sample each. `layers` may be null.
+    // The destination of samples: sums, or to pixels with one sample each. `layers` may be null.
     struct Film {
         PixelSums* sums = nullptr;
         Pixel* pixels = nullptr;

@@ -19,8 +19,8 @@ namespace deburr {
 struct LightBounds {
     Box box;
     double power = 0.0;
-    // It emits up to 90 degrees from the directions within the angle `spread` (radians) around the axis; π: in all
-    // directions.
+    // The light emits up to 90 degrees from the directions within the angle `spread` (radians) around the axis; π: in
+    // all directions.
     Vec3 axis{0, 0, 1};
     double spread = std::numbers::pi;
 };
@@ -60,13 +60,14 @@ public:
     }
 
 private:
+    // A cluster of lights, or a single one.
     struct Node {
         LightBounds bounds;
         std::uint32_t right = 0;  // the left child follows its parent
         std::uint32_t parent = 0;
         int light = -1;  // index of a leaf's light; −1: inner node
     };
-    // As many levels as halving a list of 2³¹ lights takes, after as many cuts by cost.
+    // Levels: as many as halving a list of 2³¹ lights takes, after as many cuts by cost.
     static constexpr int max_depth = 128;
 
     std::uint32_t build(const std::vector<LightBounds>& lights, std::vector<int>& order, int begin, int end,

@@ -53,14 +53,14 @@ public:
     /// cone). The irradiance is 0 where the light does not shine.
     Incident at(Vec3 point, Vec2 u) const;
 
-    /// What a ray sees of a light.
+    /// The emission of a light along a ray.
     struct Emission {
         Vec3 radiance{0.0};
         double density = 0.0;  // of at() for the ray's direction; 0: at() does not find it
         double t = infinity;   // distance; infinity: the ray does not meet the light
     };
-    /// What the ray sees of an extended light at a distance in (0, t_max). An area light is black from behind, a sphere
-    /// from inside.
+    /// The emission of an extended light that the ray meets at a distance in (0, t_max). An area light is black from
+    /// behind, a sphere from inside.
     Emission seen(const Ray& ray, double t_max) const;
     /// A rough upper estimate of the unoccluded irradiance at a point, for choosing among lights; 0 only where at()
     /// finds nothing.

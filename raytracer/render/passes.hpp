@@ -27,6 +27,7 @@ struct PassState {
 /// A rendering in progress.
 class Passes {
 public:
+    /// What is rendered, and in which passes.
     struct Settings {
         int width = 0, height = 0;  // of the whole picture
         Window window;              // that the film shows

@@ -48,7 +48,7 @@ inline Vec3 zero_unless_finite(Vec3 v) { return all_finite(v) ? v : Vec3(0.0); }
 /// A batch of paths for one block of the picture.
 class PathIntegrator::Batch {
 public:
-    // What a camera ray's result is used for.
+    // The use of a camera ray's result.
     struct Use {
         Sampler sampler;
         std::uint32_t pixel;  // index in the block

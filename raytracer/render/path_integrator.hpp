@@ -43,7 +43,7 @@ private:
     RenderSettings settings_;
     PinholeCamera camera_;
     AlbedoTables tables_;
-    // By blur (path_blur.hpp), then by material, each of which begins at its first level.
+    // Indexed by blur (path_blur.hpp), then by level; a material's levels begin at first_levels_.
     std::vector<std::vector<ScatteringMaterial>> materials_;
     std::vector<std::size_t> first_levels_;
     SkyLight seen_, sky_;  // background as the camera sees it; as lights all else

@@ -102,7 +102,8 @@ struct LayerSums {
     void set_center(const Hit& hit, Vec3 direction, Vec3 forward);
 };
 
-/// Where the samples of a block are added, row by row. `layers` may be null; `halves` is used with a noise bound only.
+/// The arrays to which a block's samples are added, row by row. `layers` may be null; `halves` is used with a noise
+/// bound only.
 struct SampleArrays {
     PixelSums* sums = nullptr;
     LayerSums* layers = nullptr;

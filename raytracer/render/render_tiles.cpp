@@ -113,7 +113,7 @@ void run_tiles(const Window& window, const std::function<void(const Window&)>& w
 
 TilesEnd for_each_tile(const Window& window, const std::function<void(const Window&)>& work,
                        const std::atomic<bool>& stop, const Pause& pause, std::chrono::milliseconds grace) {
-    // How soon a stop is noticed.
+    // Interval at which a stop is noticed.
     constexpr std::chrono::milliseconds poll_interval = std::chrono::milliseconds(20);
     const auto paused = std::make_shared<std::atomic<bool>>(false);
     const auto ended = [&] { return stop || *paused ? TilesEnd::stopped : TilesEnd::all; };

@@ -23,7 +23,7 @@ constexpr int tile_side = 16;
 std::int64_t tile_count(const Window& window);
 Window tile(const Window& window, std::int64_t index);
 
-/// How work over tiles ended.
+/// The way in which work over tiles ended.
 enum class TilesEnd {
     all,
     stopped,    // by request, with tiles left

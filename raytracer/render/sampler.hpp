@@ -42,6 +42,7 @@ public:
     static constexpr int block_levels = 4;
 
 private:
+    // A point of one dimension before it is scrambled.
     struct Point {
         std::uint64_t key;    // of the block and the dimension
         std::uint32_t index;  // of the sample, in the pixel's order

@@ -244,7 +244,7 @@ void mirror(std::span<const SurfaceLayer> layers, const SurfaceBatch& batch) {
     });
 }
 
-// As SkyLight for a gradient or a constant colour.
+// The sky as in SkyLight, for a gradient or a constant colour.
 DEBURR_INLINE V height(const Background& sky, V3 direction) { return sky.z_up ? direction.z : direction.y; }
 
 DEBURR_INLINE V3 mean_sky(const SkyLight& light, V3 normal) {

@@ -10,7 +10,7 @@
 
 namespace deburr {
 
-/// What stays sharp; lengths are scene units.
+/// The edges and regions that stay sharp; lengths are scene units.
 struct KeepSharp {
     KeptEdges::Kind edges = KeptEdges::Kind::none;
     std::optional<double> below, above;  // heights below and above which all stays sharp

@@ -47,7 +47,7 @@ public:
 /// The free stack slots that read_value() needs.
 constexpr int read_value_slots = 40;
 
-/// What read_value() has read: the number of values, and the bytes that their copy takes.
+/// The cost of read_value(): the number of values read, and the bytes of their copy.
 struct ReadCost {
     std::int64_t values = 0;
     std::size_t bytes = 0;

@@ -9,7 +9,7 @@
 
 namespace deburr {
 
-/// How the model is shown.
+/// Options for the model and its scene.
 struct ModelSettings {
     double round = 0;           // rounding radius in the file's units; 0: none
     KeepSharp keep;             // what stays sharp

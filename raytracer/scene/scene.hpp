@@ -47,7 +47,7 @@ struct Texture {
     std::shared_ptr<const PictureData> data{};  // image: the picture, once it was read
 };
 
-/// How a surface scatters and emits light.
+/// A material: the parameters of a surface's scattering and emission.
 struct Material {
     enum class Kind { matte, plastic, metal, mirror, glass, pbr };
     Kind kind = Kind::matte;
@@ -57,7 +57,7 @@ struct Material {
     Vec3 emission{0.0};      // radiance that the outer side of the surface emits
     // pbr: from 0 to 1, named as in glTF.
     double metallic = 0.0, transmission = 0.0, clearcoat = 0.0, clearcoat_roughness = 0.0;
-    // These replace the number, which is then their mean; null: none.
+    // Textures that replace the number, which is then their mean; null: none.
     std::shared_ptr<const Texture> roughness_texture{}, metallic_texture{};
     // Bump map: where it is 1 the surface appears higher by bump_height than where it is 0; null: none.
     std::shared_ptr<const Texture> bump{};
@@ -88,13 +88,13 @@ struct Camera {
     Vec3 shift{0.0};            // of the picture in its plane, in its width and height, to the right and up; z unused
 };
 
-/// How a camera that is placed by the solids' bounds looks at them (frame_camera.hpp).
+/// The view of a camera that is placed by the solids' bounds (frame_camera.hpp).
 struct Framing {
     Vec3 from{3, 2, 4};  // direction from the solids to the eye, of any length
     double fov = 30.0;   // vertical, degrees
 };
 
-/// What rays see that hit nothing; it also lights the scene.
+/// The radiance that rays see that hit nothing; it also lights the scene.
 struct Background {
     bool sky = false;  // a gradient from horizon to zenith, by height()
     Vec3 color{0.0};   // constant colour if not a sky

@@ -176,6 +176,7 @@ struct SceneCall {
 
 /// A function of the scene language.
 struct SceneFunction {
+    /// How the scene names it: a global function, a method of objects, or a metamethod.
     enum class Kind { global, method, metamethod };
     Kind kind;
     const char* name;    // in messages; in the scene, too, unless it is a metamethod

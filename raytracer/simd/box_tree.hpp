@@ -35,12 +35,14 @@ struct BoxRay {
 /// Bounds of several rays. On an axis where all directions have the same sign (directed), extreme origins and inverses;
 /// on any other, the interval of coordinates that any ray reaches.
 struct BoxBeam {
+    /// An axis on which all directions have the same sign.
     struct Directed {
         int axis;
         bool down;
         float to_near, to_far, inverse,
             other_inverse;  // extreme origins for near and far sides; extreme inverses
     };
+    /// Any other axis.
     struct Undirected {
         int axis;
         float lo, hi;

@@ -107,6 +107,7 @@ DEBURR_INLINE void fetch_item(const BoxTree& tree, std::uint32_t i) {
 // Calls the visitor for the items that `meet` (RayMeets or BeamMeets) lets through, up to the distance `end`.
 template <class Meet>
 DEBURR_INLINE void walk(const BoxTree& tree, float end, const Meet& meet, BoxVisitor visitor) {
+    // A child to be visited, and the distance of its box.
     struct Entry {
         std::int32_t child;
         float t;
@@ -131,7 +132,7 @@ DEBURR_INLINE void walk(const BoxTree& tree, float end, const Meet& meet, BoxVis
                     int slot = top++;
                     for (; slot > first && stack[slot - 1].t < t[k]; --slot) stack[slot] = stack[slot - 1];
                     stack[slot] = {n.child[k], t[k]};
-                    // It is visited soon, if not next.
+                    // The child is visited soon, if not next.
                     if (n.child[k] >= 0)
                         __builtin_prefetch(&tree.nodes[n.child[k]]);
                     else

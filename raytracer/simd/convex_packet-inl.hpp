@@ -55,7 +55,7 @@ public:
         V t, plane;
     };
 
-    // Those of `rays` whose interval within all factors reaches [lo, hi].
+    // The rays among `rays` whose interval within all factors reaches [lo, hi].
     DEBURR_INLINE M meeting(M rays, V lo, V hi, V t_tolerance) const {
         return and_not(and_(rays, out_ - in_ > t_tolerance), or_(in_ > hi, out_ < lo));
     }
@@ -108,7 +108,7 @@ public:
         return f;
     }
 
-    // Those of `rays`, which must be among meeting(), that have a crossing in [lo, hi].
+    // The rays among `rays` (all of them meeting()) that have a crossing in [lo, hi].
     DEBURR_INLINE M any(M rays, V lo, V hi, V t_tolerance) const {
         const V from = hn::Max(in_, lo), to = hn::Min(hi, out_);
         const M inside = and_(rays, at(number(0.5) * (from + to), rays).P > level_);
@@ -156,7 +156,7 @@ private:
     // `plane` where it names a sharp factor, else −1.
     DEBURR_INLINE V if_sharp(V plane) const { return select(plane >= number(soft()), plane, number(-1)); }
 
-    // Where the crossing is that of one soft plane alone, since all other soft factors are 1.
+    // The rays whose crossing is that of one soft plane alone, since all other soft factors are 1.
     DEBURR_INLINE M is_alone(V plane, V t) const {
         M alone = plane < number(soft());
         for (int i = 0; i < soft(); ++i) alone = and_(alone, or_(plane == number(i), a_[i] + b_[i] * t <= number(-1)));

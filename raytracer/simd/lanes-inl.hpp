@@ -28,7 +28,7 @@ DEBURR_INLINE V select(M m, V a, V b) { return hn::IfThenElse(m, a, b); }
 DEBURR_INLINE M and_(M a, M b) { return hn::And(a, b); }
 DEBURR_INLINE M or_(M a, M b) { return hn::Or(a, b); }
 DEBURR_INLINE M and_not(M a, M b) { return hn::AndNot(b, a); }
-// These choose between equal arguments as std::min, std::max and std::clamp do.
+// least, most and clamped choose between equal arguments as std::min, std::max and std::clamp do.
 DEBURR_INLINE V least(V a, V b) { return select(b < a, b, a); }
 DEBURR_INLINE V most(V a, V b) { return select(a < b, b, a); }
 DEBURR_INLINE V clamped(V x, V lo, V hi) { return select(x < lo, lo, select(hi < x, hi, x)); }

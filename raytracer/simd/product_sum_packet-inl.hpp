@@ -21,6 +21,7 @@ public:
     DEBURR_INLINE SumRootSearch(const ProductSum& sum, const Rays& rays, RootCounters& counters)
         : sum_(sum, rays, counters), counters_(counters) {}
 
+    // Which rays have a crossing, which of these go into the solid, and at which t.
     struct Found {
         M any, into;
         V t;

@@ -23,6 +23,7 @@ void for_each_lane(Lanes lanes, Each each) {
     for (; lanes != 0; lanes &= lanes - 1) each(__builtin_ctz(lanes));
 }
 
+/// A ray; distances along it are its parameters.
 struct Ray {
     Vec3 origin;
     Vec3 direction;  // unit

@@ -90,7 +90,7 @@ public:
         return number(std::abs(coordinate_->across)) * bend;
     }
 
-    // Where u crosses a level, in order of t. Only the crossings whose mask is set exist.
+    // The crossings of u with a level, in order of t. Only those whose mask is set exist.
     struct Crossings {
         V first, second;
         M has_first, has_second;

@@ -1,7 +1,7 @@
 // Keeps the BSPs of one scene for the next, so that those of unchanged parts are not built again.
 //
-// It serves scenes that are edited while they are shown (`deburr view`). Solids count as unchanged if they are equal in
-// shape, placement and material (canonical_solids.hpp), even if their file was read again.
+// The store serves scenes that are edited while they are shown (`deburr view`). Solids count as unchanged if they are
+// equal in shape, placement and material (canonical_solids.hpp), even if their file was read again.
 #pragma once
 #include <memory>
 #include <mutex>
@@ -28,6 +28,7 @@ public:
     std::size_t built() const { return built_; }
 
 private:
+    // A BSP with the arguments that it was built from.
     struct Entry {
         std::vector<Solid> solids;
         RootMethod root_method;

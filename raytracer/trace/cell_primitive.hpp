@@ -14,7 +14,7 @@
 
 namespace deburr {
 
-/// What is intersected with a ray, valid only within `box`.
+/// A surface that rays are intersected with; it is valid only within `box`.
 struct CellPrimitive {
     /// plane: one half-space; convex: a product of half-spaces, or one minus it; surface: a round part's; sum: a sum of
     /// products; general: anything else.

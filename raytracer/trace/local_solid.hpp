@@ -115,6 +115,7 @@ public:
                                    CrossingScratch& scratch) const;
 
 private:
+    // A leaf of the CSG: a plane, or a density or field in softs_.
     struct Leaf {
         Vec3 normal{0.0};  // of a flat leaf, which is inside where n·x ≤ offset
         double offset = 0;
@@ -128,6 +129,7 @@ private:
         bool bounded;    // whether the bounds are valid here (bounds_hold)
         bool all_sharp;  // whether no half-space has a filter
     };
+    // A field whose roots are searched for.
     struct SearchedField {
         FieldPtr field;
         double max_noise_scale;  // upper bound of FieldRay::noise_scale over rays in the box; 0: unknown

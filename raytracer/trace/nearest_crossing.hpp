@@ -16,6 +16,7 @@ struct FoundSurface {
     double start = 0;          // crossing.t counts from this parameter of the original ray (far_ray.hpp)
 };
 
+/// The nearest of the crossings that were offered.
 class NearestCrossing {
 public:
     /// Holds no crossing; crossings beyond `end` are ignored.

@@ -11,6 +11,7 @@
 
 namespace deburr {
 
+/// An allocator for std::vector. Small arrays come from std::allocator.
 template <class T>
 struct LargePages {
     using value_type = T;

@@ -13,9 +13,10 @@
 
 namespace deburr {
 
+/// The progress of one run.
 class Progress {
 public:
-    /// How progress is shown.
+    /// The form in which progress is shown.
     enum class Style {
         none,   // not at all
         bar,    // a bar that is overwritten
@@ -24,7 +25,7 @@ public:
         json,   // an object per line, once a second and at the end
     };
 
-    /// Where progress goes to.
+    /// The destination of progress, with its form.
     struct Output {
         Style style = Style::none;
         int columns = 80;                             // width of the terminal

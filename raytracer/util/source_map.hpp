@@ -36,6 +36,7 @@ public:
     }
 
 private:
+    // A file of the scene.
     struct File {
         std::string name;
         int before;  // lines in the files before it

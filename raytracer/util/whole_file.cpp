@@ -118,7 +118,7 @@ private:
     bool kept_ = false;
 };
 
-// Where a path leads to.
+// The file that a path leads to, through links.
 struct Target {
     fs::path file, folder;
     bool direct = false;  // a device or a pipe

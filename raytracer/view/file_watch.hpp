@@ -22,6 +22,7 @@ public:
     bool wait(int milliseconds);
 
 private:
+    // A watched folder and the names of its watched files.
     struct Folder {
         int watch;
         std::vector<std::string> names;

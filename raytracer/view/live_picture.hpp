@@ -48,6 +48,7 @@ public:
     /// Reads the scene with these parameters; throws if that fails.
     using Load = std::function<Scene(const std::map<std::string, std::string>& parameters)>;
 
+    /// Settings that stay the same.
     struct Settings {
         std::optional<int> spp;  // samples per pixel; none: the scene's, or chosen by its noise
         ViewTransform view = ViewTransform::standard;
@@ -62,8 +63,8 @@ public:
     /// Waits for the first frame with a number above `after`; null if none comes in time.
     std::shared_ptr<const LiveFrame> wait_for_frame(int after, std::chrono::milliseconds time) const;
 
-    /// These request a new picture: of the scene read again, with these parameters, from this camera (none: the scene's
-    /// own), and with or without the mesh's wire frame over it.
+    /// The functions reload() to show_wires() request a new picture: of the scene read again, with these parameters,
+    /// from this camera (none: the scene's own), and with or without the mesh's wire frame over it.
     void reload();
     void set_parameters(const std::map<std::string, std::string>& parameters);
     void set_camera(const std::optional<Camera>& camera);
