@@ -21,7 +21,7 @@ struct BspStatistics {
                 flat_cells = 0;         // all cells; those without a surface; those with planes only
     std::size_t half_spaces = 0;        // sum over the solids that the BSPs were built from
     std::size_t prototypes = 0;         // number of BSPs, each of a prototype or of a part of one
-    std::size_t instances = 0;          // placements of prototypes, counted once for each prototype that holds them
+    std::size_t instances = 0;          // instances in prototypes, and BSPs beyond each prototype's first
     double mean_local_half_spaces = 0;  // mean number of half-spaces in a cell that is not empty
     int depth = 0;                      // of the deepest BSP
 };

@@ -15,7 +15,7 @@
 
 namespace deburr {
 
-/// two cache lines
+/// A placement of one prototype in another.
 struct alignas(64) Instance {  // two cache lines
     Affine into;               // from the coordinates of the prototype around to those of the placed one
     double stretch = 1;        // upper bound of how much longer a distance is around than in the placed prototype
