@@ -69,8 +69,8 @@ private:
 /// A picture, or the part of it within a window.
 struct Film {
     int width = 0, height = 0;  // of the whole picture (display window)
-    Window window;  // the part that is held (data window)
-    bool complete = true;  // false if rendering was interrupted and some pixels are empty
+    Window window;              // the part that is held (data window)
+    bool complete = true;       // false if rendering was interrupted and some pixels are empty
     LargeVector<Pixel> pixels;  // row by row
 
     Film() = default;

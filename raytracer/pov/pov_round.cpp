@@ -31,7 +31,7 @@ std::string pov_coordinate(const RoundCoordinate& c) {
     const auto difference = [&](double a, const std::string& of, double b, const std::string& from) {
         return fmt::format("pow({}-({}),2)", product(a, of), product(b, from));
     };
-    // axis × y|, which stays accurate near the axis.
+    // |axis × y|, which stays accurate near the axis.
     const Vec3 a = c.axis;
     const std::string s = fmt::format("sqrt({}+{}+{})", difference(a.y, z, a.z, y), difference(a.z, x, a.x, z),
                                       difference(a.x, y, a.y, x));

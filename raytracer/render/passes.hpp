@@ -20,8 +20,8 @@ struct PassState {
     Window window;
     LargeVector<PixelSums> sums;
     std::vector<LayerSums> layers;  // empty: no layers are kept
-    std::vector<ColorSum> halves;  // colour sums of the first half of the samples; empty: no noise bound
-    std::vector<int> taken;  // of each tile: the samples before this one are taken
+    std::vector<ColorSum> halves;   // colour sums of the first half of the samples; empty: no noise bound
+    std::vector<int> taken;         // of each tile: the samples before this one are taken
 };
 
 /// A rendering in progress.

@@ -42,7 +42,7 @@ protected:
 struct Surfaces {
     double scale = 1;  // upper bound of coordinates
     CellPrimitives cell_primitives;
-    CellPrimitives infinite_planes;  // of solids that are a single half-space
+    CellPrimitives infinite_planes;   // of solids that are a single half-space
     LargeVector<Box> instance_boxes;  // inflated by more than the rounding of a ray
 };
 
