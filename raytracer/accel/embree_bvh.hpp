@@ -26,7 +26,7 @@ public:
     EmbreeBvh& operator=(EmbreeBvh&&) noexcept;
     ~EmbreeBvh();
 
-    /// Whether boxes are visited roughly by distance, or in any order, which is faster.
+    /// The order of visits: roughly by distance, or any, for any-hit queries.
     enum class Order { nearest_first, any };
     /// Calls visit(number) for the boxes that the ray may meet in [t0, t1], as Bvh8::visit does. visit() returns the
     /// distance up to which the search goes on; a negative one ends it.

@@ -95,8 +95,8 @@ public:
         ConvexDensity density;
         int material;
     };
-    /// The whole local solid as one product, if it is one and has one material. Planes become sharp factors: as what is
-    /// beyond their other leaves is known exactly, their rounding no longer matters. Empty after RootMethod::always,
+    /// The whole local solid as one product, if it is one and has one material. Planes become its sharp
+    /// factors, even those of rounded half-spaces, whose filter no longer matters. Empty after RootMethod::always,
     /// except for planes.
     std::optional<Convex> convex() const;
 

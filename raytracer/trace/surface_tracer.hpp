@@ -96,7 +96,7 @@ private:
     std::optional<EmbreeBvh> embree_;
     Box around_;  // box of all items in the BVH
     Vicinity vicinity_;
-    bool bounded_ = true;  // whether all cell primitives are
+    bool bounded_ = true;  // whether all cell primitives are bounded
 };
 
 }  // namespace deburr

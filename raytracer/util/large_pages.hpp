@@ -40,7 +40,8 @@ struct LargePages {
 
 private:
     static constexpr std::size_t page = std::size_t(1) << 21;  // 2 MiB
-    // Whether so many elements fill two huge pages or more.
+    // Whether an array of this length gets huge pages: from a quarter of one on, since clearing that costs as much as
+    // the faults of its small pages.
     static bool large(std::size_t count) { return count >= page / 4 / sizeof(T); }
 };
 
