@@ -27,11 +27,10 @@
 //
 // CMake finds the file; list, page and updates follow. Rules:
 //   - The name is lobb-, triage-, vyatkin- or beyond-, and the figure's number or table-NUMBER.
-//    - Every scene that `make` reads is in `scenes`: the figure is made again when one of them changes.
-//    - `plots` is true if `make` calls plot(), which needs gnuplot.
-//    - No number is written by hand: measured() takes what this run computed, and `claim` what the paper prints. The
-//    same
-//      program and scenes give the same pictures.
+//   - Every scene that `make` reads is in `scenes`: the figure is made again when one of them changes.
+//   - `plots` is true if `make` calls plot(), which needs gnuplot.
+//   - No number is written by hand: measured() takes what this run computed, and `claim` what the paper
+//     prints. The same program and scenes give the same pictures.
 //   - `seconds` is a rough guess on two cores, for the progress bar.
 // Curves, fields, arrows and labels: figures/plot.hpp. Pictures of meshes: figures/studio.hpp.
 #pragma once

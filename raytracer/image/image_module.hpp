@@ -21,6 +21,7 @@ public:
     /// Whether files with this extension (".jpg") can be written; they must be encoded in memory, to be written whole
     /// or not at all.
     virtual bool writes(const std::string& extension) const = 0;
+    /// The bytes of a file with this extension.
     virtual std::string encode(const std::string& extension, const ImageRaster& image, const ShareDone& done) const = 0;
     /// Reads a picture; `header` is what read_picture_header() returned for the file.
     virtual ReadImage read(const std::string& path, const PictureHeader& header) const = 0;

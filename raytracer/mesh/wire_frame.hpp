@@ -24,6 +24,7 @@ enum class EdgeChoice {
     triangles,  // all edges
 };
 
+/// The edges of the mesh that `choice` asks for.
 std::vector<MeshEdge> mesh_edges(const Mesh& mesh, EdgeChoice choice);
 
 /// Which parts of edges are drawn.

@@ -45,6 +45,7 @@ Vec3 cosine_direction(Vec3 normal, Vec2 u);
 struct Ggx {
     double alpha = 0.04;
 
+    /// The density D of facet normals per solid angle.
     double distribution(double cos_half) const;
     /// G2 / G1(out), the weight of a sampled reflection besides Fresnel's.
     double shadowing(double cos_in, double cos_out) const;

@@ -7,10 +7,9 @@
 // `preview` has no noise except from area lights, and finds
 //
 //   lights      Surfaces except smooth mirrors and glass get the light of every source, with shadow rays for each
-//   (point,
-//               directional: one; area, sphere: `samples`, stratified). Glass transmits light straight on, tinted and
-//               weakened by Fresnel: its shadows are soft in tone, without caustics. Lights themselves are visible in
-//               polished surfaces only.
+//               (point, directional: one; area, sphere: `samples`, stratified). Glass transmits light straight on,
+//               tinted and weakened by Fresnel: its shadows are soft in tone, without caustics. Lights themselves are
+//               visible in polished surfaces only.
 //   ambient     Constant light from all around on diffuse surfaces, never occluded.
 //   background  The background lights diffuse surfaces as if nothing occluded it; plastic and rough metal reflect the
 //               background, blurred by roughness, but no objects. Mirrors, polished metal and glass are traced, glass

@@ -103,6 +103,7 @@ public:
         bool shines() const { return depth > 0; }
         double density() const { return 1 / (2 * std::numbers::pi * depth); }
         bool covers(Vec3 towards) const { return shines() && glm::dot(towards, direction) >= 1 - depth; }
+        /// A uniform direction in the disc, for a uniform `u` in the unit square.
         Vec3 at(Vec2 u) const;
         Vec3 irradiance() const { return radiance / density(); }
     };
@@ -113,6 +114,7 @@ public:
 
     /// Whether directions are sampled by brightness: for pictures and day skies.
     bool sampled() const { return picture_ != nullptr; }
+    /// A direction with a density proportional to brightness, for a uniform `u` in the unit square.
     Vec3 sample(Vec2 u) const;
     /// Density per solid angle of sample().
     double density(Vec3 direction) const;

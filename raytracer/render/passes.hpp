@@ -47,6 +47,7 @@ public:
     TilesEnd go_on(const std::atomic<bool>& stop, const Pause& pause, const PixelsDone& done,
                    std::chrono::milliseconds grace);
 
+    /// Whether all samples are taken.
     bool finished() const;
     /// The number of samples that all pixels have; 0 during the first pass.
     int samples_of_all() const;

@@ -27,6 +27,7 @@ namespace deburr {
 /// Albedo tables that materials share; each is made once.
 class AlbedoTables {
 public:
+    /// The table for these parameters, which is made on the first call.
     const AlbedoTable* get(AlbedoTable::Kind kind, double alpha, double ior);
 
 private:

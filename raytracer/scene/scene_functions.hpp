@@ -113,9 +113,9 @@ public:
     const std::vector<Material>& materials() const { return materials_; }
     const std::map<std::string, std::string>& parameters() const { return parameters_; }
 
-    /// Throws if there are more than max_half_spaces.
+    /// Throws std::runtime_error if there are more than max_half_spaces.
     static void check_size(double half_spaces);
-    /// Counts memory of the scene's parts; these throw if all parts together exceed their limit.
+    /// Both count memory of the scene's parts, and throw std::runtime_error if all parts together exceed their limit.
     void keep_parts(std::size_t bytes);
     void keep_half_spaces(std::size_t count);
     /// Charges work that is about to be done; throws WorkSpent if less is left.
