@@ -1,4 +1,4 @@
-// The plainest field there is: f = 1 − |x|².
+// The simplest field, f = 1 − |x|²: positive inside the unit ball.
 #pragma once
 #include "bounds/field.hpp"
 
@@ -21,7 +21,7 @@ public:
         return leaves_box(bounding_box(), origin, direction);
     }
     void begin_ray(FieldRay& ray) const override {
-        // f = a + bu + cu² around the middle, divided by what it may add up to
+        // f = a + b·u + c·u² with u = t − middle, divided by an upper bound of the sum of its terms' magnitudes
         const double middle = 0.5 * (ray.t0 + ray.t1), half = 0.5 * (ray.t1 - ray.t0);
         const Vec3 x = ray.origin + ray.direction * middle;
         const double xx = glm::dot(x, x), dx = glm::dot(ray.direction, x), dd = glm::dot(ray.direction, ray.direction);

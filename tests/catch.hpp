@@ -1,15 +1,15 @@
-// Catch2, whichever of its two major versions the system has.
+// Includes Catch2 of whichever major version, 2 or 3, is installed.
 #pragma once
 #if __has_include(<catch2/catch_all.hpp>)
 #include <catch2/catch_all.hpp>
-using Catch::Approx;  // as in version 2
+using Catch::Approx;  // version 2 has it in the global namespace
 #else
 #include <catch2/catch.hpp>
 #endif
 
 namespace deburr::test {
 
-/// What a test's limit of time is multiplied by: sanitizers, and the counting of edges for fuzzers, slow programs down.
+/// Factor for the time limits of tests: sanitizers and the fuzzers' edge counting slow programs down.
 constexpr double slowness = DEBURR_IS_SANITIZED ? 5 : 1;
 
 }  // namespace deburr::test

@@ -1,4 +1,4 @@
-// The main program of all tests: Catch2's, of either major version, and what Catch2 leaves open.
+// Main program of every test binary, for Catch2 2 and 3. It adds these options to Catch2's own:
 //
 //   test_bounds [OPTION | PATTERN …]   Catch2's own call; it fails if a run matches no case
 //   test_bounds --case NAME            runs the one case of exactly this name; any other number of cases is a failure
@@ -7,8 +7,8 @@
 //   test_bounds --count                prints the number of cases that are compiled in
 //   test_bounds --ctest FILE           writes CTest's list of the cases, with their labels
 //
-// Catch2's own list for CTest is made by a CMake script that cuts names at a semicolon; Catch2 2 then finds no case of
-// such a name and reports success. Here the registry itself is asked, and every run is counted.
+// Catch2's own list for CTest is made by a CMake script that cuts names at a semicolon. Catch2 2 then finds no case of
+// such a name and reports success. This program asks the registry instead and counts the cases that ran.
 //
 // Labels: `program` where the case's file includes raytracer/program.hpp, which runs the program as a user would;
 // `unit` elsewhere; and the case's tags [slow] and [threads], which tests/CMakeLists.txt explains.
@@ -25,7 +25,7 @@
 
 namespace {
 
-// Names of the cases that this run has begun.
+// Names of the cases that this process has started.
 std::vector<std::string>& begun() {
     static std::vector<std::string> names;
     return names;
@@ -45,7 +45,7 @@ CATCH_REGISTER_LISTENER(CountCases)
 
 const auto& compiled_in() { return Catch::getRegistryHub().getTestCaseRegistry().getAllTests(); }
 
-// The pattern that matches a name, whose marks a pattern would read as its own.
+// Catch2 pattern that matches exactly this name; characters that have a meaning in patterns are escaped.
 std::string pattern_of(const std::string& name) {
     std::string pattern;
     for (const char c : name) {
@@ -55,14 +55,15 @@ std::string pattern_of(const std::string& name) {
     return pattern;
 }
 
-// An argument as CMake takes it letter by letter.
+// `text` as a CMake bracket argument, which CMake takes literally.
 std::string bracket_argument(const std::string& text) {
     std::string marks = "=";
     while (text.find("]" + marks + "]") != std::string::npos) marks += "=";
     return "[" + marks + "[" + text + "]" + marks + "]";
 }
 
-// True if a test's file runs the program. The compiler may have been given the path from another folder than this one.
+// True if the source file of a test includes raytracer/program.hpp. `path` is __FILE__ as the compiler was given it,
+// which may start at another folder.
 bool runs_program(const std::string& path) {
     const std::string mark = "/tests/";
     std::ifstream file(DEBURR_TESTS_DIR "/" + path.substr(path.rfind(mark) + mark.size()));
@@ -83,13 +84,13 @@ void write_ctest(const std::string& path, const std::string& program, const std:
         const std::string name = bracket_argument(folder + ": " + info.name);
         file << "add_test(" << name << " " << bracket_argument(program) << " --case " << bracket_argument(info.name)
              << ")\nset_tests_properties(" << name << " PROPERTIES LABELS \"" << (runs[source] ? "program" : "unit")
-             << (slow ? ";slow\" COST 100)\n" : "\")\n");  // a case that costs much begins early
+             << (slow ? ";slow\" COST 100)\n" : "\")\n");  // CTest starts cases of high cost first
     }
     file.close();
     if (!file) throw std::runtime_error("cannot write " + path);
 }
 
-// Runs every n-th of the cases that a pattern matches, from the k-th on.
+// Runs every n-th of the cases that the pattern matches, from index k on.
 int run_share(Catch::Session& session, std::size_t k, std::size_t n, const std::string& pattern) {
     auto config = session.configData();
     config.testsOrTags = {pattern};

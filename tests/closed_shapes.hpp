@@ -1,4 +1,4 @@
-// Closed meshes for tests: prisms, tessellated spheres, cavities.
+// Closed meshes for tests: prisms, tessellated spheres, boxes with a cavity and plates with a hole.
 #pragma once
 #include <cstdint>
 #include <string>
@@ -16,7 +16,7 @@ struct Shape {
     std::vector<Corners> triangles;
 
     ClosedMesh mesh() const { return {vertices, triangles}; }
-    // The polygon, counter-clockwise, raised from z0 to z1; `fan` triangulates it.
+    // A prism over the counter-clockwise polygon `outline` from z0 to z1; `fan` triangulates the outline.
     static Shape prism(const std::vector<Vec2>& outline, const std::vector<Corners>& fan, double z0, double z1) {
         Shape s;
         const int n = int(outline.size());
@@ -40,7 +40,7 @@ struct Shape {
         return prism({{0, 0}, {2, 0}, {2, 1}, {1, 1}, {1, 2}, {0, 2}}, {{0, 1, 2}, {0, 2, 3}, {0, 3, 4}, {0, 4, 5}}, 0,
                      1);
     }
-    // A sphere of rings × 2 rings quadrilaterals.
+    // A sphere around the origin with `rings` rings of 2·rings facets each: quadrilaterals, triangles at the poles.
     static Shape sphere(double radius, int rings) {
         Shape s;
         const int sides = 2 * rings;
@@ -64,7 +64,7 @@ struct Shape {
         }
         return s;
     }
-    /// What is left of a box when another, well within it, is taken out.
+    /// The box [lo, hi] without [inner_lo, inner_hi], which must be well within it.
     static Shape cavity(Vec3 lo, Vec3 hi, Vec3 inner_lo, Vec3 inner_hi) {
         Shape outer = box(lo, hi);
         const Shape inner = box(inner_lo, inner_hi);
@@ -72,7 +72,7 @@ struct Shape {
         outer.vertices.insert(outer.vertices.end(), inner.vertices.begin(), inner.vertices.end());
         return outer;
     }
-    /// A square plate from −1 to 1 with a round hole of `sides` sides.
+    /// The square plate [−1, 1]² of this thickness with a hole through its center, a regular polygon of `sides` sides.
     static Shape plate_with_hole(double radius, int sides, double thickness) {
         Shape s;
         for (const double z : {0.0, thickness})
@@ -95,7 +95,7 @@ struct Shape {
         }
         return s;
     }
-    /// As a binary STL.
+    /// The mesh as the bytes of a binary STL file.
     std::string stl() const {
         std::string bytes(80, ' ');
         const auto put = [&](const auto& value) { bytes.append(reinterpret_cast<const char*>(&value), sizeof value); };

@@ -1,6 +1,6 @@
-// The definition in its plainest form, for everything faster to be held against: densities node by
-// node, Boolean ones by adding up every outcome, rays by looking everywhere. Shares no code with
-// what it checks but the flat trees.
+// Reference evaluation of densities, fields, solids and rays straight from their definitions. Tests hold the faster
+// code against it. It evaluates densities node by node, sums Boolean densities over all outcomes and finds crossings of
+// rays by dense sampling. It shares nothing with the code under test except the flat trees and the stored forms.
 #pragma once
 #include <algorithm>
 #include <cmath>
@@ -11,7 +11,7 @@
 
 namespace deburr::plain {
 
-/// Lobb eq. 2.
+/// Profile of a half-space at α = distance/radius [Lobb eq. 2].
 inline double profile(double alpha) {
     if (alpha >= 1) return 0;
     if (alpha <= -1) return 1;
@@ -31,7 +31,7 @@ inline bool is_boolean(const DensityTree& tree, int i) {
     return n.op == Op::complement && is_boolean(tree, n.a);
 }
 
-/// The Boolean function at node i, with the truth of every half-space given.
+/// Value of the Boolean function at node i; `is_true` has an entry for each half-space of the tree.
 inline bool boolean_value(const DensityTree& tree, int i, const std::vector<char>& is_true) {
     const TreeNode& n = tree.nodes[i];
     switch (n.op) {
@@ -53,7 +53,8 @@ inline void half_spaces_below(const DensityTree& tree, int i, std::vector<int>& 
     }
 }
 
-/// Probability that the function is true: family after family, gap after gap.
+/// Boolean density at x: the probability that the function at node `root` is true. Families of parallel planes of one
+/// radius are drawn one after another; each outcome of a family is a gap between neighbouring thresholds.
 inline double boolean(const DensityTree& tree, int root, Vec3 x) {
     std::vector<int> open;
     half_spaces_below(tree, root, open);
@@ -87,7 +88,7 @@ inline double boolean(const DensityTree& tree, int root, Vec3 x) {
         }
         std::stable_sort(family.begin(), family.end(), [](const Member& a, const Member& b) { return a.tau < b.tau; });
         double total = 0, below = 0;
-        for (std::size_t gap = 0; gap <= family.size(); ++gap) {  // below family[gap].tau
+        for (std::size_t gap = 0; gap <= family.size(); ++gap) {  // the draw falls just below family[gap].tau
             const double F = gap < family.size() ? family[gap].F : 1;
             const double p = F - below;
             below = std::max(below, F);
@@ -114,7 +115,7 @@ inline double density(const DensityTree& tree, int i, Vec3 x) {
 }
 inline double density(const DensityTree& tree, Vec3 x) { return density(tree, tree.root(), x); }
 
-/// Vyatkin eq. 1.
+/// Value of q at x [Vyatkin eq. 1].
 inline long double quadric(const Quadric& q, Vec3 x) {
     const long double y[3] = {(long double)x.x - q.center.x, (long double)x.y - q.center.y,
                               (long double)x.z - q.center.z};
@@ -126,7 +127,8 @@ inline long double quadric(const Quadric& q, Vec3 x) {
     return sum;
 }
 
-/// Vyatkin eq. 2 and 3; fields of other kinds have no plainer definition than their own.
+/// Value of f at x [Vyatkin eq. 2 and 3]. A field of another kind than FreeForm has no plainer definition than its own
+/// at().
 inline double field(const Field& f, Vec3 x) {
     const auto* form = dynamic_cast<const FreeForm*>(&f);
     if (!form) return f.at(x).value;
@@ -155,8 +157,9 @@ inline bool contains(const SolidTree& tree, int i, Vec3 x) {
 }
 inline bool contains(const SolidTree& tree, Vec3 x) { return contains(tree, tree.root(), x); }
 
-/// First t in (0, t_max) where the ray changes sides of the solid. Between the values of t where a
-/// half-space begins or ceases to vary or a field's box begins or ends, `steps` points are looked at.
+/// First t in (0, t_max) where the ray o + t·d changes sides of the solid; infinity if no change is seen. The ray is
+/// cut where a half-space begins or ceases to vary and where it meets the planes of a field's box; `steps` points of
+/// each segment between cuts are sampled, and bisection refines the first change.
 inline double first_crossing(const SolidTree& tree, Vec3 o, Vec3 d, double t_max, int steps) {
     std::vector<double> cuts{0, t_max};
     for (const SolidLeaf& leaf : tree.leaves) {

@@ -1,5 +1,6 @@
-// Random Boolean densities with round parts, and their plain definition [docs/design.md, Round primitives]: every
-// family of surfaces draws once, and every outcome is added up. Shares no code with what it checks.
+// Random Boolean densities with round parts, together with their plain definition [docs/design.md, Round primitives]:
+// every family of surfaces draws once, and the probabilities of all outcomes are summed. The plain definition shares no
+// code with the code under test.
 #pragma once
 #include <cmath>
 #include <functional>
@@ -18,25 +19,26 @@ inline double plain_profile(double alpha) {
 
 class PlainRound {
 public:
-    /// A surface's coordinate at x.
+    /// Coordinate of x that a family of surfaces compares with limits: a distance from a point, an axis or a plane.
     using Coordinate = std::function<double(Vec3)>;
-    /// The number of a family that draws by this coordinate.
+    /// Adds a family that draws around this coordinate and returns its index.
     int family(Coordinate u) {
         families_.push_back(std::move(u));
         return int(families_.size()) - 1;
     }
-    /// The numbers of expressions: true where the draw is at most `limit`; both; either; not.
+    /// Each of these adds an expression and returns its index: true where the family's draw is at most `limit`; a and
+    /// b; a or b; not a.
     int at_most(int family, double limit) { return add({Op::at_most, family, -1, limit}); }
     int both(int a, int b) { return add({Op::both, a, b, 0}); }
     int either(int a, int b) { return add({Op::either, a, b, 0}); }
     int no(int a) { return add({Op::no, a, -1, 0}); }
 
-    /// The probability that the latest expression is true.
+    /// Density at x: the probability that the expression added last is true.
     double density(Vec3 x, double radius) const {
         std::vector<double> draw(families_.size(), 0);
         return sum(0, x, radius, draw);
     }
-    /// The set of radius 0.
+    /// True if x is in the sharp set, that of radius 0.
     bool contains(Vec3 x) const {
         std::vector<double> draw;
         for (const Coordinate& u : families_) draw.push_back(u(x));
@@ -87,13 +89,14 @@ private:
     std::vector<Node> nodes_;
 };
 
-/// A density in both forms. Concentric, coaxial and flush parts are as frequent as others.
+/// One density as a Density and in its plain definition.
 struct RoundCase {
     Density density;
     PlainRound plain;
     double radius;
 };
 
+/// Makes random cases in which concentric, coaxial and flush parts are as frequent as others.
 class RoundGen {
 public:
     RoundGen(Gen& g, double radius) : g_(g), radius_(radius) {
@@ -105,7 +108,7 @@ public:
 
     RoundCase make(int parts) {
         Density d = part();
-        d = d & d;  // Boolean, be it a part alone
+        d = d & d;  // makes a single part a Boolean density too
         int e = plain_;
         while (--parts > 0) {
             const Density next = part();
@@ -130,7 +133,7 @@ public:
     }
 
 private:
-    // Families that are met again.
+    // Index of the family with this key in `all`; a new one is made by `make` if there is none.
     template <class Make>
     int known(std::vector<std::pair<Vec3, int>>& all, Vec3 key, Make make) {
         for (const auto& [of, family] : all)
@@ -148,10 +151,10 @@ private:
     int plane_family(Vec3 n) {
         return known(planes_, n, [=] { return [=](Vec3 x) { return glm::dot(n, x); }; });
     }
-    int within(int family, double limit) {  // a distance in [−limit, limit]
+    int within(int family, double limit) {  // `family` is a distance, compared with [−limit, limit]
         return of_.both(of_.at_most(family, limit), of_.no(of_.at_most(family, -limit)));
     }
-    // Planes of opposite normals are of one family.
+    // Half-spaces with opposite normals belong to one family of planes.
     int half_space(Vec3 n, double offset) {
         for (const auto& [of, family] : planes_)
             if (of == -n) return of_.no(of_.at_most(family, -offset));
@@ -173,7 +176,7 @@ private:
                 return g_.chance(0.5) ? Density::cylinder(c + low * axis_, c + high * axis_, R)
                                       : Density::cylinder(c + high * axis_, c + low * axis_, R);
             }
-            case 2: {  // cones of one angle about one axis, or two
+            case 2: {  // all cones have one slope and one axis direction; those with the same c are parallel
                 const double across = 1 / std::hypot(1.0, slope_), along = slope_ / std::hypot(1.0, slope_);
                 const double low = -0.4, widest = R, high = g_.chance(0.4) ? 10 : g_.between(0.1, 0.6);
                 const double end = widest - slope_ * (high - low);
@@ -192,7 +195,7 @@ private:
                     };
                 });
                 const int nappe = of_.both(of_.at_most(out, limit), of_.at_most(back, limit));
-                if (end <= 0) {  // to the apex
+                if (end <= 0) {  // the cone ends at its apex
                     plain_ = of_.both(nappe, beyond(axis_, at + low));
                     return Density::cone(from, from + axis * (widest / slope_), widest, 0);
                 }
@@ -229,7 +232,8 @@ private:
     std::vector<std::pair<Vec3, int>> points_, cylinders_, planes_, cones_, mirrored_, tori_;
 };
 
-/// A place that matters to round parts: on an axis, in a center, near them, or anywhere.
+/// A random Boolean density of `parts` parts; its filter radius is from 10⁻⁴ to 10⁻¹ in a fifth of the cases, else from
+/// 0.05 to 0.6.
 inline RoundCase round_case(Gen& g, int parts) {
     const double radius = g.chance(0.2) ? std::pow(10.0, g.between(-4, -1)) : g.between(0.05, 0.6);
     return RoundGen(g, radius).make(parts);

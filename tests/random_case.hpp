@@ -1,4 +1,4 @@
-// Random densities, solids and points, each a function of a seed.
+// Random densities, solids and points. Each is a function of a seed alone.
 #pragma once
 #include <cstdint>
 #include <vector>
@@ -8,24 +8,26 @@
 
 namespace deburr {
 
+/// The seeds 1 … count.
 inline std::vector<std::uint64_t> seeds(int count) {
     std::vector<std::uint64_t> all;
     for (int i = 0; i < count; ++i) all.push_back(std::uint64_t(i) + 1);
     return all;
 }
 
-/// Within rounding of a sharp plane, or of one that is nearly so: either side is right there.
+/// True if x is within rounding of a plane with no or nearly no rounding, where both sides are acceptable answers.
 inline bool on_a_jump(const DensityTree& tree, Vec3 x) {
     for (const HalfSpace& h : tree.half_spaces)
         if (h.radius < 1e-3 && std::abs(h.distance(x)) < h.radius + 1e-9) return true;
     return false;
 }
 
+/// Generator of random test cases (splitmix64).
 class Gen {
 public:
     explicit Gen(std::uint64_t seed) : state_(seed * 0x9e3779b97f4a7c15u + 0x1234567) { number(); }
 
-    /// In [0, 1) (splitmix64).
+    /// A number in [0, 1).
     double number() {
         std::uint64_t z = (state_ += 0x9e3779b97f4a7c15u);
         z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
@@ -35,7 +37,7 @@ public:
     double between(double lo, double hi) { return lo + (hi - lo) * number(); }
     int below(int n) { return int(number() * n); }
     bool chance(double p) { return number() < p; }
-    /// 0 and 1 as often as the values between.
+    /// A threshold in [0, 1]: in half of the cases 0 or 1.
     double threshold() { return chance(0.25) ? 0.0 : chance(0.33) ? 1.0 : number(); }
 
     Vec3 point(double reach = 1.5) { return {between(-reach, reach), between(-reach, reach), between(-reach, reach)}; }
@@ -46,7 +48,7 @@ public:
             if (length > 0.1 && length < 1) return v / length;
         }
     }
-    /// Axis-parallel more often than not.
+    /// A unit vector, parallel to an axis in more than half of the cases.
     Vec3 normal() {
         if (chance(0.4)) return direction();
         Vec3 n(0.0);
@@ -67,7 +69,7 @@ public:
     Density box() {
         Vec3 lo, hi;
         for (int k = 0; k < 3; ++k) {
-            // On a grid half of the time, so that faces touch and coincide.
+            // Six coordinates of ten are on a grid, so that faces touch and coincide.
             const bool grid = chance(0.6);
             lo[k] = grid ? -1 + 0.25 * below(6) : between(-1, 0.5);
             hi[k] = lo[k] + (grid ? 0.25 * (1 + below(4)) : between(0.1, 1));
@@ -79,7 +81,7 @@ public:
         const Density d = chance(0.3) ? Density::half_space(normal(), between(-0.7, 0.7)) : box();
         return chance(0.15) ? d.radius(chance(0.2) ? 0.0 : between(0.02, 0.5)) : d;
     }
-    /// Under Boolean operators, of up to 2^depth parts.
+    /// A density of up to 2^depth parts under Boolean operators.
     Density boolean(int depth) {
         if (depth == 0 || chance(0.15)) return part();
         switch (below(4)) {
@@ -89,7 +91,7 @@ public:
             default: return boolean(depth - 1) | boolean(depth - 1);
         }
     }
-    /// Under the papers' operators, with no thought of legality.
+    /// A density under the papers' operators that need not be legal.
     Density arithmetic(int depth) {
         if (depth == 0 || chance(0.15)) return part();
         const Density a = arithmetic(depth - 1), b = chance(0.2) ? boolean(depth - 1) : arithmetic(depth - 1);
@@ -99,14 +101,14 @@ public:
             default: return a - b;
         }
     }
-    /// In [0, 1] everywhere by the papers' rules: a product, or one of them split by a plane and put
-    /// together again, or with a part of it taken out.
+    /// A density that is in [0, 1] everywhere by the papers' rules: a product; a product cut by a plane into two parts
+    /// that are summed; or a product minus a part of itself.
     Density legal(int depth) {
         if (depth == 0) return part();
         const Density a = legal(depth - 1);
         switch (below(3)) {
             case 0: return a * legal(depth - 1);
-            case 1: {  // disjoint pieces: density ρF + ρ(1 − F)·b
+            case 1: {  // disjoint parts: ρF + ρ(1 − F)·b, with F of the plane
                 const Vec3 n = normal();
                 const double d = between(-0.5, 0.5);
                 return a * Density::half_space(n, d) + a * Density::half_space(-n, -d) * part();
@@ -133,7 +135,8 @@ public:
         const int op = below(3);
         return op == 0 ? a | b : op == 1 ? a & b : a - b;
     }
-    /// Where the density varies, if anywhere: within the filter of one to three of its planes.
+    /// A point within the filter of one of one to three random planes: likely where the density varies. The tree must
+    /// have a half-space.
     Vec3 near(const DensityTree& tree, double reach = 1.2) {
         Vec3 x = point(reach);
         for (int i = below(3); i >= 0; --i) {
@@ -142,14 +145,15 @@ public:
         }
         return x;
     }
-    /// On a bound plane, or where two or three meet; a few roundings to the outside or the inside.
+    /// A point on one of the CSG's planes or where two or three of them meet, moved by a few roundings to the outside
+    /// or inside.
     Vec3 tight_point(const BoundCsg& csg, bool outside) {
         Vec3 x = point();
         if (csg.planes.empty()) return x;
         const auto plane = [&] { return csg.planes[below(int(csg.planes.size()))]; };
         const int count = below(3);
         for (int pass = 0; pass < 30; ++pass) {
-            // Projections one after the other; few planes, far from parallel, so this converges.
+            // Projections onto the planes in turn; few planes that are far from parallel, so this converges.
             if (pass == 0) {
                 chosen_.clear();
                 for (int i = 0; i <= count; ++i) chosen_.push_back(plane());

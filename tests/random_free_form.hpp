@@ -1,11 +1,11 @@
-// Random quadrics and free forms, each a function of a seed.
+// Random quadrics and free forms. Each is a function of a seed alone.
 #pragma once
 #include "bounds/free_form.hpp"
 #include "random_case.hpp"
 
 namespace deburr {
 
-/// Of every kind, also those that are infinite; often along axes.
+/// A quadric of any kind, bounded or not; its axes are parallel to the coordinate axes in most cases.
 inline Quadric random_quadric(Gen& g) {
     Quadric q;
     q.center = g.point(1);
@@ -18,6 +18,7 @@ inline Quadric random_quadric(Gen& g) {
     return g.chance(0.4) ? transformed(q, g.map()) : q;
 }
 
+/// An ellipsoid with semi-axes in [least, most] and its center in [−reach, reach]³.
 inline Quadric random_ellipsoid(Gen& g, double least, double most, double reach) {
     Quadric q;
     q.center = g.point(reach);
@@ -33,7 +34,7 @@ inline Quadric random_ellipsoid(Gen& g, double least, double most, double reach)
     return transformed(q, turn);
 }
 
-/// About as large as the unit ball, with bumps and dents.
+/// A free form about as large as the unit ball, with this number of perturbations, some of them negative.
 inline std::shared_ptr<const FreeForm> random_free_form(Gen& g, int perturbations) {
     const double size = g.between(0.5, 1);
     std::vector<Perturbation> all;

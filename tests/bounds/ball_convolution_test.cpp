@@ -1,3 +1,4 @@
+// True convolution of polyhedra with a ball: values, gradients and running time against independent computations.
 #include "bounds/ball_convolution.hpp"
 
 #include <ctime>
@@ -18,8 +19,8 @@ Density plane(Vec3 normal, double offset) { return Density::half_space(normal, o
 
 double share(const Density& d, Vec3 x = Vec3(0), double r = 1) { return flatten_convolved(d, r).at(x); }
 
-// The part of the ball in the polyhedron, counted line by line: along each line the function changes
-// only where it meets a plane.
+// Fraction of the ball around x of radius r that lies in the polyhedron, by across² parallel lines: along each of them
+// the Boolean function changes only where the line meets a plane.
 double by_lines(const DensityTree& tree, Vec3 x, double r, int across) {
     const int root = tree.nodes.back().a;
     std::vector<char> is_true(tree.half_spaces.size());
@@ -92,26 +93,26 @@ TEST_CASE("around a point of all planes the share is an angle") {
         const Vec3 a = g.direction(), b = g.direction(), c = g.direction();
         const double between = pi - std::atan2(glm::length(glm::cross(a, b)), glm::dot(a, b));
         CHECK(std::abs(share(plane(a, 0) & plane(b, 0)) - between / (2 * pi)) < 1e-13);
-        // A corner's solid angle from its edges [Van Oosterom & Strackee 1983].
+        // Solid angle of a corner from its edges [Van Oosterom & Strackee 1983].
         const double hand = glm::dot(a, glm::cross(b, c)) > 0 ? -1 : 1;
         const Vec3 u = glm::normalize(hand * glm::cross(b, c)), v = glm::normalize(hand * glm::cross(c, a)),
                    w = glm::normalize(hand * glm::cross(a, b));
         const double solid = 2 * std::atan2(std::abs(glm::dot(u, glm::cross(v, w))),
                                             1 + glm::dot(u, v) + glm::dot(v, w) + glm::dot(w, u));
-        if (std::abs(glm::dot(a, glm::cross(b, c))) > 0.05)  // or the edges are not to be told from each other
+        if (std::abs(glm::dot(a, glm::cross(b, c))) > 0.05)  // otherwise the edges are too nearly parallel
             CHECK(std::abs(share(plane(a, 0) & plane(b, 0) & plane(c, 0)) - solid / (4 * pi)) < 1e-13);
     }
 }
 
 TEST_CASE("the share's change from place to place is the integral of its gradient") {
-    // Values come from areas on the sphere as well, gradients from the faces alone.
+    // Values use areas on the sphere too, gradients only the faces, so the two are independent.
     for (auto seed : seeds(60)) {
         CAPTURE(seed);
         Gen g(seed);
         const DensityTree tree =
             flatten_convolved(g.boolean(g.below(3)), g.between(0.2, 0.8), g.chance(0.3) ? g.map() : Affine{});
         const Vec3 from = g.near(tree, 0.8), step = 0.5 * g.direction();
-        constexpr int panels = 2'000;  // of three points, after Gauss; there are kinks
+        constexpr int panels = 2'000;  // of three Gauss points each, since the gradient has kinks
         double sum = 0;
         for (int k = 0; k < panels; ++k)
             for (const double s : {-0.7745966692414834, 0.0, 0.7745966692414834}) {
@@ -126,7 +127,8 @@ TEST_CASE("flush, touching and coincident faces leave no trace in the share") {
     for (auto seed : seeds(1'000)) {
         CAPTURE(seed);
         Gen g(seed);
-        // One box in eight parts, each placed by another way.
+        // A box is the union of eight parts; a random half of them are mapped there and back, which rounds their
+        // planes.
         const Vec3 cut = {g.between(0.2, 0.8), g.between(0.2, 0.8), g.between(0.2, 0.8)};
         const Affine map = g.map(), back = {glm::inverse(map.linear), -(glm::inverse(map.linear) * map.shift)};
         Density parts = ~Density::box(Vec3(-9), Vec3(9));
@@ -147,7 +149,7 @@ TEST_CASE("flush, touching and coincident faces leave no trace in the share") {
 }
 
 TEST_CASE("planes through one line, however near, are told apart or are one") {
-    // A wedge, cut into wedges about its edge, put together again.
+    // The union of adjacent wedges around a common edge is compared with one wedge of the whole angle.
     double worst = 0;
     for (auto seed : seeds(3'000)) {
         CAPTURE(seed);
@@ -171,7 +173,7 @@ TEST_CASE("planes through one line, however near, are told apart or are one") {
         CHECK(error < (near ? 1e-8 : 1e-12));
         worst = std::max(worst, error);
     }
-    CHECK(worst > 1e-13);  // or they were not near enough
+    CHECK(worst > 1e-13);  // otherwise no planes were near enough to be hard
 }
 
 TEST_CASE("planes that touch the ball, edges that touch it and corners on it make no jump") {
@@ -182,7 +184,7 @@ TEST_CASE("planes that touch the ball, edges that touch it and corners on it mak
         const auto corner = [&](double at) {
             return plane(a, at * glm::dot(a, n)) & plane(b, at * glm::dot(b, n)) & plane(c, at * glm::dot(c, n));
         };
-        const Density edge = plane(a, glm::dot(a, n)) & plane(b, glm::dot(b, n));  // through n, on the sphere
+        const Density edge = plane(a, glm::dot(a, n)) & plane(b, glm::dot(b, n));  // through n, on the unit sphere
         for (const double step : {1e-15, 1e-12, 1e-10}) {
             CHECK(std::abs(share(corner(1 + step)) - share(corner(1 - step))) < 2 * step + 1e-13);
             CHECK(std::abs(share(edge, step * n) - share(edge, -step * n)) < 2 * step + 1e-13);
@@ -193,7 +195,7 @@ TEST_CASE("planes that touch the ball, edges that touch it and corners on it mak
 
 namespace {
 
-// Planes all around, at 0.5 from the origin.
+// A polyhedron of `count` faces in all directions, all tangent to the sphere of radius 0.5 around the origin.
 Density many_sided(int count) {
     std::vector<Density> planes;
     for (int k = 0; k < count; ++k) {
@@ -206,7 +208,8 @@ Density many_sided(int count) {
 }  // namespace
 
 TEST_CASE("many planes in one ball: a sphere in a ball, nearly") {
-    // Beyond the truth tables. The circumscribed polyhedra of n planes close in on ball in ball.
+    // So many planes need more than truth tables can hold. The polyhedron is a little larger than a ball of radius ½,
+    // whose share of the unit ball is ⅛.
     const DensityTree tree = flatten_convolved(many_sided(60), 1);
     CHECK(tree.at(Vec3(0)) > 0.125);
     CHECK(tree.at(Vec3(0)) < 0.14);
@@ -237,5 +240,5 @@ TEST_CASE("many planes in one ball: the time grows with the square of their numb
         CHECK(sum > 0.5);
         return double(std::clock() - begin) / CLOCKS_PER_SEC;
     };
-    CHECK(seconds_at(240) < 3);  // 0.15 s; by a walk along every chord that crosses all planes 30 s
+    CHECK(seconds_at(240) < 3);  // 0.15 s; a walk along all planes' chords takes 30 s
 }

@@ -1,3 +1,4 @@
+// Ranges of a density over boxes, and trees pruned to boxes, against the plain definition.
 #include "bounds/box_range.hpp"
 
 #include <ctime>
@@ -21,7 +22,7 @@ Box random_box(Gen& g, Vec3 at) {
     return box;
 }
 
-// Corners and faces as often as the inside.
+// A random point of the box, on its sides and corners as often as inside; infinite sides are cut at ±9.
 Vec3 point_in(const Box& box, Gen& g) {
     Vec3 x;
     for (int k = 0; k < 3; ++k) {

@@ -1,3 +1,4 @@
+// Densities that are a product, or 1 minus a product: how they are recognized, and where rays cross them.
 #include "bounds/convex_density.hpp"
 
 #include "bounds/root_finder.hpp"
@@ -22,7 +23,7 @@ double value(const ConvexDensity& d, Vec3 x) {
     return d.complement ? 1 - P : P;
 }
 
-// Planes that meet within a few radii, so that several vary together.
+// A product of half-spaces that meet within a few radii, so that several of them vary together.
 Density product(Gen& g, int factors) {
     std::vector<Density> all;
     for (int i = 0; i < factors; ++i) {
@@ -72,13 +73,13 @@ TEST_CASE("what is recognized as a product, or as one minus a product, has the d
                 case 2: return a | b;
                 case 3: return ~(a & b);
                 case 4: return a & ~b;
-                case 5: return a - a * b;  // the plane of a twice
+                case 5: return a - a * b;  // has the plane of a twice
                 case 6: return g.legal(1);
                 default: return g.boolean(2);
             }
         }();
         const DensityTree tree = flatten(d, g.chance(0.1) ? 0.0 : g.between(0.05, 0.6));
-        // As in a cell: what varies in a small box.
+        // The tree is pruned to a small box, as in a cell.
         const Vec3 lo = g.near(tree);
         const DensityTree local = prune(tree, {lo, lo + Vec3(0.1)}).tree;
         const LocalDensity density(local);
@@ -113,7 +114,7 @@ TEST_CASE("a product's crossings are those of the search, whatever the ray") {
         if (!convex) continue;
         const Vec3 aim = g.near(tree), o = g.chance(0.3) ? g.near(tree) : g.point(2);
         Vec3 direction = glm::normalize(aim - o);
-        if (g.chance(0.3)) {  // along the surface, almost
+        if (g.chance(0.3)) {  // nearly along one of the planes
             const Vec3 n = tree.half_spaces[g.below(int(tree.half_spaces.size()))].normal;
             const Vec3 flat = direction - n * glm::dot(direction, n);
             if (glm::length(flat) > 1e-3) direction = glm::normalize(flat + n * std::pow(10.0, g.between(-9, -1)));
@@ -143,7 +144,7 @@ TEST_CASE("a product's crossings are those of the search, whatever the ray") {
             REQUIRE(all.start_inside == (rho > 0.5));
             inside += rho > 0.5;
         }
-        // The search may overlook a dip of 10⁻⁹ (is_near_zero); so may whoever starts on the surface.
+        // The reference search may overlook a dip of 10⁻⁹ (is_near_zero), and so may a ray that starts on the surface.
         const auto near_zero = [&](double t) {
             return std::abs(ray.at(t).slope) < 1e-5 || std::abs(t - t0) < 1e-9 || std::abs(t - t1) < 1e-9;
         };
@@ -186,7 +187,7 @@ TEST_CASE("sharp factors clip a product: its crossings against the plain definit
         const auto convex = convex_density(density, scale);
         if (!convex || !density.has_sharp()) continue;
         REQUIRE(convex->sharp > 0);
-        // Beside the sharp edges: on them either answer is right.
+        // The noise of 0.05 keeps the ray off the sharp edges, where either answer is right.
         const Vec3 o = g.point(3), direction = glm::normalize(g.near(tree.leaves[0].density) + g.point(0.05) - o);
         std::uint64_t evaluations = 0;
         const ConvexView view = ConvexView::of(*convex);

@@ -1,5 +1,5 @@
-// True convolution as a density like the others: bounds, ranges, pruning; and what Lobb says of
-// quasi-convolution beside it.
+// True convolution as a density like any other: its bounds, ranges and pruning. Also what Lobb says about the
+// difference between quasi-convolution and true convolution.
 #include "bounds/bounding_box.hpp"
 #include "bounds/local_density.hpp"
 #include "bounds/solid_range.hpp"
@@ -116,7 +116,7 @@ TEST_CASE("a convolved solid is carried along by any map") {
         CAPTURE(seed);
         Gen g(seed);
         const Density d = g.boolean(1);
-        if (d.has_radius()) continue;  // a convolution has one radius
+        if (d.has_radius()) continue;  // all of a convolution has one radius
         const double r = g.between(0.1, 0.5);
         const Affine map = g.map();
         const SolidTree still = flatten(Solid::convolved(r, d)),
@@ -146,8 +146,8 @@ TEST_CASE("Lobb 2.3.1 (a): a product is exact where the filter lies outside of e
             CHECK(quasi(a * b, x, r) == 0);
             met += exact(a, x, r) > 0;
         }
-        // Of a factor that is a product itself this is not so: a filter beyond its edge may meet both
-        // of the planes and nothing of what is between them.
+        // This does not hold if a factor is itself a product: a filter beyond the factor's edge may meet both of its
+        // planes and nothing of the wedge between them.
         if (exact(c, x, r) == 0) {
             CHECK(exact(a * c, x, r) == 0);
             CHECK(quasi(a * c, x, r) < 0.01);

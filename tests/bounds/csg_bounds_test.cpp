@@ -1,3 +1,4 @@
+// Bound CSG against Lobb's theorems and the Fréchet inequalities, at points on its planes, where the bounds are tight.
 #include "bounds/csg_bounds.hpp"
 
 #include "bounds/bounding_box.hpp"
@@ -9,8 +10,7 @@ using namespace deburr;
 
 namespace {
 
-// Points where planes meet are where floating point lies; ρ there is rounded by this, as positions
-// are by a few ε.
+// Rounding error of ρ at a point x that is computed as the intersection of planes and so is off by a few ε.
 double rounding(const DensityTree& tree, Vec3 x) {
     double least = infinity;
     for (const HalfSpace& h : tree.half_spaces)
@@ -19,11 +19,11 @@ double rounding(const DensityTree& tree, Vec3 x) {
 }
 
 struct Tally {
-    int conclusive = 0;  // the bound said something of the point
-    int tight = 0;       // and ρ was within 1e-9 of t
+    int conclusive = 0;  // points about which the bound says something
+    int tight = 0;       // those of them where |ρ − t| < 10⁻⁹
 };
 
-// x ∉ O ⇒ ρ ≤ t, at points where O's planes meet.
+// Checks that x ∉ O implies ρ ≤ t, at points where O's planes meet.
 void check_outer(const DensityTree& tree, double t, Gen& g, Tally& tally) {
     const BoundCsg bound = outer_bound(tree, t);
     for (int k = 0; k < 4; ++k) {
@@ -84,7 +84,7 @@ TEST_CASE("Lobb theorem 3: O(t) minus I(1 - t) is an outer bound of a difference
 }
 
 TEST_CASE("Lobb theorem 4: a union at t is an inner bound of a sum") {
-    // The appendix prints "outer" here and in 5 and 6; its proofs say inner.
+    // The appendix prints "outer" here and in theorems 5 and 6; its proofs are for inner bounds.
     const Tally tally = over_cases(5'000, false, [](Gen& g) { return leaf(g) + leaf(g); });
     CHECK(tally.conclusive > 4'000);
     CHECK(tally.tight > 400);
@@ -105,7 +105,7 @@ TEST_CASE("Lobb theorem 6: I(t) minus O(0) is an inner bound of a difference") {
 TEST_CASE("Frechet: outer bounds of conjunctions, disjunctions and complements, whatever they share") {
     for (const bool outer : {true, false}) {
         const Tally tally = over_cases(5'000, outer, [](Gen& g) {
-            const Density a = leaf(g), b = g.chance(0.3) ? a : leaf(g);  // fully dependent, too
+            const Density a = leaf(g), b = g.chance(0.3) ? a : leaf(g);  // operands may be fully dependent
             return g.chance(0.4) ? a & b : g.chance(0.7) ? a | b : ~a & b;
         });
         CHECK(tally.conclusive > 4'000);
@@ -176,7 +176,7 @@ TEST_CASE("a bounding box holds the solid, and is tight for a tilted block") {
     const Box box = bounding_box(flatten(Density::box(Vec3(0), Vec3(1)), 0.1, turned));
     CHECK(glm::length(box.lo - Vec3(5 - s, 0, 0)) < 1e-7);
     CHECK(glm::length(box.hi - Vec3(5 + s, 2 * s, 1)) < 1e-7);
-    // Nested sums, whose operands are not provably in [0, 1], have the box of what is not 0.
+    // Nested sums are bounded too: their operands are not provably in [0, 1], but have the box of where they are not 0.
     Density row = Density::box(Vec3(0), Vec3(1));
     for (int i = 1; i < 64; ++i) row = row + Density::box({i, 0, 0}, {i + 1.0, 1, 1});
     CHECK(bounding_box(flatten(row, 0.1)).finite());

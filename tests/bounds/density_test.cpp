@@ -1,3 +1,4 @@
+// Densities and their flat trees: values and gradients against the plain definition, and the laws of Boolean densities.
 #include "bounds/density_tree.hpp"
 
 #include "bounds/local_density.hpp"
@@ -65,8 +66,8 @@ TEST_CASE("a Boolean density lies in [0, 1] and depends on the function, not on 
         const Vec3 x = g.near(flatten((a | b) & ~c, r));
         const double rho = at((a | b) & ~c, r, x);
         REQUIRE((rho >= -1e-15 && rho <= 1 + 1e-15));
-        REQUIRE(std::abs(rho - at(~((~a & ~b) | c), r, x)) < 1e-12);         // de Morgan
-        REQUIRE(std::abs(rho - at((a & ~c) | (~c & b), r, x)) < 1e-12);      // distributed
+        REQUIRE(std::abs(rho - at(~((~a & ~b) | c), r, x)) < 1e-12);         // De Morgan
+        REQUIRE(std::abs(rho - at((a & ~c) | (~c & b), r, x)) < 1e-12);      // distributive law
         REQUIRE(std::abs(at(a | (a & b), r, x) - at(a & a, r, x)) < 1e-12);  // absorption
         varying += rho > 0.01 && rho < 0.99;
     }
@@ -94,10 +95,10 @@ TEST_CASE("flush faces that overlap, touch or are cut away stay flat to 1e-14") 
         CHECK(std::abs(at(over, r, {x, 1, 0.5}) - 0.5) < 1e-14);
         CHECK(std::abs(at(touch, r, {x, 1, 0.5}) - 0.5) < 1e-14);
         CHECK(std::abs(at(nested, r, {x, 1, 0.5}) - 0.5) < 1e-14);
-        // The pocket's own rim is rounded; beyond a radius from it the top is as it was.
+        // The pocket's rim is rounded, but beyond one radius from it the top face is unchanged.
         if (std::abs(x - 1.5) > 0.5 + r) CHECK(std::abs(at(cut, r, {x, 1, 0.75}) - 0.5) < 1e-14);
     }
-    // What docs/design.md, Boolean densities, says of the papers' sum and of a product of two equal half-spaces.
+    // docs/design.md, Boolean densities, gives these figures for the papers' sum and a product of equal half-spaces.
     const Density h = Density::half_space({0, 1, 0}, 1);
     CHECK(at(slab_box(0, 2) + slab_box(1, 3), r, {1.5, 1 + 0.347 * r, 0.5}) == Approx(0.5).margin(2e-3));
     CHECK(at(h * h, r, {0, 1 - 0.284 * r, 0}) == Approx(0.5).margin(2e-3));
@@ -117,8 +118,8 @@ TEST_CASE("where the papers' operators are legal and planes 2r apart, both readi
 }
 
 TEST_CASE("axis-parallel Boolean densities are true convolutions with three ball profiles") {
-    // Midpoint rule over the kernel ¾(1 − u²)/r in each direction, against a model with flush,
-    // overlapping and thin parts.
+    // The reference is a midpoint rule over the kernel ¾(1 − u²), u in [−1, 1] in units of r, along each axis, for a
+    // model with flush, overlapping and thin parts.
     const double r = 0.3;
     const auto inside = [](Vec3 p) {
         const auto in = [&](Vec3 lo, Vec3 hi) { return Box{lo, hi}.contains(p); };
@@ -148,7 +149,7 @@ TEST_CASE("a radius fixed inside holds against those outside, and is not scaled 
     const DensityTree tree = flatten(d, 0.5);
     CHECK(tree.half_spaces[0].radius == 0.1);
     CHECK(tree.half_spaces[1].radius == 0.2);
-    // Carried along with a solid it is: x ↦ ρ(A⁻¹x).
+    // A solid's map does scale it: the density becomes x ↦ ρ(A⁻¹x).
     const DensityTree carried = flatten(d, 0.5, {Mat3(3.0), Vec3(0)});
     CHECK(carried.half_spaces[0].radius == Approx(0.3));
 }

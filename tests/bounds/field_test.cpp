@@ -1,4 +1,4 @@
-// What any field must promise, shown on a ball, and what a placement makes of it.
+// The contract of Field, tested with a ball and with transformed fields.
 #include "bounds/field.hpp"
 
 #include "ball_field.hpp"
@@ -14,7 +14,7 @@ namespace {
 
 FieldPtr placed_ball(Gen& g) {
     const FieldPtr ball = std::make_shared<BallField>();
-    // Twice, as solids in solids are.
+    // Two nested transforms, as for a solid in a transformed solid.
     return transformed(transformed(ball, g.map()), g.map());
 }
 

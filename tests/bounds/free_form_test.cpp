@@ -1,3 +1,4 @@
+// Quadrics and free forms: values, ranges, bounding boxes, pruning and bounds along rays against Vyatkin's equations.
 #include "bounds/free_form.hpp"
 
 #include "bounds/bounding_box.hpp"
@@ -18,13 +19,13 @@ Box random_box(Gen& g, double reach = 1.5) {
 Vec3 within(Gen& g, const Box& box) {
     Vec3 x;
     for (int k = 0; k < 3; ++k) {
-        const int where = g.below(6);  // sides and corners as often as not
+        const int where = g.below(6);  // on a side of the box in a third of the cases
         x[k] = where == 0 ? box.lo[k] : where == 1 ? box.hi[k] : g.between(box.lo[k], box.hi[k]);
     }
     return x;
 }
 
-// What rounding may make of a sum of numbers this large.
+// Rounding error of a sum of terms whose magnitudes add up to `size`.
 double noise(double size) { return 1e-13 * (1 + size); }
 
 }  // namespace
@@ -44,7 +45,7 @@ TEST_CASE("quadrics: a range holds what is in the box, and is attained but for m
         }
         REQUIRE(r.lo <= lo);
         REQUIRE(r.hi >= hi);
-        // Axis-parallel: where each axis is at its extreme, all are.
+        // Without mixed terms the maximum over the box is the sum of the maxima along each axis.
         const bool mixed = q.A[0][1] != 0 || q.A[0][2] != 0 || q.A[1][2] != 0;
         if (mixed) continue;
         double want = q.k;
@@ -62,7 +63,7 @@ TEST_CASE("quadrics: the range over all of space is that of the squares that the
         Quadric q;
         Range want{};
         want.lo = want.hi = q.k = g.chance(0.3) ? 0 : g.between(-1, 1);
-        for (int k = 0; k < 3; ++k) {  // a (y - p)^2, or b y
+        for (int k = 0; k < 3; ++k) {  // a term a·(y − p)² or b·y
             const int kind = g.below(4);
             const double a = kind < 2 ? (kind ? 1 : -1) * g.between(0.2, 3) : 0, p = g.between(-1, 1);
             q.A[k][k] = a;
@@ -128,8 +129,7 @@ TEST_CASE("quadrics: the bounding box holds the set, and touches ellipsoids") {
         const Box around = e.bounding_box();
         REQUIRE(around.finite());
         for (int k = 0; k < 3; ++k) {
-            // Beside the middle of a side Q falls below 0; the side is touched in one point, where
-            // the gradient is along the axis.
+            // The box touches the ellipsoid in one point of each side, where Q's gradient is along the axis.
             Vec3 n(0.0);
             n[k] = 1;
             const Vec3 to = glm::inverse(-e.A) * n;
@@ -315,7 +315,7 @@ TEST_CASE("bounding boxes: what CSG leaves of an infinite form is bounded, if it
     const auto slab = [](double lo, double hi) {
         return Solid::sharp(Density::half_space({0, 1, 0}, hi) * Density::half_space({0, -1, 0}, -lo));
     };
-    // Cut at half of its height, a cone of radius 3 has radius 1.5 there.
+    // At half of its height a cone with a base of radius 3 has radius 1.5.
     const Solid cone = solid(revolved({0, 0, 1, -1}, {5, 2, -1}, {0, 1, 0}, 3, 2));
     const Box box = bounding_box(flatten(cone & slab(1, 1.9)));
     CHECK(box.lo.y == Approx(1));
@@ -328,7 +328,7 @@ TEST_CASE("bounding boxes: what CSG leaves of an infinite form is bounded, if it
     CHECK(open.hi.y == Approx(1));
     CHECK(open.lo.y == -infinity);
     CHECK(open.hi.x == infinity);
-    // The same of any form: points inside stay inside.
+    // The bounding box holds every sampled point inside of intersections of random quadrics, too.
     int inside = 0;
     for (auto seed : seeds(300)) {
         CAPTURE(seed);

@@ -1,3 +1,4 @@
+// The search for points where the papers' operators leave [0, 1].
 #include "bounds/legality.hpp"
 
 #include "catch.hpp"
@@ -10,8 +11,8 @@ namespace {
 
 const Density cube = Density::box(Vec3(0), Vec3(1));
 const Density top = Density::half_space({0, 1, 0}, 1);
-const Density box1 = Density::box({0.25, 0.8, 0.25}, {0.75, 1.3, 0.75});  // sticks out of the cube
-const Density box3 = Density::box({0.25, 1, 0.25}, {0.75, 1.5, 0.75});    // stands on it
+const Density box1 = Density::box({0.25, 0.8, 0.25}, {0.75, 1.3, 0.75});  // overlaps the cube and sticks out of it
+const Density box3 = Density::box({0.25, 1, 0.25}, {0.75, 1.5, 0.75});    // stands on the cube
 
 std::vector<IllegalDensity> check(const Density& d, double r) { return find_illegal(flatten(d, r), 1'000); }
 
@@ -40,7 +41,7 @@ TEST_CASE("parts that overlap by a hundredth are found, whatever the radius") {
         REQUIRE(found.size() == 1);
         CHECK(found[0].line == 3);
         CHECK(found[0].value > 1);
-        CHECK(check(cube + Density::box({1, 0, 0}, {2, 1, 1}), r).empty());  // touching is legal
+        CHECK(check(cube + Density::box({1, 0, 0}, {2, 1, 1}), r).empty());  // touching boxes are legal
         CHECK(check(cube + Density::box({1.01, 0, 0}, {2, 1, 1}), r).empty());
     }
 }
@@ -78,9 +79,9 @@ TEST_CASE("a search costs no more tree nodes than it may, however many operators
         const std::vector<IllegalDensity> found = find_illegal(tree, effort);
         REQUIRE(!found.empty());
         for (const IllegalDensity& d : found) CHECK(d.value < -0.5);
-        // The last look may pass the limit, but by no more than it takes.
+        // The last step may exceed the limit, but by no more than its own cost.
         CHECK(effort.nodes > -4 * std::int64_t(tree.nodes.size()));
-        // Of one line the whole chain is searched, and no part of it.
+        // If all operators are on one line, only the whole chain is searched and none of its parts.
         if (one_line) CHECK(effort.nodes > 1'000'000);
     }
 }

@@ -1,3 +1,5 @@
+// Convolution of closed meshes with a ball: values, gradients, bounds, ranges and pruning against polyhedra and
+// formulas.
 #include "bounds/mesh_convolution.hpp"
 
 #include "bounds/mesh_field.hpp"
@@ -16,7 +18,7 @@ constexpr double pi = test::pi;
 
 Density l_density() { return Density::box({0, 0, 0}, {2, 1, 1}) | Density::box({0, 0, 0}, {1, 2, 1}); }
 
-// Places that are not in general position: on vertices, edges, faces, and where the sphere touches these.
+// A point that is not in general position: on a vertex, edge or face, or where the ball's sphere touches one.
 Vec3 adversarial(Gen& g, const ClosedMesh& mesh, double r) {
     const int t = g.below(int(mesh.size()));
     const Vec3 a = mesh.corner(t, 0), b = mesh.corner(t, 1), c = mesh.corner(t, 2), n = mesh.plane(t).normal;
@@ -47,7 +49,7 @@ TEST_CASE("the share of a ball in a mesh is the convolution of the polyhedron th
         const Vec3 x = special ? adversarial(g, mesh, r) : Vec3(g.between(-1, 3), g.between(-1, 3), g.between(-1, 2));
         const ValueGradient expected = flatten_convolved(density, r).gradient_at(x), got = ball_share(mesh, x, r);
         CAPTURE(x.x, x.y, x.z, r, got.value, expected.value);
-        // Where the sphere touches an edge or a plane, rounding of 10⁻¹⁶ is a chord of 10⁻⁸.
+        // Where the sphere touches an edge or a plane, a rounding error of 10⁻¹⁶ becomes a chord of length 10⁻⁸.
         CHECK(std::abs(got.value - expected.value) <= (special ? 2e-8 : 1e-12));
         CHECK(r * largest(got.gradient - expected.gradient) <= (special ? 1e-7 : 1e-11));
         varied += expected.value > 0 && expected.value < 1;
@@ -60,7 +62,7 @@ TEST_CASE("the share does not depend on how a solid's faces are triangulated") {
         CAPTURE(seed);
         Gen g(seed);
         Shape coarse = Shape::l_prism(), fine = coarse;
-        // Each triangle is split at a point within, or on an edge where its neighbour is split too.
+        // Each triangle is split at a point inside it, or on an edge whose other triangle is split at the same point.
         for (int k = 0; k < 30; ++k) {
             const std::size_t t = std::size_t(g.below(int(fine.triangles.size())));
             const Corners c = fine.triangles[t];
@@ -99,7 +101,7 @@ TEST_CASE("the share near a finely tessellated sphere is that of two balls") {
 }
 
 TEST_CASE("a fan of a thousand triangles around a vertex has the share of its solid") {
-    // A cone over a polygon of a thousand sides, and the same as a plain cone's share by thin slices.
+    // A right cone of height 1 over a polygon of a thousand sides, close to a circle of radius 1.
     Shape cone;
     const int sides = 1000;
     cone.vertices = {{0, 0, 1}, {0, 0, 0}};
@@ -111,10 +113,10 @@ TEST_CASE("a fan of a thousand triangles around a vertex has the share of its so
         cone.triangles.push_back({1, b, a});
     }
     const ClosedMesh mesh = cone.mesh();
-    // The ball around the apex, no larger than the slant: a sector of half-angle 45°.
+    // A ball around the apex, no larger than the height: the cone's share is that of a sector of half-angle 45°.
     const double sector = (1 - std::sqrt(0.5)) / 2;
     for (const double r : {0.1, 0.3, 0.7}) CHECK(std::abs(ball_share(mesh, {0, 0, 1}, r).value - sector) < 1e-5);
-    // All of it.
+    // A ball that holds the whole cone: its share is the ratio of the volumes.
     const double volume = 0.5 * sides * std::sin(2 * pi / sides) / 3;
     CHECK(std::abs(ball_share(mesh, {0, 0, 0}, 5).value - volume / (4 * pi / 3 * 125)) < 1e-14);
     CHECK(std::abs(mesh.volume() - volume) < 1e-12);
@@ -175,7 +177,7 @@ TEST_CASE("the gradient is that of the share, and M, L and G bound it along ever
             CHECK(std::abs(v.value) <= b.M * (1 + 1e-12));
             CHECK(std::abs(v.slope) <= b.L * (1 + 1e-9) + 1e-14);
             if (i > 0) {
-                // What lies between, by its mean.
+                // Values and slopes change between samples by no more than the bounds allow.
                 CHECK(std::abs(v.value - before) <= b.L * h * (1 + 1e-9) + 1e-14);
                 CHECK(std::abs(v.slope - slope_before) <= b.G * h * (1 + 1e-9) + 1e-12 / r);
                 CHECK(std::abs(v.value - before - 0.5 * h * (v.slope + slope_before)) <= 0.25 * b.G * h * h + 1e-12);
@@ -239,8 +241,8 @@ TEST_CASE("ranges over boxes hold the share and its rate, and what is pruned to 
 }
 
 TEST_CASE("what is pruned to a box tells inside from outside where none of its triangles is near") {
-    // A cavity, and a box from its middle through its wall to where the outer face is near. The face is nearer to the
-    // middle than that wall, and what lies between is not within the radius of the box.
+    // The box reaches from the middle of a cavity through its wall to where the outer face is near. The outer face is
+    // nearer to the cavity's middle than that wall is, and part of the wall is farther than the radius from the box.
     Shape shell = Shape::prism({{-5, -5}, {10, -5}, {10, 0.4}, {-5, 4.4}}, {{0, 1, 2}, {0, 2, 3}}, -5, 5);
     const Shape cavity = Shape::box({-2, -2, -3}, {4, 1.5, 3});
     const int before = int(shell.vertices.size());
@@ -267,7 +269,8 @@ TEST_CASE("a share is right where a triangle that the sphere cuts is not among t
         mesh.near({x, x}, r, near);
         if (near.size() < 2) continue;
         const ValueGradient all = ball_share(mesh, x, r);
-        // Whose border the sphere cuts: it holds a corner of it and not all.
+        // The sphere cuts the border of the missing triangle: some of its corners are inside the sphere and some
+        // outside.
         const int missing = near[std::size_t(g.below(int(near.size())))];
         int corners = 0;
         for (int k = 0; k < 3; ++k) corners += glm::distance(mesh.corner(missing, k), x) < 0.99 * r;
@@ -297,7 +300,7 @@ TEST_CASE("a cell without an end holds no more of a mesh than its finite part") 
     REQUIRE(local);
     CHECK(local->local_size(cap).half_spaces < field.size() / 20);
     CHECK(local->local_size({{-infinity, -infinity, 2}, {-0.2, infinity, infinity}}).range.hi <= 0);
-    // Of many triangles in a large box the number is a bound.
+    // For a large box with many triangles the number is only an upper bound.
     CHECK(local->local_size({{-1.1, -1.1, -1.1}, {-0.5, 1.1, 1.1}}).half_spaces >= field.size() / 8);
 }
 
@@ -313,7 +316,7 @@ TEST_CASE("an open mesh is told with the number of its open edges, and where one
 }
 
 TEST_CASE("facets of a face that is bent by rounding make no wedge") {
-    // A cube whose top has a vertex in its middle, which is off by this much.
+    // The cube's top face has a vertex in its middle, which is off the plane by `off`.
     for (const double off : {1e-11, -1e-11}) {
         std::vector<Vec3> v;
         for (int i = 0; i < 8; ++i) v.push_back(Vec3(i & 1, i >> 1 & 1, i >> 2));

@@ -1,3 +1,4 @@
+// The bounding box of an intersection of half-spaces: the shortcut for axis-parallel planes against linear programming.
 #include "bounds/polyhedron_box.hpp"
 
 #include "catch.hpp"
@@ -23,7 +24,7 @@ TEST_CASE("planes along the axes give the box that the linear programs give") {
             planes.push_back({normal, g.between(-1, 3)});
         }
         const Box box = polyhedron_box(planes);
-        // A plane that excludes nothing, but is along no axis, has the programs solved.
+        // This plane excludes nothing, but as it is not axis-parallel the linear programs are solved.
         planes.push_back({glm::normalize(Vec3(1, 1, 1)), 100});
         const Box want = polyhedron_box(planes);
         REQUIRE(box.empty() == want.empty());
@@ -32,7 +33,7 @@ TEST_CASE("planes along the axes give the box that the linear programs give") {
         for (int k = 0; k < 3; ++k)
             for (const auto& [got, expected] : {std::pair{box.lo[k], want.lo[k]}, {box.hi[k], want.hi[k]}}) {
                 ++bounded;
-                CHECK(std::abs(got - expected) <= 2e-7);  // 10⁻⁹ of the largest offset, on either side
+                CHECK(std::abs(got - expected) <= 2e-7);  // either road adds 10⁻⁹ of the largest offset
             }
     }
     CHECK(bounded > 1'000);

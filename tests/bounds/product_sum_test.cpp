@@ -1,3 +1,4 @@
+// Densities multiplied out into sums of products: values, gradients and crossings against the density itself.
 #include "bounds/product_sum.hpp"
 
 #include "catch.hpp"
@@ -11,7 +12,7 @@ namespace {
 
 constexpr double t_tolerance = 1e-14;
 
-// What is left of a density in a small box, as in a cell, and its tree.
+// A density pruned to a small box, as in a cell; `sum` is empty if it cannot be multiplied out.
 struct Case {
     DensityTree tree;
     std::optional<LocalDensity> density;
@@ -30,7 +31,7 @@ struct Case {
 Vec3 direction_to(Gen& g, const Case& c, Vec3 o) {
     const Vec3 direction = glm::normalize(g.near(c.tree) - o);
     if (!g.chance(0.3)) return direction;
-    // Along a plane, almost.
+    // Nearly along one of the planes.
     const Vec3 n = c.tree.half_spaces[g.below(int(c.tree.half_spaces.size()))].normal;
     const Vec3 flat = direction - n * glm::dot(direction, n);
     return glm::length(flat) > 1e-3 ? glm::normalize(flat + n * std::pow(10.0, g.between(-9, -1))) : direction;
@@ -57,7 +58,7 @@ TEST_CASE("a density multiplied out has the density's values and gradients") {
         REQUIRE(glm::length(ray.gradient(0) - want.gradient) < 1e-11 * (1 + glm::length(want.gradient)));
     }
     CHECK(recognized > 2'000);
-    CHECK(with_constant > 250);  // compilers evaluate operands in orders of their own: other cases, 294 with clang++
+    CHECK(with_constant > 250);  // compilers differ in the order of operands, so in the cases; 294 with clang++
     CHECK(several > 300);
 }
 
@@ -150,7 +151,7 @@ TEST_CASE("a sum's crossings are those of the search by M, L and G, whatever the
         RootCounters counters;
         ray.crossings(t0, t1, t_tolerance, true, counters, into(coarse));
         REQUIRE(coarse.size() == got.size());
-        // Either may overlook a dip of 10⁻⁹; so may whoever starts on the surface.
+        // Both searches may overlook a dip of 10⁻⁹, and so may a ray that starts on the surface.
         const auto near_zero = [&](double t) {
             return std::abs(plain_ray.at(t).slope) < 1e-4 || std::abs(t - t0) < 1e-9 || std::abs(t - t1) < 1e-9;
         };
@@ -204,7 +205,8 @@ TEST_CASE("multiplied out, nested half-spaces that do not vary in the same place
     const auto terms = [](const Density& d, double r) { return LocalDensity(flatten(d, r)).as_sum(8)->terms.size(); };
     CHECK(terms(slab(0.5), 0.25) == 1);
     CHECK(terms(slab(0.5), 0.26) == 2);
-    // Of F·G what is nested goes, what is disjoint vanishes; turned round the same.
+    // In a product F·G of parallel planes, a factor that is 1 where the other varies is dropped; a product of disjoint
+    // half-spaces vanishes.
     const Density narrow = Density::half_space({1, 0, 0}, 0), wide = Density::half_space({1, 0, 0}, 1);
     const Density other = Density::half_space({-1, 0, 0}, -1);
     CHECK(LocalDensity(flatten(narrow * wide, 0.5)).as_sum(1)->terms.at(0).factors.size() == 1);

@@ -1,3 +1,4 @@
+// The density profile of a half-space and its inverse, the displacement.
 #include "bounds/profile.hpp"
 
 #include <bit>
@@ -74,7 +75,7 @@ TEST_CASE("displacement stays in [-1, 1], monotone and accurate where the cubic 
         last = a;
         REQUIRE(std::abs(profile(a) - rho) <= inverse_slack);
         REQUIRE(std::abs(profile(b) - (1 - rho)) <= inverse_slack);
-        // 1 − α is √(4ρ/3) to first order, lost altogether by the printed cosine.
+        // To first order 1 − α is √(4ρ/3); the cosine formula as printed loses it to cancellation.
         if (rho < 1e-6 && rho > 1e-24) REQUIRE(std::abs((1 - a) / std::sqrt(4 * rho / 3) - 1) < 1e-3);
     }
     CHECK(checked > 9'000);

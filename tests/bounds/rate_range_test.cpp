@@ -1,4 +1,4 @@
-// The rate at which a density changes in a direction, bounded over a box.
+// Bounds over a box on the rate at which a density changes in a given direction.
 #include "bounds/local_density.hpp"
 #include "catch.hpp"
 #include "random_case.hpp"
@@ -7,7 +7,7 @@ using namespace deburr;
 
 namespace {
 
-// Of every half-space over the box: ρ, and its rate in the direction.
+// Ranges over the box of each half-space's ρ and of its rate of change along `direction`.
 void half_space_ranges(const LocalDensity& density, const Box& box, Vec3 direction, std::vector<Range>& rho,
                        std::vector<Range>& rates) {
     rho.clear();

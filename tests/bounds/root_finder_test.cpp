@@ -1,3 +1,4 @@
+// Roots of a density along a ray: the bounds M, L and G, the criterion for at most one root, and the search.
 #include "bounds/root_finder.hpp"
 
 #include "catch.hpp"
@@ -36,20 +37,20 @@ TEST_CASE("M, L and G bound a density, its slope and its slope's slope on a segm
 }
 
 TEST_CASE("Lobb's eq. 6 accepts a segment with two roots; the exact criterion does not") {
-    // f = 0⁺ with slope 1 at both ends, pointing into the segment, L = G = 1. Brake, turn, cross 0
-    // and brake again: rest at 0 after (1 + √2). Two of these back to back are 4.83 long and touch 0
-    // in the middle; a little longer, and they cross it.
+    // Let f = 0⁺ with slope 1 into the segment at both ends, and L = G = 1. The quickest f brakes, turns, crosses 0 and
+    // brakes again: it rests at 0 after (1 + √2). Two such halves, back to back, are 4.83 long and touch 0 in the
+    // middle; in a slightly longer segment they cross 0.
     const RayBounds bounds{1, 1, 1};
     const SegmentEnd end{1e-12, 1};
     CHECK(min_turning_distance(end, bounds) == Approx(1 + std::sqrt(2.0)));
     CHECK(lobb_turning_distance(end, bounds) == Approx(3));
 
-    // The function: f″ = −1, +1, +1, −1 in turns, mirrored about its middle. For half a length of
-    // 2.75 it is braked from −w to 0 below the axis.
-    const double half = 2.75, w = (half - 1) / 2;  // 1 + w to speed −w, w to rest
+    // The function has f″ = −1, +1, +1, −1 in turn and is mirrored about its middle. With half a length of 2.75, f in
+    // the middle is below 0.
+    const double half = 2.75, w = (half - 1) / 2;  // 1 + w to reach slope −w, then w to reach slope 0
     const double lowest = 1e-12 + 0.5 - w * w;
     REQUIRE(w <= 1);
-    REQUIRE(lowest < 0);  // so both halves hold a root
+    REQUIRE(lowest < 0);  // then each half holds a root
     CHECK(at_most_one_root(end, end, bounds, 2 * half, Criterion::lobb));
     CHECK_FALSE(at_most_one_root(end, end, bounds, 2 * half, Criterion::exact));
 }
@@ -62,12 +63,11 @@ TEST_CASE("no function within the bounds reaches a turning point beyond a root s
         const double L = std::pow(10.0, g.between(-1, 1)), G = std::pow(10.0, g.between(-1, 1));
         const double f0 = g.chance(0.2) ? 0.0 : g.between(-1, 1) * L * L / G, v0 = g.between(-1, 1) * L;
         const double least = min_turning_distance({f0, v0}, {1, L, G});
-        // Full force towards the root, braked somewhere near the best moment: the family that holds
-        // the optimum, and others.
+        // Accelerates fully towards the root and brakes near the best moment. This family contains the optimum.
         const double sign = f0 > 0 || (f0 == 0 && v0 < 0) ? 1.0 : -1.0;
         double f = f0 * sign, v = v0 * sign, t = 0;
         const auto advance = [&](double a, double time) {
-            // Coast at the speed limit.
+            // Once |v| = L, f moves on at that speed.
             while (time > 0) {
                 double step = time;
                 if (a < 0 && v + a * step < -L) step = std::max(0.0, (-L - v) / a);
@@ -88,7 +88,7 @@ TEST_CASE("no function within the bounds reaches a turning point beyond a root s
         const double coast = peak == L ? std::max(0.0, (std::abs(f) + v * v / (2 * G) - L * L / G) / L) : 0.0;
         advance(-G, away * (g.chance(0.5) ? 1 + 1e-9 : g.between(0.5, 1.5)));
         advance(0, coast * (g.chance(0.5) ? 1 + 1e-9 : g.between(0.5, 1.5)));
-        if (v < 0) advance(G, -v / G);  // to rest: a turning point
+        if (v < 0) advance(G, -v / G);  // until v = 0, a turning point
         if (f <= 1e-12 && std::abs(v) < 1e-9) {
             ++reached;
             REQUIRE(t >= least * (1 - 1e-6));
@@ -117,7 +117,7 @@ TEST_CASE("all crossings of a segment are found, in order", "[slow]") {
             found.push_back(c);
             return true;
         });
-        // Sides at 3,000 points; roots closer than that may come in unseen pairs.
+        // The reference samples the side at 3,000 points; two roots between neighbouring samples may go unseen.
         bool inside = plain::density(tree, o) > 0.5;
         std::size_t next = 0;
         for (int k = 1; k <= 3'000; ++k) {
@@ -155,8 +155,8 @@ TEST_CASE("the exact criterion accepts segments that eq. 6 sends on to be split,
 }
 
 TEST_CASE("a ray in the plane of a flush face is done soon, though f is 0 along it but for rounding") {
-    // Lobb's sum of touching boxes, and a Boolean one of overlapping boxes: ρ = ½ in the plane of the
-    // top, however the half-spaces beside it vary.
+    // Lobb's sum of touching boxes and a Boolean union of overlapping boxes: in the plane of the top ρ = ½, however the
+    // half-spaces beside it vary.
     const auto box = [](Vec3 lo, Vec3 hi) { return Density::box(lo, hi); };
     const Density sum = box({0, 0, 0}, {1, 1, 1}) + box({1, 0, 0}, {2, 1, 1});
     const Density boolean = box({0, 0, 0}, {2, 1, 1}) | box({1, 0, 0}, {3, 1, 1}) | box({0.5, 0.2, -1}, {2.5, 1, 2});

@@ -1,4 +1,4 @@
-// Densities with round parts, against their plain definition.
+// Densities with round parts against their plain definition.
 #include "bounds/round_density.hpp"
 
 #include "bounds/bounding_box.hpp"
@@ -15,7 +15,7 @@ namespace {
 
 RoundDensity field_of(const RoundCase& c) { return RoundDensity(flatten(c.density, c.radius)); }
 
-// Through a center or along an axis of one of the parts, beside it by little, or anywhere.
+// A line through the center or along the axis of a round part, slightly beside it, or anywhere.
 struct Line {
     Vec3 origin, direction;
 };
@@ -27,7 +27,7 @@ Line adversarial_line(Gen& g, const DensityTree& tree) {
     switch (g.below(4)) {
         case 0: return {c.center + beside - 2.0 * line.direction, line.direction};
         case 1: return {c.center + beside - 2.0 * c.axis, c.axis};
-        case 2: {  // through the axis somewhere
+        case 2: {  // through a point of the axis
             const Vec3 on = c.center + c.axis * g.between(-1, 1) + beside;
             return {on - 2.0 * line.direction, line.direction};
         }
@@ -115,7 +115,7 @@ TEST_CASE("ranges and rates over boxes hold what is in them") {
 }
 
 TEST_CASE("a coordinate's range over a box is the least and the greatest value in it") {
-    // Exact for spheres, cylinders and cones however they lie, for circles about a coordinate axis.
+    // The range is exact for spheres, cylinders and cones in any pose, and for circles about a coordinate axis.
     for (auto seed : seeds(400)) {
         CAPTURE(seed);
         Gen g(seed);
@@ -196,7 +196,7 @@ TEST_CASE("the bounding box holds all of a density with round parts, and no more
     const Box rod = RoundDensity(flatten(Density::cylinder(Vec3(0.0), 3.0 * axis, 0.5), 0.1)).bounding_box();
     for (int k = 0; k < 3; ++k) {
         const double reach = 0.5 * std::sqrt(1 - axis[k] * axis[k]);
-        CHECK(rod.hi[k] >= 3 * axis[k] + reach - 0.2);  // its rim is rounded
+        CHECK(rod.hi[k] >= 3 * axis[k] + reach - 0.2);  // the rim is rounded
         CHECK(rod.hi[k] <= 3 * axis[k] + reach + 1e-4);
     }
 }
@@ -211,7 +211,7 @@ TEST_CASE("sharp densities with round parts are the sets that they name") {
         for (const SolidLeaf& leaf : tree.leaves) fields += leaf.field != nullptr;
         for (int k = 0; k < 100; ++k) {
             const Vec3 x = g.point(1.2);
-            // Beside a surface rounding decides.
+            // Points so near a surface that rounding decides are left out.
             const double rho = c.plain.density(x, 1e-7);
             if (rho > 0 && rho < 1) continue;
             CHECK(tree.contains(x) == c.plain.contains(x));
@@ -265,7 +265,7 @@ TEST_CASE("a torus' field holds its range, and its bounds along rays") {
             CHECK(std::abs(v.slope - before.slope) <= b.G * h + 1e-12);
             before = v;
         }
-        // It is where the distance from the circle is less than the tube's radius.
+        // The torus is where the distance from the circle is less than the tube's radius.
         const Vec3 x = g.point(2), y = x - torus.center();
         const double t = glm::dot(y, torus.axis()), q = std::hypot(glm::length(y - t * torus.axis()) - R, t);
         CHECK((torus.at(x).value > 0) == (q < a));
@@ -278,7 +278,7 @@ TEST_CASE("what has no density is refused") {
     Affine longer;
     longer.linear[1][1] = 2;
     CHECK_THROWS_AS(flatten(Density::sphere(Vec3(0.0), 1).transformed(longer), 0.1), BadRoundPart);
-    // A solid carries its field along, whatever the map.
+    // A solid's field accepts any map, since the field is transformed as a whole.
     const SolidTree tree = flatten(Solid::rounded(0.1, Density::sphere(Vec3(0.0), 1)).transformed(longer));
     CHECK(tree.contains({0, 1.99, 0}));
     CHECK(!tree.contains({1.01, 0, 0}));

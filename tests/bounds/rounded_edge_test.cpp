@@ -1,3 +1,4 @@
+// The rounded edge of a wedge by quasi-convolution, true convolution and a fillet, against Lobb's figure 5 and §2.3.1.
 #include "bounds/rounded_edge.hpp"
 
 #include "catch.hpp"
@@ -32,22 +33,22 @@ TEST_CASE("Lobb figure 5: where the three curves leave the planes") {
         CHECK(off(&RoundedEdge::quasi, edge.quasi_reach() * 0.97) > 1e-12);
         CHECK(off(&RoundedEdge::exact, edge.exact_reach() * 1.001) == Approx(0).margin(1e-12));
         CHECK(off(&RoundedEdge::exact, edge.exact_reach() * 0.97) > 1e-9);
-        // The fillet touches the plane there.
+        // The fillet touches the plane where the true convolution leaves it.
         const double x = edge.exact_reach() * s, h = 1e-6;
         CHECK(edge.fillet(x - h) == Approx(edge.plane(x - h)).margin(1e-9));
     }
 }
 
 TEST_CASE("Lobb 2.3.1: how far quasi-convolution, true convolution and the fillet are apart") {
-    // "All three methods are virtually equivalent for right-angled edges."
+    // Lobb: "All three methods are virtually equivalent for right-angled edges."
     CHECK(quasi_exact(90) < 0.01);
     CHECK(exact_fillet(90) < 0.005);
-    // "Virtually indistinguishable from the cylindrical fillet for the 90° and 135° cases."
+    // Lobb: "Virtually indistinguishable from the cylindrical fillet for the 90° and 135° cases."
     CHECK(exact_fillet(135) < 0.025);
     CHECK(exact_fillet(30) > 0.1);
-    // "In the limit ... inside the planes by about one quarter of the filter radius."
+    // Lobb: "In the limit ... inside the planes by about one quarter of the filter radius."
     CHECK(quasi_exact(179.5) == Approx(-displacement(std::sqrt(0.5))).epsilon(0.01));
-    // Nearest near right angles, and farther the farther from them.
+    // The curves are nearest to each other at right angles and move apart from there on.
     double last = quasi_exact(92);
     for (const double degrees : {100.0, 120.0, 140.0, 160.0, 175.0}) {
         const double here = quasi_exact(degrees);

@@ -1,5 +1,4 @@
-// A mesh rounded by a radius that varies: gradients, bounds and ranges hold, faces stay flat, and what is kept is
-// sharp.
+// Meshes rounded by a varying radius: gradients, bounds and ranges hold, faces stay flat, and kept edges are sharp.
 #include "bounds/selective_mesh_field.hpp"
 
 #include "catch.hpp"
@@ -14,10 +13,10 @@ constexpr double radius = 0.2;
 
 struct Case {
     SelectiveMeshField field;
-    Vec3 lo, hi;  // where it is looked at
+    Vec3 lo, hi;  // the corners of the box that is sampled
 };
 
-// An L-shaped prism, turned or not, with one of what can be kept.
+// An L-shaped prism, rotated or not, with kept edges, a kept region or both.
 Case random_case(Gen& g) {
     Shape shape = Shape::l_prism();
     if (g.chance(0.5)) shape.rotate(g);
@@ -35,7 +34,7 @@ Case random_case(Gen& g) {
     return {SelectiveMeshField(mesh, radius, kept), box.lo - radius, box.hi + radius};
 }
 
-// Near the surface more often than not.
+// A random point, in four cases of five near the surface.
 Vec3 point(Gen& g, const Case& c) {
     const ClosedMesh& mesh = c.field.full().mesh();
     if (g.chance(0.2)) return c.lo + Vec3(g.number(), g.number(), g.number()) * (c.hi - c.lo);
@@ -56,7 +55,7 @@ TEST_CASE("a radius that varies: the gradient is that of the share") {
         const Vec3 x = point(g, c), u = g.direction();
         const double h = 1e-6, there = c.field.at(x + h * u).value, back = c.field.at(x - h * u).value;
         const double slope = glm::dot(c.field.at(x).gradient, u), found = (there - back) / (2 * h);
-        // Where the radius is least a step of h is not small.
+        // Steep places are left out: there the radius is so small that the finite difference is not accurate.
         if (std::abs(slope) > 0.02 / h * 1e-3) continue;
         varying += slope != 0;
         CHECK(std::abs(slope - found) < 1e-4 * (1 + std::abs(slope)) + 4e-3);
@@ -126,9 +125,9 @@ TEST_CASE("kept edges are sharp to a thousandth of the radius, others are rounde
     kept.edges = KeptEdges::Kind::concave;
     const SelectiveMeshField convex_only(mesh, radius, kept);
     const double beside = 0.002 * radius;
-    CHECK(convex_only.at({1 + beside, 1 + beside, 0.5}).value < 0);  // not filled
+    CHECK(convex_only.at({1 + beside, 1 + beside, 0.5}).value < 0);  // the concave edge is not filled
     CHECK(convex_only.full().at({1 + beside, 1 + beside, 0.5}).value > 0);
-    CHECK(convex_only.at({beside, beside, 0.5}).value < 0);  // rounded off
+    CHECK(convex_only.at({beside, beside, 0.5}).value < 0);  // a convex edge is rounded off
     kept.edges = KeptEdges::Kind::convex;
     const SelectiveMeshField concave_only(mesh, radius, kept);
     CHECK(concave_only.at({1 + beside, 1 + beside, 0.5}).value > 0);
@@ -143,7 +142,7 @@ TEST_CASE("kept edges are sharp to a thousandth of the radius, others are rounde
     for (auto seed : seeds(500)) {
         CAPTURE(seed);
         Gen g(seed);
-        // On the face y = 0, farther than the radius from its edges.
+        // A point on the face y = 0, farther than the radius from its edges.
         const Vec3 x(g.between(radius, 2 - radius), 0, g.between(radius, 1 - radius));
         for (const SelectiveMeshField* field : {&convex_only, &concave_only, &upper}) {
             CHECK(std::abs(field->at(x).value) < 1e-12);
@@ -154,7 +153,7 @@ TEST_CASE("kept edges are sharp to a thousandth of the radius, others are rounde
 }
 
 TEST_CASE("how an edge is divided does not matter to the radius beside it") {
-    // The same L-shaped prism, its edges cut into three.
+    // The same L-shaped prism in three slices, which cut its edges in three.
     Shape once = Shape::l_prism(), thrice;
     std::vector<Vec2> outline{{0, 0}, {2, 0}, {2, 1}, {1, 1}, {1, 2}, {0, 2}};
     const std::vector<Shape::Corners> fan{{0, 1, 2}, {0, 2, 3}, {0, 3, 4}, {0, 4, 5}};
@@ -173,7 +172,7 @@ TEST_CASE("how an edge is divided does not matter to the radius beside it") {
             thrice.triangles.push_back({c[0] + first, c[1] + first, c[2] + first});
         }
     }
-    // The rings are there twice.
+    // The vertices between two slices are doubled; join them.
     for (auto& t : thrice.triangles)
         for (int& v : t)
             for (int w = 0; w < v; ++w)

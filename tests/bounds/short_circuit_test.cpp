@@ -1,3 +1,4 @@
+// Boolean functions as steps with short circuits, against their evaluation node by node.
 #include "bounds/short_circuit.hpp"
 
 #include "catch.hpp"
@@ -7,7 +8,7 @@ using namespace deburr;
 
 namespace {
 
-// Random functions of half-spaces 0 … count − 1, in which some occur twice and some are constants.
+// A random function of the half-spaces 0 … count − 1; some occur more than once, and some operands are constants.
 BooleanFunction random_function(Gen& g, int count) {
     BooleanFunction f;
     std::vector<int> roots;

@@ -1,4 +1,4 @@
-// Where round parts run on smoothly into other surfaces.
+// Tangent seams: where round parts run on smoothly into other surfaces.
 #include "bounds/tangent_seams.hpp"
 
 #include "catch.hpp"
@@ -41,7 +41,7 @@ TEST_CASE("surfaces that run on smoothly are found, with how much they bulge") {
             CHECK(seam.bulge < 0.36 * r);
         }
     }
-    // Two equal half-spaces in a union: ρ = ½ where F = 1 − √½.
+    // Near the point of contact this is a union of two equal half-spaces: ρ = 1 − (1 − F)² = ½ where F = 1 − √½.
     const double expected = displacement(1 - std::sqrt(0.5));
     const auto two = seams(Density::sphere(Vec3(0.0), 1) | Density::sphere({0.4, 0, 0}, 0.6));
     REQUIRE(two.size() == 1);
@@ -71,14 +71,15 @@ TEST_CASE("where surfaces meet in edges, share a draw or touch from outside ther
     CHECK(seams(rod({0, 0, 0}, {0, 2, 0}, 1) | rod({0, 1, 0}, {0, 3, 0}, 1)).empty());  // flush: one family
     CHECK(seams(Density::sphere({0, 2, 0}, 1) | cube).empty());                         // touches from outside
     CHECK(seams(Density::torus(Vec3(0.0), {0, 1, 0}, 1, 0.3)).empty());
-    // Where they would touch, one of them bounds nothing.
+    // Where the two would touch, one of them is cut away.
     CHECK(seams((cube | rod({0, 0.5, -0.5}, {0, 0.5, 0.5}, 0.5)) & Density::half_space({0, 1, 0}, 0.5)).empty());
     CHECK(seams(cube).empty());
 }
 
 namespace {
 
-// A part whose surface touches that of another at x with this outward normal; rods and cones have the line `along`.
+// A part whose surface passes through x with outward normal n. `shape`: 0 plane, 1 ball, 2 rod, 3 torus, 4 cone; rods
+// and cones contain the line through x along `along`.
 Density touching(Gen& g, int shape, Vec3 x, Vec3 n, Vec3 along) {
     const Vec3 other = glm::cross(n, along);
     const double R = g.between(0.3, 0.6);
@@ -86,7 +87,7 @@ Density touching(Gen& g, int shape, Vec3 x, Vec3 n, Vec3 along) {
     if (shape == 0) return Density::half_space(n, glm::dot(n, x));
     if (shape == 1) return Density::sphere(inside, R);
     if (shape == 2) return rod(inside - 4.0 * along, inside + 4.0 * along, R);
-    if (shape == 4) {  // from its apex along a line that is turned out of the tangent plane
+    if (shape == 4) {  // a cone with its apex on that line
         const double angle = g.between(0.1, 1.4), length = g.between(0.4, 1.5);
         const Vec3 apex = x + length * along, axis = -std::cos(angle) * along - std::sin(angle) * n;
         return Density::cone(apex, apex + 4.0 * axis, 0, 4 * std::tan(angle));
@@ -105,7 +106,7 @@ TEST_CASE("parts that touch however they lie are found, and nothing a hundredth 
     for (auto seed : seeds(2'000)) {
         Gen g(seed);
         const int a = 1 + g.below(4), b = g.below(a + 1);
-        const bool opposite = g.chance(0.3);  // a fillet runs on into a wall: from without the second part
+        const bool opposite = g.chance(0.3);  // the parts touch from outside, as a fillet and a wall do
         CAPTURE(seed, names[a], names[b], opposite);
         const Vec3 x = g.point(1), n = glm::normalize(g.point(1));
         const Vec3 along = glm::normalize(glm::cross(n, g.point(1))),
@@ -136,7 +137,7 @@ TEST_CASE("cones that touch along a line are found, and cones and rods about one
         return Density::cone(apex, apex + 4.0 * axis, 0, 4 * tangent);
     };
     const Density wide = cone({0, 0, 0}, {0, 0, 1}, 1);
-    // Its generator through (1, 0, 1), with the normal (1, 0, −1).
+    // `generator` is the cone's line through (1, 0, 1), and n its normal there.
     const double R = 0.3;
     const Vec3 n = Vec3(1, 0, -1) / std::sqrt(2.0), generator = Vec3(1, 0, 1) / std::sqrt(2.0);
     CHECK(seams(wide | rod(0.5 * generator - R * n, 3.0 * generator - R * n, R)).size() == 1);
@@ -146,13 +147,13 @@ TEST_CASE("cones that touch along a line are found, and cones and rods about one
     CHECK(seams(wide | cone({0, 0, 0}, {std::sin(lean), 0, std::cos(lean)}, std::tan(narrow))).size() == 1);
     CHECK(seams(wide | cone({0, 0, 0}, {0, 0, 1}, 0.5)).empty());
     CHECK(seams(wide | cone(0.49 * generator + 0.01 * n, {0, 0, 1}, 1)).empty());
-    // The ball of radius √2 about (0, 0, 2) touches the cone; rods of its radius cross it as pipes do.
+    // The ball of radius √2 around (0, 0, 2) touches the cone. So does a rod of that radius through the ball's center.
     for (const Vec3 across : {Vec3(1, 0, 0), glm::normalize(Vec3(1, 2, 0.5)), glm::normalize(Vec3(1, 0, -0.9))}) {
         const Vec3 middle(0, 0, 2);
         CHECK(seams(wide | rod(middle, middle + 6.0 * across, std::sqrt(2.0))).size() == 1);
         CHECK(seams(wide | rod(middle, middle + 6.0 * across, std::sqrt(2.0) - 1e-3)).empty());
     }
-    // A ring, too.
+    // A torus whose tube contains that ball touches the cone, too.
     const Density ring = Density::torus({3, 0, 2}, {0, 0, 1}, 3, std::sqrt(2.0));
     CHECK(seams(wide | ring).size() == 1);
 }
@@ -166,7 +167,7 @@ TEST_CASE("a fillet in the corner of two walls, or about a pin's foot, runs on i
     for (const TangentSeam& seam : in_corner) CHECK(std::min(std::abs(seam.at.x), std::abs(seam.at.z)) < 1e-9);
     const Density pin = rod({0, 0, 0}, {0, 0, 3}, 0.6), ring = Density::torus({0, 0, R}, {0, 0, 1}, 0.6 + R, R - 1e-12);
     CHECK(seams(floor | pin | (rod({0, 0, -0.5}, {0, 0, R}, 0.6 + R) & ~ring), r).size() == 2);
-    // A groove beside a face, with nothing between, is no seam.
+    // A groove that does not reach the face makes no seam.
     CHECK(seams(floor & ~rod({0, -4, R}, {0, 4, R}, R - 0.01), r).empty());
 }
 
@@ -176,12 +177,12 @@ TEST_CASE("rods of one radius that cross touch above and below, rings that run o
     CHECK(largest(glm::abs(cross[0].at) - Vec3(0, 0.5, 0)) < 1e-6);
     const Density ring = Density::torus(Vec3(0.0), {0, 1, 0}, 1, 0.3);
     const auto leaned =
-        Density::torus({2, 0, 0}, glm::normalize(Vec3(0, 1, 1)), 1, 0.3);  // in one point of both circles
+        Density::torus({2, 0, 0}, glm::normalize(Vec3(0, 1, 1)), 1, 0.3);  // both circles share one point
     CHECK(seams(ring | leaned).size() == 1);
-    CHECK(seams(ring | Density::sphere(Vec3(0.0), 1.3)).size() == 1);      // all around the ball
-    CHECK(seams(ring & rod({0.5, -1, 0}, {0.5, 1, 0}, 1.8)).size() == 1);  // at (-1.3, 0, 0)
+    CHECK(seams(ring | Density::sphere(Vec3(0.0), 1.3)).size() == 1);      // touches all around the ball
+    CHECK(seams(ring & rod({0.5, -1, 0}, {0.5, 1, 0}, 1.8)).size() == 1);  // at (−1.3, 0, 0)
     CHECK(seams(ring & rod({0.5, -1, 0}, {0.5, 1, 0}, 1.7)).empty());
-    // Halves of rings that share the plane between them do not bulge: a spring.
+    // Half-tori that meet in the plane between them, as in a spring, do not bulge.
     const Density plane = Density::half_space({1, 0, 0}, 0);
     const auto half = [&](double y, double lean) {
         return Density::torus({0, y, 0}, glm::normalize(Vec3(0, 1, lean)), 1, 0.3);
