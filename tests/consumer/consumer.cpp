@@ -1,4 +1,4 @@
-// Rounds a cube, asks for its density at a corner, and writes its mesh as STL: what the libraries are for.
+// A program that links the installed libraries: it rounds a cube, evaluates its density and encodes its mesh as STL.
 #include <cstdio>
 
 #include "polygonizer/mesh/export.hpp"
@@ -14,6 +14,6 @@ int main() {
     const MeshMetrics found = measure(mesh, tree);
     std::printf("density at the corner %g, %zu triangles, volume %g, %zu bytes of STL\n", corner, mesh.triangles.size(),
                 found.volume, encode(mesh, MeshFormat::stl).size());
-    // An eighth, for three half-spaces meet there; and a little less than the sharp cube.
+    // At the corner three half-spaces meet, so ρ is ⅛; the volume is a little less than the sharp cube's.
     return corner == 0.125 && found.topology.closed() && found.volume > 0.95 && found.volume < 1 ? 0 : 1;
 }

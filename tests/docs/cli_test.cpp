@@ -1,4 +1,4 @@
-// docs/cli.md, the manual page and the completions say what the command line takes.
+// docs/cli.md, the manual page and the shell completions agree with the command line's options.
 #include <array>
 #include <cstdio>
 #include <regex>
@@ -13,7 +13,7 @@ using namespace deburr::test;
 
 namespace {
 
-// From "expected a command: render, mesh, … (see deburr --help)".
+// Names of all commands, from the error "expected a command: render, mesh, … (see deburr --help)".
 std::set<std::string> commands() {
     const std::string error = run({}).err, start = "expected a command: ";
     const std::size_t from = error.find(start) + start.size();
@@ -23,7 +23,7 @@ std::set<std::string> commands() {
     return names;
 }
 
-// Every spelling of the command's options, from its own help.
+// Every spelling of a command's options, from its own help.
 std::set<std::string> options_of(const std::string& command) {
     const std::string help = run({command, "--help"}).out;
     std::set<std::string> names;
@@ -97,5 +97,5 @@ TEST_CASE("bash completes commands, options and their values") {
     CHECK(completed("deburr render --cr", 2) == "--crop --criterion\n");
     CHECK(completed("deburr render a.lua --accel e", 4) == "embree\n");
     CHECK(completed("deburr info --cr", 2) == "\n");
-    CHECK(completed("deburr render a", 2) == "\n");  // a file
+    CHECK(completed("deburr render a", 2) == "\n");  // files are the shell's to complete
 }

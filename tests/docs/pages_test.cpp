@@ -1,4 +1,4 @@
-// The pages point to what is there.
+// Links, names of files and citations on the project's pages lead to something that exists.
 #include <algorithm>
 #include <cctype>
 #include <filesystem>
@@ -25,8 +25,8 @@ std::vector<std::string> pages() {
     return all;
 }
 
-// The anchors that GitHub gives to a page's headings: words joined by dashes, without punctuation; the second of a
-// name has -1.
+// The anchors that GitHub gives to a page's headings: lower-case words joined by dashes, without punctuation; the
+// second heading of a name gets the suffix -1.
 std::set<std::string> anchors_of(const std::string& page) {
     std::map<std::string, int> count;
     std::set<std::string> anchors;

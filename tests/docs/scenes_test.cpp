@@ -1,4 +1,4 @@
-// docs/scenes.md says what the program does: every function, field and argument, what each takes, and its default.
+// docs/scenes.md against the program: every function, field and argument, the values it takes, and its default.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -21,9 +21,9 @@ using namespace deburr::test;
 namespace {
 
 std::string error_of(const std::string& scene) {
-    static const Folder models;  // where the page's files would be
+    static const Folder models;  // in the place of the folder of the page's files
     write_file(models / "bracket.stl", Shape::l_prism().stl());
-    write_file(models / "planks.png", "a picture");  // read by who renders
+    write_file(models / "planks.png", "a picture");  // read only when rendering
     try {
         read_scene_text(scene, "s.lua", {}, {}, {models / ""});
     } catch (const SceneError& error) {
@@ -34,7 +34,8 @@ std::string error_of(const std::string& scene) {
 
 bool contains(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
 
-// The heading's beginning: "matte{", "rounded(", "x:translate(" or "d:radius(", and of an operator its sign.
+// True if the heading is the function's: it begins with "matte{", "rounded(", "x:translate(" or "d:radius(", or has the
+// operator's sign.
 bool is_heading_of(const SceneFunction& function, const std::string& heading) {
     const std::string name = function.name;
     switch (function.kind) {
@@ -46,15 +47,15 @@ bool is_heading_of(const SceneFunction& function, const std::string& heading) {
     return heading == fmt::format("a {} b", sign) || heading == fmt::format("{}a", sign);
 }
 
-/// A table of named fields on the page, and how a scene is made that holds it.
+/// A table of named fields on the page, and a scene in which its fields can be put.
 struct FieldTable {
-    std::string owner;  // "matte", "camera"; "" for the scene's own table
+    std::string owner;  // as "matte" or "camera"; "" for the table of the scene itself
     std::vector<Row> rows;
-    std::string scene;  // with FIELDS where the fields stand
+    std::string scene;  // Lua, with FIELDS in the place of the fields
 };
 
 std::vector<FieldTable> field_tables() {
-    // By topic: where the value of its functions stands in a scene.
+    // By topic: a scene with VALUE in the place of the topic's value.
     const std::map<std::string, std::string> scenes = {
         {"Materials", "return { solids = { cube():material(VALUE) } }"},
         {"Textures", "return { solids = { cube():material(matte{ color = VALUE }) } }"},
@@ -85,7 +86,7 @@ std::vector<FieldTable> field_tables() {
     return tables;
 }
 
-/// What a table of `owner` needs beside the field `name` to be read.
+/// The fields that a table of this owner must have beside the field `name` to be accepted.
 std::string fields_beside(const FieldTable& table, const std::string& name) {
     if (table.owner == "quadric") return name == "xy" ? "c = 0.5, xz = 1, " : "xy = 1, ";
     const std::map<std::string, std::string> values = {
@@ -102,7 +103,7 @@ std::string scene_with(const FieldTable& table, const std::string& fields) {
     return std::regex_replace(table.scene, std::regex("FIELDS"), fields);
 }
 
-// All that a scene holds besides densities, as text.
+// All of a scene except its solids' densities, as text to compare.
 std::string summary(const Scene& s) {
     const auto text = [](Vec3 v) { return fmt::format("({} {} {}) ", v.x, v.y, v.z); };
     std::string all = fmt::format("{} {} {} {} {} ", s.width, s.height, s.spp.value_or(0), s.bounces, s.exposure) +
@@ -129,7 +130,7 @@ std::string summary(const Scene& s) {
     return all;
 }
 
-// An argument that the function takes, by its name on the page.
+// A valid value, as Lua, for the argument that the page calls `name`.
 std::string argument(const std::string& function, const std::string& name) {
     if (name == "points" && function == "prism") return "{ {0, 0}, {1, 0}, {0, 1} }";
     static const std::map<std::string, std::string> values = {
@@ -228,7 +229,7 @@ TEST_CASE("docs/scenes.md says of every field what the program says that it take
     for (const FieldTable& table : field_tables())
         for (const Row& row : table.rows) {
             const std::string name = quoted(row.cell("field"));
-            // A function is what no field takes.
+            // No field takes a function, so the error says what the field takes.
             const std::string error = error_of(scene_with(table, fields_beside(table, name) + name + " = print"));
             const std::string start = name + ": expected ", end = ", got a function";
             INFO(error);
@@ -247,12 +248,12 @@ TEST_CASE("docs/scenes.md has the defaults of the fields") {
     for (const FieldTable& table : field_tables())
         for (const Row& row : table.rows) {
             const std::string name = quoted(row.cell("field")), value = quoted(row.cell("default"));
-            if (value.empty()) continue;  // required, or told in words
+            if (value.empty()) continue;  // required, or described in words
             const auto read = [&](const std::string& fields) {
                 return summary(read_scene_text(scene_with(table, fields_beside(table, name) + fields), "s.lua", {}));
             };
             INFO(table.owner << "." << name << " = " << value);
-            // A scene without ambient and lights has a light of its own.
+            // A scene with neither ambient nor lights gets a default light, which `lights = {}` prevents.
             const std::string beside = name == "ambient" ? "lights = {}, " : "";
             CHECK(read(beside) == read(beside + name + " = " + value));
             ++defaults;
@@ -295,10 +296,10 @@ TEST_CASE("docs/scenes.md has the arguments of every function, and what each tak
             }
             if (part.heading.find('(') == std::string::npos) continue;
             INFO(part.heading);
-            // A model's file would have to be there.
+            // The model's file does not exist, so this error is about the file.
             CHECK(contains(call(rows.size(), 0), name == "model" ? "none.stl" : "no error"));
             CHECK(contains(call(rows.size() + 1, 1), fmt::format("expected at most {} arg", rows.size() + method)));
-            // The heading has the same arguments.
+            // The part's heading lists the same arguments.
             std::string list;
             for (const Row& row : rows) list += (list.empty() ? "" : ", ") + quoted(row.cell("argument"));
             CHECK(part.heading.substr(part.heading.find('(')) == "(" + list + ")");

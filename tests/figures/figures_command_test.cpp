@@ -1,4 +1,4 @@
-// deburr figures: what it refuses, and what it makes again.
+// The figures command: what it refuses, and which figures it makes again.
 #include <algorithm>
 #include <filesystem>
 
@@ -16,7 +16,7 @@ namespace {
 
 int made = 0;
 
-// A figure of one scene, which counts how often it is made.
+// Makes a figure of one scene and counts how often it is made.
 void make(FigureContext& context) {
     ++made;
     context.picture(context.render(context.scene("csg_examples.lua"), {.width = 8, .height = 6}), "a cube");
@@ -30,7 +30,7 @@ const RegisteredFigure registered{{.name = "beyond-test",
                                    .scenes = {"csg_examples.lua"},
                                    .make = make}};
 
-// The command in this process, which knows the figure above.
+// Runs the figures command in this process, where the figure above is registered.
 int figures(std::vector<std::string> words) {
     words.insert(words.begin(), {"deburr", "figures", "-q"});
     std::vector<char*> argv;

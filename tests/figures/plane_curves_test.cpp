@@ -1,4 +1,4 @@
-// Lines where a function has a value, and shares of discs.
+// Level lines of plane functions, shares of discs in polygons, height fields and animated PNGs.
 #include "figures/plane_curves.hpp"
 
 #include <random>
@@ -47,7 +47,7 @@ TEST_CASE("The share of a disc in a polygon is that of random points") {
             }
             CHECK(disc_share(polygon, center, radius) == Approx(hits / double(points)).margin(0.02));
         }
-    // Half of it on a side, a quarter in a square corner, all of it inside: exactly.
+    // These shares are exact: half on a side, a quarter in a square corner, and all inside.
     CHECK(disc_share(polygon, {1, 0}, 0.5) == Approx(0.5).epsilon(1e-13));
     CHECK(disc_share(polygon, {0, 0}, 0.5) == Approx(0.25).epsilon(1e-13));
     CHECK(disc_share(polygon, {1, 1}, 0.5) == Approx(1).epsilon(1e-13));
@@ -59,7 +59,7 @@ TEST_CASE("A height field goes through its function's values and stands on the g
         const Vec3 x = mesh.positions[i];
         CHECK(x.y == Approx(3 * 0.25 * (x.x - x.z)).margin(1e-12));
     }
-    // The volume under it, without the ground: the ground's share of the divergence sum is 0.
+    // The volume under the field; the ground's part of the divergence sum is 0.
     CHECK(volume(mesh) == Approx(3 * 0.25 * (1.0 + 0.5) * 2).epsilon(1e-9));
 }
 

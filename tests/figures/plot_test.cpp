@@ -1,3 +1,4 @@
+// Plots: the data for gnuplot, and the pictures that it draws.
 #include "figures/plot.hpp"
 
 #include <cstdlib>

@@ -1,7 +1,7 @@
-// Reads any bytes as a picture, as `deburr compare` would, and compares it with itself.
+// Fuzz target: reads any bytes as a picture, as `deburr compare` does, and compares the picture with itself.
 //
-// The reader takes a path, so an input is written to a file in memory. What cannot be read must be refused with
-// UsageError.
+// The reader takes a path, so the input is written to a file in memory. Input that cannot be read must be refused with
+// UsageError and nothing else.
 #include <fcntl.h>
 #include <sys/mman.h>
 #include <unistd.h>
@@ -18,7 +18,7 @@ namespace {
 
 constexpr std::size_t max_pixels = 1 << 16;  // of a picture that is compared
 
-// A file that is in memory as long as the program runs.
+// A file in memory that exists as long as the program runs.
 class MemoryFile {
 public:
     std::string holding(const std::uint8_t* data, std::size_t size) const {
@@ -40,7 +40,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
         const Film film = read_picture(file.holding(data, size));
         if (film.pixels.size() <= max_pixels) (void)difference(film, film, {});
     } catch (const UsageError&) {
-        // Refused, in words.
+        // It was refused with a message.
     }
     return 0;
 }

@@ -1,9 +1,9 @@
-// Reads any bytes as a model, as the program does once they are in memory, and looks at what comes of it.
+// Fuzz target: reads any bytes as a model, as the program does once they are in memory, and checks the result.
 //
-// The first byte says how the rest is taken: as a file of the format that its own first bytes or the extension tell, by
-// Assimp, which the program runs in a process of its own, within limits; or as boxes, whose union is known.
-// Checked beside what the sanitizers see: a file is read or refused with the errors that are meant for it, in one
-// printable line; a solid has a volume; the union of boxes has theirs, and does not cross itself.
+// The first byte selects how the rest is taken: as a file, whose format its first bytes or its name tell and which
+// Assimp reads (the program runs Assimp in a process of its own, with limits), or as boxes, whose union is known.
+// Beside what the sanitizers see this is checked: a file is read, or refused with the intended errors in one printable
+// line; a solid has a volume; the union of boxes has their volume and no crossing facets.
 #include <algorithm>
 #include <array>
 #include <bitset>
@@ -25,12 +25,12 @@ namespace deburr {
 namespace {
 
 constexpr const char* names[] = {"f.stl", "f.obj"};
-constexpr std::size_t max_triangles = 400;  // of a surface that is looked at
+constexpr std::size_t max_triangles = 400;  // of a surface that is checked
 
-// Assimp's own faults end the process that the program gives it; here they end its call.
+// In the program a fault of Assimp ends the process that Assimp runs in; here it ends only the call.
 sigjmp_buf before_library;
 volatile std::sig_atomic_t in_library = 0;
-struct sigaction fuzzers_own[NSIG];  // what is done elsewhere
+struct sigaction fuzzers_own[NSIG];  // the fuzzer's own handlers
 
 void leave_library(int signal) {
     if (in_library != 0) siglongjmp(before_library, signal);
@@ -57,7 +57,7 @@ std::size_t crossings(const ClosedMesh& closed) {
 void look_at(const TriangleSoup& soup) {
     for (const auto& t : soup.triangles)
         for (const int v : t)
-            if (v < 0 || std::size_t(v) >= soup.vertices.size()) return;  // refused by read_model
+            if (v < 0 || std::size_t(v) >= soup.vertices.size()) return;  // read_model refuses these
     if (soup.triangles.size() > max_triangles) return;
     try {
         const ClosedSurface surface = closed_surface(soup);
@@ -78,8 +78,8 @@ void read_file(const std::string& bytes, const std::string& name) {
         check_line(error.what());
         return;
     }
-    // Of others Assimp 5.2 aborts at the first archive that is broken, or believes counts and takes half a minute: that
-    // ends its own process, and the program says so.
+    // With other formats Assimp 5.2 aborts at the first broken archive, or believes a count in the file and takes half
+    // a minute. In the program that ends only Assimp's own process, and is reported.
     if (format != "stl" && format != "obj") return;
     TriangleSoup soup;
     if (sigsetjmp(before_library, 1) != 0) {
@@ -92,12 +92,12 @@ void read_file(const std::string& bytes, const std::string& name) {
         in_library = 0;
     } catch (const std::exception&) {
         in_library = 0;
-        return;  // in the library's words, which are made printable where they are shown
+        return;  // the message is Assimp's; it is made printable where it is shown
     }
     look_at(soup);
 }
 
-// Boxes on a grid; a box of no width is left out.
+// Boxes on a grid from the bytes, three for each; a box of no width is left out.
 void unite_boxes(const std::uint8_t* data, std::size_t size) {
     constexpr int side = 16, most = 12;
     std::bitset<side * side * side> inside;

@@ -1,8 +1,8 @@
-// Reads any bytes as a scene, as `deburr info` would, and looks at what comes of it.
+// Fuzz target: reads any bytes as a scene, as `deburr info` does, and checks the result.
 //
-// Checked beside what the sanitizers see: a text is read or refused with SceneError, nothing else is thrown; the
-// message is one printable line that begins with the file's name; bounds and ranges of the solids are numbers in order.
-// The limits are far below a user's, so that an execution takes less than a millisecond.
+// Beside what the sanitizers see this is checked: a text is read, or refused with SceneError and no other exception;
+// the message is one printable line that begins with the file's name; bounds and ranges of the solids are ordered
+// numbers. Limits are far below a user's, so that one execution takes less than a millisecond.
 #include <algorithm>
 #include <cstdint>
 #include <cstdlib>
@@ -16,8 +16,8 @@ namespace deburr {
 namespace {
 
 constexpr SandboxLimits limits{std::size_t(8) << 20, 100'000, 2.0};
-constexpr double max_leaves = 64;     // of a scene that is looked at
-constexpr int illegality_boxes = 50;  // cells in which a sum's range is looked at
+constexpr double max_leaves = 64;     // of a scene that is checked
+constexpr int illegality_boxes = 50;  // cells in which the legality check looks at ranges
 
 void require(bool promise) {
     if (!promise) std::abort();

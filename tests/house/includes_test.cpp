@@ -1,4 +1,4 @@
-// The rooms of the program: a folder includes only what stands below it.
+// The order of the folders: each may include only folders below it.
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
@@ -19,7 +19,7 @@ Folders operator+(Folders a, const Folders& b) {
     return a;
 }
 
-// What each folder may include beside itself.
+// The folders that each folder may include beside itself.
 std::map<std::string, Folders> allowed_includes() {
     std::map<std::string, Folders> may;
     const Folders mesh = {"bounds", "polygonizer/mesh"};
@@ -31,7 +31,7 @@ std::map<std::string, Folders> allowed_includes() {
     may["raytracer/util"] = {};
     may["raytracer/simd"] = {"bounds"};
     may["raytracer/model"] = {"bounds", "polygonizer/mesh", "raytracer/util"};
-    // Densities with round parts are convolved by way of their mesh.
+    // The scene reader makes meshes of densities with round parts, to convolve them.
     may["raytracer/scene"] = mesh + Folders{"polygonizer/triage", "raytracer/model", "raytracer/util"};
     may["raytracer/image"] = {"bounds", "raytracer/scene", "raytracer/util"};
     may["raytracer/accel"] = {"bounds", "raytracer/simd", "raytracer/util"};
@@ -57,7 +57,7 @@ TEST_CASE("A folder includes only what stands below it") {
     for (const char* top : {"bounds", "polygonizer", "raytracer"})
         for (const auto& entry : fs::recursive_directory_iterator(root / top)) {
             const std::string name = fs::relative(entry.path(), root).generic_string();
-            if (!entry.is_regular_file() || name == "raytracer/main.cpp") continue;  // main puts all together
+            if (!entry.is_regular_file() || name == "raytracer/main.cpp") continue;  // includes all commands
             INFO(name);
             const auto allowed = may.find(folder_of(name));
             REQUIRE(allowed != may.end());

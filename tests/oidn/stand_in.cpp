@@ -1,6 +1,6 @@
-// A stand-in for Open Image Denoise 2 with the functions that Deburr calls, so that they are tested where the library
-// is not: its output is half of the colour, 0.3 of the albedo and 0.2 of the normal, and it complains like the library
-// where a call is missing. Its threads are at most eight: more are an error, to have one.
+// A stand-in for Open Image Denoise 2 with the functions that Deburr calls, for tests without the library. Its output
+// is ½ of the colour + 0.3 of the albedo + 0.2 of the normal. Missing calls are errors as in the library, and so are
+// more than eight threads, so that there is an error to test.
 #include <cstddef>
 #include <map>
 #include <string>

@@ -1,4 +1,4 @@
-// What admesh, a program that repairs STL files, finds to repair.
+// Asks admesh, a program that repairs STL files, what it finds to repair.
 #pragma once
 #include <cstdlib>
 #include <fstream>
@@ -10,8 +10,8 @@ namespace deburr {
 
 inline bool has_admesh() { return std::system("command -v admesh >/dev/null 2>&1") == 0; }
 
-/// The lines of its report on the file that count something other than 0: "" if the file is fine. `log`: a file for the
-/// report.
+/// The lines of admesh's report on the file `stl` that count something other than 0; "" if the file is fine. The report
+/// is written to the file `log`. Throws std::runtime_error if admesh fails or its report has other lines than expected.
 inline std::string admesh_repairs(const std::string& stl, const std::string& log) {
     if (std::system(("admesh '" + stl + "' >'" + log + "' 2>&1").c_str()) != 0)
         throw std::runtime_error("admesh failed on " + stl);

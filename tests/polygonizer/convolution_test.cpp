@@ -1,4 +1,4 @@
-// Triage §8: a true convolution, polygonized.
+// Meshes of true convolutions [Triage §8].
 #include "bounds/local_density.hpp"
 #include "catch.hpp"
 #include "polygonizer/marching_cubes/marching_cubes.hpp"
@@ -9,7 +9,7 @@ using namespace deburr;
 
 namespace {
 
-// How far ρ is from ½ at the vertices, at the most.
+// Greatest |ρ − ½| at the mesh's vertices.
 double off_surface(const Mesh& mesh, const SolidTree& tree) {
     double worst = 0;
     for (const Vec3& x : mesh.positions) worst = std::max(worst, std::abs(tree.leaves[0].density.at(x) - 0.5));
@@ -35,7 +35,7 @@ TEST_CASE("triage and marching cubes make closed manifolds of convolved solids, 
         CHECK(topology(by_triage).manifold());
         CHECK(topology(by_cubes).manifold());
         CHECK(off_surface(by_triage, tree) < 1e-6);
-        CHECK(off_surface(by_cubes, tree) < 1e-2);  // pinches are pulled apart a little
+        CHECK(off_surface(by_cubes, tree) < 1e-2);  // marching cubes pulls touching vertices apart a little
         shells += int(topology(by_triage).shells);
         CHECK(volume(by_triage) == Approx(volume(by_cubes)).epsilon(0.05).margin(0.02));
     }

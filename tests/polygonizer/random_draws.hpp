@@ -1,4 +1,4 @@
-// What random solids are drawn with: numbers that are the same with every compiler, and turns.
+// Random numbers that are the same with every compiler, and random rotations: the base of the random solids.
 #pragma once
 #include <cmath>
 #include <cstdint>
@@ -8,7 +8,7 @@
 
 namespace deburr {
 
-/// The map that turns about the unit axis through the origin.
+/// Rotation by `angle` radians about the axis through the origin along the unit vector `axis`.
 inline Affine turn_about(Vec3 axis, double angle) {
     Affine map;
     for (int k = 0; k < 3; ++k) {
@@ -23,14 +23,14 @@ inline Affine turn_about(Vec3 axis, double angle) {
 class RandomDraws {
 protected:
     explicit RandomDraws(std::uint64_t seed) : random_(seed) {}
-    /// Seeds far apart of numbers that are neighbours.
+    /// A seed for `number`; neighbouring numbers get seeds that are far apart.
     static std::uint64_t spread(int number) {
         return std::uint64_t(number) * 6364136223846793005u + 1442695040888963407u;
     }
 
     int below(int n) { return int(random_() % std::uint64_t(n)); }
     double unit() { return double(random_() >> 11) * 0x1p-53; }
-    /// A turn about any axis, and a move of up to 100 along x.
+    /// A rotation about a random axis, followed by a translation of 0 to 100 along x.
     Affine turn() {
         const Vec3 axis = glm::normalize(Vec3(unit() - 0.5, unit() - 0.5, unit() - 0.5) + Vec3(1e-3));
         const double angle = 6.283185307179586 * unit();

@@ -1,5 +1,5 @@
-// Random parts as people build them: plates, boxes, posts and brackets with holes, slots, pockets, ribs, bosses and
-// chamfers, in round numbers of millimetres.
+// Random mechanical parts: plates, boxes, posts and brackets with holes, slots, pockets, ribs, bosses and chamfers.
+// Dimensions are round numbers of millimetres.
 #pragma once
 #include <vector>
 
@@ -12,8 +12,8 @@ class RandomPart : RandomDraws {
 public:
     explicit RandomPart(int seed) : RandomDraws(spread(seed)) {}
 
-    /// One Boolean density that is rounded as a whole, or rounded solids that the primary CSG puts together; turned
-    /// as often as not.
+    /// One Boolean density that is rounded as a whole, or rounded solids under primary CSG; in half of the cases
+    /// rotated and moved.
     Solid solid() {
         constexpr double radii[] = {0, 0.2, 0.4, 0.5};
         radius_ = radii[below(4)];
@@ -33,7 +33,7 @@ public:
         const Solid s = whole_ ? Solid::rounded(radius_, density_[0]) : solid_[0];
         return below(2) ? s.transformed(turn()) : s;
     }
-    /// Of the part made last; 0: sharp.
+    /// Filter radius of the part made last; 0 if it is sharp.
     double radius() const { return radius_; }
 
 private:
@@ -50,7 +50,7 @@ private:
         solid_[0] = solid_[0] - Solid::rounded(radius_, d);
     }
 
-    // A regular prism along z.
+    // A regular prism along z from `from` to `to`, around (x, y); `radius` is that of its corners.
     static Density prism(double x, double y, double radius, int sides, double from, double to) {
         std::vector<Density> faces{Density::half_space({0, 0, -1}, -from), Density::half_space({0, 0, 1}, to)};
         const double across = radius * std::cos(3.14159265358979323846 / sides);
@@ -125,8 +125,8 @@ private:
 
     double radius_ = 0, wide_ = 0, deep_ = 0, thick_ = 0;
     bool whole_ = true;
-    std::vector<Density> density_;  // one, of the whole part
-    std::vector<Solid> solid_;      // the same in primary CSG
+    std::vector<Density> density_;  // one element: the part as one density
+    std::vector<Solid> solid_;      // one element: the part in primary CSG
 };
 
 }  // namespace deburr

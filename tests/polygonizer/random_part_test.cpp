@@ -1,4 +1,4 @@
-// Parts as people build them, by every method: what the mesh command would say of them.
+// Random mechanical parts meshed by every method must pass the mesh check of the mesh command.
 #include <cstdlib>
 
 #include "bounds/bounding_box.hpp"
@@ -15,7 +15,7 @@ using namespace deburr;
 
 namespace {
 
-// What the check says of a part.
+// The mesh check's result for the part of this seed.
 template <class Part = RandomPart, class Polygonize>
 MeshCheck check_part(int seed, Polygonize polygonize) {
     Part part(seed);
@@ -26,8 +26,8 @@ MeshCheck check_part(int seed, Polygonize polygonize) {
     return check_mesh(mesh, solid, box, options);
 }
 
-// DEBURR_STRESS=10000: so many parts; DEBURR_STRESS_FROM=10000: others.
-// `facets_lean`: where a wall is thinner than a cell, some facets face inward.
+// Checks `usual` parts; DEBURR_STRESS=N sets their number and DEBURR_STRESS_FROM=N the first seed. With `facets_lean`
+// one facet in 2000 may face inward, as happens where a wall is thinner than a cell. Returns the number of facets.
 template <class Part = RandomPart, class Polygonize>
 std::size_t check_parts(int usual, bool facets_lean, Polygonize polygonize) {
     const char* wanted = std::getenv("DEBURR_STRESS");
@@ -72,7 +72,7 @@ TEST_CASE("Random parts by triage within a tolerance pass the check of what was 
 }
 
 TEST_CASE("Sheets that lie in one plane and part along a curve do not cross by triage") {
-    // The flat bottom of a boss on the floor of a bore, whose edges are rounded.
+    // In this part the flat bottom of a boss lies on the floor of a bore whose edges are rounded.
     constexpr int seed = 742;
     const auto coarse = [](const SolidTree& solid, const Box& box, MeshCheckOptions&) { return triage(solid, box); };
     CHECK(check_part(seed, coarse).faults() == 0);
@@ -126,7 +126,7 @@ TEST_CASE("Random parts by the octree pass the check of what was made") {
 }
 
 TEST_CASE("The octree cuts cells further where the sides of a thin wall cross each other") {
-    // Facets faced as they should, so that nothing else asked for smaller cells.
+    // In these parts no facet faced inward, so that only crossings asked for smaller cells.
     for (const int seed : {1015, 1027, 1041, 1058, 127}) {
         CAPTURE(seed);
         CHECK(check_part(seed, octree_of_40).crossing.count == 0);

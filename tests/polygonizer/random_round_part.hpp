@@ -1,5 +1,5 @@
-// Random parts with round densities as people build them: plates and blocks with bores, counterbores, cross bores,
-// pins, spheres let in or put on, chamfer cones and grooves, in round numbers of millimetres.
+// Random mechanical parts with round densities: plates, blocks and discs with bores, counterbores, cross bores, pins,
+// spheres added or cut out, countersinks and grooves. Dimensions are round numbers of millimetres.
 #pragma once
 #include <cmath>
 
@@ -12,7 +12,7 @@ class RandomRoundPart : RandomDraws {
 public:
     explicit RandomRoundPart(int seed) : RandomDraws(spread(seed)) {}
 
-    /// One Boolean density that is rounded as a whole; turned as often as not.
+    /// One Boolean density that is rounded as a whole; in half of the cases rotated and moved.
     Solid solid() {
         constexpr double radii[] = {0.2, 0.4, 0.5};
         radius_ = radii[below(3)];
@@ -35,7 +35,7 @@ public:
         const Solid s = Solid::rounded(radius_, part_);
         return below(2) ? s.transformed(turn()) : s;
     }
-    /// Of the part made last.
+    /// Filter radius of the part made last.
     double radius() const { return radius_; }
 
 private:

@@ -1,5 +1,5 @@
-// Random parts with sharp round tools: a cube, sharp or a little rounded, with cylinders, cones and spheres that are
-// cut off it or put on it, through its faces at any angle.
+// Random parts with sharp round tools: cylinders, cones and spheres at any angle are subtracted from, or added to, a
+// cube that is sharp or slightly rounded.
 #pragma once
 #include "bounds/solid.hpp"
 #include "polygonizer/random_draws.hpp"
@@ -10,7 +10,7 @@ class RandomSlantedPart : RandomDraws {
 public:
     explicit RandomSlantedPart(int seed) : RandomDraws(spread(seed)) {}
 
-    /// Turned as often as not.
+    /// In half of the cases the part is rotated and moved.
     Solid solid() {
         const Density cube = Density::box(Vec3(0.0), Vec3(1.0));
         Solid part = below(3) == 0 ? Solid::rounded(0.05, cube) : Solid::sharp(cube);

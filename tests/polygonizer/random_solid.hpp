@@ -1,4 +1,4 @@
-// Random CSG objects as modellers write them: flush faces, touching and nested parts, mixed radii.
+// Random CSG objects with what is hard for a mesher: flush faces, touching and nested parts, mixed radii.
 #pragma once
 #include "bounds/solid_tree.hpp"
 #include "polygonizer/random_draws.hpp"
@@ -9,7 +9,7 @@ class RandomSolid : RandomDraws {
 public:
     explicit RandomSolid(int seed) : RandomDraws(std::uint64_t(seed) * 7919 + 13) {}
 
-    /// One rounded density, or a primary CSG tree of up to three.
+    /// One rounded density, or a primary CSG tree of two or three of them.
     Solid solid() {
         Solid s = leaf();
         const int more = below(3) == 0 ? 1 + below(2) : 0;

@@ -1,5 +1,4 @@
-// A mesh as a reader sees it that joins vertices by their position in single precision, as every
-// reader of STL has to.
+// A mesh as a reader of STL files sees it: vertices at the same position in single precision are one vertex.
 #pragma once
 #include <array>
 #include <cstdint>
@@ -11,6 +10,7 @@
 
 namespace deburr {
 
+/// Collects a mesh whose vertices are unique by position.
 class Welder {
 public:
     int vertex(std::array<float, 3> x) {
@@ -38,7 +38,7 @@ inline Mesh welded(const Mesh& mesh) {
     return w.mesh;
 }
 
-/// Of a binary STL file's bytes.
+/// The welded mesh of a binary STL file, given as its bytes.
 inline Mesh welded_stl(const std::string& bytes) {
     Welder w;
     for (std::size_t at = 84; at + 50 <= bytes.size(); at += 50) {

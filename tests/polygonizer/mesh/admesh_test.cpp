@@ -1,3 +1,4 @@
+// STL files of random parts, checked by admesh.
 #include "polygonizer/admesh.hpp"
 
 #include "catch.hpp"

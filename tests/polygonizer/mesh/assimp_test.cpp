@@ -1,4 +1,4 @@
-// Files of meshes read back by another program's reader.
+// Mesh files read back by Assimp, an independent reader.
 #include <assimp/postprocess.h>
 #include <assimp/scene.h>
 #include <algorithm>
@@ -30,7 +30,7 @@ TEST_CASE("Assimp reads every format back as the same triangles, in the same pla
         std::size_t triangles = 0, turned = 0;
         Box read;
         double six_volumes = 0;
-        // Assimp turns what comes from 3ds Max from z up to y up.
+        // Assimp turns files of 3ds Max (ASE) from z up to y up.
         const auto upright = [&](Vec3 v) { return name == "ase" ? Vec3(v.x, -v.z, v.y) : v; };
         for (unsigned m = 0; m < scene->mNumMeshes; ++m) {
             const aiMesh& part = *scene->mMeshes[m];
@@ -137,7 +137,7 @@ TEST_CASE("Assimp reads the colours and names of an OBJ with its MTL") {
     CHECK(faces[0] == of_material[0]);
     CHECK(faces[2] == of_material[2]);
     CHECK(faces[2] > 4);
-    CHECK(encode_mtl(mesh, notes).find("material_1") == std::string::npos);  // no triangle has it
+    CHECK(encode_mtl(mesh, notes).find("material_1") == std::string::npos);  // no triangle has this material
 }
 
 TEST_CASE("Assimp reads the colours of a PLY") {

@@ -1,3 +1,4 @@
+// ChunkedList against its contract: stable addresses and independent copies.
 #include "polygonizer/mesh/chunked_list.hpp"
 
 #include "catch.hpp"

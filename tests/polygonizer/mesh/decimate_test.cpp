@@ -1,3 +1,4 @@
+// Decimation within a tolerance: the mesh stays closed and near the surface, and has few triangles where it is flat.
 #include "polygonizer/mesh/decimate.hpp"
 
 #include <numbers>
@@ -40,7 +41,7 @@ TEST_CASE("A mesh within a tolerance is thinned out: closed, outward, near, and 
     MeshCheckOptions options;
     options.tolerance = tolerance;
     CHECK(check_mesh(mesh, tree, box, options).crossing.count == 0);
-    // The top, away from the rims, is a few large triangles in its plane.
+    // Away from the rims, the top face consists of a few large triangles in its plane.
     double flat = 0;
     for (const Triangle& t : mesh.triangles) {
         const Vec3 area = mesh.area_vector(t);
@@ -62,7 +63,7 @@ TEST_CASE("A plate with round bores takes hardly more facets than chords of its 
     }
     const SolidTree tree = flatten(Solid::rounded(r, plate));
     const Mesh mesh = triage(tree, polygonization_box(tree), {.tolerance = tolerance});
-    // The profile of an edge takes three chords at a twentieth of r.
+    // Within a twentieth of r, the profile of a rounded edge takes three chords.
     const int profile = 3, around = int(std::ceil(std::numbers::pi / std::acos(1 - tolerance / R)));
     const int walls = bores * 2 * around, rims = bores * 2 * profile * 2 * around,
               faces = 2 * (bores * around + 4 + 2 * bores - 2) + 4 * 2, edges = 12 * profile * 2,

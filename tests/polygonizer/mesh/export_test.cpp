@@ -1,3 +1,4 @@
+// Mesh files in every format, read back; and marching cubes on the cases that are ambiguous for it.
 #include "polygonizer/mesh/export.hpp"
 
 #include <zlib.h>
@@ -143,10 +144,10 @@ TEST_CASE("Marching cubes closes ambiguous faces: a checkerboard of boxes") {
         CHECK(topology(marching_cubes(tree, polygonization_box(tree), grid)).closed());
 }
 
-// The text of the model in a 3MF. The reader is a test's: it takes what was written a moment ago.
+// The model's XML in a 3MF archive. This reader handles only archives that encode() writes.
 std::string model_of(const std::string& archive) {
     const std::string name = "3D/3dmodel.model";
-    const std::size_t header = archive.find(name) - 30;  // of the local file [APPNOTE 4.3.7]
+    const std::size_t header = archive.find(name) - 30;  // local file header [APPNOTE 4.3.7]
     const auto word = [&](std::size_t at) { return read<std::uint32_t>(archive, header + at); };
     std::string text(word(22), '\0');
     z_stream stream{};
@@ -166,7 +167,7 @@ TEST_CASE("A 3MF has the same bytes at any time, and vertices that read back as 
     const std::string archive = encode(m, MeshFormat::three_mf);
     CHECK(read<std::uint16_t>(archive, 10) == 0);                  // midnight
     CHECK(read<std::uint16_t>(archive, 12) == (1 << 5 | 1));       // 1980-01-01
-    std::this_thread::sleep_for(std::chrono::milliseconds(2100));  // dates of a ZIP have steps of two seconds
+    std::this_thread::sleep_for(std::chrono::milliseconds(2100));  // dates in a ZIP have steps of two seconds
     CHECK(encode(m, MeshFormat::three_mf) == archive);
     const std::string text = model_of(archive);
     const std::regex vertex("<vertex x=\"([^\"]*)\" y=\"([^\"]*)\" z=\"([^\"]*)\"/>");
@@ -181,7 +182,7 @@ TEST_CASE("A 3MF has the same bytes at any time, and vertices that read back as 
 
 TEST_CASE("An STL's normals are those of the corners that it has") {
     Mesh mesh;
-    // In doubles the triangle leans; in single precision, 1000 away, it does not.
+    // In doubles the triangle leans; in single precision, at x = 1000, it does not.
     mesh.positions = {{1000, 0, 0}, {1001, 0, 0}, {1000.00001, 1, 0}, {1000.00002, 0, 1}};
     mesh.normals = {{0, 0, 1}};
     mesh.triangles = {{{0, 3, 2}, {0, 0, 0}}};

@@ -1,4 +1,4 @@
-// 3MF files read back by the consortium's own library, in its strict mode.
+// 3MF files read back by lib3mf, the 3MF Consortium's own library, in its strict mode.
 #include <Model/COM/NMR_DLLInterfaces.h>
 
 #include <array>
@@ -16,7 +16,7 @@ namespace {
 
 using Pointer = NMR::PLib3MFBase*;
 
-// An object of the library, released at the end.
+// Owns an object of lib3mf and releases it at the end.
 class Handle {
 public:
     Handle() = default;
@@ -37,7 +37,7 @@ struct Object {
     bool manifold = false;
     std::vector<std::array<float, 3>> vertices;
     std::vector<std::array<int, 3>> triangles;
-    std::vector<std::array<int, 3>> colors;  // of triangles
+    std::vector<std::array<int, 3>> colors;  // of the triangles, in sRGB, 0 to 255
 };
 
 struct Model {
@@ -132,7 +132,7 @@ TEST_CASE("lib3mf reads a 3MF back: names, vertices, triangles and colours of ev
     REQUIRE(model.objects.size() == 2);
     CHECK(model.objects[0].name == "a \"b\" & <c>_\xef\xbf\xbd\xc3\xa9");
     CHECK(model.objects[1].name == "solid_4");
-    // sRGB: a linear 0.216 is half of what a byte holds.
+    // Colours in the file are sRGB: a linear 0.216 becomes 128 of 255.
     const std::array<int, 3> shown[3] = {{255, 0, 128}, {0, 188, 255}, {10, 255, 25}};
     std::size_t t = 0;
     std::map<std::array<int, 3>, int> used;

@@ -1,3 +1,4 @@
+// Meshes cut into blocks and joined again, and decimation in blocks.
 #include "polygonizer/mesh/mesh_blocks.hpp"
 
 #include <algorithm>
@@ -12,7 +13,7 @@ using namespace deburr;
 
 namespace {
 
-// A plate with a grid of square holes, before anything is thinned out.
+// The undecimated mesh of a plate with a grid of square holes.
 struct Dense {
     SolidTree tree;
     Mesh mesh;
@@ -31,7 +32,7 @@ Dense plate(int holes) {
     return dense;
 }
 
-// Corners of the triangles, in an order that does not depend on that of the triangles.
+// Corner positions of all triangles, sorted, so that they do not depend on the triangles' order.
 std::vector<std::array<double, 9>> corners(const Mesh& mesh) {
     std::vector<std::array<double, 9>> all;
     for (const Triangle& t : mesh.triangles) {
@@ -84,7 +85,7 @@ TEST_CASE("A mesh that is thinned out in blocks has little more left than one th
     const double tolerance = 0.01;
     Mesh whole = dense.mesh;
     std::vector<Origin> origins = dense.origins;
-    // Told to end with one triangle, it works through the whole at once.
+    // With `enough` = 1 decimate() works on the whole mesh and not in blocks.
     decimate(whole, origins, judge, tolerance, {.enough = 1});
     decimate(dense.mesh, dense.origins, judge, tolerance);
     CHECK(double(dense.mesh.triangles.size()) < 1.05 * double(whole.triangles.size()));

@@ -1,3 +1,4 @@
+// The mesh check: what it finds in damaged meshes, and that it finds nothing in meshes of random solids.
 #include "polygonizer/mesh/mesh_check.hpp"
 
 #include <algorithm>
@@ -86,7 +87,7 @@ TEST_CASE("A mesh of its solid passes the check, and each kind of damage is foun
 }
 
 TEST_CASE("A part of the solid that is not in the mesh is found, beside another one and alone") {
-    // The cube of 1 lives to r = 0.833; its last blob is half as wide as the radius.
+    // A unit cube vanishes at r = 0.833; just before, it is a blob half as wide as the radius.
     for (const double r : {0.1, 0.5, 0.75}) {
         CAPTURE(r);
         const SolidTree both = with_piece(r);
@@ -112,14 +113,14 @@ TEST_CASE("Triangles cross where their insides meet, and not where they touch") 
     const std::vector<Vec3> x{{0, 0, 0}, {4, 0, 0}, {0, 4, 0},  {1, 1, -1}, {1, 1, 1},     {3, 3, 1},   {1, 1, 0},
                               {4, 4, 0}, {2, 0, 0}, {2, -2, 0}, {4, -2, 0}, {0.5, 0.5, 0}, {0.5, 1, 0}, {1, 0.5, 0}};
     CHECK(cross(x, {0, 1, 2}, {3, 4, 5}));         // through the middle
-    CHECK(cross(x, {0, 1, 2}, {0, 3, 4}));         // the same at a corner of both
-    CHECK_FALSE(cross(x, {0, 1, 2}, {6, 4, 5}));   // stands on it
+    CHECK(cross(x, {0, 1, 2}, {0, 3, 4}));         // the same, through a corner of both
+    CHECK_FALSE(cross(x, {0, 1, 2}, {6, 4, 5}));   // touches it from above with a corner
     CHECK_FALSE(cross(x, {0, 1, 2}, {0, 1, 4}));   // shares an edge
-    CHECK_FALSE(cross(x, {0, 1, 2}, {2, 1, 7}));   // in one plane, beside it
-    CHECK_FALSE(cross(x, {0, 1, 2}, {8, 9, 10}));  // in one plane, touching a side
-    CHECK(cross(x, {0, 1, 2}, {0, 1, 7}));         // in one plane, folded over an edge
-    CHECK(cross(x, {0, 1, 2}, {11, 13, 12}));      // in one plane, within
-    CHECK(cross(x, {0, 1, 2}, {0, 2, 1}));         // the same, turned over
+    CHECK_FALSE(cross(x, {0, 1, 2}, {2, 1, 7}));   // coplanar, beside it
+    CHECK_FALSE(cross(x, {0, 1, 2}, {8, 9, 10}));  // coplanar, touching a side
+    CHECK(cross(x, {0, 1, 2}, {0, 1, 7}));         // coplanar, folded over the shared edge
+    CHECK(cross(x, {0, 1, 2}, {11, 13, 12}));      // coplanar, inside it
+    CHECK(cross(x, {0, 1, 2}, {0, 2, 1}));         // the same triangle, reversed
 }
 
 TEST_CASE("Winding numbers tell inside and outside, and edges in the way do not matter") {
@@ -131,7 +132,7 @@ TEST_CASE("Winding numbers tell inside and outside, and edges in the way do not 
         CAPTURE(seed);
         Gen g(seed);
         Vec3 x(g.between(-1, 21), g.between(-1, 11), g.between(-0.5, 2.5));
-        // As often as not above, below and beside vertices.
+        // In half of the cases the point is above, below or beside a vertex.
         if (g.chance(0.5)) {
             const Vec3 corner = mesh.positions[g.below(int(mesh.positions.size()))];
             const int axis = g.below(3);
@@ -146,7 +147,7 @@ TEST_CASE("Winding numbers tell inside and outside, and edges in the way do not 
         for (const HalfSpace& h : solid.leaves[0].density.half_spaces) near |= std::abs(h.distance(x)) < 1e-9;
         if (!near) CHECK((*winding == 1) == solid.contains(x));
     }
-    CHECK(inside > 1'000);  // others lie on faces
+    CHECK(inside > 1'000);  // the other points lie outside or on faces
 }
 
 TEST_CASE("Parts that touch in a corner pass the check, by whatever rounding turns them") {

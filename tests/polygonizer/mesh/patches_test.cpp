@@ -1,4 +1,4 @@
-// What was changed by itself is put in again where the same mesh comes anew.
+// Patches: local changes to a mesh are applied again to a new mesh where it has the same facets as before.
 #include "polygonizer/mesh/patches.hpp"
 
 #include <algorithm>
@@ -30,7 +30,7 @@ Meshed polygonized(const Subdivision& subdivision, const SolidTree& solid) {
     return m;
 }
 
-// How many facets of the mesh are among the others.
+// Number of facets of m that are also in `others`.
 std::size_t known(const Meshed& m, const Meshed& others) {
     GoodFacets good;
     good.become(others.mesh, others.origins, {});
@@ -39,7 +39,7 @@ std::size_t known(const Meshed& m, const Meshed& others) {
     return count;
 }
 
-// Two vertices on each axis, 2k and 2k + 1.
+// An octahedron; the vertices on axis k are 2k, on the negative side, and 2k + 1.
 Meshed octahedron() {
     Meshed m;
     for (int axis = 0; axis < 3; ++axis)
@@ -60,7 +60,7 @@ Meshed octahedron() {
     return m;
 }
 
-// The other diagonal for the edge between two vertices.
+// Flips the edge between the vertices a and b and records the change in `patches`.
 void flip(Meshed& m, int a, int b, Patches* patches = nullptr) {
     Facets facets(m.mesh, m.origins, patches);
     const int f = facets.across(b, a);
@@ -97,7 +97,7 @@ TEST_CASE("What became of patches is put in where the same facets come again, an
         CHECK(known(again, refined) == refined.mesh.triangles.size());
         CHECK(topology(again.mesh).manifold());
 
-        // A few cells are halved; and of patches that were put in, patches are made anew.
+        // A few cells are halved in each round; the second round starts from patches that were themselves put in.
         for (int round = 0; round < 2; ++round) {
             std::vector<Cut> cuts;
             for (std::size_t t = std::size_t(round); t < coarse.origins.size() && cuts.size() < 3; t += 40)
@@ -130,7 +130,7 @@ TEST_CASE("Patches that hold what is wrong are not put in") {
     for (int t = 0; t < int(flipped.origins.size()); ++t) {
         Meshed again = first;
         patches.put_into(again.mesh, again.origins, flipped.mesh, flipped.origins, std::array{t});
-        // The edge that came joins the two vertices on the last axis.
+        // True if facet t has the new edge, which joins the two vertices on the last axis.
         const bool came = std::ranges::count_if(flipped.mesh.triangles[t].vertex,
                                                 [&](int v) { return flipped.mesh.positions[v].z != 0; }) == 2;
         CHECK(known(again, first) == (came ? 8 : 6));
@@ -141,9 +141,9 @@ TEST_CASE("Patches that hold what is wrong are not put in") {
 TEST_CASE("A patch whose new edge is there already is not put in") {
     Meshed mesh = octahedron();
     Patches patches(mesh.mesh, mesh.origins);
-    flip(mesh, 1, 3, &patches);  // now 4 and 5 are joined
+    flip(mesh, 1, 3, &patches);  // joins 4 and 5
     Meshed fresh = octahedron();
-    flip(fresh, 0, 2);  // here they are joined, too
+    flip(fresh, 0, 2);  // joins 4 and 5 here as well
     const Meshed before = fresh;
     patches.put_into(fresh.mesh, fresh.origins, mesh.mesh, mesh.origins, std::array<int, 0>{});
     CHECK(topology(fresh.mesh).manifold());
@@ -162,7 +162,7 @@ TEST_CASE("A vertex that moved is where it went, and all around it are one patch
     CHECK(known(again, moved) == 8);
 
     Meshed other = first;
-    flip(other, 1, 3);  // takes two facets around it
+    flip(other, 1, 3);  // takes two facets that were around vertex 5
     const Meshed before = other;
     patches.put_into(other.mesh, other.origins, moved.mesh, moved.origins, std::array<int, 0>{});
     CHECK(known(other, before) == 8);

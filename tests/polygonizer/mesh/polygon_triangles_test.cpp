@@ -1,3 +1,4 @@
+// Triangulation of polygons with holes, of loops that touch or cross, and the exact orientation test.
 #include "polygonizer/mesh/polygon_triangles.hpp"
 
 #include <chrono>
@@ -51,10 +52,10 @@ std::vector<Vec2> ring(Vec2 middle, double radius, int sides, bool hole, double 
 }
 
 struct Faults {
-    int lost_sides = 0;  // edges of the rim that are not in one triangle
-    int open_edges = 0;  // others that are not in two, both ways
-    int unbalanced = 0;  // edges run through more often one way than the other, but for the rim
-    int inverted = 0;    // triangles that are wrong way round
+    int lost_sides = 0;  // edges of the rim that are not in exactly one triangle
+    int open_edges = 0;  // other edges that are not in two triangles, once in each direction
+    int unbalanced = 0;  // edges used more often in one direction than in the other, rim included
+    int inverted = 0;    // triangles of the wrong orientation
     int flat = 0;        // triangles without area
     double area = 0;
 };
@@ -99,8 +100,8 @@ void check_clean(const Polygon& polygon, bool touches = false) {
     CHECK(result.triangles.size() == polygon.corners() - 2 + 2 * (polygon.loops.size() - 1));
 }
 
-// The outline of a random set of squares of a grid that hang together by their sides, whose corners are moved about.
-// Squares that meet only in a corner make the outline touch itself there, or two loops each other.
+// The outline of a random set of squares of a grid that are connected by sides, with the squares' corners moved.
+// Squares that meet only in a corner make the outline touch itself, or two loops touch each other, in that corner.
 Polygon of_squares(Gen& g, int size, double share, double moved, bool shared_corners) {
     std::vector<std::vector<char>> full(std::size_t(size + 2), std::vector<char>(std::size_t(size + 2), false));
     const auto at = [&](int x, int y) -> char& { return full[x + 1][y + 1]; };
@@ -121,7 +122,7 @@ Polygon of_squares(Gen& g, int size, double share, double moved, bool shared_cor
         if (fresh) found->second = Vec2(c.first, c.second) + moved * Vec2(g.between(-1, 1), g.between(-1, 1));
         return found->second;
     };
-    // From each corner the sides that leave it, with the interior on their left.
+    // `sides` maps each corner to the ends of the sides that leave it, with the interior on their left.
     std::map<std::pair<int, int>, std::vector<std::pair<int, int>>> sides;
     for (int x = 0; x < size; ++x)
         for (int y = 0; y < size; ++y) {
@@ -280,7 +281,7 @@ TEST_CASE("A rim that crosses itself keeps its edges, and this is said") {
         std::vector<Vec2> points = ring({0, 0}, 1, 5 + g.below(12), false);
         const double moved = g.chance(0.5) ? 0.3 : 1e-9;
         for (Vec2& x : points) x += moved * Vec2(g.between(-1, 1), g.between(-1, 1));
-        // A corner that reaches through a side of another part of the rim, by little or by much.
+        // One corner reaches through a side of another part of the rim, by little or by much.
         if (g.chance(0.5)) points[2] = 0.5 * (points[0] + points[points.size() - 1]) * (1 + moved);
         polygon.add_loop(points);
         if (g.chance(0.5)) polygon.add_loop(ring({g.between(-0.6, 0.6), 0.1}, g.between(0.1, 0.6), 5, true));
@@ -293,7 +294,7 @@ TEST_CASE("A rim that crosses itself keeps its edges, and this is said") {
         crossing += result.crosses_itself;
     }
     CHECK(crossing > 500);
-    CHECK(lost < crossing / 10);  // sides that a triangle has which lies twice on the polygon, or is turned over
+    CHECK(lost < crossing / 10);  // sides of triangles that are inverted or lie twice on the polygon
 }
 
 TEST_CASE("Ears of loops are a disc, whatever crosses") {
@@ -319,7 +320,7 @@ TEST_CASE("Orientations are exact next to a line and a plane") {
     int differs = 0;
     for (int i = -8; i <= 8; ++i)
         for (int k = -8; k <= 8; ++k) {
-            // Points half a unit from the diagonal, in steps of a rounding: the side is that of i − k.
+            // Points around (½, ½) on a grid of half an ulp: their exact side of the diagonal is the sign of k − i.
             const Vec2 x(0.5 + i * ulp / 2, 0.5 + k * ulp / 2);
             const double side = orientation({12, 12}, {24, 24}, x);
             CHECK((side > 0) == (k > i));
@@ -330,5 +331,5 @@ TEST_CASE("Orientations are exact next to a line and a plane") {
             CHECK((above > 0) == (k > i));
             CHECK((above < 0) == (k < i));
         }
-    CHECK(differs > 20);  // or plain arithmetic would do
+    CHECK(differs > 20);  // plain floating-point arithmetic is wrong that often
 }

@@ -1,3 +1,4 @@
+// Refinement of a mesh to a tolerance, and triangles that cross.
 #include "polygonizer/mesh/refine.hpp"
 
 #include <algorithm>
@@ -13,14 +14,14 @@ using namespace deburr;
 
 namespace {
 
-// Two boxes across each other: rounded edges, hollow ones, and corners where three meet.
+// Two crossed boxes: convex and concave rounded edges, and corners where three edges meet.
 SolidTree crossed_boxes(double r) {
     const Density upright = Density::box({-0.3, -1, -0.2}, {0.3, 1, 0.2});
     const Density tilted = Density::box({-1, -0.35, -0.4}, {1, 0.25, 0.3});
     return flatten(Solid::rounded(r, upright | tilted));
 }
 
-// The convex hull of a few points, by the planes through all three of them that have no point beyond.
+// Convex hull of the points: the half-spaces of all planes through three of them that have no point beyond.
 Density hull(const std::vector<Vec3>& points) {
     std::vector<Density> sides;
     std::vector<Vec3> normals;
@@ -41,7 +42,7 @@ Density hull(const std::vector<Vec3>& points) {
     return all;
 }
 
-// One turn of a screw's thread: convex pieces along a helix, each of which overlaps its neighbours, about a core.
+// One turn of a screw thread: overlapping convex pieces along a helix, around a core.
 SolidTree thread(int pieces, double r) {
     const double step = 2 * std::numbers::pi / pieces;
     Density core = Density::half_space({0, 1, 0}, 1.75) & Density::half_space({0, -1, 0}, 1);
@@ -74,7 +75,7 @@ TEST_CASE("Splits of edges bring a mesh within a tolerance, still closed, with i
     std::vector<Origin> origins;
     const Mesh coarse = surface(subspace, tree, &origins);
     const FacetJudge judge(tree, coarse);
-    int told = 0;  // that some are left
+    int told = 0;  // tolerances at which some triangles remain too far
     for (const double tolerance : {0.05 * r, 0.02 * r, 0.005 * r}) {
         CAPTURE(tolerance);
         Mesh mesh = coarse;
@@ -91,7 +92,7 @@ TEST_CASE("Splits of edges bring a mesh within a tolerance, still closed, with i
         CHECK(crossing_triangles(mesh, TriangleTree(mesh)).empty());
     }
     CHECK(told <= 1);
-    CHECK(measure(coarse, tree).distance.max > 0.05 * r);  // or there was nothing to do
+    CHECK(measure(coarse, tree).distance.max > 0.05 * r);  // so there was something to refine
 }
 
 TEST_CASE("Some triangles are brought within a tolerance alone, and the others stay") {
@@ -141,7 +142,7 @@ TEST_CASE("A thread of many pieces in one density is meshed and measured within 
     const double r = 0.05;
     const SolidTree tree = thread(30, r);
     const Mesh mesh = triage(tree, polygonization_box(tree), {.tolerance = 0.05 * r});
-    const MeshMetrics m = measure(mesh, tree);  // near one place at a time: all of it at once is too much to evaluate
+    const MeshMetrics m = measure(mesh, tree);  // prunes to each place; the whole density is too large to evaluate
     CHECK(m.topology.manifold());
     CHECK(m.inverted == 0);
     CHECK(m.distance.max <= 0.05 * r);

@@ -1,3 +1,4 @@
+// Parts that touch stay separate for readers that join vertices by position, and facets that are too small are merged.
 #include "polygonizer/mesh/separate_touching.hpp"
 
 #include <algorithm>
@@ -62,7 +63,7 @@ TEST_CASE("Facets of a few steps of single precision are no facets") {
     Mesh mesh = mesh_of(Solid::sharp(Density::box(Vec3(1.0), Vec3(2.0))));
     REQUIRE(merge_close(mesh) == 0);
     const Mesh before = mesh;
-    // An edge of the cube is cut near its end.
+    // An edge of the cube is cut near its end, at 5·10⁻⁷ of its length.
     const int a = mesh.triangles[0].vertex[0], b = mesh.triangles[0].vertex[1], middle = int(mesh.positions.size());
     mesh.positions.push_back(glm::mix(mesh.positions[a], mesh.positions[b], 5e-7));
     for (std::size_t i = 0; i < before.triangles.size(); ++i)

@@ -1,3 +1,4 @@
+// Sharp densities as Boolean functions: sharp_set() against the values of the densities.
 #include "polygonizer/mesh/sharp_set.hpp"
 
 #include "catch.hpp"

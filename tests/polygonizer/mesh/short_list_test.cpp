@@ -1,3 +1,4 @@
+// ShortList against std::vector under random operations.
 #include "polygonizer/mesh/short_list.hpp"
 
 #include <random>
@@ -49,7 +50,7 @@ TEST_CASE("A short list does what a vector does, within itself and beyond, also 
                 default: {
                     List moved = std::move(list);
                     CHECK(list.empty());
-                    list.push_back(value);  // what was moved from is usable
+                    list.push_back(value);  // a moved-from list is usable
                     list = std::move(moved);
                 }
             }

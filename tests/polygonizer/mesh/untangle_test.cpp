@@ -1,4 +1,4 @@
-// Facets that cross are untangled by fewer edges.
+// Facets that cross or face inward are untangled by collapses and flips of edges.
 #include "polygonizer/mesh/untangle.hpp"
 
 #include <map>
@@ -11,9 +11,9 @@ using namespace deburr;
 
 namespace {
 
-constexpr int n = 8;  // squares along each side of the cube
+constexpr int n = 8;  // squares along each edge of the cube
 
-// The unit cube, each side of n x n squares; positions that sides share are one vertex.
+// The surface of the unit cube in squares, n × n on each face; faces share the vertices between them.
 Mesh cube() {
     Mesh mesh;
     std::map<std::tuple<int, int, int>, int> vertices;
@@ -51,7 +51,7 @@ int vertex_at(const Mesh& mesh, Vec3 x) {
     return -1;
 }
 
-// With facets that face inward or cross others.
+// The mesh with its facets that face inward or cross others marked as wrong.
 MendedMesh with_faults(Mesh mesh) {
     MendedMesh m;
     m.origins.resize(mesh.triangles.size());
@@ -87,7 +87,7 @@ TEST_CASE("a vertex that was pulled over its neighbours is untangled, and the me
 TEST_CASE("what could be untangled only farther from the surface than allowed stays as it is", "[slow]") {
     const SolidTree solid = flatten(Solid::sharp(Density::box(Vec3(0.0), Vec3(1.0))));
     Mesh mesh = cube();
-    // A whole side's worth of points pushed through the opposite side.
+    // The points of the middle of the top are pushed through the bottom.
     for (Vec3& x : mesh.positions)
         if (x.z == 1 && x.x > 0.2 && x.x < 0.8 && x.y > 0.2 && x.y < 0.8) x.z = -0.5;
     MendedMesh m = with_faults(mesh);

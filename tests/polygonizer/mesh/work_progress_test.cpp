@@ -1,3 +1,4 @@
+// Progress of meshing, as WorkProgress reports it.
 #include "polygonizer/mesh/work_progress.hpp"
 
 #include <vector>
@@ -11,7 +12,7 @@ using namespace deburr;
 
 namespace {
 
-// What was told, one word after the other.
+// Records the shares of the work that `progress` reports, one by one.
 struct Told {
     std::vector<double> shares;
     WorkProgress progress{[this](double share) { shares.push_back(share); }};
@@ -29,10 +30,10 @@ TEST_CASE("phases take shares of what is left, and nothing is told twice") {
     told.progress.begin(0.5);
     told.progress.advance(0.5);
     CHECK(told.sum() == Approx(0.25));
-    told.progress.advance(3);  // no more than the phase
+    told.progress.advance(3);  // counts only up to the end of the phase
     CHECK(told.sum() == Approx(0.5));
     told.progress.begin(0.2);
-    told.progress.begin(0.5);  // the one before is over, whatever it told
+    told.progress.begin(0.5);  // ends the phase before, which counts whole
     CHECK(told.sum() == Approx(0.6));
     told.progress.finish();
     told.progress.finish();

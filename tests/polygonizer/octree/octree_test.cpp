@@ -1,3 +1,4 @@
+// The octree mesher: hard edges, tolerances, thin walls, and random solids [Vyatkin §3 to §5].
 #include "polygonizer/octree/octree.hpp"
 
 #include <cstdlib>
@@ -17,7 +18,7 @@ namespace {
 
 Density unit_cube() { return Density::box(Vec3(0.0), Vec3(1.0)); }
 
-// Turned by no simple angle, so that its edges pass cells anyhow.
+// A rotation by no simple angle, so that edges cut cells in general position.
 Affine turned() {
     Affine map;
     map.linear = Mat3(0.6, 0.8, 0, -0.8, 0.6, 0, 0, 0, 1) * Mat3(1, 0, 0, 0, 0.28, 0.96, 0, -0.96, 0.28);
@@ -186,7 +187,7 @@ TEST_CASE("A quadric: an ellipsoid's volume, and no hard edge") {
 }
 
 TEST_CASE("A cone has its tip and the rim of its base, with hard edges [Vyatkin figures 10 and 11]", "[slow]") {
-    // x² + y² ≤ (1 − z)² is two cones; the box ends at the tip of the lower one.
+    // x² + y² ≤ (1 − z)² is a double cone; the box ends at the tip of the lower one.
     const Quadric q = revolved({0, 0, 1, -1}, Vec3(0, 0, 1), Vec3(0, 0, 1), 1, 1);
     const Solid cone = Solid::of_field(std::make_shared<FreeForm>(q, std::vector<Perturbation>{})) &
                        Solid::sharp(Density::box({-2, -2, 0}, {2, 2, 1}));
@@ -220,7 +221,7 @@ TEST_CASE("Random free forms by octree: closed 2-manifolds, outward, on the surf
         if (seed % 4 == 1) solid = solid - block;
         if (seed % 4 == 2) solid = solid | block;
         if (seed % 4 == 3) solid = solid & block;
-        const SolidTree tree = flatten(solid & Solid::sharp(Density::box(Vec3(-1.8), Vec3(1.8))));  // some are infinite
+        const SolidTree tree = flatten(solid & Solid::sharp(Density::box(Vec3(-1.8), Vec3(1.8))));  // to bound all
         const Mesh mesh = octree(tree, polygonization_box(tree), {0.09});
         const MeshMetrics m = measure(mesh, tree);
         CHECK(m.topology.manifold());
@@ -235,7 +236,7 @@ TEST_CASE("Random free forms by octree: closed 2-manifolds, outward, on the surf
     CHECK(degenerate < triangles / 10000);
 }
 
-// More with DEBURR_STRESS=10000.
+// DEBURR_STRESS=N sets the number of cases.
 TEST_CASE("Random CSG objects by octree: closed 2-manifolds, outward, on the surface", "[slow]") {
     const char* wanted = std::getenv("DEBURR_STRESS");
     const int cases = wanted ? std::atoi(wanted) : 200;
@@ -256,7 +257,7 @@ TEST_CASE("Random CSG objects by octree: closed 2-manifolds, outward, on the sur
         degenerate += m.degenerate;
     }
     CHECK(triangles > 500 * std::size_t(cases));
-    // Where two surfaces run closer together than the smallest cells they may cross.
+    // Surfaces that are closer together than the smallest cells may cross, so that a few facets are inverted.
     CHECK(inverted < triangles / 2000);
     CHECK(degenerate < triangles / 10000);
 }
@@ -268,7 +269,7 @@ TEST_CASE("Free forms thinner than a cell come out whole") {
         for (int k = 0; k < 3; ++k) q.A[k][k] = -1 / (radii[k] * radii[k]);
         return Solid::of_field(std::make_shared<FreeForm>(q, std::vector<Perturbation>{}));
     };
-    // No corner of a cell is in the needle, few are in the disc, and of the ball's wall some are.
+    // No corner of a cell is in the needle, few are in the disc, and some are in the ball's wall.
     const Measured needle = measured(ellipsoid({1, 0.01, 0.01}), {});
     CHECK(needle.metrics.topology.manifold());
     CHECK(needle.metrics.topology.euler == 2);

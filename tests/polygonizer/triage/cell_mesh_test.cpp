@@ -1,3 +1,4 @@
+// The cells of a triage subdivision as closed meshes, with the classes of their densities.
 #include "polygonizer/triage/cell_mesh.hpp"
 
 #include "catch.hpp"
@@ -23,7 +24,7 @@ TEST_CASE("The cells of a subdivision are closed meshes that fill its box, and h
         const DensityClass c = cell_class(subdivision, cell, 0, density);
         const ClassInterval interval = interval_of(c);
         unclassified += c == DensityClass::unclassified;
-        // Points between the middle and the corners.
+        // Points between the cell's middle and its corners have densities in the interval of the cell's class.
         const Vec3 middle = cell_middle(subdivision.complex, cell);
         for (const Vec3& corner : mesh.positions)
             for (const double t : {0.0, 0.3, 0.8}) {

@@ -1,3 +1,4 @@
+// Triage's density classes: the tables of the operators, entry by entry.
 #include "polygonizer/triage/density_class.hpp"
 
 #include "catch.hpp"
@@ -9,7 +10,7 @@ namespace {
 constexpr auto Z = DensityClass::zero, L = DensityClass::low, U = DensityClass::unclassified, H = DensityClass::high,
                I = DensityClass::one;
 
-// Members of a class: its ends where it reaches them, and points between.
+// Sample members of a class: its ends, if they belong to it, and values between them.
 std::vector<double> members(DensityClass c) {
     const ClassInterval i = interval_of(c);
     if (i.lo == i.hi) return {i.lo};
@@ -24,8 +25,8 @@ bool holds(DensityClass c, double rho) {
     return rho >= i.lo && (rho < i.hi || (rho == i.hi && !i.open_above));
 }
 
-// Least and greatest value of an operator; the Boolean ones say what operands that share anything
-// may give.
+// Least and greatest value of the operator for these operands. A Boolean operator's result depends on what the operands
+// share; these are the Fréchet bounds.
 std::pair<double, double> values(Op op, double a, double b) {
     switch (op) {
         case Op::sum: return {a + b, a + b};
@@ -59,7 +60,7 @@ TEST_CASE("Every table entry holds all that its operands can give, and no narrow
                 for (const double x : members(a))
                     for (const double y : members(b)) {
                         const auto [lo, hi] = values(op, x, y);
-                        if (lo < 0 || hi > 1) continue;  // against the papers' restrictions
+                        if (lo < 0 || hi > 1) continue;  // illegal by the papers' rules
                         ++legal;
                         CHECK(holds(result, lo));
                         CHECK(holds(result, hi));
@@ -71,7 +72,7 @@ TEST_CASE("Every table entry holds all that its operands can give, and no narrow
                     const bool narrower = narrow.lo >= own.lo && narrow.hi <= own.hi && c != result;
                     if (narrower && (c == Z || c == I || c == L || c == H)) {
                         CAPTURE(int(c), int(result));
-                        // A sum that legality alone keeps at 1 may be called high.
+                        // Sums and differences are left out: a sum that only legality keeps at 1 may be called high.
                         if (!(op == Op::sum || op == Op::difference)) CHECK_FALSE(fits[int(c)]);
                     }
                 }

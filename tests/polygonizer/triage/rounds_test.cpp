@@ -1,4 +1,4 @@
-// Rounds of refinement: what is done again, and what is not.
+// Rounds of triage's refinement: which cells are polygonized again, and which results are kept.
 #include "polygonizer/triage/rounds.hpp"
 
 #include <algorithm>
@@ -17,7 +17,7 @@ using namespace deburr;
 
 namespace {
 
-// A rod of many sides.
+// A rounded prism of 40 sides, radius 1 and length 1 along z.
 SolidTree rod(double r) {
     Density all = Density::half_space({0, 0, -1}, 0) & Density::half_space({0, 0, 1}, 1);
     constexpr int sides = 40;
@@ -37,7 +37,7 @@ TEST_CASE("Cells that are halved again and again are looked at by themselves, no
         const SolidTree solid = flatten(part.solid());
         TriageStatistics statistics;
         const Mesh mesh = triage(solid, polygonization_box(solid), {}, &statistics);
-        CHECK(statistics.rounds == 2);  // or 4 and 5
+        CHECK(statistics.rounds == 2);  // 4 or 5 if every halving polygonized all cells again
         CHECK(topology(mesh).manifold());
     }
 }
@@ -71,7 +71,8 @@ TEST_CASE("Walls close the mesh of some cells, and what touches none of them is 
             if (!on_wall[v]) {
                 double nearest = infinity;
                 for (const Vec3& x : whole.positions) nearest = std::min(nearest, glm::length(x - part.positions[v]));
-                // Of two cells beside a face the first tells where its segments bend, and it may be missing.
+                // Where a face's segments bend is decided by the first of its two cells, which may be missing from the
+                // part.
                 CHECK(nearest < 1e-5);
                 ++found;
             }
@@ -93,7 +94,7 @@ TEST_CASE("What is nearly flat in a cell stays flat within a slack") {
         CHECK(crossing_triangles(*mesh, TriangleTree(*mesh)).empty());
     }
     CHECK(10 * coarse.triangles.size() < 7 * fine.triangles.size());
-    CHECK(100 * measure(coarse, solid).inverted < coarse.triangles.size());  // is mended later
+    CHECK(100 * measure(coarse, solid).inverted < coarse.triangles.size());  // mended later
     CHECK(measure(coarse, solid).distance.max < measure(fine, solid).distance.max + 2 * slack);
 }
 

@@ -1,3 +1,4 @@
+// Simple cells: those that cannot hold a whole component of the surface.
 #include "polygonizer/triage/simple_cell.hpp"
 
 #include "bounds/bounding_box.hpp"
@@ -16,7 +17,7 @@ std::vector<Vec3> corners_of(const Box& b) {
     return all;
 }
 
-// How many times the segment from a to b crosses the surface, by dense samples.
+// Number of times that the segment ab crosses the surface, by 64 samples.
 int crossings(const LocalDensity& density, Vec3 a, Vec3 b) {
     int count = 0;
     bool inside = density.at(a) > 0.5;
@@ -43,7 +44,8 @@ TEST_CASE("A simple cell holds no part of the surface whole: from every point on
         const LocalDensity density(prune(tree, box).tree);
         if (density.has_sharp() || !is_simple(density, corners_of(box), 1e-9)) continue;
         ++simple;
-        // Along the mean gradient, in which a simple cell's density falls nearly always, lines cross at most once.
+        // The density of a simple cell nearly always falls along the mean gradient, so lines in that direction cross at
+        // most once.
         Vec3 down(0.0);
         for (const Vec3& x : corners_of(box)) down -= density.gradient_at(x).gradient;
         if (!(glm::length(down) > 0)) continue;
@@ -60,11 +62,11 @@ TEST_CASE("A simple cell holds no part of the surface whole: from every point on
 }
 
 TEST_CASE("A cell around a small part of the surface is not simple") {
-    // A cube that its rounding has nearly taken away: what is left lies in the middle.
+    // Rounding has nearly removed this cube; what is left of it is in its middle.
     const LocalDensity density(flatten(Density::box(Vec3(0.0), Vec3(1.0)), 0.8));
     REQUIRE(density.at(Vec3(0.5)) > 0.5);
     for (const double half : {0.05, 0.1, 0.2, 0.3}) {
-        const Vec3 off(0.01, -0.02, 0.015);  // the middle is no corner of the cell
+        const Vec3 off(0.01, -0.02, 0.015);  // keeps the cube's middle off the cell's corners and center
         CHECK_FALSE(is_simple(density, corners_of({Vec3(0.5 - half) + off, Vec3(0.5 + half) + off}), 1e-9));
     }
     CHECK(is_simple(density, corners_of({Vec3(0.6), Vec3(0.9)}), 1e-9));

@@ -1,3 +1,4 @@
+// The triage mesher: exact b-reps, rounded edges, tolerances, and random solids as closed manifolds.
 #include "polygonizer/triage/triage.hpp"
 
 #include <algorithm>
@@ -20,7 +21,7 @@ namespace {
 
 Density unit_cube() { return Density::box(Vec3(0.0), Vec3(1.0)); }
 
-// A regular prism of radius 1 along an axis, or across all of them.
+// A regular prism of inradius 1 along z, or, if `across`, along a direction that is parallel to no coordinate plane.
 Density rod(int sides, double length, bool across) {
     const Vec3 z = across ? glm::normalize(Vec3(3, 2, 1)) : Vec3(0, 0, 1);
     const Vec3 x = glm::normalize(glm::cross(Vec3(0, 1, 0), z)), y = glm::cross(z, x);
@@ -32,7 +33,7 @@ Density rod(int sides, double length, bool across) {
     return all;
 }
 
-// obj4 [Lobb figures 11 and 13], with the clip that it needs.
+// obj4 [Lobb figures 11 and 13], clipped so that it is legal.
 Solid obj4(double r) {
     return Solid::rounded(
         r, unit_cube() - Density::half_space({0, 1, 0}, 1) * Density::box({0.25, 0.8, 0.25}, {0.75, 1.8, 0.75}));
@@ -82,7 +83,7 @@ TEST_CASE("Triage §6.1: a smoothed cuboid's edge is two rectangles, its corner 
 TEST_CASE("Radius 0 yields the b-rep of the polyhedron") {
     CHECK(measured(Solid::sharp(unit_cube())).mesh.triangles.size() == 12);
     const Measured m = measured(obj4(0));
-    CHECK(m.mesh.polygons == 11);  // eleven faces, one of them with a hole
+    CHECK(m.mesh.polygons == 11);  // one of these faces has a hole
     CHECK(m.mesh.triangles.size() == 28);
     CHECK(m.metrics.topology.euler == 2);
     CHECK(m.metrics.volume == Approx(0.95).epsilon(1e-12));
@@ -97,7 +98,7 @@ TEST_CASE("Lobb's obj4: at most 1.5 % and 0.1 % of the triangles of marching cub
         CHECK(m.metrics.inverted == 0);
         CHECK(m.metrics.degenerate == 0);
         CHECK(m.metrics.vertex_distance < 1e-9);
-        CHECK(m.metrics.distance.max < 0.11 * r);  // in the corners' six triangles
+        CHECK(m.metrics.distance.max < 0.11 * r);  // greatest in the corners, which have six triangles
     }
 }
 
@@ -186,7 +187,7 @@ TEST_CASE("A solid that needs too many cells is refused, and memory stays bounde
 }
 
 TEST_CASE("What a sharp cut leaves on both of its sides is one surface") {
-    // Its two halves had chords of their own along the cut, and slivers of the cut between them (seed 16417).
+    // Each half used to have its own chords along the cut, with slivers between them, as in seed 16417.
     const Density part = unit_cube().radius(0.1), cut = Density::half_space({0, 1, 1}, 0.9);
     CHECK(measured(Solid::sharp((part & cut) | (part & ~cut))).mesh.polygons ==
           measured(Solid::sharp(part)).mesh.polygons);
@@ -194,7 +195,7 @@ TEST_CASE("What a sharp cut leaves on both of its sides is one surface") {
 }
 
 TEST_CASE("Shells of coinciding surfaces that enclose nothing are dropped") {
-    // Complementary to each other where both are rounded, apart elsewhere.
+    // The two solids complement each other where both are rounded, and are apart elsewhere.
     const Density corner = Density::box({0.75, 0.75, 0}, {1.75, 1.25, 0.5});
     const Density rest =
         Density::box({0.5, 0.25, 0.25}, {1.5, 1.25, 1.25}) & ~Density::box({0.75, 0.75, 0.25}, {1.5, 1.25, 1.25});
@@ -217,7 +218,8 @@ TEST_CASE("A filter that reaches all over an object of many half-spaces melts it
 }
 
 TEST_CASE("Cells follow the surface where very many half-spaces reach every place on it") {
-    // A ball of facets about as wide as the filter. Cells were halved until few half-spaces varied in them: 38,000.
+    // A polyhedron with facets about as wide as the filter. When cells were halved until few half-spaces varied in
+    // them, it took 38,000 cells.
     constexpr int count = 1000;
     std::vector<Density> faces;
     for (int i = 0; i < count; ++i) {
@@ -302,7 +304,7 @@ TEST_CASE("Primary CSG of rounded solids is closed and sharp where the tree is")
     }
 }
 
-// 10,000 cases with DEBURR_STRESS=10000, about four minutes; others with DEBURR_STRESS_FROM=10000.
+// DEBURR_STRESS=10000 takes 10,000 cases, in about four minutes; DEBURR_STRESS_FROM=N sets the first seed.
 TEST_CASE(
     "Random CSG objects: no abort, no hole, no non-manifold edge, no facet inward, no vertex beside the surface") {
     const char* wanted = std::getenv("DEBURR_STRESS");
@@ -320,7 +322,7 @@ TEST_CASE(
         CHECK(t.manifold());
         CHECK(t.euler % 2 == 0);
         CHECK(t.euler <= 2 * long(t.shells));
-        CHECK(volume(mesh) > -1e-12);  // parts without thickness come out as ±0
+        CHECK(volume(mesh) > -1e-12);  // parts without thickness have a volume of ±0
         triangles += t.triangles;
         const MeshMetrics m = measure(mesh, tree);
         CHECK(m.inverted == 0);
