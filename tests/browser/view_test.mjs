@@ -1,8 +1,8 @@
-// `deburr view` in a browser, as a person uses it: headless Chromium by puppeteer-core.
+// Uses `deburr view` in a browser as a person does: headless Chromium, driven by puppeteer-core.
 //
 //   tests/browser/view_test.sh PROGRAM [FOLDER]      FOLDER gets pictures of the page
 //
-// What takes time is printed, and is no reason to fail: the machine may be busy.
+// Times are printed but never make a test fail, as the machine may be busy.
 import assert from 'node:assert/strict';
 import {spawn, execFileSync} from 'node:child_process';
 import {mkdtempSync, readFileSync, writeFileSync, rmSync, mkdirSync, existsSync} from 'node:fs';
@@ -11,7 +11,7 @@ import {createRequire} from 'node:module';
 import {dirname, join, resolve} from 'node:path';
 import {fileURLToPath} from 'node:url';
 
-// From the folder that it was installed in, which is not this file's.
+// Imported from the current folder, where it is installed, and not from this file's.
 const puppeteer = createRequire(process.cwd() + '/')('puppeteer-core');
 
 const root = resolve(dirname(fileURLToPath(import.meta.url)), '../..');
@@ -33,7 +33,7 @@ return {
 
 const children = [];
 
-// The program and the address that it prints.
+// Starts the program; `address` is what it prints, and `begin` the time of the start.
 async function view(file, ...more) {
   const begin = performance.now();
   const child = spawn(program, ['view', file, ...more], {stdio: ['ignore', 'pipe', 'inherit']});
@@ -46,7 +46,7 @@ async function view(file, ...more) {
   return {child, address, begin};
 }
 
-// A tab that counts the pictures which its page paints, and keeps when each was.
+// Opens a tab that records time and width of every picture that its page paints, and the page's errors.
 async function open(browser, address, size = {width: 1000, height: 700}) {
   const page = await browser.newPage();
   await page.setViewport(size);
@@ -64,7 +64,7 @@ async function open(browser, address, size = {width: 1000, height: 700}) {
   await page.goto(address, {waitUntil: 'domcontentloaded'});
   return {page, wrong};
 }
-// The program with a file of this name, and a tab that shows it.
+// Starts the program with a new scene file of this name and opens a tab that shows it.
 async function begin(browser, name, more = [], size = undefined) {
   const file = join(folder, name);
   writeFileSync(file, solid(0.1));
@@ -79,7 +79,7 @@ const pixels = page => page.evaluate(() => {
 });
 const painted = page => page.evaluate(() => window.painted.length);
 const picture_after = (page, count) => until(page, n => window.painted.length > n, count);
-// Waits until the page shows these pixels.
+// Waits up to ten seconds until the page shows these pixels.
 async function shows(page, wanted) {
   for (let k = 0; k < 100; ++k, await pause(100)) if (await pixels(page) === wanted) return;
   assert.fail('other pixels were expected');
@@ -87,7 +87,7 @@ async function shows(page, wanted) {
 const place = async page => { const box = await (await page.$('#picture')).boundingBox(); return {x: box.x + box.width / 2, y: box.y + box.height / 2}; };
 const shot = async (page, name) => { if (shots) { mkdirSync(shots, {recursive: true}); await page.screenshot({path: join(shots, name + '.png')}); } };
 
-// Pixels of a PNG file, as a browser sees them.
+// Pixels of a PNG file as the browser decodes them.
 const decoded = (browser, file) => browser.newPage().then(async page => {
   const text = await page.evaluate(async base64 => {
     const bytes = Uint8Array.from(atob(base64), c => c.charCodeAt(0));
@@ -100,7 +100,7 @@ const decoded = (browser, file) => browser.newPage().then(async page => {
   return text;
 });
 
-// Turns the scene by hand for some time; how many pictures a second were painted, and the time from a step to the next.
+// Turns the scene with the mouse for this time; returns the number of pictures painted per second.
 async function drag(page, seconds) {
   const {x, y} = await place(page);
   await page.mouse.move(x, y);
@@ -124,7 +124,7 @@ const tests = {
     assert.equal(await page.title(), 'block.lua – Deburr');
     await shot(page, 'block');
 
-    // What is there, by a click and by the keyboard.
+    // A click and the keyboard both tell which solid is there.
     const {x, y} = await place(page);
     await page.mouse.click(x, y);
     await until(page, () => document.getElementById('surface').textContent.includes('block'));
@@ -136,7 +136,7 @@ const tests = {
     await page.keyboard.press('Enter');
     await until(page, () => document.getElementById('surface').textContent.includes('block'));
 
-    // Keys turn, look from a side, and go back to the scene's camera.
+    // Keys turn the camera, look along an axis, and go back to the scene's camera.
     const first = await pixels(page);
     for (const key of ['ArrowLeft', 'ArrowUp', '+', '1', '3', '7', '9']) {
       const count = await painted(page), before = await pixels(page);
@@ -148,7 +148,7 @@ const tests = {
     await page.keyboard.press('0');
     await shows(page, first);
 
-    // The mesh over it, a parameter, the camera as Lua, and files.
+    // The page shows the mesh's edges, changes a parameter, copies the camera as Lua, and saves files.
     let count = await painted(page);
     await page.click('#wires');
     await picture_after(page, count);
@@ -169,14 +169,14 @@ const tests = {
     execFileSync(program, ['mesh', file, '-D', 'height=0.4', '-o', join(folder, 'block.stl'), '-q']);
     assert.equal(stl, Array.from(readFileSync(join(folder, 'block.stl'))).join());
 
-    // Every control has a name, and what changes is said.
+    // Every control has a name, and changes are announced.
     const named = await page.$$eval('button, input, a, canvas', all => all.map(e => e.getAttribute('aria-label') || e.textContent || document.querySelector(`label[for="${e.id}"]`)?.textContent));
     assert.ok(named.every(Boolean), named.join());
     assert.deepEqual(await page.$$eval('[role=status], [role=alert], [aria-live]', all => all.map(e => e.id)), ['error', 'words', 'surface', 'copied']);
     assert.equal(await page.$eval('#picture', e => e.getAttribute('role')), 'application');
     assert.equal(await page.$eval('#picture', e => e.getAttribute('aria-label')), 'Picture of block.lua');
 
-    // Without the program the page says so.
+    // When the program has ended the page says so.
     child.kill('SIGINT');
     await until(page, () => document.getElementById('words').textContent.includes('has ended'));
     assert.deepEqual(wrong.filter(text => !/ERR_|Failed to load/.test(text)), []);
@@ -242,7 +242,7 @@ const tests = {
     assert.notEqual(await page.evaluate(() => getComputedStyle(document.body).backgroundColor), light);
     await shot(page, 'phone-dark');
     await page.setViewport({width: 1300, height: 800});
-    // 10 Mbit a second: a frame as it is takes two seconds.
+    // At 10 Mbit/s an uncompressed frame takes two seconds.
     await page.emulateNetworkConditions({download: 1.25e6, upload: 1.25e6, latency: 20});
     await drag(page, 4);
     say('pictures a second in a drag, 960 × 640 by 10 Mbit a second', (await drag(page, 3)).toFixed(1));
@@ -251,7 +251,7 @@ const tests = {
     await page.close();
   },
 
-  // The figures of the scenes that the front page shows.
+  // Measures the scenes that the README shows.
   async 'large scenes are quick'(browser) {
     for (const [name, size] of [['csg_examples', '600x380'], ['variable_rounding', '600x380'], ['csg_examples', '1920x1080']]) {
       const at = `${name}, ${size.replace('x', ' × ')}`, file = join(folder, name + '.lua');
@@ -281,7 +281,7 @@ const tests = {
   },
 };
 
-// Chromium asks for a user of its own unless it may do without a sandbox, as in a container of root's.
+// As root, for instance in a container, Chromium runs only without its sandbox.
 const browser = await puppeteer.launch({executablePath: browser_path, headless: true, args: ['--no-sandbox', '--disable-gpu', '--disable-background-networking', '--disable-component-update', '--disable-sync', '--no-first-run']});
 let failed = 0;
 try {

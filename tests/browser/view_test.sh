@@ -1,9 +1,9 @@
 #!/bin/bash
-# The page of `deburr view` in headless Chromium:
+# Tests the page of `deburr view` in headless Chromium:
 #
 #   tests/browser/view_test.sh build/release/deburr [FOLDER]      FOLDER gets pictures of the page
 #
-# Asks for node (18 or later), npm and chromium; puppeteer-core comes from npm, into build/browser.
+# Needs node (18 or later), npm and chromium; puppeteer-core is installed from npm into build/browser.
 set -euo pipefail
 source=$(cd "$(dirname "$0")/../.." && pwd)
 program=$(readlink -f "${1:?expected the program deburr}")

@@ -1,4 +1,4 @@
-# Installs the libraries into a fresh folder, and builds and runs a program there that knows no other place.
+# Installs the libraries into a fresh folder; builds and runs a program there that finds them in no other place.
 #
 #   BUILD, SOURCE, FOLDER   the build to install from, the program's folder, where to work
 #   COMPILER, GENERATOR     as the build has them

@@ -1,11 +1,11 @@
 #!/bin/bash
-# Renders under a real Slurm, which it starts on this machine alone and ends again:
+# Tests rendering under a real Slurm, which the script starts on this machine alone and ends again:
 #
 #   tests/farm/slurm_test.sh build/release/deburr
 #
-# A picture as an array of tiles by farm/slurm.sh, a task of which is requeued by its scheduler and another killed, and
-# one as an array of ranges of samples; merged, both have the bytes of the picture that one run makes. As root, with
-# Debian's slurm-wlm, which Slurm's daemons ask for; they find each other by 127.0.0.1 and files in a temporary folder.
+# It renders a picture as an array of tiles by farm/slurm.sh, where Slurm requeues one task and another is killed, and
+# as an array of ranges of samples. Merged, both must have the bytes of the picture that one run makes. Run it as root,
+# as Slurm's daemons need, with Debian's slurm-wlm. The daemons use 127.0.0.1 and files in a temporary folder.
 set -euo pipefail
 source=$(cd "$(dirname "$0")/../.." && pwd)
 program=$(readlink -f "${1:?expected the program deburr}")
@@ -25,8 +25,8 @@ end() {
 }
 trap end EXIT
 
-# A key, ports and folders of its own: another Slurm on this machine is not touched. In a container there may be no
-# systemd and no control groups to write to.
+# This Slurm has its own key, ports and folders, so that another Slurm on the machine is not touched. It uses neither
+# systemd nor control groups, which a container may not have.
 mkdir "$place/bin" "$place/state" "$place/spool" "$place/work"
 ln -s "$program" "$place/bin/deburr"
 export PATH=$place/bin:$PATH SLURM_CONF=$place/slurm.conf SOURCE_DATE_EPOCH=0
@@ -74,7 +74,7 @@ cp "$source/scenes/csg_examples.lua" scene.lua
 picture=(--size 320x200 --spp 160 --threads 1)
 deburr render scene.lua -q "${picture[@]}" -o whole.exr
 
-# The process of this test whose command line holds the text.
+# The process of this test whose command line contains the text.
 process_with() {
     local found
     for found in $(pgrep -f -- "$1"); do
@@ -93,7 +93,7 @@ scontrol requeue "${array}_0" || fail "expected a task to requeue"
 killed=$(process_with tiles.exr.parts/1.sums)
 [ -n "$killed" ] || fail "expected a task to kill"
 kill -KILL "$killed"
-# What is requeued waits for two minutes, unless it is told not to.
+# A requeued task waits for two minutes unless its start time is set.
 while kill -0 $farm 2>/dev/null; do
     for job in $(squeue --noheader --states=pending --format=%A:%r | sed -n 's/:BeginTime$//p'); do
         scontrol update JobId="$job" StartTime=now 2>/dev/null || true

@@ -1,8 +1,8 @@
-# Fails unless CTest's list has as many cases as are compiled into the programs, and unless a program that is asked for a
-# case that it does not have fails.
+# Fails unless CTest lists as many cases as are compiled into the test programs, and unless a program fails when it is
+# asked for a case that it does not have.
 #
-#   PROGRAMS  the programs of tests
-#   CTEST     the ctest command; it is run here, in the folder whose tests it lists
+#   PROGRAMS  the test programs
+#   CTEST     the ctest command; it is run in the current folder, whose tests it lists
 set(compiled_in 0)
 foreach(program ${PROGRAMS})
   execute_process(COMMAND ${program} --count OUTPUT_VARIABLE count COMMAND_ERROR_IS_FATAL ANY)
@@ -14,7 +14,7 @@ foreach(program ${PROGRAMS})
     endif()
   endforeach()
 endforeach()
-# Each entry runs exactly one case, or fails (catch_main.cpp).
+# Each entry of CTest runs exactly one case, or fails (catch_main.cpp).
 execute_process(COMMAND ${CTEST} -N -L "^(unit|program)$" OUTPUT_VARIABLE list COMMAND_ERROR_IS_FATAL ANY)
 if(NOT list MATCHES "Total Tests: ([0-9]+)")
   message(FATAL_ERROR "expected a number of tests from ctest, got\n${list}")

@@ -1,5 +1,6 @@
 #!/bin/sh
-# What ./run says while it installs and builds, and when it may not install: tried with programs that only pretend.
+# What ./run prints while it installs and builds, and what it asks for if it may not install. The programs that it calls
+# are replaced by scripts.
 #
 #   run_test.sh RUN
 set -eu
@@ -14,30 +15,30 @@ fail() {
     exit 1
 }
 
-# pretend NAME: a program whose text is read from here.
+# pretend NAME: makes an executable NAME of standard input.
 pretend() {
     { echo '#!/bin/sh'; cat; } >"bin/$1"
     chmod +x "bin/$1"
 }
 
-# Nothing of the system's but these: no sudo.
+# The PATH holds only these programs of the system; sudo is not among them.
 for program in sh dirname mktemp date tail tee grep cat rm tput printf env sed mkdir chmod; do
     ln -s "$(command -v "$program")" bin/
 done
 
-# run_as USER ARGUMENTS …: what ./run says on a terminal.
+# run_as USER ARGUMENTS …: calls ./run on a terminal as this user; what it prints is in the file `said`.
 run_as() {
     echo "echo $1" | pretend id
     shift
     script -qec "env PATH='$folder/bin' checkout/run $*" log </dev/null >said
 }
 
-# expect WORDS
+# expect WORDS: fails unless the last call printed WORDS.
 expect() {
     grep -qF -e "$1" said || { cat said; fail "expected it to say '$1'"; }
 }
 
-# Of all packages g++ alone is there.
+# Of all packages only g++ is installed.
 pretend dpkg-query <<'end'
 for package; do :; done
 if [ "$package" = g++ ]; then echo "ii "; else exit 1; fi
@@ -66,21 +67,21 @@ case $1 in
 esac
 end
 
-# Neither root nor sudo: the whole line to paste, of what is missing.
+# Neither root nor sudo: ./run prints the command that installs what is missing.
 ! run_as 1000 packages extra || fail "expected a failure without root"
 expect "apt-get update && apt-get install -y --no-install-recommends cmake ninja-build "
 expect " libembree-dev "
 expect " fonts-dejavu-core extra"
 [ ! -e calls ] || fail "expected no call of apt-get without root"
 
-# A sudo that refuses: the same line.
+# sudo refuses: ./run prints the same command.
 echo 'echo "sudo: you may not"; exit 1' | pretend sudo
 ! run_as 1000 packages || fail "expected a failure where sudo refuses"
 expect "apt-get update && apt-get install -y --no-install-recommends cmake ninja-build "
 [ ! -e calls ] || fail "expected no call of apt-get where sudo refuses"
 rm bin/sudo
 
-# Root: how far packages and files are, and then the program.
+# As root it shows the progress of packages and of files, and then runs the program.
 run_as 0 help mesh
 expect "Installing: 2.5 % Retrieving file 1 of 40"
 expect "Installing: 61.8 % Unpacking catch2 (amd64)"
@@ -88,7 +89,7 @@ expect "Building: 7/284 bounds/field.cpp"
 expect "deburr was called: help mesh"
 [ "$(head -n 1 calls)" = update ] || fail "expected the lists to be renewed first"
 
-# What fails is shown whole, without the marks of progress.
+# The output of a command that fails is shown whole, without marks of progress.
 touch broken
 ! run_as 0 packages || fail "expected a failure of apt-get to be one"
 expect "E: no space left"

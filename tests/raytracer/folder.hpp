@@ -1,4 +1,4 @@
-// A folder for a test to work in, and whole files.
+// A temporary folder for a test, and reading and writing whole files.
 #pragma once
 #include <filesystem>
 #include <string>
@@ -6,22 +6,23 @@
 
 namespace deburr::test {
 
-/// A fresh folder that vanishes with everything in it.
+/// A new temporary folder, which is removed with everything in it.
 class Folder {
 public:
     Folder();
     ~Folder();
     Folder(const Folder&) = delete;
     Folder& operator=(const Folder&) = delete;
-    /// Path of a file in it.
+    /// Path of the file `name` in the folder.
     std::string operator/(const std::string& name) const { return (path_ / name).string(); }
-    /// Names of all that is in it, hidden files too, in order.
+    /// Names of everything in the folder, hidden files too, sorted.
     std::vector<std::string> names() const;
 
 private:
     std::filesystem::path path_;
 };
 
+/// The bytes of a file; "" if it cannot be read.
 std::string read_file(const std::string& path);
 void write_file(const std::string& path, const std::string& text);
 

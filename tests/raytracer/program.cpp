@@ -72,7 +72,7 @@ bool Call::handles(int signal) {
     for (int i = 0; i < 60000 && running(); ++i) {
         const std::string status = read_file(file);
         const std::size_t at = status.find(name);
-        const bool program = status.find("Name:\tdeburr") != std::string::npos;  // and not yet ourselves, forked
+        const bool program = status.find("Name:\tdeburr") != std::string::npos;  // false until exec
         if (program && at != std::string::npos &&
             std::stoull(status.substr(at + name.size()), nullptr, 16) >> (signal - 1) & 1)
             return true;

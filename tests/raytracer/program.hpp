@@ -1,5 +1,5 @@
-// Runs the program as a user would, and gives it a scene to work on. The program is the one of the tests' build, or
-// that of the environment's DEBURR_PROGRAM.
+// Runs the program as a user would: the program of the tests' build, or that of the environment variable
+// DEBURR_PROGRAM.
 #pragma once
 #include <sys/types.h>
 
@@ -11,26 +11,27 @@
 namespace deburr::test {
 
 struct Outcome {
-    int code = -1;  // exit code; 128 + signal if one ended it
+    int code = -1;  // exit code, or 128 + the signal that ended the program
     std::string out, err;
 };
 
-/// A call under way.
+/// A running process of the program; the destructor kills it if it still runs.
 class Call {
 public:
-    /// `words` follow the program's name; `environment` are NAME=value.
+    /// Starts the program with the arguments `words` and the settings `environment`, each as NAME=value.
     explicit Call(const std::vector<std::string>& words, const std::vector<std::string>& environment = {});
     ~Call();
     Call(const Call&) = delete;
     Call& operator=(const Call&) = delete;
     void send(int signal);
     bool running();
-    /// Waits until stderr holds `text`, for a minute at most; false: it never did.
+    /// Waits until stderr contains `text`, for at most a minute; false if it does not or the program ends first.
     bool says(const std::string& text);
-    /// The first line of stdout, waited for a minute at most; "": none came.
+    /// Waits for the first line of stdout, for at most a minute; "" if none comes.
     std::string first_line();
-    /// Waits until the program has a handler of its own for a signal, for a minute at most; false: it never had.
+    /// Waits until the program handles this signal itself, for at most a minute; false if it does not.
     bool handles(int signal);
+    /// Waits for the program's end.
     Outcome wait();
 
 private:
@@ -40,12 +41,13 @@ private:
     bool ended_ = false;
 };
 
-/// The lines of stderr that do not tell how far the work is, which only runs of a second and more do.
+/// The lines of stderr without those of progress, which only runs of at least a second print.
 std::string without_progress(const std::string& err);
 
+/// Runs the program to its end.
 Outcome run(const std::vector<std::string>& words, const std::vector<std::string>& environment = {});
 
-/// A rounded cube over a floor, 60 x 40, seen from above; parameters: r, the radius.
+/// A rounded cube on a floor seen from above, 60 × 40 pixels; its parameter r is the radius.
 std::string cube_scene();
 
 }  // namespace deburr::test

@@ -1,3 +1,4 @@
+// Both bounding volume hierarchies, Deburr's Bvh8 and Embree's, on random boxes and rays.
 #include "raytracer/accel/bvh.hpp"
 
 #include <set>
@@ -10,7 +11,7 @@ using namespace deburr;
 
 namespace {
 
-// Numbers of the boxes that are visited where the ray goes on to `until`.
+// Indices of the boxes that the ray visits if its end is `until`.
 std::set<std::uint32_t> visited_by(const Bvh8& tree, Vec3 o, Vec3 d, BoxSpan whole, double until) {
     std::set<std::uint32_t> seen;
     tree.visit(o, d, reciprocal(d), whole.lo, whole.hi, [&](std::uint32_t i) {
@@ -30,7 +31,7 @@ std::set<std::uint32_t> visited_by(const EmbreeBvh& boxes, Vec3 o, Vec3 d, BoxSp
     return seen;
 }
 
-// Along an axis, nearly so, or anywhere.
+// A direction parallel to an axis, nearly parallel to one, or arbitrary.
 Vec3 awkward_direction(Gen& g) {
     Vec3 d = g.direction();
     if (g.chance(0.5)) return d;
@@ -53,11 +54,11 @@ TEST_CASE("every box that a ray touches is visited, by either hierarchy, whereve
         Bvh8::Builder builder;
         int root = Bvh8::Builder::nothing;
         const int count = 1 + g.below(60);
-        const bool grid = g.chance(0.3);  // faces coincide
+        const bool grid = g.chance(0.3);  // so that faces coincide
         for (int i = 0; i < count; ++i) {
             Vec3 half(g.number(), g.number(), g.number());
             half *= 0.2;
-            if (g.chance(0.3)) half[g.below(3)] = 0;  // flat
+            if (g.chance(0.3)) half[g.below(3)] = 0;  // a flat box
             if (grid) half = Vec3(0.125);
             const Vec3 middle = grid ? 0.25 * glm::round(4.0 * g.point(1)) : g.point(1);
             boxes.push_back({std::uint32_t(i), {away + (middle - half) * size, away + (middle + half) * size}});
@@ -67,7 +68,7 @@ TEST_CASE("every box that a ray touches is visited, by either hierarchy, whereve
         const EmbreeBvh embree(boxes);
         for (int k = 0; k < 40; ++k) {
             const Box& aim = boxes[g.below(count)].box;
-            // At corners and edges as often as elsewhere; in walls, too.
+            // The target is on a box's sides, edges and corners as often as inside it.
             Vec3 target;
             for (int axis = 0; axis < 3; ++axis) {
                 const double s = g.chance(0.5) ? g.number() : g.below(2);
@@ -82,7 +83,7 @@ TEST_CASE("every box that a ray touches is visited, by either hierarchy, whereve
                 const BoxSpan span = span_in(box.box, o, reciprocal(d), 0, infinity);
                 entered.push_back(span.lo <= span.hi ? span.lo : infinity);
             }
-            // All the way, and no further than where some box begins.
+            // The ray ends at infinity, or where it enters a random box.
             const double begins = entered[g.below(count)];
             for (const double until : {infinity, begins}) {
                 const auto seen = visited_by(tree, o, d, whole, until);
@@ -148,7 +149,7 @@ TEST_CASE("what one of several rays touches, they meet together") {
             root = builder.join(root, builder.item(std::uint32_t(i), boxes.back()));
         }
         const Bvh8 tree(builder, root);
-        // A beam, or rays in all directions.
+        // The rays form a beam or go in all directions.
         const double apart = g.chance(0.2) ? 3 : std::pow(10.0, g.between(-12, -1));
         const Vec3 middle = awkward_direction(g), from = g.point(0.5) - middle * g.between(0, 4);
         std::set<std::uint32_t> any;

@@ -1,4 +1,4 @@
-// The program as a user calls it: messages, exit codes, files.
+// The command line as a user sees it: messages, exit codes and files.
 #include "catch.hpp"
 #include "raytracer/cli/scene_folder.hpp"
 
@@ -204,7 +204,7 @@ TEST_CASE("a scene that prints without an end stops at a limit") {
 }
 
 TEST_CASE("a density that is too entangled to be evaluated is not supported, and soon told") {
-    // Pairs of half-spaces in the worst of orders: the diagram doubles with each.
+    // Pairs of half-spaces in the worst order: each pair doubles the decision diagram.
     const SceneFolder place;
     write_file(place / "e.lua",
                "local x, every, pairs_of\n"

@@ -1,4 +1,4 @@
-// --display-server against a viewer that takes tev's packets apart by itself: https://github.com/Tom94/tev
+// --display-server against a viewer that decodes the packets of tev's protocol itself: https://github.com/Tom94/tev
 #include <arpa/inet.h>
 #include <sys/socket.h>
 #include <unistd.h>
@@ -21,7 +21,7 @@ struct Image {
     std::map<std::string, std::vector<float>> channels;
 };
 
-// Reads numbers and texts of a packet one after the other.
+// Reads the numbers and texts of a packet in order.
 class Packet {
 public:
     explicit Packet(std::string bytes) : bytes_(std::move(bytes)) {}
@@ -48,10 +48,10 @@ private:
     std::size_t at_ = 0;
 };
 
-// Listens on a port of its own, and keeps what one client sends.
+// A viewer on a port of its own that stores what one client sends.
 class Viewer {
 public:
-    // Leaves the client after so many bytes.
+    // Closes the connection after `most` bytes.
     explicit Viewer(std::size_t most = std::size_t(1) << 40) {
         listener_ = socket(AF_INET, SOCK_STREAM, 0);
         sockaddr_in address{};
@@ -77,7 +77,7 @@ public:
     }
     std::string address() const { return "127.0.0.1:" + std::to_string(port_); }
 
-    // Once the client has gone.
+    // The images received, by name; waits until the client has gone.
     std::map<std::string, Image> images() {
         thread_.join();
         std::map<std::string, Image> images;
@@ -91,7 +91,7 @@ public:
             at += size;
             const char type = packet.next<char>();
             REQUIRE((type == 4 || type == 6));
-            CHECK(packet.next<char>() == 0);  // the focus stays
+            CHECK(packet.next<char>() == 0);  // false: the viewer keeps its focus
             Image& image = images[packet.text()];
             if (type == 4)
                 create(packet, image);
@@ -143,7 +143,7 @@ TEST_CASE("a viewer that speaks tev's protocol has the picture in the end, as th
     const Folder folder;
     const std::string scene = folder / "cube.lua", exr = folder / "a.exr";
     write_file(scene, cube_scene());
-    // Of 700 x 500 an image takes two packets.
+    // An image of 700 × 500 takes two packets.
     const std::vector<std::string> sizes = GENERATE(values<std::vector<std::string>>(
         {{"--size", "700x500", "--spp", "1"}, {"--spp", "24"}, {"--spp", "2", "--crop", "20x30+7+9"}}));
     Viewer viewer;

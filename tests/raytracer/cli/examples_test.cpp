@@ -1,4 +1,4 @@
-// What docs/examples.md shows can be rendered without a warning, and printed.
+// The examples of docs/examples.md render without warnings and have closed meshes, fit for printing.
 #include <algorithm>
 #include <filesystem>
 #include <nlohmann/json.hpp>

@@ -1,4 +1,4 @@
-// --checkpoint, --resume, --tile, --samples and merge, as schedulers use them.
+// --checkpoint, --resume, --tile, --samples, --frames and merge, as a scheduler uses them.
 #include <signal.h>
 
 #include <chrono>
@@ -41,7 +41,7 @@ struct Place : Folder {
 
 const Words layers = {"--aov", "P,N,Z,albedo,normal,id,crypto"};
 
-// As gzip has it, little-endian.
+// The CRC-32 of gzip, as four bytes in little-endian order.
 std::string crc32_bytes(const std::string& text) {
     std::uint32_t crc = ~0u;
     for (const char c : text) {
@@ -59,7 +59,8 @@ Words with(Words words, const Words& more) {
     return words;
 }
 
-// Kills a run at random moments, and starts it again until it comes to its end.
+// Kills a run at random moments and resumes it until it ends, until `kills` runs were killed. The picture must have the
+// bytes of an uninterrupted run.
 void check_kills(int kills, unsigned seed) {
     const Place place;
     const Words call = with(layers, {"--size", "160x100", "--spp", "300"});
@@ -118,7 +119,7 @@ TEST_CASE("SIGTERM leaves a checkpoint and exit code 75, SIGINT 130, and --resum
         REQUIRE(place.render(resumed).code == 0);
         REQUIRE(place.render(with(call, {"-o", place / "b.exr"})).code == 0);
         CHECK(place.bytes("a.exr") == place.bytes("b.exr"));
-        // All is done: written again without a ray.
+        // When all samples are in the checkpoint, the picture is written without tracing a ray.
         std::filesystem::remove(place / "a.exr");
         REQUIRE(place.render(with(resumed, {"--stats-json", place / "s.json"})).code == 0);
         CHECK(place.bytes("s.json").find("\"build\"") == std::string::npos);
@@ -165,7 +166,7 @@ TEST_CASE("a checkpoint of something else is refused with one line") {
     refused(call, 1, "a.sums: expected the sums that were written, got a damaged file");
     write_file(place / "a.sums", "");
     refused(call, 1, "a.sums: expected a file of sums by --checkpoint, got another one");
-    // Sound, but of another version.
+    // A valid file of sums by another version.
     std::string older = sums;
     const std::size_t version = older.find("\"version\":\"") + 11;
     REQUIRE(older.compare(version, 6, "0.1.0\"") == 0);

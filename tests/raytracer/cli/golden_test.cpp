@@ -1,4 +1,4 @@
-// Every scene in scenes/ still looks as it did when somebody looked at it.
+// Every scene in scenes/ renders like its golden picture in tests/golden.
 #include <OpenImageIO/imagebuf.h>
 #include <OpenImageIO/imagebufalgo.h>
 
@@ -13,27 +13,27 @@ namespace fs = std::filesystem;
 
 namespace {
 
-// `picture`: its name in tests/golden; `parameters`: words of the command line.
+// Renders the scene at 150 × 95 with the arguments `parameters` and compares it with tests/golden/<picture>.png.
 void check_picture(const fs::path& scene, const std::string& picture, const std::vector<std::string>& parameters) {
     CAPTURE(picture);
     const Folder folder;
     const std::string got = folder / (picture + ".png");
     std::vector<std::string> words = {"render", scene.string(), "--size", "150x95", "-o", got};
     words.insert(words.end(), parameters.begin(), parameters.end());
-    // What says nothing of samples was looked at with one.
+    // Golden pictures of scenes that do not set `spp` have one sample per pixel.
     const auto image = nlohmann::json::parse(run({"info", "--json", scene.string()}).out)["image"];
     if (image["spp"].is_null()) words.insert(words.end(), {"--spp", "1"});
     const Outcome outcome = run(words);
-    const bool illegal = picture == "illegal_sum";  // on purpose
+    const bool illegal = picture == "illegal_sum";  // this scene is illegal on purpose
     CHECK(outcome.err.find("brighter than white") == std::string::npos);
     CHECK((outcome.err.find("warning: " + scene.string()) != std::string::npos) == illegal);
     REQUIRE(outcome.code == 0);
 
     const OIIO::ImageBuf a(DEBURR_SOURCE_DIR "/tests/golden/" + picture + ".png"), b(got);
     REQUIRE(a.spec().width == 150);
-    // Other compilers and processors round differently: single pixels on silhouettes may change.
+    // Rounding differs between compilers and processors, so single pixels on silhouettes may differ.
     const auto difference = OIIO::ImageBufAlgo::compare(a, b, 3 / 255.f, 3 / 255.f);
-    if (difference.nfail > 14) {  // 0.1 %
+    if (difference.nfail > 14) {  // 0.1 % of the pixels
         OIIO::ImageBufAlgo::absdiff(a, b).write(picture + "_difference.png");
         FAIL_CHECK(difference.nfail << " pixels differ; see " << picture << "_difference.png");
     }

@@ -1,3 +1,4 @@
+// `deburr help`: commands, topics, entries by name, and suggestions for unknown names.
 #include <algorithm>
 #include <cstdlib>
 #include <filesystem>
@@ -31,7 +32,7 @@ TEST_CASE("help prints topics whole, by one or many, and entries by their names"
     CHECK(contains(materials, "Materials\n=========\n"));
     CHECK(contains(materials, "glass{…}\n--------\n"));
     CHECK(run({"help", "Materials"}).out == materials);
-    CHECK(contains(run({"help", "material"}).out, materials));  // and the method of this name
+    CHECK(contains(run({"help", "material"}).out, materials));  // `material` is also a method
     CHECK(contains(run({"help", "material"}).out, "x:material(m)\n"));
     CHECK(contains(run({"help", "scene"}).out, "camera\n------\n"));
     CHECK(contains(run({"help", "density"}).out, "halfspace(normal, d)\n"));
@@ -93,7 +94,7 @@ TEST_CASE("an unknown name of help, an unknown command and an unknown option com
         {{"mesh", "a.lua", "--tolerence", "1"},
          "unknown option '--tolerence', did you mean --tolerance? (see deburr mesh --help)"},
         {{"--versoin"}, "unknown option '--versoin', did you mean --version? (see deburr --help)"},
-        {{"render", "mesh"}, "render: expected an output file, -o FILE"},  // a scene of this name
+        {{"render", "mesh"}, "render: expected an output file, -o FILE"},  // takes "mesh" as the scene's name
         {{"help", "--completion", "tcsh"}, "--completion: expected bash, zsh or fish, got 'tcsh'"},
         {{"help", "--markdown", "rendr"}, "--markdown: expected a command, got 'rendr'"},
     };

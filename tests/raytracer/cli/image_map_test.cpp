@@ -1,4 +1,4 @@
-// image_map{}, from file to picture.
+// image_map{}, from the file to the picture.
 #include <cstring>
 
 #include "catch.hpp"
@@ -8,7 +8,7 @@ using namespace deburr::test;
 
 namespace {
 
-// A wall of this material right in front of the camera, lit from all around with 1.
+// A scene with a wall of this material in front of the camera, under uniform light of radiance 1.
 std::string wall(const std::string& material) {
     return "return { image = { width = 4, height = 4, spp = 4 }, lights = {}, ambient = 1, background = 0,"
            " camera = { eye = {0.5, 0.5, 5}, target = {0.5, 0.5, 0}, fov = 2 },"
@@ -27,14 +27,14 @@ float value_of(const Picture& picture, int x, int y) {
 TEST_CASE("an image map shows the file's colours, and shares are the numbers in it") {
     SceneFolder folder;
     write_file(folder.scene, wall("matte{ color = 0.2158605 }"));
-    REQUIRE(run(folder.render({}, "grey.png")).code == 0);  // sRGB 128 of 255
+    REQUIRE(run(folder.render({}, "grey.png")).code == 0);  // 128 of 255 in sRGB
     write_file(folder.scene, wall("matte{ color = image_map{ file = 'grey.png' } }"));
     const Outcome shown = run(folder.render({"--float"}));
     CAPTURE(shown.err);
     REQUIRE(shown.code == 0);
     CHECK(value_of(Picture(folder / "a.exr"), 2, 2) == Approx(0.2158605).epsilon(1e-4));
 
-    // A metal returns no ambient light, and all else of this material does.
+    // A metal reflects no ambient light; the rest of this material reflects all of it.
     write_file(folder.scene, wall("pbr{ color = 1, metallic = image_map{ file = 'grey.png' }, roughness = 1 }"));
     REQUIRE(run(folder.render({"--float"})).code == 0);
     const float half = value_of(Picture(folder / "a.exr"), 2, 2);
@@ -49,7 +49,7 @@ TEST_CASE("a mesh has the mean of an image map's colours, and an STL does not as
         "return { image = { width = 8, height = 8, spp = 1 }, lights = {}, ambient = 1,"
         " camera = { eye = {0, 0, 9}, fov = 5, projection = 'orthographic' }, background = 0,"
         " solids = { sharp(box({0, -9, -1}, {9, 9, 0})):material(matte{ color = 1 }) } }";
-    write_file(folder.scene, picture);  // half black, half white
+    write_file(folder.scene, picture);  // the left half is black, the right half white
     REQUIRE(run(folder.render({}, "half.png")).code == 0);
     write_file(folder.scene,
                "return { solids = { cube():material(matte{ color = image_map{ file = 'half.png' } }) } }");

@@ -1,4 +1,4 @@
-// What deburr info prints of a scene.
+// What `deburr info` prints about a scene.
 #include <nlohmann/json.hpp>
 
 #include "catch.hpp"
@@ -8,7 +8,7 @@ using namespace deburr::test;
 
 TEST_CASE("info counts what a union places, however often it is more than can be laid out", "[slow]") {
     const SceneFolder place;
-    // Each step doubles the row: 2^24 cubes one after the other, in 100 million half-spaces.
+    // Each step doubles the row: 2²⁴ cubes side by side, with 100 million half-spaces.
     write_file(place.scene,
                "local a = sharp(cube()) for k = 0, 23 do a = a | a:translate(2^k, 0, 0) end\n"
                "return { solids = { a:rotate(90, {0, 0, 1}), ellipsoid{} | a } }");
@@ -23,7 +23,7 @@ TEST_CASE("info counts what a union places, however often it is more than can be
     CHECK(std::abs(bounds["lo"][0].get<double>() + 1) < 0.1);
     CHECK(std::abs(bounds["hi"][1].get<double>() - (1 << 24)) < 0.1);
     CHECK(std::abs(bounds["hi"][2].get<double>() - 1) < 0.1);
-    // A mesh has triangles of each.
+    // A mesh would need triangles for each cube.
     const Outcome mesh = run({"mesh", place.scene, "-o", place / "a.stl"});
     CHECK(mesh.code == 3);
     CHECK(mesh.err.find("deburr: expected a solid of at most 4000000 half-spaces") == 0);

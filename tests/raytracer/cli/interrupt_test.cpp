@@ -1,4 +1,4 @@
-// SIGINT and SIGTERM, as a user or a scheduler sends them.
+// SIGINT and SIGTERM, as sent by a user or a scheduler.
 #include <OpenImageIO/imageio.h>
 #include <signal.h>
 
@@ -22,7 +22,7 @@ struct Place : Folder {
 
 void pause_for(double seconds) { std::this_thread::sleep_for(std::chrono::duration<double>(seconds)); }
 
-// A plate with 6 x 6 holes of 16 sides: to follow its rounding and to repair its mesh takes minutes.
+// A plate with 6 × 6 holes of 16 sides; meshing it takes minutes.
 const char* const plate = R"(
 local holes
 for i = 1, 6 do for j = 1, 6 do
@@ -34,7 +34,7 @@ end end
 return { solids = { rounded(0.5, box({0, 0, 0}, {105, 8, 105}) & ~holes) } }
 )";
 
-// So much of everything that no phase ends soon.
+// So many solids that every phase takes long.
 const char* const blocks = R"(
 local all = {}
 for i = 1, 100000 do all[i] = rounded(0.1, box({i, 0, 0}, {i + 0.6, 0.6, 0.6}) + box({i, 2, 0}, {i + 0.6, 3, 0.6})) end
@@ -60,10 +60,10 @@ std::vector<float> pixels(const std::string& path) {
 TEST_CASE("the first interrupt saves what there is, marked incomplete") {
     for (const int signal : {SIGINT, SIGTERM}) {
         const Place place;
-        // A tile is done soon, the picture is not.
+        // A tile is finished quickly, the whole picture is not.
         Call call({"render", place.scene, "-o", place / "a.exr", "-q", "--size", "600x600", "--spp", "1000",
                    "--stats-json", place / "s.json"});
-        pause_for(2);  // to start tracing, however busy the machine is
+        pause_for(2);  // tracing has begun by then, even on a busy machine
         call.send(signal);
         const Outcome o = call.wait();
         CAPTURE(o.err);
@@ -92,7 +92,7 @@ TEST_CASE("SIGTERM any number of times does not lose the picture, nor does one S
 
 TEST_CASE("the second SIGINT ends at once and leaves nothing") {
     const Place place;
-    // Tiles that take longer than anyone waits, and a picture that takes long to compress.
+    // Tiles take very long, and so does compressing the picture.
     Call call({"render", place.scene, "-o", place / "a.exr", "-v", "--size", "7000x7000", "--aov", "P,N"});
     REQUIRE(call.says(" half-spaces"));
     pause_for(2);
@@ -119,7 +119,7 @@ TEST_CASE("an interrupted picture has the samples that all pixels have, and ends
     REQUIRE(at != std::string::npos);
     CHECK(o.err.find(" of 1048576 samples of all pixels: the picture is marked incomplete\n") != std::string::npos);
     CHECK(incomplete(place / "a.exr") == 1);
-    // As many samples as it says, and no pixel has more.
+    // Each pixel has exactly as many samples as the message says.
     const std::string samples = std::to_string(std::stoi(o.err.substr(at + std::string("interrupted after ").size())));
     REQUIRE(run({"render", place.scene, "-o", place / "b.exr", "-q", "--spp", samples}).code == 0);
     CHECK(pixels(place / "a.exr") == pixels(place / "b.exr"));
@@ -151,7 +151,7 @@ TEST_CASE("an interrupt is heeded within a second in every phase") {
     write_file(place / "blocks.lua", blocks);
     const std::string holes = place / "plate.lua", many = place / "blocks.lua";
     const std::pair<Words, double> calls[] = {
-        {{"info", endless}, 0},  // as early as the program can know of it
+        {{"info", endless}, 0},  // interrupted as soon as the program handles the signal
         {{"render", endless, "-o", out + ".png"}, 0.2},
         {{"info", many}, 0.7},
         {{"render", many, "-o", out + ".png"}, 1},

@@ -1,4 +1,4 @@
-// --keep-sharp, and convolved(r, model, { … }): what a model is rounded in, and what is said of wrong values.
+// --keep-sharp, and convolved(r, model, { … }): which edges stay sharp, and the errors for wrong values.
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
@@ -59,7 +59,7 @@ TEST_CASE("meshes of a box that is rounded in part lose what is rounded there", 
         return volume_of(o.out + o.err);
     };
     const double sharp = volume({}), round = volume({"--round", "1"});
-    // By the octree's cells, not thinned out.
+    // The octree's mesh without decimation.
     const auto fine_volume = [&](const std::string& kept, const std::string& fade) {
         return volume({"--round", "1", "--keep-sharp", kept, "--fade", fade, "--tolerance", "inf"});
     };
@@ -67,8 +67,8 @@ TEST_CASE("meshes of a box that is rounded in part lose what is rounded there", 
                  all = fine_volume("concave", "3");
     CHECK(sharp == Approx(1000));
     CHECK(none == Approx(1000).epsilon(1e-4));
-    CHECK(all == Approx(round).epsilon(6e-3));  // by the octree, whose cells round an edge less finely
-    // Of twelve edges four are rounded, and less than half of four.
+    CHECK(all == Approx(round).epsilon(6e-3));  // the octree's cells follow a rounded edge less finely
+    // Four of the twelve edges are rounded whole, and four less than half of their length.
     const double lost = 1000 - round, of_upper = 1000 - upper;
     CHECK(of_upper > lost * (4 + 0.5) / 12);
     CHECK(of_upper < lost * (4 + 2) / 12);

@@ -1,4 +1,4 @@
-// --integrator, --noise, --time, --view; and pictures that surround a scene, from file to file.
+// --integrator, --noise, --time and --view, and environment pictures from files.
 #include <OpenImageIO/imageio.h>
 
 #include <cmath>
@@ -88,7 +88,7 @@ TEST_CASE("a tone curve is for the screen and leaves an EXR as it is") {
 
 TEST_CASE("a picture from a file lights a scene, behind another background, too") {
     const Place place;
-    // What surrounds it: nothing but light of 0.5.
+    // An environment of uniform light of radiance 0.5.
     write_file(
         place / "room.lua",
         "return { image = { width = 16, height = 8 }, background = 0.5, lights = {}, camera = { eye = {0, 0, 9} },"

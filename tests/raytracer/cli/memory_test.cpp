@@ -1,4 +1,4 @@
-// The program without enough memory.
+// The program under limits of memory.
 #include <algorithm>
 #include <cstdlib>
 
@@ -33,10 +33,10 @@ TEST_CASE("of errors in a parallel loop that of the least index is thrown, and o
         CHECK(error.index == 17);
     }
     CHECK(Counted::alive() == 0);
-    CHECK(most < 100);  // of as many threads as there are, one each, and the one that is kept
+    CHECK(most < 100);  // at most one per running thread, and the one that is kept
 }
 
-// Sanitizers take more address space than any limit leaves.
+// Sanitizers need more address space than these limits allow.
 #if !DEBURR_IS_SANITIZED
 TEST_CASE("running out of memory is one line and exit code 1, at whatever limit", "[slow]") {
     const Folder folder;
@@ -44,7 +44,7 @@ TEST_CASE("running out of memory is one line and exit code 1, at whatever limit"
         local all = {}
         for i = 1, 1200 do all[i] = rounded(0.1, box({i, 0, 0}, {i + 0.6, 0.6, 0.6})) end
         return { camera = { eye = {-40, 20, 30}, target = {0, 0, 0} }, solids = all })");
-    // What Lua holds, what C++ makes of it, and what is printed.
+    // Memory is taken by Lua's values, by what C++ makes of them, and by what is printed.
     write_file(folder / "t.lua", R"(
         local points, texts = {}, {}
         for i = 1, 30000 do points[i] = {i, i * i % 97, i % 13} end
@@ -56,7 +56,7 @@ TEST_CASE("running out of memory is one line and exit code 1, at whatever limit"
     int failed = 0, done = 0;
     for (const std::string& command : commands)
         for (int kib = 48'000; kib < 330'000; kib += kib / 3) {
-            // Both without dumps of memory, which take seconds to write.
+            // Core dumps are off, as they take seconds to write.
             const std::string call = "cd '" + folder / "" + "' && ulimit -c 0 -v " + std::to_string(kib) +
                                      " && exec timeout 60 '" DEBURR_PROGRAM "' " + command + " 2>err";
             const int status = std::system(("bash -c \"" + call + "\"").c_str());
@@ -84,7 +84,7 @@ TEST_CASE("two thousand half-spaces that reach one another everywhere are meshed
             all = all and all * h or h
         end
         return { solids = { rounded(0.05, all) } })");
-    // Address space; of it 230 MB are used.
+    // The limit is on address space; 230 MB of it are used.
     const std::string call = "cd '" + folder / "" +
                              "' && ulimit -c 0 -v 800000 && exec timeout 60 '" DEBURR_PROGRAM
                              "' mesh s.lua -q --threads 1 -o a.stl 2>err";

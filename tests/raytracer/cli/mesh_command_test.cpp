@@ -1,4 +1,4 @@
-// deburr mesh and deburr compare, as a user calls them.
+// `deburr mesh` and `deburr compare`, as a user calls them.
 #include <signal.h>
 
 #include <chrono>
@@ -106,7 +106,7 @@ TEST_CASE("admesh finds nothing to repair in the STL of any scene", "[slow]") {
     int scenes = 0;
     for (const auto& entry : fs::directory_iterator(DEBURR_SOURCE_DIR "/scenes")) {
         const std::string name = entry.path().stem().string();
-        // Half a minute for one of many quadratic forms; and the hole punch has the same kinds of parts as the
+        // One solid of many quadratic forms takes half a minute. The hole punch has the same kinds of parts as the
         // staplers.
         if (entry.path().extension() != ".lua" || name == "convolution" || name == "staplers") continue;
         CAPTURE(name);
@@ -143,9 +143,9 @@ TEST_CASE("mesh refuses what it does not know, and writes nothing") {
     CHECK(folder.names() == std::vector<std::string>{"s.lua"});
 }
 
-// Limits: the tolerance is 0.03 r, and a ray that grazes a rounded edge meets it that much farther
-// along; variable_rounding's radius of 0.5 is as large as the object. Free forms have no radius to
-// follow: their mesh is as fine as a grid of 64 cells, and a lamp mirrored in it has other outlines.
+// The tolerance is 0.03 r, but a ray that grazes a rounded edge meets it that much farther along the ray; the radius
+// 0.5 of variable_rounding is as large as the object. Free forms have no radius to follow: their mesh is as fine as a
+// grid of 64 cells, and a lamp mirrored in it has another outline.
 TEST_CASE("Every scene's mesh looks like its implicit surface", "[slow]") {
     const auto looks_alike = [](const std::string& scene, const std::string& rmse) {
         CAPTURE(scene);
@@ -159,12 +159,12 @@ TEST_CASE("Every scene's mesh looks like its implicit surface", "[slow]") {
     };
     for (const auto& entry : fs::directory_iterator(DEBURR_SOURCE_DIR "/scenes")) {
         if (entry.path().extension() != ".lua") continue;
-        // The hole punch has the same kinds of parts as the staplers, in a tenth of the time; what the bearing's
-        // polished balls and the tap's flutes mirror is another in facets, and their parts are below.
+        // The hole punch has the same kinds of parts as the staplers and takes a tenth of the time. The polished balls
+        // of the bearing and the flutes of the tap mirror differently with facets; their parts are tested below.
         const std::string stem = entry.path().stem();
         if (stem == "staplers" || stem == "bearing" || stem == "tap_and_die") continue;
         const auto info = nlohmann::json::parse(run({"info", "--json", entry.path().string()}).out);
-        // Highlights are sharper than facets: on the tips of the star too.
+        // Highlights are sharper than facets, also on the tips of the star.
         const std::string name = entry.path().stem().string();
         looks_alike(entry.path().string(), info["quadrics"] > 0 ? "0.15" : name == "convolution" ? "0.05" : "0.03");
     }
@@ -195,7 +195,7 @@ TEST_CASE("compare says how two files differ, and its limits are exit codes") {
     CHECK(run({"compare", a, a, "--max-rmse", "-1"}).code == 2);
     CHECK(run({"compare", a, folder / "none.exr"}).code == 2);
 
-    // What was not asked for is not said to be met.
+    // Without a limit in the call, the report does not claim that limits are met.
     REQUIRE(run({"compare", a, b, "--json", folder / "j"}).code == 0);
     CHECK(nlohmann::json::parse(read_file(folder / "j"))["within_limits"].is_null());
     CHECK(run({"compare", a, b}).out.find("within_limits       no limit was given\n") != std::string::npos);
@@ -208,7 +208,8 @@ TEST_CASE("what a picture's header claims is believed as far as the file's size 
     const auto big_endian = [](std::uint32_t n) {
         return std::string{char(n >> 24), char(n >> 16), char(n >> 8), char(n)};
     };
-    // A PNG of 20,000 x 20,000 of which nothing is there but its head [PNG §11.2.1]; with the right check sum.
+    // A PNG whose header claims 20,000 × 20,000 pixels, with a valid checksum [PNG §11.2.1], but whose data are
+    // missing.
     std::string head = "IHDR" + big_endian(20000) + big_endian(20000) + std::string("\x08\x06\x00\x00\x00", 5);
     std::uint32_t crc = 0xffffffffu;
     for (const char c : head) {
@@ -223,7 +224,7 @@ TEST_CASE("what a picture's header claims is believed as far as the file's size 
     CHECK(o.err.find("expected a file that holds the 20000x20000 pixels of its header, got 5041 bytes\n") !=
           std::string::npos);
     CHECK(std::count(o.err.begin(), o.err.end(), '\n') == 1);
-    // A black picture is a small file in every format, and is read.
+    // A black picture is a small file in every format and must be read.
     write_file(folder / "black.lua",
                "return { image = { width = 700, height = 600 }, background = {0, 0, 0}, "
                "solids = { rounded(0.1, cube()):translate(0, -1e5, 0) } }");
@@ -274,7 +275,7 @@ TEST_CASE("a mesh does not depend on the number of threads", "[threads]") {
 
 TEST_CASE("one large solid has the same mesh by any number of threads", "[threads][slow]") {
     const Folder folder;
-    // More than one block of triangles before they are thinned out.
+    // The mesh has more than one block of triangles before decimation.
     write_file(
         folder / "s.lua",
         "local plate = box({0,0,0}, {5,0.3,4})\n"
@@ -294,7 +295,7 @@ TEST_CASE("one large solid has the same mesh by any number of threads", "[thread
 
 TEST_CASE("the first interrupt of a mesh ends it and writes nothing", "[slow]") {
     const Folder folder;
-    // One solid is done soon, all of them are not.
+    // One solid is finished quickly, all of them are not.
     write_file(folder / "s.lua",
                "local all = {}\nfor k = 1, 20000 do all[k] = rounded(0.1, cube()):translate(2 * k, 0, 0) end\n"
                "return { solids = all }");
@@ -331,7 +332,7 @@ TEST_CASE("an interrupt ends every method in the middle of a solid") {
 
 TEST_CASE("mesh writes nothing wrong: a lost part is said with its place, and --force or --no-check writes it") {
     const Folder folder;
-    // Whatever the method can do, cells of this size see nothing of the cube.
+    // With cells of this size no method could see the cube.
     write_file(folder / "s.lua",
                "return { solids = {\n  rounded(0.05, box({0,0,0},{4,1,4}) | box({6,0.4,1.4},{6.3,0.7,1.7})) } }");
     const auto mesh = [&](std::vector<std::string> more) {
@@ -380,7 +381,8 @@ TEST_CASE("A small radius far away is more than an STL can hold: this is said, a
 TEST_CASE("a surface that passes too many cells of an octree is refused within seconds, whatever stands beside it") {
     const Folder folder;
     const std::string scene = folder / "s.lua";
-    // Eight slabs without an end, which compare cuts off at ten thousand sizes, and a radius far below its cells.
+    // compare cuts the eight unbounded slabs off at ten thousand sizes, and their radius is far below the octree's
+    // cells.
     write_file(scene, R"(
         local slabs
         for i = -4, 3 do

@@ -1,4 +1,4 @@
-// The files of deburr mesh: which, with what in them, and that none is half there.
+// The files that `deburr mesh` writes: their names, their contents, and that none is incomplete.
 #include <assimp/postprocess.h>
 #include <assimp/scene.h>
 
@@ -32,7 +32,7 @@ TEST_CASE("an OBJ comes with its MTL, and neither without the other") {
     CHECK(outcome.err == "deburr: cannot write '" + folder / "a.mtl" + "': it is a folder\n");
     CHECK_FALSE(fs::exists(folder / "a.obj"));
 
-    // A name with the end of a line in it is the MTL's with another character.
+    // A line break in the name is replaced by another character in the MTL's name.
     REQUIRE(run({"mesh", folder / "s.lua", "-o", folder / "b\nc.obj"}).code == 0);
     CHECK(read_file(folder / "b\nc.obj").find("\nmtllib b_c.mtl\n") != std::string::npos);
     CHECK(fs::exists(folder / "b_c.mtl"));
@@ -118,7 +118,7 @@ TEST_CASE("an MTL is neither another output nor the scene") {
 
 namespace {
 
-// Triangles of an STL.
+// Number of triangles in a binary STL file.
 std::size_t triangles(const std::string& path) { return (fs::file_size(path) - 84) / 50; }
 
 const char* const several = R"(return { solids = {
@@ -149,7 +149,7 @@ TEST_CASE("mesh: %n in an output's name stands for each solid's name or number, 
     CHECK(triangles(folder / "2.stl") > 12);
     CHECK(read_file(folder / "p-plate-3-plate-3.obj").find("\no plate\n") != std::string::npos);
 
-    // A solid has the same file when it is alone.
+    // A solid has the same file when it is written alone.
     const Folder alone;
     REQUIRE(run({"mesh", folder / "s.lua", "--only", "6", "-o", alone / "%n.stl"}).code == 0);
     CHECK(alone.names() == Names{"plate-3.stl"});
@@ -158,7 +158,7 @@ TEST_CASE("mesh: %n in an output's name stands for each solid's name or number, 
     const Outcome twice = run({"mesh", folder / "s.lua", "-o", folder / "%n.obj", "-o", folder / "plate.obj"});
     CHECK(twice.code == 2);
     CHECK(twice.err.find("expected different files") != std::string::npos);
-    // Nothing is written if one of them cannot be.
+    // Nothing is written if one of the files cannot be written.
     fs::create_directory(alone / "b-plate-3.obj");
     CHECK(run({"mesh", folder / "s.lua", "-o", alone / "b-%n.obj"}).code == 1);
     CHECK(alone.names() == Names{"b-plate-3.obj", "plate-3.stl"});

@@ -1,3 +1,4 @@
+// Values of command-line options: what is accepted, and the errors for everything else.
 #include "raytracer/cli/option_values.hpp"
 
 #include <fcntl.h>

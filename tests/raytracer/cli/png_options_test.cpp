@@ -1,4 +1,4 @@
-// --bits and --alpha: what a PNG holds of a picture, told by the EXR of the same run.
+// --bits and --alpha: a PNG's pixels against those of the EXR of the same run.
 #include <OpenImageIO/imageio.h>
 
 #include <cmath>
@@ -13,7 +13,7 @@ namespace {
 struct Place : Folder {
     std::string scene = *this / "cube.lua";
     Place() {
-        // Without the floor, so that there is background all around.
+        // The floor is removed, so that there is background all around the cube.
         std::string text = cube_scene();
         const std::size_t floor = text.find(", sharp(");
         text.replace(floor, text.find(" },", floor) - floor, "");
@@ -31,7 +31,7 @@ struct Place : Folder {
 
 struct Values {
     OIIO::ImageSpec spec;
-    std::vector<float> numbers;  // of pixels one after the other; words and bytes as shares of the greatest
+    std::vector<float> numbers;  // of all pixels, interleaved; 8- and 16-bit values are divided by the greatest
 };
 
 Values read(const std::string& path) {

@@ -1,4 +1,4 @@
-// The files and figures that deburr render leaves.
+// The files and statistics that `deburr render` writes.
 #include <algorithm>
 #include <cstring>
 #include <nlohmann/json.hpp>
@@ -110,7 +110,7 @@ TEST_CASE("a picture by --accel bvh, under its older name and by embree is the s
         CAPTURE(scene);
         std::vector<unsigned char> bytes;
         for (const std::string accel : {"bvh", "bsp", "embree"}) {
-            const std::string recorded = accel == "embree" ? accel : "bsp";  // as pictures have always said
+            const std::string recorded = accel == "embree" ? accel : "bsp";  // as pictures have always recorded it
             const Outcome o = run(
                 {"render", DEBURR_SOURCE_DIR "/scenes/" + scene + ".lua", "-q", "-o", place / "a.exr", "--accel", accel,
                  "--size", "120x80", "--float", "--aov", "P,N,Z,id", "--stats", "--stats-json", place / "s.json"},

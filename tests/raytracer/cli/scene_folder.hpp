@@ -1,4 +1,4 @@
-// A folder with a scene in it, and pictures read back, for tests that call the program.
+// A folder with a scene, and pictures read back, for tests that run the program.
 #pragma once
 #include <OpenImageIO/imageio.h>
 
@@ -28,10 +28,10 @@ inline bool one_line(const std::string& text) {
     return !text.empty() && text.back() == '\n' && std::count(text.begin(), text.end(), '\n') == 1;
 }
 
-// Values of all channels, and where they are.
+// A picture file's pixels in the file's own types.
 struct Picture {
     OIIO::ImageSpec spec;
-    std::vector<unsigned char> bytes;  // as in the file
+    std::vector<unsigned char> bytes;  // rows of interleaved channels
     std::size_t pixel = 0;
 
     explicit Picture(const std::string& path) {

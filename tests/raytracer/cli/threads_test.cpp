@@ -1,4 +1,4 @@
-// Every road from a scene to a file, in four threads. The thread sanitizer runs this, too.
+// Every way from a scene to a file with four threads. The thread sanitizer runs this file, too.
 #include "catch.hpp"
 #include "raytracer/program.hpp"
 

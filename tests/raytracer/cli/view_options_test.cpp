@@ -1,3 +1,4 @@
+// --frame and --from, and the camera of a scene that has none.
 #include <nlohmann/json.hpp>
 
 #include "catch.hpp"

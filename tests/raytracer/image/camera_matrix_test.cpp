@@ -1,3 +1,4 @@
+// The camera matrices worldToCamera and worldToNDC in an EXR's header.
 #include "raytracer/image/camera_matrix.hpp"
 
 #include "catch.hpp"
@@ -22,7 +23,7 @@ Camera camera() {
     return c;
 }
 
-// Seven digits in the file, a few of them lost in sums of three.
+// The file holds seven digits, and sums of three terms lose a few of them.
 constexpr double float_error = 1e-5;
 
 }  // namespace

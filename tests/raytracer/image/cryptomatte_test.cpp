@@ -1,3 +1,4 @@
+// Cryptomatte layers: hashes of names, the manifest, and shares of pixels.
 #include "raytracer/image/cryptomatte.hpp"
 
 #include <OpenImageIO/imageio.h>
@@ -23,7 +24,7 @@ TEST_CASE("Names have the hashes of MurmurHash3_x86_32") {
 
 TEST_CASE("Cryptomatte is read back: names by the manifest, and shares of each pixel") {
     const Folder folder;
-    // A box covers the left half of the picture to the pixel; another one behind it the right one.
+    // One box covers exactly the left half of the picture, another behind it the right half.
     write_file(folder / "s.lua",
                "return { image = { width = 8, height = 4 }, camera = { eye = {0, 0, 9}, projection = 'orthographic' },"
                " lights = {}, ambient = 1, background = 0.5, solids = { box({-90, -90, -1}, {0, 90, 0}):name('left'),"
@@ -62,7 +63,7 @@ TEST_CASE("Cryptomatte is read back: names by the manifest, and shares of each p
         return sum;
     };
     CHECK(share(0, "left") == 1);
-    CHECK(share(3, "left") > 0.5);  // the filter reaches over the border
+    CHECK(share(3, "left") > 0.5);  // the pixel filter reaches across the border
     CHECK(share(3, "left") < 1);
     CHECK(share(3, "left") + share(3, "solid 2") == Approx(1).margin(1e-6));
     CHECK(share(7, "left") == 0);

@@ -1,3 +1,4 @@
+// The built-in denoiser on pictures with known edges.
 #include "raytracer/image/denoise.hpp"
 
 #include <random>
@@ -8,7 +9,7 @@ using namespace deburr;
 
 namespace {
 
-// Left a dark surface, right a bright one, lower half turned away; with noise.
+// A noisy picture: a dark surface on the left and a bright one on the right; the normals of the lower half differ.
 Film noisy(double noise) {
     const int side = 48;
     Film film(side, side, {0, 0, side, side}, {ImageLayer::guide_normal, ImageLayer::albedo});

@@ -1,3 +1,4 @@
+// Advice on exposure, and the option --exposure.
 #include "raytracer/image/exposure.hpp"
 
 #include <OpenImageIO/imagebuf.h>
@@ -11,7 +12,7 @@ using namespace deburr::test;
 
 namespace {
 
-// 1000 pixels, of which the first are `bright`.
+// A picture of 1000 pixels; the first `count` have the value `bright`, the others `rest`.
 Film film_of(int count, double bright, double rest) {
     Film film(100, 10, {0, 0, 100, 10}, {});
     for (std::size_t i = 0; i < film.pixels.size(); ++i)
@@ -32,7 +33,7 @@ TEST_CASE("a picture that is clipped in a large part, or nearly black, is told t
     CHECK_FALSE(exposure_advice(film_of(500, 0.015625, 0), 6));
     CHECK(exposure_advice(film_of(0, 0, 0), 0) == "the picture is black: no light falls on what the camera sees");
     CHECK_FALSE(exposure_advice(film_of(1, 0.5, 0), 0));
-    CHECK_FALSE(exposure_advice(Film(100, 10, {0, 0, 100, 10}, {}), 0));  // of nothing
+    CHECK_FALSE(exposure_advice(Film(100, 10, {0, 0, 100, 10}, {}), 0));  // a picture without any surface
 }
 
 TEST_CASE("an exposure of -1 halves the light of a PNG, and leaves an EXR as it is") {

@@ -1,3 +1,4 @@
+// Layers of pictures that are compared.
 #include "raytracer/image/image_difference.hpp"
 
 #include "catch.hpp"
@@ -8,7 +9,7 @@ using namespace deburr::test;
 
 namespace {
 
-// A picture with all layers, whose channel `name` is called `other` instead; both have three letters.
+// A picture with all layers whose channel `name` is renamed to `other`, a name of the same length.
 Film with_renamed(const std::string& name, const std::string& other) {
     const Folder folder;
     std::string bytes = read_file(DEBURR_SOURCE_DIR "/tests/fuzz/image_corpus/layers.exr");

@@ -1,3 +1,4 @@
+// Picture files in every format: layers, precision, headers, crops, and reading back.
 #include "raytracer/image/image_file.hpp"
 
 #include <OpenImageIO/imageio.h>
@@ -14,7 +15,7 @@ using namespace deburr::test;
 
 namespace {
 
-// A film whose every pixel differs; one of them hit nothing.
+// A film whose pixels all differ; pixel (0, 0) hit nothing.
 Film film(Window window = {0, 0, 20, 70}, const std::vector<ImageLayer>& layers = all_layers()) {
     Film film(20, 70, window, layers);
     for (int y = window.y; y < window.y + window.height; ++y)
@@ -28,7 +29,7 @@ Film film(Window window = {0, 0, 20, 70}, const std::vector<ImageLayer>& layers 
             p.z = 3 + k;
             p.albedo = {0.1, 0.2, 0.3};
             p.guide_normal = {0.5, -0.25, 0.125};
-            p.id = std::uint32_t(4'000'000'000 + k);  // no float holds it
+            p.id = std::uint32_t(4'000'000'000 + k);  // not representable as a float
             p.cost = k + 0.5;
             film.set_layers({x, y, 1, 1}, &p);
         }
@@ -46,7 +47,7 @@ ImageNotes notes() {
 
 struct Read {
     OIIO::ImageSpec spec;
-    std::vector<float> values;  // of all channels
+    std::vector<float> values;  // interleaved, of all channels
     std::vector<std::uint32_t> ids;
 
     float at(int x, int y, const std::string& channel) const {
@@ -72,7 +73,7 @@ Read read(const std::string& path) {
     return result;
 }
 
-// Chunk types of a PNG, in order.
+// The types of a PNG's chunks, in order.
 std::vector<std::string> png_chunks(const std::string& bytes) {
     std::vector<std::string> types;
     for (std::size_t at = 8; at + 8 <= bytes.size();) {
@@ -91,7 +92,7 @@ TEST_CASE("an EXR gives back every layer") {
     const Film original = film();
     write_image(folder / "a.exr", original, {}, notes());
     const Read r = read(folder / "a.exr");
-    CHECK(r.spec.nchannels == 19 + 2 * SolidShares::ranks);  // with those of Cryptomatte
+    CHECK(r.spec.nchannels == 19 + 2 * SolidShares::ranks);  // with Cryptomatte's channels
     CHECK(r.spec.channelformat(r.spec.channelindex("R")) == OIIO::TypeDesc::HALF);
     CHECK(r.spec.channelformat(r.spec.channelindex("A")) == OIIO::TypeDesc::HALF);
     CHECK(r.spec.channelformat(r.spec.channelindex("id")) == OIIO::TypeDesc::UINT32);
@@ -116,7 +117,7 @@ TEST_CASE("an EXR gives back every layer") {
             REQUIRE(r.at(x, y, "Z") == kept(ImageLayer::z));
             REQUIRE(r.at(x, y, "cost") == kept(ImageLayer::cost));
             REQUIRE(r.at(x, y, "A") == float(p.alpha));
-            REQUIRE(std::abs(r.at(x, y, "R") - p.color.x) <= p.color.x * 0x1p-11);  // half of a half's last bit
+            REQUIRE(std::abs(r.at(x, y, "R") - p.color.x) <= p.color.x * 0x1p-11);  // half an ulp of a half float
             REQUIRE(r.ids[y * 20 + x] == std::uint32_t(original.layer(ImageLayer::id).at(original.index(x, y))));
         }
     CHECK(r.at(0, 0, "Z") == std::numeric_limits<float>::infinity());
@@ -169,7 +170,7 @@ TEST_CASE("an EXR's header says what the picture is") {
     CHECK(spec.find_attribute("worldToCamera", OIIO::TypeMatrix44));
     CHECK(spec.find_attribute("worldToNDC", OIIO::TypeMatrix44));
     CHECK_FALSE(spec.find_attribute("deburr.incomplete"));
-    // The names as OpenEXR's standard has them, not as the library translates them.
+    // The attributes have the names of OpenEXR's standard, not those that OpenImageIO translates them to.
     const std::string bytes = read_file(folder / "a.exr");
     for (const char* name : {"worldToCamera", "worldToNDC", "capDate", "utcOffset"})
         CHECK(bytes.find(name + std::string(1, '\0')) != std::string::npos);
@@ -205,7 +206,7 @@ TEST_CASE("a crop is a data window inside the display window, with the whole pic
 }
 
 TEST_CASE("the sRGB curve") {
-    // IEC 61966-2-1 by its two branches; 0.18 is the photographer's grey.
+    // IEC 61966-2-1 has two branches; 0.18 is middle grey.
     const std::pair<double, int> table[] = {{-1, 0},     {0, 0},     {0.001, 3},      {0.0031308, 10},
                                             {0.18, 118}, {0.5, 188}, {0.99999, 255},  {1, 255},
                                             {7, 255},    {NAN, 0},   {infinity, 255}, {-infinity, 0}};
@@ -217,7 +218,7 @@ TEST_CASE("the sRGB curve") {
 
 TEST_CASE("the sRGB curve in bytes is its formula, at its steps too") {
     const auto formula = [](double x) { return x <= 0.0031308 ? 12.92 * x : 1.055 * std::pow(x, 1 / 2.4) - 0.055; };
-    constexpr double rounding = 1e-12;  // the formula's and its inverse's, of 255 steps
+    constexpr double rounding = 1e-12;  // of the formula and its inverse, in units of 1
     int near_a_step = 0;
     const auto check = [&](double x) {
         const double exact = 255 * formula(x);
@@ -268,7 +269,7 @@ TEST_CASE("a cropped PNG has the crop's size") {
 
 TEST_CASE("every format that is known can be written and read back") {
     const Folder folder;
-    Film grey = film();  // for .hdr has one exponent for a pixel's three colours
+    Film grey = film();  // since .hdr has one exponent for a pixel's three colours
     for (Pixel& pixel : grey.pixels) pixel.color = Vec3(0.5);
     std::string all = known_extensions() + ", ";
     int formats = 0;
@@ -285,7 +286,7 @@ TEST_CASE("every format that is known can be written and read back") {
         const Read r = read(folder / name);
         CHECK(r.spec.width == 20);
         CHECK(r.spec.height == 70);
-        // The lossy ones may be off by a few steps of 255.
+        // Lossy formats may be off by a few steps of 1/255.
         const float expected = *image_kind(name) == ImageKind::display ? 188 / 255.0f : 0.5f;
         CHECK(std::abs(r.at(10, 40, "G") - expected) < 6 / 255.0f);
     }

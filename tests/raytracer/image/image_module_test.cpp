@@ -1,4 +1,4 @@
-// Large libraries are loaded where they are needed and nowhere else.
+// Large libraries are loaded only by calls that need them.
 #include "raytracer/image/image_module.hpp"
 
 #include <sys/wait.h>
@@ -14,15 +14,15 @@ using namespace deburr::test;
 
 namespace {
 
-// Which of them a call loads.
+// The names of the large libraries that this call loads.
 std::string loaded(const std::vector<std::string>& words) {
-    const Outcome outcome = run(words, {"LD_DEBUG=files"});  // the loader names every file it opens
+    const Outcome outcome = run(words, {"LD_DEBUG=files"});  // makes the loader print every file that it opens
     CAPTURE(words);
     CHECK(outcome.code == 0);
     CHECK(outcome.err.find("libpng") != std::string::npos);
     std::string names;
 #if DEBURR_IS_SANITIZED
-    const std::vector<const char*> libraries{"OpenEXR", "OpenImageIO"};  // Embree is linked (CMakeLists.txt)
+    const std::vector<const char*> libraries{"OpenEXR", "OpenImageIO"};  // builds with sanitizers link Embree
 #else
     const std::vector<const char*> libraries{"OpenEXR", "OpenImageIO", "embree"};
 #endif
@@ -43,7 +43,7 @@ TEST_CASE("only what needs OpenEXR, OpenImageIO or Embree loads it") {
     CHECK(loaded({"mesh", scene, "-q", "-o", folder / "a.stl"}) == "");
     CHECK(loaded({"render", scene, "-q", "-o", folder / "a.png"}) == "");
     CHECK(loaded({"render", scene, "-q", "-o", folder / "a.exr", "-o", folder / "a.png"}) == "OpenEXR");
-    CHECK(loaded({"render", scene, "-q", "-o", folder / "a.jpg"}) == "OpenEXR OpenImageIO");  // which depends on it
+    CHECK(loaded({"render", scene, "-q", "-o", folder / "a.jpg"}) == "OpenEXR OpenImageIO");  // it needs OpenEXR too
 #if !DEBURR_IS_SANITIZED
     CHECK(loaded({"render", scene, "-q", "-o", folder / "a.png", "--via", "triage"}) == "embree");
     CHECK(loaded({"render", scene, "-q", "-o", folder / "a.png", "--accel", "embree"}) == "embree");

@@ -1,3 +1,4 @@
+// Denoising by Open Image Denoise, through a stand-in for the library.
 #include "raytracer/image/oidn.hpp"
 
 #include <dlfcn.h>
@@ -31,7 +32,7 @@ Film random_film() {
 
 }  // namespace
 
-// The loader takes a library that is there already for the one of the same name.
+// The stand-in is loaded first; the loader then takes it for the library of the same name.
 TEST_CASE("Open Image Denoise gets colour, albedo and normal, and its output becomes the colour") {
     REQUIRE(dlopen(DEBURR_OIDN_STAND_IN "/libOpenImageDenoise.so.2", RTLD_NOW));
     const Film before = random_film();
@@ -66,7 +67,7 @@ TEST_CASE("--denoise=oidn is one line where the system has no such library, befo
     CHECK(plain.code == 0);
     std::filesystem::remove(folder / "picture.exr");
     const Outcome without = render("--denoise=oidn");
-    if (without.code == 0) return;  // the system has it
+    if (without.code == 0) return;  // the library is installed
     CHECK(without.code == 3);
     CHECK_THAT(without.err, Catch::Matchers::StartsWith("deburr: --denoise=oidn needs libOpenImageDenoise.so.2: "));
     CHECK(folder.names() == std::vector<std::string>{"scene.lua"});

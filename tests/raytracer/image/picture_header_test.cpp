@@ -1,3 +1,4 @@
+// Headers of picture files: sizes, cut-off files, false claims, and files of other kinds.
 #include "raytracer/image/picture_header.hpp"
 
 #include <cstring>
@@ -11,7 +12,7 @@ using namespace deburr::test;
 
 namespace {
 
-// A picture of 23 x 11 in the format of this extension.
+// The bytes of a picture of 23 × 11 in the format of this extension.
 std::string written(const Folder& folder, const std::string& extension) {
     const Film film(23, 11, {0, 0, 23, 11}, {});
     write_image(folder / ("a" + extension), film, {}, {});
@@ -73,7 +74,7 @@ TEST_CASE("a picture's file that is cut off anywhere is refused in words, or its
 TEST_CASE("a picture's file is too small for the pixels that its header claims, in every format") {
     using namespace std::string_literals;
     const Folder folder;
-    // 16,000 = 0x3e80, in every format's own words.
+    // Headers that claim 16,000 × 16,000 pixels in every format; 16,000 = 0x3e80.
     const std::string claims[] = {
         "\x89PNG\r\n\x1a\n\0\0\0\rIHDR\0\0\x3e\x80\0\0\x3e\x80\x08\x02\0\0\0"s,
         "\xff\xd8\xff\xe0\0\x04hi\xff\xff\xc2\0\x11\x08\x3e\x80\x3e\x80\x03"s,

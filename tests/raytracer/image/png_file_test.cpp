@@ -1,4 +1,4 @@
-// PNGs are decoded by libpng at its strictest, and by OpenImageIO.
+// PNG files decoded by libpng at its strictest and by OpenImageIO.
 #include <OpenImageIO/imagebuf.h>
 #include <png.h>
 #include <zlib.h>
@@ -23,7 +23,7 @@ struct Picture {
     int width, height;
     Bytes rgb;
 
-    /// byte(x, y, channel)
+    /// byte(x, y, channel) returns a channel's value.
     template <class Byte>
     Picture(int columns, int rows, Byte byte) : width(columns), height(rows) {
         for (int y = 0; y < height; ++y)
@@ -68,7 +68,7 @@ std::vector<Chunk> chunks_of(const std::string& png) {
     return chunks;
 }
 
-// The zlib stream that holds the rows.
+// The zlib stream of the file's rows.
 Bytes compressed_rows(const std::string& png) {
     Bytes all;
     for (const Chunk& c : chunks_of(png))
@@ -76,18 +76,18 @@ Bytes compressed_rows(const std::string& png) {
     return all;
 }
 
-// Rows as they are compressed: each a filter's type and its bytes.
+// The rows before compression: each has a byte for the filter's type, then the filtered bytes.
 Bytes rows_of(const std::string& png) {
     const Bytes packed = compressed_rows(png), header = chunks_of(png).at(0).data;
     const std::size_t width = png_get_uint_32(&header[0]), height = png_get_uint_32(&header[4]);
-    Bytes rows((1 + 3 * width) * height + 1);  // room for a byte too many
+    Bytes rows((1 + 3 * width) * height + 1);  // one more byte than allowed, to see an excess
     uLongf size = rows.size();
     REQUIRE(uncompress(rows.data(), &size, packed.data(), packed.size()) == Z_OK);
     rows.resize(size);
     return rows;
 }
 
-// Throws at what libpng would only warn of, too.
+// The decoded pixels; throws where libpng would only warn, too.
 Bytes strictly_decoded(const std::string& file) {
     struct Reader {
         png_structp png = png_create_read_struct(
@@ -114,12 +114,12 @@ Bytes strictly_decoded(const std::string& file) {
     return bytes;
 }
 
-// A file of it, which every reader has decoded.
+// Writes the picture as a file, checks that both readers decode its pixels, and returns the file's bytes.
 std::string checked_file(const Picture& picture) {
     const Folder folder;
     write_raster(folder / "a.png", picture.raster());
     const std::string file = read_file(folder / "a.png");
-    CHECK((strictly_decoded(file) == picture.rgb));  // unprinted: there are many
+    CHECK((strictly_decoded(file) == picture.rgb));  // in parentheses, or Catch2 would print all bytes
     const OIIO::ImageBuf other(folder / "a.png");
     Bytes pixels(picture.rgb.size());
     REQUIRE(other.spec().width == picture.width);
@@ -141,7 +141,7 @@ TEST_CASE("a PNG gives back every pixel, whatever the picture") {
         checked_file(noise(width, height));
         checked_file({width, height, ramp});
         checked_file({width, height, flat});
-        // Rows of both filters, in turn.
+        // Rows with either filter, in turn.
         checked_file({width, height, [&](int x, int y, int k) { return y % 3 ? flat(x, y, k) : ramp(x, y, k); }});
     }
 }
@@ -164,7 +164,7 @@ TEST_CASE("a large PNG's data are in chunks of up to 1 MiB that follow each othe
         if (c.type == "IDAT") sizes.push_back(c.data.size());
     }
     REQUIRE(types.size() == 10);
-    std::sort(types.begin() + 1, types.begin() + 6);  // libpng's order differs from version to version
+    std::sort(types.begin() + 1, types.begin() + 6);  // the order of these chunks depends on libpng's version
     CHECK(types ==
           std::vector<std::string>{"IHDR", "cHRM", "gAMA", "sRGB", "tEXt", "tIME", "IDAT", "IDAT", "IDAT", "IEND"});
     REQUIRE(sizes.size() == 3);

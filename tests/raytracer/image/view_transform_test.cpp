@@ -1,3 +1,4 @@
+// View transforms: standard and AgX.
 #include "raytracer/image/view_transform.hpp"
 
 #include "catch.hpp"
@@ -16,7 +17,7 @@ TEST_CASE("The standard view is the light itself, and AgX keeps greys grey, grow
         last = v.x;
     }
     CHECK(last > 0.95);
-    // Middle grey stays near it; strong red light goes towards white, not to a clipped red.
+    // Middle grey stays nearly the same; bright red light becomes whitish and is not clipped to pure red.
     CHECK(displayed(ViewTransform::agx, Vec3(0.18)).x == Approx(0.18).margin(0.04));
     const Vec3 red = displayed(ViewTransform::agx, {40, 0.4, 0.4});
     CHECK(red.x > red.y);

@@ -1,4 +1,4 @@
-// deburr mesh --faces: at most so many triangles, reached from either side.
+// `deburr mesh --faces`: at most this number of triangles, reached by decimating or by refining.
 #include <algorithm>
 #include <cstdlib>
 #include <nlohmann/json.hpp>
@@ -15,7 +15,7 @@ namespace {
 
 struct Made {
     Outcome outcome;
-    Json mesh;  // its statistics
+    Json mesh;  // statistics of the mesh
     double faces() const { return mesh["triangles"]; }
 };
 
@@ -29,7 +29,7 @@ Made mesh(const std::string& scene, std::vector<std::string> more) {
     return made;
 }
 
-// Three solids, 1,500 triangles at their tolerances.
+// Three solids that have 1,500 triangles at their default tolerances.
 const char* const parts =
     "rounded(0.1, cube() & ~box({0.3,0.3,-1},{0.7,0.7,2})), rounded(0.2, box({2,0,0},{4,1,1})), "
     "rounded(0.05, prism({{0.5,0}, {0.25,0.43}, {-0.25,0.43}, {-0.5,0}, {-0.25,-0.43}, {0.25,-0.43}}, 3, 4))";
@@ -49,7 +49,7 @@ TEST_CASE("mesh --faces thins out what has more triangles, and says how far that
         const std::string line = "deburr: --faces: the mesh of solid ", up_to = " is up to ";
         REQUIRE(made.outcome.err.rfind(line, 0) == 0);
         const double said = std::stod(made.outcome.err.substr(made.outcome.err.find(up_to) + up_to.size()));
-        CHECK(said > 0.0025);  // the least of their tolerances
+        CHECK(said > 0.0025);  // the least of the solids' tolerances
         CHECK(said < 0.2);
         CHECK(std::count(made.outcome.err.begin(), made.outcome.err.end(), '\n') == 1);
     }
@@ -119,7 +119,7 @@ TEST_CASE("Random parts of half or twice of their triangles, or of the fewest, a
         deburr::Scene scene;
         deburr::RandomPart random(seed);
         scene.solids.push_back(random.solid());
-        expected += random.radius() > 0 ? 2 : 1;  // sharp ones need all their triangles
+        expected += random.radius() > 0 ? 2 : 1;  // sharp parts need all their triangles
         deburr::MeshSettings settings;
         settings.triage_tolerance_in_radii = deburr::default_tolerance_in_radii;
         const std::size_t all = mesh_scene(scene, settings).mesh.triangles.size();

@@ -1,3 +1,4 @@
+// Rays against meshes through Embree, also with huge triangles and from far away.
 #include "raytracer/mesh/mesh_tracer.hpp"
 
 #include <random>
@@ -9,7 +10,7 @@ using namespace deburr;
 
 namespace {
 
-// A square in the plane through the origin with this normal, in two triangles.
+// A square in the plane through the origin with this normal, as two triangles; `size` is half of its side.
 Mesh floor_of(Vec3 normal, double size) {
     const Vec3 a = glm::normalize(glm::cross(normal, Vec3(0.3, 0.1, 1))), b = glm::cross(normal, a);
     Mesh mesh;
@@ -27,7 +28,7 @@ Mesh floor_of(Vec3 normal, double size) {
 
 }  // namespace
 
-// A floor is cut off at ten thousand times the size of what stands on it.
+// A floor's mesh ends at ten thousand times the size of what stands on it, so its triangles are huge.
 TEST_CASE("Hits lie in their triangle's plane, and leave it, however large the triangle is") {
     std::mt19937 random(3);
     std::uniform_real_distribution<double> unit(-1, 1);
@@ -58,7 +59,7 @@ TEST_CASE("Hits lie in their triangle's plane, and leave it, however large the t
 
 TEST_CASE("Splitting far triangles keeps surface, normals and closedness") {
     for (const Vec3 at : {Vec3(0.0), Vec3(1e4, 0, 0), Vec3(-7e3, 9e3, 20)}) {
-        // A tetrahedron of some 10⁴, seen from around `at`.
+        // A tetrahedron of size 10⁴, whose triangles are split as seen from around `at`.
         Mesh mesh;
         mesh.positions = {Vec3(-1e4, -1e4, -1e4), Vec3(2e4, 0, 0), Vec3(0, 2e4, 0), Vec3(0, 0, 2e4)};
         for (const std::array<int, 3>& v : {std::array{0, 2, 1}, {0, 1, 3}, {0, 3, 2}, {1, 2, 3}}) {
@@ -97,7 +98,7 @@ TEST_CASE("From any distance a ray meets the mesh where double precision knows i
     double farthest = 0;
     for (const double distance : {10.0, 1e3, 1e5, 1e7, 1e9})
         for (int k = 0; k < 300; ++k, ++rays) {
-            const Vec3 at(0.7 * unit(random), 0.7 * unit(random), 0);  // within the square, however it is turned
+            const Vec3 at(0.7 * unit(random), 0.7 * unit(random), 0);  // within the square, however it is rotated
             const Vec3 eye = at + glm::normalize(Vec3(unit(random), unit(random), 1)) * distance;
             const Vec3 direction = glm::normalize(at - eye);
             const Hit hit = tracer.closest_hit({eye, direction}, infinity, counters);
@@ -106,7 +107,7 @@ TEST_CASE("From any distance a ray meets the mesh where double precision knows i
                 continue;
             }
             farthest = std::max(farthest, glm::distance(hit.position, at) / (1e-9 + 1e-15 * distance));
-            // The way back to a light so far away, and what is beyond the mesh.
+            // Shadow rays back to a light at the eye, to beyond the mesh, and to halfway.
             unseen += tracer.any_hit({hit.position + Vec3(0, 0, hit.offset), -direction}, distance, counters);
             unseen += !tracer.any_hit({eye, direction}, 2 * distance, counters);
             unseen += tracer.any_hit({eye, direction}, 0.5 * distance, counters);

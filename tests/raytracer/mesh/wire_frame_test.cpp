@@ -1,3 +1,4 @@
+// Wire frames: which edges are seen, how lines are drawn, and the options --wire, --flat and --edges.
 #include "raytracer/mesh/wire_frame.hpp"
 
 #include "bounds/solid_tree.hpp"
@@ -57,7 +58,7 @@ TEST_CASE("Of a box seen from a corner's side nine edges are seen, and all of th
     int seen = 0;
     for (const MeshEdge& e : mesh_edges(mesh, EdgeChoice::polygons)) {
         const Vec3 a = mesh.positions[e.a], b = mesh.positions[e.b];
-        // Two of the hidden faces x = 0, y = 0 and z = 0 meet in a hidden edge.
+        // An edge is hidden if it lies in two of the hidden faces x = 0, y = 0 and z = 0.
         const Vec3 far = glm::max(a, b);
         if ((far.x < 1e-9) + (far.y < 1e-9) + (far.z < 1e-9) >= 2) continue;
         ++seen;
@@ -94,8 +95,7 @@ TEST_CASE("A stroke covers its width across and blends only what it covers") {
         draw_strokes(film, {{{-5, 3.2}, {25, 16.7}}}, Vec3(0.0), line_width);
         double covered = 0;
         for (int y = 0; y < 20; ++y) covered += 1 - film.at(10, y).color.x;
-        // Down a column the line is wider by its slope; a box filter along the slope is as good as
-        // this.
+        // Along a column the line's width grows with its slope; the box filter approximates that.
         CHECK(covered == Approx(line_width * std::hypot(1, 13.5 / 30)).epsilon(0.12));
         CHECK(film.at(2, 18).color.x == 1);
     }

@@ -1,4 +1,4 @@
-// Models from files: what is read, what is mended and said, what is refused with which words.
+// Models from files: what is read, what is mended and reported, and the errors for what is refused.
 #include "raytracer/model/model_file.hpp"
 
 #include "catch.hpp"
@@ -14,7 +14,7 @@ using test::Shape;
 
 namespace {
 
-// Reads what the folder's file would hold.
+// Reads a model from a file of this name and these bytes.
 Model read(const std::string& name, const std::string& bytes) {
     const test::Folder folder;
     test::write_file(folder / name, bytes);
@@ -142,11 +142,11 @@ TEST_CASE("shells within others are cavities, or nothing") {
     CHECK(filled.mesh->volume() == 64);
     REQUIRE(filled.mended.size() == 1);
     CHECK(has(filled.mended[0], "dropped 1 shell within the solid"));
-    // Everything inside out, and a cavity in it.
+    // A body with a cavity, all of it inside out.
     Shape all = together(outer, turned);
     for (std::size_t t = 0; t < all.triangles.size(); ++t) turn(all, t);
     CHECK(read("a.stl", all.stl()).mesh->volume() == 64 - 8);
-    // Side by side.
+    // Two boxes side by side.
     CHECK(read("a.stl", together(outer, Shape::box({3, 0, 0}, {4, 1, 1})).stl()).mesh->volume() == 65);
 }
 

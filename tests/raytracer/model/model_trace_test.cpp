@@ -1,4 +1,4 @@
-// Rays that meet models, and meshes of models, against the plain definition: the share of a ball with all triangles.
+// Rays against models and their meshes, held against the definition: a ball's share with all triangles.
 #include "bounds/mesh_convolution.hpp"
 #include "bounds/mesh_field.hpp"
 #include "catch.hpp"
@@ -24,7 +24,7 @@ Shape random_model(Gen& g, int kind) {
 
 Solid rounded(const ClosedMeshPtr& mesh, double r) { return Solid::of_field(std::make_shared<MeshField>(mesh, r)); }
 
-// Where the definition first changes along the ray, between steps that are small against the filter.
+// First t where the definition changes sides along the ray, by steps that are small compared with r; infinity if none.
 double first_change(const ClosedMesh& mesh, double r, const Ray& ray, double length) {
     const auto inside = [&](double t) { return ball_share(mesh, ray.origin + t * ray.direction, r).value > 0.5; };
     const double step = r / 24;
@@ -56,7 +56,7 @@ TEST_CASE("rays meet a rounded model where the share of a ball is a half") {
             const Hit hit = tracer.closest_hit(ray, infinity, counters);
             const double expected = first_change(*mesh, r, ray, 8);
             if (hit && hit.t < expected - 1e-6) {
-                // The definition, which looks at points only, stepped over what the ray only just meets.
+                // The definition is sampled only at points and stepped over a grazing hit.
                 const auto f = [&](double t) {
                     return ball_share(*mesh, ray.origin + t * ray.direction, r).value - 0.5;
                 };
@@ -135,7 +135,7 @@ TEST_CASE("meshes of rounded models are closed, right and near the surface") {
         CHECK(made.checks[0].faults() == 0);
         CHECK(made.methods == std::vector{MeshMethod::triage});
         CHECK(topology(made.mesh).manifold());
-        // A convex solid shrinks by rounding, and no more than a filter's reach.
+        // Rounding shrinks a convex solid, by no more than the filter's reach.
         if (kind != 2) continue;
         CHECK(volume(made.mesh) < mesh->volume());
         CHECK(volume(made.mesh) > 0.85 * mesh->volume());
@@ -145,7 +145,7 @@ TEST_CASE("meshes of rounded models are closed, right and near the surface") {
 TEST_CASE("a sharp model that touches itself in an edge has a mesh that is a manifold") {
     Shape two = Shape::box({0, 0, 0}, {1, 1, 1});
     const Shape other = Shape::box({1, 1, 0}, {2, 2, 1});
-    // The edge from (1, 1, 0) to (1, 1, 1) is one of both.
+    // Both boxes share the edge from (1, 1, 0) to (1, 1, 1).
     std::vector<int> number;
     for (const Vec3& v : other.vertices) {
         const auto at = std::find(two.vertices.begin(), two.vertices.end(), v);

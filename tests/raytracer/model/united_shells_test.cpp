@@ -1,5 +1,5 @@
-// Shells that overlap, touch, lie within each other or cross themselves are one solid of the right volume, or are
-// refused.
+// Models of several shells that overlap, touch, contain each other or cross themselves become one solid of the right
+// volume, or are refused.
 #include <bitset>
 
 #include "catch.hpp"
@@ -44,7 +44,7 @@ std::size_t crossings(const ClosedMesh& closed) {
     return crossing_triangles(mesh, TriangleTree(mesh)).size();
 }
 
-// The prism of a polygon that may cross itself, its ends as fans around the origin.
+// A prism over a polygon that may cross itself; its ends are fans around the origin.
 Shape fan_prism(const std::vector<Vec2>& outline) {
     Shape s;
     const int n = int(outline.size());
@@ -72,12 +72,12 @@ TEST_CASE("two boxes that overlap, or touch in a part of a face, are one solid")
         std::size_t faces;
     };
     const Case cases[] = {
-        {{6, 6, 6}, {16, 16, 16}, 1936, 12},         // corner in corner
-        {{0, 0, 5}, {10, 10, 15}, 1500, 6},          // four faces flush
-        {{10, 2, 2}, {12, 8, 8}, 1072, 11},          // face on face
-        {{10, 0, 0}, {12, 10, 10}, 1200, 6},         // whole faces
-        {{0, 0, 0}, {10, 10, 15}, 1500, 6},          // a face in common, which faces the same way
-        {{-2, 4, 4}, {12, 6, 6}, 1016, 16},          // a bar right through
+        {{6, 6, 6}, {16, 16, 16}, 1936, 12},         // a corner of each in the other
+        {{0, 0, 5}, {10, 10, 15}, 1500, 6},          // four flush faces
+        {{10, 2, 2}, {12, 8, 8}, 1072, 11},          // parts of two faces touch
+        {{10, 0, 0}, {12, 10, 10}, 1200, 6},         // two whole faces touch
+        {{0, 0, 0}, {10, 10, 15}, 1500, 6},          // a common face with one orientation
+        {{-2, 4, 4}, {12, 6, 6}, 1016, 16},          // a bar all the way through
         {{4, 4, -1}, {14, 14, 11}, 1000 + 840, 12},  // an edge through two faces
     };
     for (const Case& c : cases) {
@@ -121,8 +121,8 @@ TEST_CASE("a hundred random boxes, flush or turned by any angle, have the volume
         const ClosedSurface s = read(all);
         CHECK(std::abs(s.mesh->volume() / double(cells->count()) - 1) < 1e-13);
         CHECK(crossings(*s.mesh) == 0);
-        // Turned, and rounded as a file rounds: what was flush overlaps by that, or not. Where the slivers between
-        // cannot be rounded without crossing, it is refused.
+        // Rotated and rounded to floats, flush faces overlap or separate by that rounding. If the slivers between them
+        // cannot be rounded without crossing, the model is refused.
         few.rotate(g);
         for (Vec3& v : few.vertices) v = Vec3(glm::vec3(v));
         try {
@@ -154,7 +154,8 @@ TEST_CASE("a hundred boxes, each turned by an angle of its own, are united") {
         }
         const ClosedSurface s = read(all);
         CHECK(crossings(*s.mesh) == 0);
-        // A share of random points, and of what the boxes hold where they are counted as often as they are there.
+        // A random point is inside the union exactly where the winding number of all boxes is positive. The volume of
+        // the boxes before the union is the sum of theirs, with overlaps counted again.
         const ClosedMesh once(all.vertices, all.triangles);
         CHECK(once.volume() == Approx(sum));
         CHECK(s.mesh->volume() < sum);
@@ -189,11 +190,11 @@ TEST_CASE("tessellated spheres that overlap have the volume of their union") {
 TEST_CASE("shells within shells that overlap: what any of them holds is solid") {
     const Shape a = Shape::box({0, 0, 0}, {10, 10, 10}), b = Shape::box({8, 0, 0}, {18, 10, 10});
     const Shape cavity = turned(Shape::box({1, 1, 1}, {9, 9, 9}));
-    // The second body fills what it holds of the first one's cavity.
+    // The second body fills the part of the first body's cavity that it overlaps.
     CHECK(read(together(together(a, cavity), b)).mesh->volume() == 1800 - 7 * 8 * 8);
-    // A body within both is part of them.
+    // A body within both of the others adds nothing.
     CHECK(read(together(together(a, b), Shape::box({8.5, 4, 4}, {9.5, 5, 5}))).mesh->volume() == 1800);
-    // All inside out.
+    // All shells are inside out.
     CHECK(read(turned(together(a, b))).mesh->volume() == 1800);
 }
 
@@ -201,7 +202,7 @@ TEST_CASE("a shell that crosses itself is what it winds around, if it is nowhere
     std::vector<Vec2> star;
     for (int k = 0; k < 5; ++k) star.push_back({std::cos(0.8 * test::pi * k), std::sin(0.8 * test::pi * k)});
     const ClosedSurface s = read(fan_prism(star));
-    // Ten triangles between the centre, a point, and a corner between two of them.
+    // The pentagram consists of ten triangles, each with its center, a tip and an inner corner.
     const double inner = std::cos(0.4 * test::pi) / std::cos(0.2 * test::pi);
     CHECK(s.mesh->volume() == Approx(5 * inner * std::sin(0.2 * test::pi)).epsilon(1e-12));
     CHECK(s.mesh->planes() == 12);

@@ -1,5 +1,5 @@
-// deburr export-pov: the formulas say what the densities are, the bounds of their slope hold, and
-// POV-Ray, where it is installed, sees the same shapes.
+// `deburr export-pov`: its formulas have the densities' values, its bounds on their slope hold, and POV-Ray, if it is
+// installed, sees the same shapes.
 #include <OpenImageIO/imagebuf.h>
 
 #include <cstdlib>
@@ -19,7 +19,7 @@ using namespace deburr::test;
 
 namespace {
 
-// POV-Ray's formulas are Lua's too.
+// Evaluates a formula for POV-Ray, which is also a Lua expression.
 class Formula {
 public:
     explicit Formula(const std::string& text) : lua_(luaL_newstate(), lua_close) {
@@ -59,7 +59,7 @@ bool has_povray() {
     return false;
 }
 
-// Red things before a green background: what is green is not covered.
+// True for the pixels that red solids cover before a green background.
 std::vector<bool> covered(const std::string& png) {
     const OIIO::ImageBuf image(png);
     REQUIRE(image.spec().width > 0);
@@ -69,7 +69,8 @@ std::vector<bool> covered(const std::string& png) {
     return mask;
 }
 
-// Renders both ways; pixels covered by one only, as a part of those that Deburr covers.
+// Renders the solid by Deburr and by POV-Ray; returns the number of pixels that only one of them covers, divided by the
+// number that Deburr covers.
 double mismatch(const std::string& solid, const std::vector<std::string>& options = {}) {
     const Folder folder;
     write_file(folder / "s.lua", R"(
@@ -211,7 +212,8 @@ TEST_CASE("POV-Ray sees the silhouettes that Deburr sees", "[slow]") {
 TEST_CASE("POV-Ray's radiosity is as bright as the path tracer") {
     if (!has_povray()) return;
     const Folder folder;
-    // A court of white walls under an even sky and a sun: more than half of what is seen came by way of a wall.
+    // A court with white walls under an even sky and a sun: most of the light that the camera sees came by way of a
+    // wall.
     write_file(folder / "s.lua", R"(
 local court = box({0, 0, 0}, {3, 1.5, 3}) & ~box({0.3, 0.3, 0.3}, {2.7, 2, 2.7})
 return {
@@ -228,7 +230,7 @@ return {
     const int code = std::system(povray.c_str());
     INFO(read_file(folder / "log"));
     REQUIRE(code == 0);
-    // Per cent of light, pixel by pixel, off the silhouettes.
+    // Compares the linear light of the pixels away from silhouettes.
     const OIIO::ImageBuf ours(folder / "ours.png"), theirs(folder / "theirs.png");
     const auto light = [](const OIIO::ImageBuf& image, int x, int y) {
         return std::pow(double(image.getchannel(x, y, 0, 1)), 2.2);
@@ -271,7 +273,7 @@ TEST_CASE("export-pov refuses what it cannot do, and writes nothing") {
         for (const std::string& word : words) all.push_back(word == "a.pov" ? folder / word : word);
         CHECK(run(all).code == 2);
     }
-    // Sixteen tilted blocks around one point: their diagram is no formula of sensible length.
+    // Sixteen tilted blocks around one point: the decision diagram is too large for a formula.
     write_file(folder / "t.lua", R"(
 local d = cube()
 for i = 1, 15 do d = d | cube():rotate(11 * i, {i, 1, 3}) & ~box({0, 0, 0}, {0.1, 2, 0.1}):rotate(7 * i, {1, i, 2}) end

@@ -1,4 +1,4 @@
-// Spheres, planes and boxes traced by formula, so that shading is tested without the BSP.
+// Spheres, planes and slabs intersected by formulas, so that shading is tested without the ray tracer's BVH.
 #pragma once
 #include <functional>
 #include <numbers>
@@ -12,9 +12,9 @@ constexpr double pi = std::numbers::pi;
 
 struct Shape {
     enum class Kind { sphere, plane, slab } kind = Kind::sphere;
-    Vec3 at{0.0};          // centre; plane: a point of it
-    Vec3 normal{0, 1, 0};  // plane, slab (between at and at − size·normal)
-    double size = 1.0;     // radius; thickness
+    Vec3 at{0.0};          // center of a sphere; a point on a plane
+    Vec3 normal{0, 1, 0};  // of a plane or slab; a slab lies between `at` and at − size·normal
+    double size = 1.0;     // radius of a sphere; thickness of a slab
     int material = 0;
 };
 
@@ -82,8 +82,8 @@ inline Material material_of(Material::Kind kind, Vec3 color, double roughness = 
     return {kind, plain(color), roughness, ior};
 }
 
-/// One pixel that looks along -y at the origin from above, with a field of view so narrow that
-/// every sample sees the same point.
+/// A scene of one pixel that looks along −y at the origin; the field of view is so narrow that all samples see one
+/// point.
 inline Scene probe(Material material) {
     Scene scene;
     scene.camera = {{0, 4, 0}, {0, 0, 0}, {0, 0, -1}, 1e-7};

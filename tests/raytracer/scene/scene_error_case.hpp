@@ -1,4 +1,4 @@
-// Texts of scenes that are wrong, and what is said of them.
+// Scenes with errors, and the messages expected for them.
 #pragma once
 #include <map>
 #include <string>
@@ -8,7 +8,7 @@
 
 namespace deburr {
 
-/// What the reader says of the scene "s.lua" with this text.
+/// The reader's message for the scene "s.lua" with this text; "no error" if it is accepted.
 inline std::string error_of(const std::string& text, const std::map<std::string, std::string>& defines = {}) {
     try {
         read_scene_text(text, "s.lua", defines, {std::size_t(64) << 20, 20'000'000, 20.0});

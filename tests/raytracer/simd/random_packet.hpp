@@ -1,4 +1,4 @@
-// Packets of random rays, and how their crossings are compared with those of each ray alone.
+// Packets of random rays, and comparisons of packet queries with those of single rays.
 #pragma once
 #include <bit>
 #include <cstdint>
@@ -8,7 +8,7 @@
 
 namespace deburr {
 
-constexpr double packet_scale = 3;  // of coordinates
+constexpr double packet_scale = 3;  // bound of the coordinates
 
 inline double t_tolerance(double t) { return 8 * epsilon * (packet_scale + t); }
 

@@ -1,4 +1,4 @@
-// Hits that are compared to the bit.
+// Hits compared bit by bit.
 #pragma once
 #include <tbb/global_control.h>
 
@@ -15,7 +15,8 @@ inline bool same_bits(const Hit& a, const Hit& b) {
            a.material == b.material && a.offset == b.offset;
 }
 
-/// What 2,000 random rays find, and what they cost, where make() makes their tracer on so many threads.
+/// Sum of the hits' distances over 2,000 random rays, with the counters of the queries. make() makes the tracer while
+/// at most `threads` threads run.
 template <class Make>
 auto random_hits(std::size_t threads, Make make) {
     const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);

@@ -1,4 +1,4 @@
-// See threads.hpp.
+// parallel_for on std::thread; see threads.hpp.
 #pragma once
 #include <tbb/blocked_range.h>
 #include <tbb/partitioner.h>
@@ -13,7 +13,7 @@ void parallel_for(Index first, Index last, const Body& body) {
         on_threads::loop(std::size_t(last - first), [&](std::size_t i) { body(Index(first + Index(i))); });
 }
 
-// Ranges are cut as far as the simple partitioner may cut them.
+// Ranges are split into pieces of one grain, as finely as the simple partitioner may split them.
 template <class Index, class Body, class Partitioner = auto_partitioner>
 void parallel_for(const blocked_range<Index>& range, const Body& body, const Partitioner& = {}) {
     const std::size_t grain = range.grainsize(), count = (range.size() + grain - 1) / grain;

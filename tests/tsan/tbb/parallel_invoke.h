@@ -1,4 +1,4 @@
-// See threads.hpp.
+// parallel_invoke on std::thread; see threads.hpp.
 #pragma once
 #include "threads.hpp"
 

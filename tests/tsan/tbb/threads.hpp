@@ -1,9 +1,9 @@
-// oneTBB's loops on std::thread, for the thread sanitizer alone.
+// oneTBB's loops on std::thread, only for builds with the thread sanitizer.
 //
-// Debian's oneTBB is not compiled with the sanitizer, which so does not see that a task begins after it was spawned and
-// ends before the loop returns: every loop would be a race. The sanitizer's build finds this folder before oneTBB's
-// own; the loops in it promise no more than oneTBB's: each call of a body once, in any order, in as many threads as
-// global_control allows, and of what bodies throw one exception at the end.
+// Debian's oneTBB is not compiled with the sanitizer. The sanitizer therefore does not see that a task begins after it
+// was spawned and ends before the loop returns, and would report every loop as a race. Its build finds this folder
+// before oneTBB's own. The loops here promise what oneTBB's do and no more: they call the body once for each index, in
+// any order, in at most as many threads as global_control allows, and rethrow one of the exceptions thrown.
 #pragma once
 #include <tbb/global_control.h>
 
@@ -17,7 +17,7 @@
 
 namespace tbb::on_threads {
 
-// Threads beside the caller's that run now; nested loops share what is allowed.
+// Number of threads that run besides the callers'; nested loops share the limit.
 inline std::atomic<int> helpers{0};
 
 inline bool take_helper() {
@@ -30,7 +30,7 @@ inline bool take_helper() {
 
 class FirstError {
 public:
-    /// Calls work() unless another has failed.
+    /// Calls work() unless an earlier call has thrown.
     template <class Work>
     void guard(const Work& work) {
         if (failed_) return;
@@ -52,7 +52,7 @@ private:
     std::exception_ptr error_;
 };
 
-/// Calls each(i) for all i < count.
+/// Calls each(i) for every i < count.
 template <class Each>
 void loop(std::size_t count, const Each& each) {
     FirstError errors;
