@@ -1,3 +1,4 @@
+// GGX, Fresnel's equations and refraction against known values.
 #include "raytracer/render/bsdf.hpp"
 
 #include "catch.hpp"
@@ -19,7 +20,7 @@ Vec3 at_cosine(double c, double azimuth = 0) {
 TEST_CASE("GGX facets cover the projected area once") {
     for (double alpha : {0.05, 0.3, 1.0}) {
         const Ggx ggx{alpha};
-        const int n = 4000;  // even in tan θ, where the peak is wide at every α
+        const int n = 4000;  // evenly spaced in tan θ, where the peak is wide for every α
         double area = 0;
         for (int i = 0; i < n; ++i) {
             const double t = (i + 0.5) / n, tangent = alpha * t / (1 - t);
@@ -35,14 +36,14 @@ TEST_CASE("Fresnel's equations have their known values") {
     CHECK(fresnel_dielectric(1, 1.5) == Approx(0.04).epsilon(1e-12));
     CHECK(fresnel_dielectric(1, 1 / 1.5) == Approx(0.04).epsilon(1e-12));
     CHECK(fresnel_dielectric(0, 1.5) == Approx(1));
-    // Brewster's angle, tan = ior: only s is reflected, by ((ior² − 1)/(ior² + 1))².
+    // At Brewster's angle, tan θ = ior, only s-polarized light is reflected, by ((ior² − 1)/(ior² + 1))².
     const double s = (2.25 - 1) / (2.25 + 1);
     CHECK(fresnel_dielectric(1 / std::sqrt(1 + 2.25), 1.5) == Approx(0.5 * s * s).epsilon(1e-12));
-    // Total reflection begins at sin = 1/ior.
+    // Total internal reflection begins at sin θ = 1/ior.
     const double critical = std::sqrt(1 - 1 / 2.25);
     CHECK(fresnel_dielectric(critical - 1e-6, 1 / 1.5) == 1);
     CHECK(fresnel_dielectric(critical + 1e-3, 1 / 1.5) < 1);
-    // The way back reflects the same.
+    // Light along the reversed path is reflected by the same fraction.
     int cases = 0;
     for (int i = 1; i < 100; ++i) {
         Vec3 through;

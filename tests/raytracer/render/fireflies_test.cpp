@@ -1,4 +1,4 @@
-// Single pixels that shine out of a picture, as what few paths find makes them.
+// Fireflies: single bright pixels where only few paths find a bright light.
 #include <algorithm>
 
 #include "catch.hpp"
@@ -10,7 +10,7 @@ namespace {
 
 constexpr int width = 60, height = 40;
 
-// Glass and metals, polished and rough, on a glossy floor, under small and bright lamps.
+// Glass and metals, polished and rough, on a glossy floor under small bright lamps.
 Scene small_lamps() {
     using Kind = Material::Kind;
     Scene scene;
@@ -53,8 +53,7 @@ std::vector<double> luminances(const Scene& scene, int spp, std::uint64_t seed =
     return all;
 }
 
-// How many pixels are more than twice as bright as anything within two pixels is with many samples, and a tenth of
-// white besides.
+// Number of pixels that are brighter than 0.1 plus twice the brightest pixel within two pixels in `exact`.
 int fireflies(const std::vector<double>& picture, const std::vector<double>& exact) {
     int count = 0;
     for (int y = 0; y < height; ++y)
@@ -68,7 +67,8 @@ int fireflies(const std::vector<double>& picture, const std::vector<double>& exa
     return count;
 }
 
-// The share of pixels that are off by more than `most` of their own brightness and a tenth of the picture's.
+// Fraction of the pixels whose error exceeds `most` times the sum of their own exact value and a tenth of the picture's
+// mean.
 double share_off(const std::vector<double>& picture, const std::vector<double>& exact, double most) {
     double mean = 0;
     for (const double value : exact) mean += value / double(exact.size());
@@ -83,7 +83,7 @@ double share_off(const std::vector<double>& picture, const std::vector<double>& 
 TEST_CASE("Under small lamps glass and metals bring hardly any fireflies, which exact caustics do", "[slow]") {
     Scene scene = small_lamps();
     const std::vector<double> few = luminances(scene, 64), many = luminances(scene, 1024);
-    // Of 100 pictures two thirds have one, three in ten thousand pixels.
+    // Over 100 seeds, two of three pictures have one firefly: three in ten thousand pixels.
     int seen = fireflies(few, many);
     for (std::uint64_t seed = 2; seed <= 8; ++seed) seen += fireflies(luminances(scene, 64, seed), many);
     CHECK(seen <= 12);

@@ -1,4 +1,4 @@
-// A thousand lights, found by their importance and by rays, against all of them one by one.
+// A thousand lights: sampling by importance and intersection with rays, against a loop over all lights.
 #include "raytracer/render/light_tree.hpp"
 
 #include "catch.hpp"
@@ -12,7 +12,7 @@ namespace {
 double random(int i, int k) { return Sampler(9, i, 0, 0).line(std::uint32_t(k)); }
 Vec3 random_point(int i, int k) { return {20 * random(i, k) - 10, 4 * random(i, k + 1), 20 * random(i, k + 2) - 10}; }
 
-// Points, balls and panels that face anywhere, within a hall.
+// Point, sphere and area lights of any orientation in a hall.
 std::vector<Light> hall(int count, bool visible) {
     std::vector<Light> lights;
     for (int i = 0; i < count; ++i) {
@@ -50,10 +50,10 @@ TEST_CASE("Probabilities of all lights are at most 1 together, and a light is ch
         for (std::size_t i = 0; i < emitters.size(); ++i) {
             const double part = emitters.importance(i, point);
             sum += part;
-            // 0 only where nothing comes from.
+            // A light's probability may be 0 only where no light arrives from it.
             if (brightness(emitters.at(i, point, Vec2(0.5)).irradiance) > 0) CHECK(part > 0);
         }
-        // What is left is of places where a node may give something and neither of its halves does.
+        // The sum may be less than `all`, since a node's bound may be positive where those of both its halves are 0.
         CHECK(sum < all * (1 + 1e-9));
         CHECK(sum > 0.98 * all);
     }
@@ -112,7 +112,7 @@ TEST_CASE("A thousand lights give what they give one by one, with far less noise
     const SkyLight sky(scene.background);
     const Emitters emitters(scene, sky);
 
-    // One sample's variance, of light that arrives unhidden from the lights' middles, for each probability.
+    // Variance of one sample for either set of probabilities, with the light of each light's center and no shadows.
     double by_tree = 0, by_power = 0, power = 0;
     for (const Light& light : scene.lights) power += light.power;
     for (int k = 0; k < 50; ++k) {

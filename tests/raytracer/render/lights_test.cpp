@@ -1,3 +1,4 @@
+// Every kind of light, skies and environment pictures against closed forms.
 #include "raytracer/render/lights.hpp"
 
 #include "catch.hpp"
@@ -8,11 +9,11 @@ using namespace deburr;
 
 namespace {
 
-// Matte ground y = 0 of reflectance 1 seen from above, so that radiance = irradiance/π.
+// A matte ground y = 0 of reflectance 1 seen from above, so that its radiance is irradiance/π.
 Scene ground_under(Light light) {
     Scene scene = probe(material_of(Material::Kind::matte, Vec3(1.0)));
-    scene.materials.push_back(material_of(Material::Kind::matte, Vec3(0.0)));  // of walls: no light comes from them
-    light.visible = false;                                                     // the camera may look through it
+    scene.materials.push_back(material_of(Material::Kind::matte, Vec3(0.0)));  // for walls, which reflect nothing
+    light.visible = false;                                                     // so that the camera may look through it
     scene.lights = {light};
     return scene;
 }
@@ -23,8 +24,8 @@ double irradiance(const Light& light, const std::vector<Shape>& shapes, int spp 
     return pixel_of(ground_under(light), AnalyticTracer(shapes), spp).color.x * pi;
 }
 
-// Form factor of a rectangle with a corner straight above a parallel patch: sides a, b, height 1
-// [any handbook of radiative transfer, e.g. Howell's catalogue, configuration B-3].
+// Form factor of a rectangle at height 1 that has a corner straight above a parallel patch; its sides are a and b
+// [Howell's catalogue of configuration factors, B-3].
 double corner_form_factor(double a, double b) {
     const double A = std::sqrt(1 + a * a), B = std::sqrt(1 + b * b);
     return (a / A * std::atan(b / A) + b / B * std::atan(a / B)) / (2 * pi);
@@ -45,7 +46,7 @@ TEST_CASE("A point light follows the inverse-square and the cosine law in watts"
         }
     light.position = {0, -1, 0};  // below the ground
     CHECK(irradiance(light, {ground()}) == 0);
-    light.position = {0, 0, 0};  // in the very point
+    light.position = {0, 0, 0};  // at the shaded point itself
     CHECK(irradiance(light, {ground()}) == 0);
 }
 
@@ -57,7 +58,7 @@ TEST_CASE("A directional light's power is the irradiance on a surface that faces
     CHECK(irradiance(light, {ground()}) == Approx(3).epsilon(1e-12));
     light.direction = glm::normalize(Vec3(1, -1, 0));
     CHECK(irradiance(light, {ground()}) == Approx(3 / std::sqrt(2.0)).epsilon(1e-12));
-    // A sphere far along the light's way is in front of it still.
+    // A sphere that is far away against the light's direction still casts a shadow.
     const Shape far{Shape::Kind::sphere, {-1e3, 1e3, 0}, {}, 1, 0};
     CHECK(irradiance(light, {ground(), far}) == 0);
 }
@@ -70,7 +71,7 @@ TEST_CASE("An area light's irradiance is its form factor times its flux density"
     light.v = {0, 0, 1};
     light.position = {1, 1, 0.5};  // a corner is above the point
     std::swap(light.u, light.v);
-    CHECK(irradiance(light, {ground()}, 64) == 0);  // u × v points up
+    CHECK(irradiance(light, {ground()}, 64) == 0);  // u × v points up, so the light shines up
     std::swap(light.u, light.v);
     for (int samples : {1, 16}) {
         light.samples = samples;
@@ -80,7 +81,7 @@ TEST_CASE("An area light's irradiance is its form factor times its flux density"
 }
 
 TEST_CASE("In a penumbra the visible part of the light counts") {
-    // A square above the point, and a wall beside it that hides the half with x < 0.
+    // A square light above the point; a wall hides its half with x < 0.
     Light light;
     light.kind = Light::Kind::area;
     light.power = 10;
@@ -92,8 +93,7 @@ TEST_CASE("In a penumbra the visible part of the light counts") {
     CHECK(open == Approx(10.0 / 4 * 4 * corner_form_factor(0.5, 0.5)).epsilon(0.002));
     const Shape wall{Shape::Kind::slab, {-1e-6, 0, 0}, {1, 0, 0}, 0.5, 1};
     CHECK(irradiance(light, {ground(), wall}, 1024) == Approx(open / 2).epsilon(0.004));
-    // Tilted by atan(¼) it leaves the part x > ½ of the light: 1½ − ½ … of a quarter's form
-    // factors.
+    // The tilted wall leaves only the part x > ½ of the light visible: twice the difference of two corner form factors.
     const Shape tilted{Shape::Kind::plane, {-1e-6, 0, 0}, glm::normalize(Vec3(4, -1, 0)), 0, 1};
     const double part = 2 * (corner_form_factor(0.5, 0.5) - corner_form_factor(0.25, 0.5));
     Scene scene = ground_under(light);
@@ -104,7 +104,7 @@ TEST_CASE("In a penumbra the visible part of the light counts") {
 }
 
 TEST_CASE("A polished floor and a rough one reflect an area light alike by light and by layer") {
-    // The estimate with both kinds of samples against a sum over the light alone.
+    // The estimate by samples of both kinds against a sum over the light alone.
     Light light;
     light.kind = Light::Kind::area;
     light.power = 20;
@@ -136,7 +136,7 @@ TEST_CASE("The sky's mean is that of its radiance weighted by the cosine") {
     gradient.horizon = Vec3(1.0);
     gradient.zenith = Vec3(0.0);
     const SkyLight sky(gradient);
-    // 1 − ∫√y y dy·2 = 1/5 straight up; only horizon straight down.
+    // The mean is 1 − 2·∫√y·y dy = 1/5 for a surface that faces up, and the horizon's colour for one that faces down.
     CHECK(sky.mean({0, 1, 0}).x == Approx(0.2).margin(1e-3));
     CHECK(sky.mean({0, -1, 0}).x == Approx(1.0).margin(1e-3));
     int cases = 0;
@@ -158,10 +158,10 @@ TEST_CASE("A checker has one colour on a face that lies between its cubes") {
     int black = 0, white = 0;
     for (int i = 0; i < 1000; ++i) {
         const Vec2 u = Sampler(6, 0, 0, i).square(0);
-        const Vec3 x(0.5 * u.x, 1e-7 * (i % 7 - 3.0), 0.5 * u.y);  // rounded up and down
+        const Vec3 x(0.5 * u.x, 1e-7 * (i % 7 - 3.0), 0.5 * u.y);  // slightly above and below the face
         const bool a = color_at(checker, x, {0, 1, 0}) == checker.a;
         (a ? white : black) += 1;
-        // Beside it the other colour, over it the other, and two further the same.
+        // Half a unit along x or y the colour is the other one; half a unit along both x and z it is the same.
         CHECK((color_at(checker, x + Vec3(0.5, 0, 0), {0, 1, 0}) == checker.a) != a);
         CHECK((color_at(checker, x + Vec3(0, 0.5, 0), {0, 1, 0}) == checker.a) != a);
         CHECK((color_at(checker, x - Vec3(0.5, 0, 0.5), {0, 1, 0}) == checker.a) == a);
@@ -196,7 +196,7 @@ TEST_CASE("Noise is bounded, continuous and not constant; wood lies between its 
 
 namespace {
 
-// 1 + x/2 + y² of the direction, which has harmonics of three orders and no more.
+// The radiance is 1 + x/2 + y² in direction (x, y, z), which consists of spherical harmonics up to the second band.
 Background pictured(double rotate = 0) {
     PictureData s{256, 128, {}};
     for (int j = 0; j < s.height; ++j)
@@ -212,7 +212,8 @@ Background pictured(double rotate = 0) {
     return background;
 }
 
-// Its irradiance over π: bands are weakened by 1, 2/3 and 1/4, and y² is 1/3 and 2/3 of the second band.
+// Irradiance/π in that environment: the cosine scales the bands by 1, 2/3 and 1/4, and y² is 1/3 plus 2/3 of a
+// second-band harmonic.
 double pictured_mean(Vec3 n) { return 1 + 0.5 * 2 / 3 * n.x + 1.0 / 3 + 0.25 * 2 / 3 * (1.5 * n.y * n.y - 0.5); }
 
 }  // namespace
@@ -225,7 +226,7 @@ TEST_CASE("A picture around the scene has its irradiance by spherical harmonics,
         for (Vec3 n : {Vec3(0, 1, 0), Vec3(1, 0, 0), Vec3(0, 0, 1), glm::normalize(Vec3(1, -2, 0.5))}) {
             scene.background = pictured(rotate);
             const SkyLight sky(scene.background);
-            // Turned by 90° about y, what was at x is at -z.
+            // A rotation by 90° about y moves what was at x to −z.
             const double expected = pictured_mean(rotate == 0 ? n : Vec3(-n.z, n.y, n.x));
             CAPTURE(rotate, n.x, n.y, n.z);
             CHECK(sky.mean(n).x == Approx(expected).epsilon(1e-3));
@@ -275,7 +276,7 @@ TEST_CASE("By day, a floor in the open gets the sun's light and the sky's") {
     CHECK(pixel_of(scene, AnalyticTracer({ground()}), 1).color.x == Approx(expected).epsilon(1e-6));
     CHECK(sky.sun().irradiance().x > 2);
     CHECK(sky.sun().irradiance().z < sky.sun().irradiance().x);
-    // In the evening it is weak and red; below the horizon it is gone.
+    // A low sun is weak and red; below the horizon it does not shine.
     scene.background.sun = {1, 0.05, 0};
     const Vec3 evening = SkyLight(scene.background).sun().irradiance();
     CHECK(evening.x < 0.5 * sky.sun().irradiance().x);

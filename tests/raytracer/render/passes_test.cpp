@@ -1,4 +1,4 @@
-// A picture after n samples is a function of n, however they were taken.
+// Passes: the picture after n samples depends on n alone and not on how the samples were taken.
 #include "raytracer/render/passes.hpp"
 
 #include <tbb/global_control.h>
@@ -18,7 +18,7 @@ constexpr std::chrono::milliseconds no_grace(0);
 const std::vector<ImageLayer> layers_asked = {ImageLayer::position, ImageLayer::albedo, ImageLayer::id,
                                               ImageLayer::cryptomatte};
 
-// A sphere over a floor, 45 x 37.
+// A sphere over a floor, 45 × 37 pixels.
 struct Small {
     Scene scene = probe(material_of(Material::Kind::plastic, Vec3(0.6, 0.5, 0.3), 0.3));
     AnalyticTracer tracer{
@@ -38,7 +38,7 @@ struct Small {
     Passes passes(int spp, Window window = {0, 0, 45, 37}) {
         return {{45, 37, window, layers_asked, {0, spp}, settings.noise}, integrator(spp)};
     }
-    // All at once.
+    // The picture rendered in one go.
     Film film(int spp, Window window = {0, 0, 45, 37}) {
         const auto all = integrator(spp);
         return render(Film(45, 37, window, layers_asked),
@@ -83,7 +83,7 @@ TEST_CASE("passes are 1, 1, 2, 4, … 32, 32, …, and every power of two ends o
 TEST_CASE("exact sums depend on neither order nor grouping, and are right to the last bit that they keep") {
     std::mt19937_64 random(5);
     std::vector<double> numbers;
-    for (int i = 0; i < 10'000; ++i) {  // drawn one after the other: arguments have no order of their own
+    for (int i = 0; i < 10'000; ++i) {  // in statements, as arguments are evaluated in any order
         const int exponent = int(random() % 40) - 70;
         numbers.push_back(std::ldexp(double(random() >> 11), exponent));
     }
@@ -99,14 +99,14 @@ TEST_CASE("exact sums depend on neither order nor grouping, and are right to the
     halves[0] += halves[1];
     CHECK(forward == backward);
     CHECK(forward == halves[0]);
-    CHECK(plain != plain_backward);  // or the test said nothing
+    CHECK(plain != plain_backward);  // rounding shows in plain sums
     CHECK(std::abs(forward.value() / plain - 1) < 1e-12);
     ExactSum third;
     for (int i = 0; i < 3; ++i) third += 1.0 / 3;
     CHECK(third.value() == Approx(1).epsilon(1e-17));
     ExactSum bright;
     for (int i = 0; i < 1 << 20; ++i) bright += 1e300;
-    CHECK(bright.value() == 0x1p66);  // no overflow
+    CHECK(bright.value() == 0x1p66);  // saturates
 }
 
 TEST_CASE("after every pass the film is the picture of that many samples") {
@@ -127,7 +127,7 @@ TEST_CASE("a pass that is paused anywhere leaves the picture of the pass before,
     const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, 2);
     for (const double noise : {0.0, 0.03}) {
         small.settings.noise = noise;
-        std::vector<Film> after(101);  // by samples
+        std::vector<Film> after(101);  // indexed by the number of samples
         Passes straight = small.passes(100);
         while (!straight.finished()) {
             REQUIRE(straight.go_on(never, {}, {}, no_grace) == TilesEnd::all);
@@ -137,7 +137,7 @@ TEST_CASE("a pass that is paused anywhere leaves the picture of the pass before,
         Passes passes = small.passes(100);
         int stops = 0;
         for (int calls = 0; calls < 1000 && !passes.finished(); ++calls) {
-            // After a random number of tiles.
+            // The pass is stopped after a random number of tiles.
             std::atomic<bool> stop{false};
             std::atomic<int> left{int(random() % 12)};
             const TilesEnd end = passes.go_on(

@@ -1,4 +1,4 @@
-// What the path integrator finds, against closed forms and against paths without any of its ideas.
+// The path integrator against closed forms and against plain paths without its sampling of lights.
 #include "raytracer/render/path_integrator.hpp"
 
 #include "catch.hpp"
@@ -38,7 +38,7 @@ Light panel_light(Vec3 position, Vec3 u, Vec3 v, double radiance) {
     return light;
 }
 
-// Of a rectangle with a corner straight above a parallel patch [Howell's catalogue, B-3].
+// Form factor of a rectangle at height 1 with a corner straight above a parallel patch [Howell's catalogue, B-3].
 double corner_form_factor(double a, double b) {
     const double A = std::sqrt(1 + a * a), B = std::sqrt(1 + b * b);
     return (a / A * std::atan(b / A) + b / B * std::atan(a / B)) / (2 * pi);
@@ -59,7 +59,7 @@ TEST_CASE("White spheres vanish in a white world, whatever they are made of", "[
             scene.camera.eye = {0.8, 4, 0};
             scene.camera.target = {0.8, 0, 0};
             Pixel p;
-            // With so many samples that what is left of a deviation is no noise.
+            // Takes more samples as long as the deviation might be noise.
             for (int spp = 1 << 16; spp <= 1 << 20; spp *= 4) {
                 p = path_pixel(scene, AnalyticTracer({unit_sphere}), spp);
                 if (std::abs(p.color.x - 1) < 8e-4) break;
@@ -72,12 +72,12 @@ TEST_CASE("White spheres vanish in a white world, whatever they are made of", "[
 }
 
 TEST_CASE("A sphere light gives a plane what its solid angle says") {
-    // π L (R/d)² cos θ where it is wholly above the horizon.
+    // The irradiance is π L (R/d)² cos θ where the whole light is above the horizon.
     Scene scene = probe(material_of(Material::Kind::matte, Vec3(1.0)));
     for (const auto& [position, radius] :
          {std::pair{Vec3(0, 3, 0), 1.0}, {Vec3(2, 2, 1), 0.3}, {Vec3(0, 1.2, 0), 1.0}, {Vec3(0, 40, 30), 0.001}}) {
         scene.lights = {sphere_light(position, radius, 5)};
-        scene.lights[0].visible = false;  // the camera looks through it
+        scene.lights[0].visible = false;  // so that the camera looks through it
         const double d = glm::length(position);
         const double expected = 5 * radius * radius / (d * d) * position.y / d;
         CHECK(path_pixel(scene, AnalyticTracer({floor_at_0}), 4096).color.x == Approx(expected).epsilon(0.003));
@@ -91,12 +91,12 @@ TEST_CASE("A light is seen by the camera, hides what is behind it, and shadows a
     scene.lights = {panel_light({0, 2, 0}, {0, 0, 1}, {1, 0, 0}, 3)};  // u × v points up, to the camera
     CHECK(close(path_pixel(scene, tracer, 16).color, Vec3(3.0), 1e-9));
     CHECK(path_pixel(scene, tracer, 16).alpha == 1);
-    std::swap(scene.lights[0].u, scene.lights[0].v);  // its back
+    std::swap(scene.lights[0].u, scene.lights[0].v);  // the camera sees its back
     CHECK(close(path_pixel(scene, tracer, 16).color, Vec3(0.0), 0));
     scene.lights = {sphere_light({0, 2, 0}, 0.5, 7)};
     CHECK(close(path_pixel(scene, tracer, 16).color, Vec3(7.0), 1e-9));
 
-    // From aside: a black back in front of a sphere light, straight above.
+    // Seen from the side, a panel's black back is in front of a sphere light straight above the point.
     scene.camera.eye = {4, 4, 0};
     scene.background.color = Vec3(0.0);
     scene.lights = {sphere_light({0, 4, 0}, 0.2, 7), panel_light({0, 2, 0}, {0, 0, 1}, {1, 0, 0}, 0)};
@@ -106,7 +106,7 @@ TEST_CASE("A light is seen by the camera, hides what is behind it, and shadows a
 }
 
 TEST_CASE("Two squares exchange light by their form factor") {
-    // Parallel unit squares at a distance of 1: 0.1998 [Howell's catalogue, C-11].
+    // The form factor of parallel unit squares at distance 1 is 0.1998 [Howell's catalogue, C-11].
     Scene scene = probe(material_of(Material::Kind::matte, Vec3(1.0)));
     const AnalyticTracer tracer({floor_at_0});
     double sum = 0;
@@ -124,7 +124,7 @@ TEST_CASE("Two squares exchange light by their form factor") {
 }
 
 TEST_CASE("A glowing solid is sampled through the ball around it, and met by reflections") {
-    // A box above a floor: below its middle only its bottom is seen.
+    // From the floor below a glowing box only its bottom is seen.
     Scene scene = probe(material_of(Material::Kind::matte, Vec3(1.0)));
     scene.camera.eye = {3, 0.7, 0};
     Material lamp = material_of(Material::Kind::matte, Vec3(0.0));
@@ -162,7 +162,7 @@ TEST_CASE("The mean does not depend on the number of samples", "[slow]") {
     const Vec3 all = path_pixel(scene, tracer, total).color;
     int cases = 0;
     for (int spp = 1; spp <= 256; spp *= 4) {
-        // All pixels look at the same point.
+        // All pixels of this picture look at the same point.
         const int pixels = total / spp;
         RenderSettings settings{pixels, 1, spp, 1};
         settings.integrator = IntegratorKind::path;
@@ -216,7 +216,7 @@ TEST_CASE("With a noise bound a pixel depends on neither the block nor the crop,
     std::vector<Pixel> again(whole.size());
     integrator.block({0, 0, 21, 13}, again.data(), layers.data(), with_layers);
     for (std::size_t i = 0; i < whole.size(); ++i) CHECK(again[i].color == whole[i].color);
-    // Against all samples everywhere: as near as the bound says, with fewer rays.
+    // Against all samples in every pixel: the error is within the noise bound, with fewer rays.
     settings.noise = 0;
     std::vector<Pixel> all(whole.size());
     Integrator(scene, tracer, settings).block({0, 0, 21, 13}, all.data(), nullptr, exact);
@@ -236,10 +236,10 @@ TEST_CASE("A lens blurs what is out of focus and leaves what is in it") {
     scene.materials = {lamp};
     scene.camera = {{0, 0, 10}, {0, 0, 0}, {0, 1, 0}, 1e-7};
     scene.camera.lens_radius = 0.5;
-    // A disc-like ball seen by the middle of the picture: at the focus all of the lens sees it.
+    // A small ball in the middle of the picture, at the focus: every ray through the lens meets it.
     const AnalyticTracer in_focus({{Shape::Kind::sphere, {0, 0, 0}, {}, 0.01, 0}});
     CHECK(path_pixel(scene, in_focus, 1024).color.x == Approx(1).margin(1e-9));
-    // Halfway to the focus the cone of rays has a radius of 0.25, and a ball of 0.1 fills (0.1 / 0.25)² of it.
+    // Halfway to the focus the cone of rays has radius 0.25, and a ball of radius 0.1 fills (0.1/0.25)² of it.
     const AnalyticTracer before({{Shape::Kind::sphere, {0, 0, 5}, {}, 0.1, 0}});
     CHECK(path_pixel(scene, before, 1 << 14).color.x == Approx(0.16).epsilon(0.02));
     scene.camera.focus = 5;
@@ -265,7 +265,7 @@ TEST_CASE("A point is projected to where its ray begins, with every projection a
                 CHECK(seen.z == Approx(3 * glm::dot(ray.direction, view.forward())));
                 CHECK(close(view.to_eye(ray.origin + 3.0 * ray.direction), -3.0 * ray.direction, 1e-9));
             }
-            // The target is in the middle, but for the shift; and as large in both projections.
+            // The target is in the middle of the picture, up to the shift, and has one size in both projections.
             const Vec3 middle = view.project(camera.target);
             CHECK(middle.x == Approx(60 - shift.x * 120).margin(1e-9));
             CHECK(middle.y == Approx(40 + shift.y * 80).margin(1e-9));
@@ -275,8 +275,8 @@ TEST_CASE("A point is projected to where its ray begins, with every projection a
 
 namespace {
 
-// A box of matte walls with a square of light in its ceiling, traced with neither weights nor lights that are sampled:
-// cosine-distributed rays until one meets the light or 100 walls.
+// A box of matte walls with a square light in the ceiling. Its reference tracer follows plain paths, without weights or
+// samples of lights: cosine-distributed directions until a path meets the light or has met 100 walls.
 struct Cornell {
     Scene scene;
     std::vector<Shape> walls;
@@ -341,7 +341,7 @@ TEST_CASE("A Cornell box has the light of plain paths", "[slow]") {
 }
 
 TEST_CASE("Colour and normal for denoisers are those of what mirrors and polished glass show") {
-    // The camera looks down on a plate over which a red ceiling hangs, and below which there is a blue floor.
+    // The camera looks down on a plate; a red ceiling is above it and a blue floor below.
     const Vec3 red(0.8, 0.1, 0.1), blue(0.1, 0.2, 0.7);
     Scene scene = probe(material_of(Material::Kind::mirror, Vec3(0.5)));
     scene.materials.push_back(material_of(Material::Kind::matte, red));
@@ -356,7 +356,7 @@ TEST_CASE("Colour and normal for denoisers are those of what mirrors and polishe
         settings.integrator = IntegratorKind::path;
         PixelLayers layers;
         Integrator(scene, tracer, settings).pixel(0, 0, &layers, counters);
-        CHECK(close(layers.normal, {0, 1, 0}, 1e-9));  // of the plate itself, as ever
+        CHECK(close(layers.normal, {0, 1, 0}, 1e-9));  // this layer is of the plate itself
         return layers;
     };
     const PixelLayers mirrored = layers_of(Material::Kind::mirror, 0, 1.5);
@@ -365,7 +365,7 @@ TEST_CASE("Colour and normal for denoisers are those of what mirrors and polishe
     const PixelLayers passed = layers_of(Material::Kind::glass, 0, 1.0);
     CHECK(close(passed.albedo, 0.25 * blue, 1e-6));
     CHECK(close(passed.guide_normal, {0, 0.25, 0}, 1e-6));
-    // 0.04 of the light is mirrored at once, and 0.96² of it goes on, twice tinted; what is mirrored within is little.
+    // 0.04 of the light is reflected at the top; 0.96² of it passes and is tinted twice; inner reflections are small.
     const PixelLayers both = layers_of(Material::Kind::glass, 0, 1.5);
     CHECK(close(both.albedo, 0.04 * red + 0.96 * 0.96 * 0.25 * blue, 0.01));
     const PixelLayers rough = layers_of(Material::Kind::metal, 0.5, 1.5);

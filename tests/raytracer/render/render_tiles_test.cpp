@@ -1,3 +1,4 @@
+// Rendering in tiles: each pixel once, kept layers, counters, stops and exceptions.
 #include "raytracer/render/render_tiles.hpp"
 
 #include <tbb/global_control.h>
@@ -114,7 +115,7 @@ TEST_CASE("what a block throws comes through") {
 }
 
 TEST_CASE("a tile that does not end is abandoned once the grace period is over") {
-    static std::atomic<bool> stop{false}, go_on{false};  // the thread that is left behind still looks at them
+    static std::atomic<bool> stop{false}, go_on{false};  // static, as the abandoned thread still reads them
     static std::atomic<int> left{0};
     const auto shade = [](const Window& block, Pixel* pixels, PixelLayers* layers, TraceCounters& counters) {
         if (block.x == 16 && block.y == 0) {

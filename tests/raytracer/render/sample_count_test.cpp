@@ -1,3 +1,4 @@
+// The number of samples that a picture gets without --spp, from its noise and its time.
 #include "raytracer/render/sample_count.hpp"
 
 #include <fmt/format.h>
@@ -45,15 +46,15 @@ TEST_CASE("a picture gets as many samples as its noise asks for") {
     CHECK(noisy.count() > 2 * min_sample_count);
     CHECK(noisy.count() <= max_sample_count);
     CHECK(noisy.count() == noisy.count());
-    // A picture that is all black or all white shows no noise.
+    // A picture that is all black or all white has no visible noise.
     CHECK(noisy.count(120, 80, -20) == min_sample_count);
-    // Of many pixels fewer.
+    // A picture of many pixels needs fewer samples per pixel.
     CHECK(noisy.count(20'000, 10'000) < min_sample_count);
     CHECK(noisy.count(1, 1) >= min_sample_count);
 }
 
 TEST_CASE("a picture whose samples would take long gets fewer, whatever its noise") {
-    // Many tori that interlock, under lamps that are near and bright.
+    // Interlocking tori under large lamps, which are close and bright.
     std::string rings, lamps;
     for (int i = 0; i < 12; ++i)
         rings += (i ? " | " : "") + fmt::format("torus{{ radius = 1, tube = 0.2 }}:rotate({}, {{1, 0, 1}})", 15 * i);
@@ -71,7 +72,7 @@ TEST_CASE("a picture whose samples would take long gets fewer, whatever its nois
     CHECK(large.samples >= min_costly_sample_count);
     CHECK(huge.samples == min_costly_sample_count);
     CHECK(huge.wanted == min_sample_count);
-    // Twice the pixels take twice as long, and so may have half of the samples.
+    // Twice as many pixels take twice as long, so that each may have half as many samples.
     const int larger = count(10'182, 9051).samples;
     CAPTURE(larger);
     CHECK(std::abs(2 * larger - large.samples) <= 2);

@@ -1,3 +1,4 @@
+// Samples of pixels, the pixel filter, and rays of the camera.
 #include "raytracer/render/sampler.hpp"
 
 #include <set>
@@ -64,7 +65,8 @@ TEST_CASE("Seed, pixel, sample and dimension each change a sample, in every bit 
          {Sampler(2, 2, 3, 4).square(5), Sampler(1, 3, 3, 4).square(5), Sampler(1, 2, 4, 4).square(5),
           Sampler(1, 3, 2, 4).square(5), Sampler(1, 2, 3, 5).square(5), Sampler(1, 2, 3, 4).square(6)})
         CHECK((u.x != other.x && u.y != other.y));
-    // Over pixels a sample is uniform: 1/√n = 0.004, times five. It is far from its neighbour's.
+    // Over all pixels a sample is uniform within five standard deviations, 1/√n = 0.004 each, and uncorrelated with its
+    // neighbour's.
     const int side = 256, n = side * side;
     double product = 0, product_xy = 0;
     std::vector<int> ones(32);
@@ -121,11 +123,11 @@ TEST_CASE("The camera's conventions: centres, up, right, field of view") {
     CHECK(close(pinhole.forward(), {0, 0, -1}, 0));
     CHECK(close(pinhole.ray(200, 100).direction, {0, 0, -1}, 1e-15));
     CHECK(pinhole.ray(200, 100).origin == camera.eye);
-    // The vertical edges of the picture are half the field of view up and down; y = 0 is the top.
+    // The top and bottom of the picture are half of the field of view up and down; y = 0 is the top.
     const Vec3 top = pinhole.ray(200, 0).direction, bottom = pinhole.ray(200, 200).direction;
     CHECK(std::atan2(top.y, -top.z) * 180 / pi == Approx(30).epsilon(1e-13));
     CHECK(std::atan2(bottom.y, -bottom.z) * 180 / pi == Approx(-30).epsilon(1e-13));
-    // Pixels are square and x goes right: twice as wide as high.
+    // Pixels are square and x points right; the picture is twice as wide as high.
     const Vec3 right = pinhole.ray(400, 100).direction;
     CHECK(right.x / -right.z == Approx(2 * std::tan(pi / 6)).epsilon(1e-13));
     CHECK(glm::length(pinhole.ray(13.5, 77.5).direction) == Approx(1).epsilon(1e-15));

@@ -1,3 +1,4 @@
+// Scattering at surfaces: energy, reciprocity, and the densities of samples, for every material.
 #include "raytracer/render/scattering.hpp"
 
 #include "catch.hpp"
@@ -14,7 +15,7 @@ Vec3 at_cosine(double c, double azimuth = 0) {
     return {s * std::cos(azimuth), s * std::sin(azimuth), c};
 }
 
-// Every kind at every roughness that its tables treat in a way of its own.
+// Materials of every kind, at roughnesses that cover every case of their tables.
 std::vector<Material> all_materials(Vec3 color) {
     using Kind = Material::Kind;
     std::vector<Material> all = {material_of(Kind::matte, color), material_of(Kind::mirror, color)};
@@ -51,7 +52,7 @@ Vec3 place(int s) {
     return {sampler.line(0), u.x, u.y};
 }
 
-// What the surface returns of a world of radiance 1, by its own samples.
+// Radiance that the surface returns in a world of radiance 1, estimated with its own samples.
 Vec3 returned(const Scattering& surface, int samples, bool split) {
     Vec3 sum(0.0);
     for (int s = 0; s < samples; ++s) {
@@ -64,7 +65,7 @@ Vec3 returned(const Scattering& surface, int samples, bool split) {
     return sum / double(samples);
 }
 
-// The same with so many samples that what is left of a deviation is no noise.
+// The same estimate, with more samples as long as the deviation might be noise.
 double white_of(const Scattering& surface, bool split) {
     for (int samples = 1 << 17;; samples *= 8) {
         const double white = returned(surface, samples, split).x;
@@ -80,7 +81,7 @@ TEST_CASE("Directions around a normal are at right angles to it and turn evenly"
         const double u = i / 10'000.0, phi = 2 * pi * u;
         const Vec3 around_z = cosine_direction({0, 0, 1}, {1, u});
         REQUIRE(close(around_z, {std::cos(phi), std::sin(phi), 0}, 1e-15));
-        // A cosine of 0, about normals everywhere, the south pole too.
+        // The cosine is 0 here; normals point everywhere, also to the south pole.
         const double tilt = pi * (i % 101) / 100;
         const Vec3 normal(std::sin(tilt) * std::cos(i), std::sin(tilt) * std::sin(i), std::cos(tilt));
         const Vec3 around = cosine_direction(normal, {1, u});
@@ -139,7 +140,7 @@ TEST_CASE("No colour returns more light than white") {
 TEST_CASE("Samples of every material have the density and the value that are claimed", "[slow]") {
     int cases = 0;
     for (const Material& material : all_materials(Vec3(0.8, 0.5, 0.3))) {
-        if (material.roughness < 0.5 || material.kind == Material::Kind::mirror) continue;  // a grid misses them
+        if (material.roughness < 0.5 || material.kind == Material::Kind::mirror) continue;  // too narrow for the grid
         if (material.clearcoat > 0 && material.clearcoat_roughness < 0.3) continue;
         if (material.kind == Material::Kind::glass && material.ior == 1) continue;
         AlbedoTables tables;

@@ -1,3 +1,4 @@
+// Vectorized shading of batches against a plain implementation, bit by bit.
 #include "raytracer/render/shading_kernels.hpp"
 
 #include <bit>
@@ -26,7 +27,7 @@ std::vector<SurfaceLayer> opaque_layers() {
     return layers;
 }
 
-// An opaque material at one point as seen from one direction, as bsdf.hpp defines it: a layer over a base.
+// The definition in bsdf.hpp for an opaque material at one point seen from one direction: a layer over a base.
 struct Plain {
     const SurfaceLayer& layer;
     Vec3 color, normal, to_eye;
@@ -52,7 +53,7 @@ struct Plain {
     Vec3 layer_albedo() const {
         return layer.kind() == Kind::plastic ? Vec3(albedo_eye()) : fresnel(cos_eye()) * albedo_eye();
     }
-    // Times the cosine of the light; G2 / (4 cos cos) of Smith's correlated masking.
+    // BSDF times the light's cosine; `visibility` is G2/(4 cos cos) of Smith's height-correlated masking.
     Vec3 scattered(Vec3 to_light) const {
         const double c = glm::dot(normal, to_light);
         if (!(c > 0)) return Vec3(0.0);
@@ -68,7 +69,7 @@ struct Plain {
 };
 
 bool same_bits(Vec3 a, Vec3 b) {
-    // A sum may begin with 0 or do without it: the sign of nothing may differ.
+    // A sum may start at 0 or at its first term, so zeros may differ in sign.
     for (int k = 0; k < 3; ++k)
         if (std::bit_cast<std::uint64_t>(a[k] + 0.0) != std::bit_cast<std::uint64_t>(b[k] + 0.0)) return false;
     return true;
@@ -95,7 +96,7 @@ Background any_sky(Gen& g) {
     return sky;
 }
 
-// Surfaces of random layers, some of them seen from within and some edge-on.
+// A batch of surfaces with random layers; some are seen from inside, some edge-on.
 struct Case {
     SurfaceArrays<64> arrays;
     SurfaceBatch batch;
@@ -123,7 +124,7 @@ struct Case {
     }
 };
 
-// One surface of a layer, whose base and layer return this of a uniformly white world.
+// A batch of one surface, with the reflectances of its base and layer in a uniformly white world.
 struct One {
     SurfaceArrays<8> arrays;
     SurfaceBatch batch = arrays.batch(1);

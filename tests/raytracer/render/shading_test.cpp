@@ -1,3 +1,4 @@
+// Shading with one and many samples: materials, layers, shadows and robustness.
 #include "catch.hpp"
 #include "raytracer/render/analytic_tracer.hpp"
 
@@ -8,7 +9,7 @@ namespace {
 const Shape unit_sphere{Shape::Kind::sphere, Vec3(0.0), {}, 1, 0};
 const Shape ground{Shape::Kind::plane, {0, -1, 0}, {0, 1, 0}, 0, 1};
 
-// A sphere of each material on a checkered plane, lit by every kind of light, under a sky.
+// A sphere of each material on a checkered plane, lit by every kind of light under a sky.
 struct Zoo {
     Scene scene;
     std::vector<Shape> shapes;
@@ -109,18 +110,18 @@ TEST_CASE("A mirror shows what is behind the eye, tinted") {
     Scene scene = probe(material_of(Material::Kind::mirror, {0.5, 1, 1}));
     scene.materials.push_back(material_of(Material::Kind::matte, Vec3(1.0)));
     scene.ambient = {1, 2, 3};
-    scene.camera.eye = {-3, 3, 0};  // at 45°: the way on passes (3, 3, 0)
+    scene.camera.eye = {-3, 3, 0};  // at 45°: the mirrored ray passes through (3, 3, 0)
     const Shape floor{Shape::Kind::plane, Vec3(0.0), {0, 1, 0}, 0, 0};
     const Shape ball{Shape::Kind::sphere, {3, 3, 0}, {}, 0.01, 1};
     for (int spp : {1, 16}) {
-        // With paths the ball's lower side looks into the mirror, where there is no ambient light.
+        // With path tracing the ball's lower side looks into the mirror, which reflects no ambient light.
         if (spp == 1) CHECK(close(pixel_of(scene, AnalyticTracer({floor, ball}), spp).color, {0.5, 2, 3}, 1e-9));
         CHECK(close(pixel_of(scene, AnalyticTracer({floor}), spp).color, Vec3(0.0), 1e-9));
     }
 }
 
 TEST_CASE("A plate of glass shifts a ray sideways as Snell says") {
-    // 45° into a plate of thickness 1 and index 1.5: behind it the ray is the same, shifted.
+    // A ray enters a plate of thickness 1 and index 1.5 at 45° and leaves it parallel to itself, but shifted.
     Scene scene = probe(material_of(Material::Kind::glass, Vec3(1.0), 0.0));
     scene.materials.push_back(material_of(Material::Kind::matte, Vec3(1.0)));
     scene.ambient = Vec3(1.0);
@@ -319,7 +320,7 @@ TEST_CASE("A tracer that returns nonsense does not spread it") {
 TEST_CASE("Matte surfaces are lit on the side that is seen") {
     Scene scene = probe(material_of(Material::Kind::matte, Vec3(1.0)));
     Light light;
-    light.power = 4 * pi * pi;  // in the middle of the sphere: irradiance π everywhere inside
+    light.power = 4 * pi * pi;  // at the sphere's center: irradiance π everywhere inside
     scene.lights = {light};
     scene.camera = {{0, 0.5, 0}, {0, -1, 0}, {0, 0, 1}, 1e-7};
     CHECK(close(pixel_of(scene, AnalyticTracer({unit_sphere}), 1).color, Vec3(1.0), 1e-9));
@@ -359,7 +360,8 @@ TEST_CASE("A wall hides half of the sky from its foot, and gives some of it back
     const Shape floor{Shape::Kind::plane, Vec3(0.0), {0, 1, 0}, 0, 0};
     const Shape wall{Shape::Kind::plane, {-1e-6, 0, 0}, {1, 0, 0}, 0, 1};
     const AnalyticTracer corner({floor, wall});
-    // Each sees the other in one half: floor = 0.5 (1 + wall)/2, wall = 0.25 (1 + floor)/2.
+    // Floor and wall each see the other in half of their hemisphere: floor = 0.5·(1 + wall)/2, wall = 0.25·(1 +
+    // floor)/2.
     CHECK(close(pixel_of(scene, corner, 1 << 14).color, Vec3(0.25 * 1.125 / 0.96875), 1e-3));
     CHECK(close(pixel_of(scene, corner, 1).color, Vec3(0.5), 1e-9));
 }

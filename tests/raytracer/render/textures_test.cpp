@@ -1,4 +1,4 @@
-// Patterns and pictures on surfaces, and bumps, against closed forms.
+// Textures, pictures on surfaces and bumps against closed forms.
 #include "raytracer/render/textures.hpp"
 
 #include "catch.hpp"
@@ -18,7 +18,7 @@ Texture pattern(Texture::Kind kind) {
     return t;
 }
 
-// Pixels in greys, row by row from the top.
+// A picture texture of grey pixels, row by row from the top.
 Texture picture(int width, int height, const std::vector<double>& greys) {
     PictureData data{width, height, {}};
     for (const double grey : greys) data.rgb.insert(data.rgb.end(), 3, float(grey));
@@ -68,14 +68,14 @@ TEST_CASE("A picture is upright and readable on all six sides, with y up and wit
             CHECK(at(1.5, 1.5) == Approx(0.2));
             CHECK(at(0.5, 0.5) == Approx(0.3));
             CHECK(at(1.5, 0.5) == Approx(0.4));
-            CHECK(at(1.0, 1.5) == Approx(0.15));   // between two centres
-            CHECK(at(-1.5, 5.5) == Approx(0.1));   // again and again
+            CHECK(at(1.0, 1.5) == Approx(0.15));   // between two pixels' centers
+            CHECK(at(-1.5, 5.5) == Approx(0.1));   // the picture repeats
             CHECK(at(2.0, -2.0) == Approx(0.25));  // where four copies meet
             ++cases;
         }
     CHECK(cases == 12);
     t.z_up = false;
-    t.rotate = 90;  // the upper left pixel is now the lower left one, to the left of the origin
+    t.rotate = 90;  // the upper left pixel is now the lower left one, left of the origin
     CHECK(image_color(t, t.origin + Vec3(-1.5, 0.5, 0), {0, 0, 1}).x == Approx(0.1));
     CHECK(image_color(t, t.origin + Vec3(-1.5, 1.5, 0), {0, 0, 1}).x == Approx(0.2));
 }
@@ -87,7 +87,7 @@ TEST_CASE("Between two sides a picture is a blend, and never more or less than a
     REQUIRE(std::abs(right - top) > 0.02);
     CHECK(image_color(t, x, between).x == Approx((right + top) / 2));
     CHECK(image_color(t, x, glm::normalize(Vec3(1, 0.74, 0))).x == Approx(right));
-    // 0.9 is 0.15 above 0.75, where 1 is 0.25 above it.
+    // 0.9 exceeds 0.75 by 0.15 where 1 exceeds it by 0.25, so the weights are 0.15 and 0.25.
     CHECK(image_color(t, x, glm::normalize(Vec3(1, 0.9, 0))).x == Approx((0.25 * right + 0.15 * top) / 0.4));
     t.blend = 0;
     CHECK(image_color(t, x, glm::normalize(Vec3(1, 0.99, 0))).x == Approx(right));
@@ -164,12 +164,12 @@ TEST_CASE("Streaks are long along their axis, and rings are the same all around 
 }
 
 TEST_CASE("A bump's normal is that of the heights") {
-    // A ramp that climbs by 1/8 from pixel to pixel: by 1 over its width of 4.
+    // The heights rise by 1/8 from pixel to pixel, so by 1 over the width of 4.
     Texture ramp = picture(8, 1, {0, 0.125, 0.25, 0.375, 0.5, 0.625, 0.75, 0.875});
     ramp.scale = 4;
     const Vec3 n = bumped_normal(ramp, 2, {1.9, 0.2, 0}, {0, 0, 1});
     CHECK(close(n, glm::normalize(Vec3(-0.5, 0, 1)), 1e-6));
-    // Marble's planes: value cos(πx)⁵, slope −5π cos(πx)⁴ sin(πx).
+    // Without turbulence marble's value is cos(πx)⁵, with slope −5π cos(πx)⁴ sin(πx).
     Texture planes = pattern(Texture::Kind::marble);
     planes.turbulence = 0;
     for (const double x : {0.1, 0.2, 0.3}) {

@@ -1,3 +1,4 @@
+// Convex hulls: faces, flatness, and points without a volume.
 #include "raytracer/scene/convex_hull.hpp"
 
 #include <algorithm>
@@ -27,7 +28,7 @@ void check_holds(const std::vector<HullFace>& hull, const std::vector<Vec3>& poi
         }
         CHECK(touching <= 1e-14 * size);
     }
-    CHECK(outside <= 1e-9 * size);  // the flatness to which faces are merged
+    CHECK(outside <= 1e-9 * size);  // faces are merged if they are flat to this
 }
 
 }  // namespace

@@ -1,3 +1,4 @@
+// frame{}: the camera that shows all of a scene.
 #include "raytracer/scene/frame_camera.hpp"
 
 #include <fmt/format.h>
@@ -25,7 +26,7 @@ Scene framed(const std::string& solids, const std::string& camera = "") {
     return scene;
 }
 
-// Where the points are seen: a box in pixels, and the depths.
+// The box of the points' projections: pixels in x and y, depths in z.
 Box seen(const Camera& camera, const std::vector<Vec3>& points, int w = width, int h = height) {
     const PinholeCamera view(camera, w, h);
     Box box;
@@ -82,7 +83,7 @@ TEST_CASE("floors and empty solids do not count for a framed camera") {
 }
 
 TEST_CASE("a turned box and a ball are framed by themselves, not by the boxes around them") {
-    // The corners of the axis-parallel box around a cube that is turned by 45 degrees stick out by 1.4.
+    // The axis-parallel box around a cube that is rotated by 45° is wider than the cube's outline by √2.
     const Scene turned = framed("cube():rotate(45, {0, 1, 0})", "camera = frame{ from = {0, 0, 1}, fov = 1 },");
     const Box at = seen(turned.camera, {{0, 0, 0}, {0, 1, 0}, {std::sqrt(2.0), 1, 0}, {std::sqrt(2.0), 0, 0}});
     CHECK((at.hi.y - at.lo.y) / height == Approx(0.86).epsilon(0.02));
@@ -90,13 +91,13 @@ TEST_CASE("a turned box and a ball are framed by themselves, not by the boxes ar
     const double r = 2;
     const Scene ball = framed("ellipsoid{ center = {1, 2, 3}, radius = 2 }", "camera = frame{ from = {1, 1, 1} },");
     const double distance = glm::distance(ball.camera.eye, Vec3(1, 2, 3));
-    // Its outline's tangent to the axis through its middle.
+    // Tangent of the angle between the axis and the ball's outline.
     const double tangent = r / std::sqrt(distance * distance - r * r);
     CHECK(tangent / std::tan(15 * std::numbers::pi / 180) == Approx(0.86).epsilon(1e-3));
 }
 
 TEST_CASE("round solids are framed by themselves, not by the boxes around them") {
-    // A sphere on a rod, far from the corners of their box.
+    // A sphere on a rod, far from the corners of their bounding box.
     std::vector<Vec3> points;
     constexpr int n = 40;
     for (int i = 0; i <= n; ++i)
@@ -114,7 +115,7 @@ TEST_CASE("round solids are framed by themselves, not by the boxes around them")
             const Box at = seen(framed(solid, camera).camera, points);
             const double across = (at.hi.x - at.lo.x) / width, along = (at.hi.y - at.lo.y) / height;
             CHECK(std::max(across, along) == Approx(0.86).margin(0.03));
-            // The direction that decides has even margins.
+            // The direction that limits the distance has even margins.
             CHECK((across > along ? std::abs(at.lo.x + at.hi.x - width) / width
                                   : std::abs(at.lo.y + at.hi.y - height) / height) < 0.03);
         }
@@ -134,7 +135,7 @@ TEST_CASE("a framed camera looks from where it is told, and needs no up that fit
         CHECK(at.lo.y > 0);
         CHECK(at.hi.x < width);
         CHECK(at.hi.y < height);
-        // From above, what is far from the viewer of the front is at the top.
+        // From above, the side away from the front view's viewer is at the top.
         if (from.y == 1) CHECK(seen(c, {{0, 0, 0}}).lo.y < seen(c, {{0, 0, 2}}).lo.y);
     }
 }
@@ -158,7 +159,7 @@ TEST_CASE("the default light stays over the viewer's left shoulder when the came
 }
 
 TEST_CASE("a camera that frames many solids looks at few of them, and does not depend on their order") {
-    // A turned grid: boxes of boxes are far larger than what they hold, so the outermost ones decide.
+    // A rotated grid: its blocks' bounding boxes are much larger than the blocks, so the outermost blocks decide.
     const auto grid = [](int n, const char* order) {
         return scene_of(
             fmt::format("local t = {{}} local n = {} local block = rounded(0.1, cube()):rotate(30, {{1, 2, 3}})\n"
@@ -175,7 +176,7 @@ TEST_CASE("a camera that frames many solids looks at few of them, and does not d
         CHECK(one.eye == other.eye);
         CHECK(one.target == other.target);
     }
-    // Each corner of the grid's blocks, turned as they are.
+    // The corners of all blocks of the grid.
     const Scene scene = grid(12, "i");
     const Mat3 turn(glm::rotate(glm::dmat4(1), glm::radians(30.0), glm::normalize(Vec3(1, 2, 3))));
     std::vector<Vec3> points;

@@ -1,3 +1,4 @@
+// Reports of illegal densities in a scene.
 #include "raytracer/scene/illegal_densities.hpp"
 
 #include "catch.hpp"

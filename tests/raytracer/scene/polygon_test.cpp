@@ -1,3 +1,4 @@
+// Prisms over polygons: membership, half-planes, rounding and holes.
 #include "raytracer/scene/polygon.hpp"
 
 #include <numbers>
@@ -12,7 +13,7 @@ namespace {
 
 using Points = std::vector<Vec2>;
 
-// The definition: a ray from the point crosses the boundary an odd number of times.
+// True if p is inside by definition: a ray from p crosses the boundary an odd number of times.
 bool inside(const Points& polygon, Vec2 p) {
     bool in = false;
     for (std::size_t i = 0, k = polygon.size() - 1; i < polygon.size(); k = i++) {
@@ -22,7 +23,7 @@ bool inside(const Points& polygon, Vec2 p) {
     return in;
 }
 
-// Teeth of one height, whose tops lie on one line, and so do their roots.
+// A comb whose teeth have one height, so that all tips are on one line, and so are all roots.
 Points comb(int teeth) {
     Points points{{0, 0}, {2.0 * teeth, 0}};
     for (int i = teeth; i-- > 0;)
@@ -42,7 +43,7 @@ Points spiral(int turns) {
     return outer;
 }
 
-// Around the origin, with spikes and notches.
+// A star-shaped polygon around the origin, with spikes and notches.
 Points star(unsigned seed) {
     std::mt19937 gen(seed);
     std::uniform_real_distribution<double> radius(0.3, 3), angle(0, 1);
@@ -167,8 +168,9 @@ TEST_CASE("a rounded prism is flat along its sides and solid within, but near it
                     if (k != but) nearest = std::min(nearest, distance_to_segment(p, polygon[k], polygon[(k + 1) % n]));
                 return nearest;
             };
-            // Each line is drawn by itself. Where two cross nearby, every pair of answers is that of a point nearby;
-            // of three lines, or two that cross far away, as at an obtuse corner, that may not be so.
+            // The line of each side has a draw of its own. Where two lines cross near the point, each pair of outcomes
+            // is that of a point nearby. With three lines, or two that cross far away, as at an obtuse corner, this
+            // need not be so.
             const auto drawn_as_seen = [&](Vec2 p) {
                 std::vector<std::pair<Vec2, Vec2>> lines;
                 for (std::size_t k = 0; k < n; ++k) {

@@ -1,4 +1,4 @@
-// True convolution of densities with round parts, by way of a mesh.
+// True convolution of densities with round parts, which uses a mesh of the solid.
 #include "raytracer/scene/round_convolution.hpp"
 
 #include <algorithm>
@@ -12,7 +12,7 @@ using namespace deburr;
 
 namespace {
 
-// How far from x, along the unit normal, the density falls through ½, which it does within r.
+// Signed distance from x along the unit normal at which the share falls through ½; it must do so within r.
 template <class Share>
 double level(const Share& share, Vec3 x, Vec3 normal, double r) {
     double inside = -r, outside = r;
@@ -36,7 +36,8 @@ struct Convolved {
     const Field* field;
 };
 
-// Share of a ball that lies in one of radius 1 whose surface is a radii away [docs/design.md, Round primitives].
+// Share of a ball that is inside a ball 1/k times as large, whose surface is a radii away [docs/design.md, Round
+// primitives].
 double share_of_sphere(double a, double k) {
     if (a >= 1 || a <= -1) return a < 0;
     return (1 - a) * (1 - a) * (4 * (2 + a) - k * (1 - a) * (3 + a)) / (16 * (1 + k * a));
@@ -58,7 +59,7 @@ TEST_CASE("a convolved ball is that of the closed form, to the tolerance that is
             worst = std::max(worst, std::abs(off));
         }
     }
-    CHECK(worst > 0.001);  // 0.0028: or the stated tolerance could be less
+    CHECK(worst > 0.001);  // it is 0.0028; otherwise the stated tolerance could be less
 }
 
 TEST_CASE("flat faces stay where they are, and edges between them are as in the closed form") {
@@ -67,12 +68,12 @@ TEST_CASE("flat faces stay where they are, and edges between them are as in the 
     const Convolved c(r, block | Density::sphere({5, 0, 0}, 0.5));
     const DensityTree tree = flatten_convolved(block, r);
     const auto exact = [&](Vec3 x) { return tree.at(x); };
-    CHECK(std::abs(c.level({0.7, 0.5, 0}, {0, 0, -1}, r)) < 1e-9);  // on what both have in common
+    CHECK(std::abs(c.level({0.7, 0.5, 0}, {0, 0, -1}, r)) < 1e-9);  // on a face that both have in common
     double worst = 0;
     for (auto seed : seeds(300)) {
         CAPTURE(seed);
         Gen g(seed);
-        // Around a convex edge, a corner and the inner edge.
+        // Points near a convex edge, a corner and the concave edge.
         const Vec3 corners[] = {{0, 0.5, 0}, {0, 0, 0}, {0.4, 1, 0.5}};
         const Vec3 normals[] = {{-1, 0, -1}, {-1, -1, -1}, {-1, 1, 0}};
         const int which = g.below(3);
@@ -81,7 +82,7 @@ TEST_CASE("flat faces stay where they are, and edges between them are as in the 
         CHECK(std::abs(off) < round_convolution_tolerance);
         worst = std::max(worst, std::abs(off));
     }
-    CHECK(worst > 0.0003);  // 0.0009
+    CHECK(worst > 0.0003);  // it is 0.0009
 }
 
 TEST_CASE("convolution has no tangent seams, where rounding bulges") {
@@ -91,7 +92,7 @@ TEST_CASE("convolution has no tangent seams, where rounding bulges") {
     const DensityTree rounded = flatten(bar, r);
     const Vec3 x(0, 0.5, 0), n(0, 1, 0);
     CHECK(level([&](Vec3 y) { return rounded.at(y); }, x, n, r) > 0.15 * r);
-    // Between the plane, which stays, and the cylinder, which moves in by r²/8R.
+    // The surface lies between the plane, which stays, and the cylinder, which moves in by r²/8R.
     CHECK(c.level(x, n, r) < round_convolution_tolerance * r);
     CHECK(c.level(x, n, r) > -r * r / 4 - round_convolution_tolerance * r);
     CHECK(c.level({0.5, 0, 0}, {1, 0, 0}, r) == Approx(-r * r / 4).margin(0.01 * r));

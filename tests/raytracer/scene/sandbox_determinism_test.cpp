@@ -1,4 +1,4 @@
-// The same scene gives the same bytes on every run: neither a clock nor an address gets in.
+// A scene gives the same bytes on every run: it sees neither clocks nor addresses.
 #include <set>
 
 #include "catch.hpp"
@@ -9,7 +9,7 @@ using namespace deburr;
 
 namespace {
 
-// The first result as text, or the error.
+// The first result as text, or the error's message.
 std::string result_of(const std::string& text) {
     try {
         Sandbox sandbox;
@@ -46,7 +46,7 @@ TEST_CASE("no text of a value holds an address") {
 }
 
 TEST_CASE("ties come out of table.sort in the same order on every run") {
-    // Partitions of so many equal and few extreme items are uneven: then Lua's own sort asks the clock.
+    // With many equal items and few extreme ones the partitions are uneven, which makes Lua's own sort ask the clock.
     const std::string text =
         "local n, t = 20000, {}\n"
         "for i = 1, n do t[i] = {10 + i % 7, i} end\n"
@@ -61,7 +61,8 @@ TEST_CASE("ties come out of table.sort in the same order on every run") {
 }
 
 TEST_CASE("how long a table with holes is does not depend on the order of its hash") {
-    // Whether a text that is added falls on one that was removed decides whether Lua measures its array anew.
+    // Lua measures the table's array anew or not, depending on whether an added key hashes to the slot of a removed
+    // one.
     const std::string before =
         "local t = {1, 2, 3, 4}\n"
         "for j = 1, 8 do t['a' .. k .. j] = 1 end for j = 1, 8 do t['a' .. k .. j] = nil end\n"
@@ -154,7 +155,7 @@ TEST_CASE("table.sort sorts, whatever the order before") {
 }
 
 TEST_CASE("the middle as pivot is the worst for no order that a scene is likely to have") {
-    // Comparisons for organ pipes, whose middle and ends are all extreme.
+    // Organ pipes, whose first, middle and last items are all extreme, are sorted with few comparisons.
     CHECK(result_of("local n, t, c = 100000, {}, 0 for i = 1, n do t[i] = math.min(i, n - i) end\n"
                     "table.sort(t, function(a, b) c = c + 1 return a < b end) return tostring(c < 6000000)") == "true");
 }

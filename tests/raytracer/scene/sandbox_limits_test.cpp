@@ -1,4 +1,4 @@
-// What a scene may take: time inside C functions, memory that C++ takes for Lua's values, output.
+// Limits of a scene: time inside C functions, memory that C++ uses for Lua's values, work and output.
 #include <chrono>
 #include <limits>
 #include <vector>
@@ -22,7 +22,7 @@ std::string error_of(const std::string& text, SandboxLimits limits = {},
     return "no error";
 }
 
-// Functions in functions: every use of a global looks through all of their names.
+// Nested functions with so many locals that parsing each use of a global searches all of their names.
 std::string slow_to_parse() {
     std::string text;
     for (int depth = 0; depth < 150; ++depth) {
@@ -134,7 +134,7 @@ TEST_CASE(
     "a scene's parts are bounded in memory, and a million blocks, each turned, scaled and moved, are within the "
     "bounds") {
     SandboxLimits limits;
-    limits.parts /= 100;  // and so 10,000
+    limits.parts /= 100;  // so the limit is 10,000
     limits.work /= 100;
     CHECK(error_of("local b, s = sharp(halfspace({1, 0, 0}, 0)), {} for i = 1, 1e4 do\n"
                    "s[i] = b:rotate(i, {0, 1, 0}):scale(2):translate(i, 0, 0) end return { solids = s }",

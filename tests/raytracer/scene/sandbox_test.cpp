@@ -1,3 +1,4 @@
+// The sandbox that runs scenes: limits of time and memory, errors, and the functions that it offers.
 #include <chrono>
 
 #include "catch.hpp"
@@ -10,7 +11,7 @@ namespace {
 
 const SandboxLimits small{std::size_t(16) << 20, 3'000'000, 20.0};
 
-// The first result as text, or the error.
+// The first result as text, or the error's message.
 std::string result_of(const std::string& text, SandboxLimits limits = small) {
     try {
         Sandbox sandbox(limits);
@@ -29,7 +30,7 @@ struct Case {
 }  // namespace
 
 TEST_CASE("a run that spends its budget ends, whatever it tries") {
-    // Each of these outlived an error raised by the hook, or would have looped where no hook looks.
+    // Each of these once survived an error raised by the hook, or would have looped where no hook is called.
     const std::string text =
         GENERATE("while true do end", "pcall(function() while true do end end) while true do end",
                  "while true do pcall(function() while true do end end) end",

@@ -1,3 +1,4 @@
+// tostring() of the values of a scene.
 #include "catch.hpp"
 #include "raytracer/scene/scene_reader.hpp"
 
@@ -5,7 +6,7 @@ using namespace deburr;
 
 namespace {
 
-// What tostring() makes of a value of a scene.
+// What tostring() returns for this value in a scene.
 std::string text_of(const std::string& value) {
     const std::string scene = "return { solids = { cube():name(tostring(" + value + ")) } }";
     return read_scene_text(scene, "s.lua").names.at(0);

@@ -1,3 +1,4 @@
+// Errors of the scene as a whole: its table, its parameters, its size, and files that are no scenes.
 #include <filesystem>
 #include <fstream>
 
@@ -123,7 +124,7 @@ TEST_CASE("a file that is no scene says what it is") {
     CHECK(file_error(file) == file + ":1: expected text, got binary data (a byte 27)");
     write("return {\n  solids = { cube( } }\n");
     CHECK(file_error(file) == file + ":2: unexpected symbol near '}'");
-    // What a newcomer has, under the name of a scene.
+    // A newcomer may save a program of another language under a scene's name.
     const auto looks_like = [&](const std::string& text, const std::string& end) {
         write(text);
         CAPTURE(text);
@@ -137,7 +138,7 @@ TEST_CASE("a file that is no scene says what it is") {
     looks_like("/* Both. */ union() { sphere(r = 3); cube(5); }\n", scad);
     looks_like("cylinder(h = 10, d = 5);\n", scad);
     looks_like("for (i = [0:5]) cube(i);\n", scad);
-    // Lua reads these, and finds the mistake later or never.
+    // Lua accepts these texts, and finds the mistake later or never.
     looks_like("cube();\n", scad);
     looks_like("cube(10);\n", scad);
     looks_like("w = 5;\n  sphere(w);\n", scad);
@@ -145,7 +146,7 @@ TEST_CASE("a file that is no scene says what it is") {
     looks_like("union()\n{\n  cube(10);\n  sphere(6);\n}\n", scad);
     looks_like("linear_extrude(5) circle(3);\n", scad);
     looks_like("translate(1, 2, 3) cube(2);\n", scad);
-    // A scene that is wrong is still a scene, whatever it is about.
+    // A scene with an error is still taken for a scene.
     const auto is_lua = [&](const std::string& text) {
         write(text);
         CAPTURE(text);

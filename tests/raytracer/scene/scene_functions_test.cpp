@@ -1,3 +1,4 @@
+// Errors of the scene language's functions, operators and methods.
 #include "raytracer/scene/scene_functions.hpp"
 
 #include "catch.hpp"

@@ -1,3 +1,4 @@
+// include(): files of the scene's folder, their errors, and its limits.
 #include <filesystem>
 
 #include "catch.hpp"
@@ -10,7 +11,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-// A folder with a scene, whose text is run.
+// A folder with a scene file that is read.
 struct Place {
     Folder folder;
     std::string scene = folder / "s.lua";
@@ -72,7 +73,7 @@ TEST_CASE("an error in an included file names it and its line") {
     write_file(place.folder / "runtime.lua", "\nerror('bad')");
     CHECK(place.error("include('runtime.lua')") == "runtime.lua:2: bad");
     CHECK(place.error("include('runtime.lua')\n").rfind("runtime.lua:2: bad", 0) == 0);
-    // Lines of the scene itself stay what they are.
+    // Errors in the scene itself keep their line numbers.
     CHECK(place.error("local p = include('part.lua')\nerror('here')") == "s.lua:2: here");
 }
 
@@ -98,7 +99,7 @@ TEST_CASE("include reaches nothing outside of the scene's folder") {
     CHECK(place.error("include(5)") == "s.lua:1: include: expected a text, got 5");
     write_file(place.folder / "binary.lua", std::string("a\0b", 3));
     CHECK(place.error("include('binary.lua')").find("expected text, got binary data") != std::string::npos);
-    // The sandbox is the same.
+    // The included file runs in the same sandbox.
     write_file(place.folder / "io.lua", "return io.open('/etc/passwd')");
     CHECK(place.error("include('io.lua')") == "io.lua:1: io: not available in a scene");
 }

@@ -1,3 +1,4 @@
+// What the scene reader makes of correct scenes.
 #include "raytracer/scene/scene_reader.hpp"
 
 #include <numbers>
@@ -24,7 +25,7 @@ const SolidNode& only_solid(const Scene& scene) {
     return scene.solids[0].node();
 }
 
-// Of a scene whose solid is a density.
+// The density of a scene's only solid, which must be a rounded density.
 const DensityNode& density_of(const Scene& scene) {
     const SolidNode& node = only_solid(scene);
     REQUIRE(node.kind == SolidNode::Kind::rounded);
@@ -67,7 +68,7 @@ TEST_CASE("a convex hull has one exact half-space a face, whatever the order of 
     for (const std::size_t step : {1, 3, 5}) {
         std::string points;
         for (std::size_t i = 0; i < 8; ++i) points += corners[i * step % 8] + ", ";
-        // Points inside, in faces, on edges, and twice do not matter.
+        // Points inside the box, in faces, on edges and given twice change nothing.
         points += "{0.05, 0.1, 0.1}, {0.05, 0.1, 0}, {0.1, 0.1, 0}, {0.05, 0.3, 0.35}, {0, 0, 0}";
         const Scene scene = scene_with("convex{ " + points + " }");
         const DensityNode& box = density_of(scene);
@@ -135,10 +136,10 @@ TEST_CASE("a prism along y has points {x, z}, along z {x, y} and along x {y, z},
     CHECK(near(body("", "up = 'z',").hi, {2, 1, 6}));
     CHECK(near(body(", { axis = 'y' }", "up = 'z',").hi, {2, 6, 1}));
     CHECK(near(body("", "up = 'y',").hi, {2, 6, 1}));
-    // Which way is up may be computed, and stand where it means nothing.
+    // `up` may be computed, or stand where it is meaningless.
     CHECK(near(body("", "up = string.char(122),").hi, {2, 1, 6}));
     CHECK(near(body("", "up = ({ up = 'z', y = 'y' }).y,").hi, {2, 6, 1}));
-    // What is printed on the way knows it.
+    // A description printed while the scene runs takes `up` into account.
     CHECK(
         scene_of("local p = prism(" + points + ", 5, 6)\nreturn { up = \"z\", solids = { cube():name(tostring(p)) } }")
             .names.at(0) == "density of 6 half-spaces, [0, 2] x [0, 1] x [5, 6]");

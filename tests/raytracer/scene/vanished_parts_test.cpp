@@ -1,3 +1,4 @@
+// Parts of a scene that vanish by rounding or by operators, and how they are reported.
 #include "raytracer/scene/vanished_parts.hpp"
 
 #include <cmath>
@@ -19,7 +20,7 @@ VanishedParts of(const std::string& solids) {
     return vanished_parts(read_scene_text("return {\n solids = { " + solids + " } }", "s.lua"));
 }
 
-// The number after "up to".
+// The number after "up to " in the line.
 double radius_in(const std::string& line) {
     const std::size_t at = line.find("up to ");
     REQUIRE(at != std::string::npos);
@@ -32,7 +33,7 @@ TEST_CASE("a solid that rounding leaves nothing of is told with the largest radi
     const VanishedParts found = of("cube(), rounded(0.9, box({0, 0, 0}, {10, 0.5, 10})):name('lid')");
     REQUIRE(found.rounded_away.size() == 1);
     CHECK(found.rounded_away[0].find("s.lua:2: solid 2 (lid): it vanishes at radius 0.9; up to ") == 0);
-    // A product of two half-spaces at a distance of t is ½ in its middle where F(−t/2r)² = ½: at t = 0.5675 r.
+    // The product of two half-spaces whose planes are t apart is ½ in its middle where F(−t/2r)² = ½: at t = 0.5675 r.
     const double radius = radius_in(found.rounded_away[0]);
     CHECK(radius < 0.5 / 0.5674);
     CHECK(radius > 0.99 * 0.5 / 0.5675);
@@ -55,7 +56,7 @@ std::vector<std::string> of_model(const Shape& shape, double radius, const Affin
 
 TEST_CASE("walls of a model that its radius leaves nothing of are told with the largest radius that keeps them") {
     const Shape plate = Shape::box({0, 0, 0}, {10, 10, 0.5});
-    // A wall of 0.6946 r is as thick as half of the ball around its middle.
+    // A wall of thickness 0.6946 r contains half of a ball of radius r around its middle.
     const std::vector<std::string> found = of_model(plate, 0.75);
     REQUIRE(found.size() == 1);
     CHECK(found[0].find("solid 1 (part): walls behind 4 facets vanish at radius 0.75, the thinnest 0.5 thick near (") !=
@@ -63,7 +64,7 @@ TEST_CASE("walls of a model that its radius leaves nothing of are told with the 
     CHECK(radius_in(found[0]) <= 0.5 / vanishing_thickness);
     CHECK(radius_in(found[0]) > 0.99 * 0.5 / vanishing_thickness);
     CHECK(of_model(plate, 0.71).empty());
-    // The edges of what is thick enough are no walls, however much rounding takes of them.
+    // Edges of thick parts are not walls, however much of them rounding removes.
     CHECK(of_model(Shape::l_prism(), 0.9).empty());
     CHECK(of_model(Shape::box({0, 0, 0}, {1, 1, 1}), 0).empty());
     Affine twice;
@@ -74,7 +75,7 @@ TEST_CASE("walls of a model that its radius leaves nothing of are told with the 
 }
 
 TEST_CASE("the search for the largest radius that keeps one part leaves time for the others") {
-    // Near that radius nothing can be proved in any time.
+    // Near that radius nothing can be proved, however much time is spent.
     const VanishedParts found =
         of("rounded(0.9, box({0, 0, 0}, {10, 0.5, 10})), rounded(0.9, box({0, 0, 0}, {9, 0.5, 10}))");
     CHECK(found.rounded_away.size() == 2);
@@ -92,7 +93,7 @@ TEST_CASE("a part of a union that vanishes is told by its place, unless its neig
         CHECK(radius_in(found.rounded_away[0]) < 0.1 / 0.5675);
         CHECK(radius_in(found.rounded_away[0]) > 0.1 / 0.75);
     }
-    // Alone each of these slices would vanish.
+    // Each of these slices would vanish if it were alone.
     CHECK(
         of("rounded(0.3, box({0, 0, 0}, {9, 0.1, 9}) | box({0, 0.1, 0}, {9, 0.2, 9}) | box({0, 0.2, 0}, {9, 0.3, 9}))")
             .rounded_away.empty());
@@ -100,7 +101,7 @@ TEST_CASE("a part of a union that vanishes is told by its place, unless its neig
 }
 
 TEST_CASE("what a true convolution leaves nothing of is told with the largest radius that keeps it") {
-    // A ball around the middle of a plate of thickness t has half of its volume there where 3u - u^3 = 1 of u = t/2r.
+    // A plate of thickness t contains half of a ball of radius r around its middle where 3u − u³ = 1, u = t/2r.
     const double u = 2 * std::sin(std::numbers::pi / 18);
     const VanishedParts plates = of("convolved(0.9, box({0, 0, 0}, {10, 0.5, 10}))");
     REQUIRE(plates.rounded_away.size() == 1);
@@ -147,7 +148,7 @@ TEST_CASE("whether a set is empty is proved either way, or not said") {
     CHECK(emptiness(rounded(0.1), {Vec3(2), Vec3(3)}, nodes) == Emptiness::empty);
     CHECK(emptiness(rounded(0.1), Box{}, nodes) == Emptiness::empty);
     CHECK(nodes > 0);
-    // The corner of the sharp box alone, off every middle.
+    // This box holds only a corner of the sharp box, away from the middles that the search tries.
     CHECK(emptiness(rounded(0), {Vec3(0.999), Vec3(1.7)}, nodes) == Emptiness::not_empty);
     nodes = 1;
     CHECK(emptiness(rounded(1), box, nodes) == Emptiness::unknown);

@@ -1,3 +1,4 @@
+// Warnings about scenes whose picture shows nothing or not what was meant.
 #include "raytracer/scene/view_warnings.hpp"
 
 #include "catch.hpp"

@@ -1,3 +1,4 @@
+// Vectorized traversal of box trees by rays and beams, for every instruction set.
 #include <limits>
 #include <optional>
 #include <set>
@@ -11,7 +12,7 @@ using namespace deburr;
 
 namespace {
 
-// Boxes within boxes, some slots empty.
+// A random tree of nested boxes; some slots are empty.
 struct RandomBoxes {
     std::vector<BoxNode> nodes;
     std::uint32_t items = 0;
@@ -23,7 +24,7 @@ struct RandomBoxes {
         return tree;
     }
 
-    // Items that are met where nothing ends the ray.
+    // Collects the items below the node whose boxes the ray meets if nothing shortens it.
     void met(const BoxRay& ray, std::size_t node, std::set<std::uint32_t>& seen) const {
         const BoxNode& n = nodes[node];
         for (int i = 0; i < BoxNode::width; ++i) {
@@ -63,7 +64,7 @@ private:
     }
 };
 
-// The items in the order in which they are visited, with the ends that are told; nearer ends are set on the way.
+// Records the visited items in order, with the ray's end at each; some visits shorten the ray.
 struct Visits {
     std::vector<std::pair<std::uint32_t, float>> all;
     float shorten = 1;
@@ -84,7 +85,7 @@ float inverse_of(double x) { return float(std::abs(x) > 1e-30 ? 1 / x : 1e30); }
 
 TEST_CASE(
     "a ray, or several, meet the same boxes in the same order with any instructions, and those that they should") {
-    constexpr double slack = 1e-5;  // more than single precision makes of such places
+    constexpr double slack = 1e-5;  // more than the rounding error of single precision here
     long met = 0, in_beams = 0;
     for (auto seed : seeds(2'000)) {
         CAPTURE(seed);

@@ -1,3 +1,4 @@
+// Kernels for ray packets against single rays, bit by bit.
 #include "raytracer/simd/packet_kernels.hpp"
 
 #include "catch.hpp"
@@ -9,7 +10,7 @@ using namespace deburr;
 
 namespace {
 
-// Planes that cross near the origin; some through it, some parallel to rays along axes.
+// Planes that cross near the origin; some pass through it, some are parallel to axis-parallel rays.
 struct Factors {
     std::vector<AlphaPlane> planes;
     ConvexView view;

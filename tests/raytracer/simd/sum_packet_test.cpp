@@ -1,4 +1,4 @@
-// Packets of rays that cross sums of products, round parts and tori.
+// Ray packets against sums of products, round parts and tori, bit by bit.
 #include <functional>
 #include <optional>
 
@@ -12,7 +12,7 @@ using namespace deburr;
 
 namespace {
 
-// Rays towards places near a surface, some nearly along a direction.
+// Aims the packet's rays at points near a surface; some are nearly at right angles to a vector from across().
 void aim(Gen& g, Packet& p, const std::function<Vec3()>& target, const std::function<Vec3()>& across) {
     for (int k = 0; k < RayPacket::size; ++k) {
         Vec3 direction = glm::normalize(target() - p.origin(k));
@@ -158,7 +158,7 @@ TEST_CASE("rays of a packet cross tori where they do alone, to the bit") {
             const RoundSurface torus{circle, tube, g.chance(0.3)};
             Packet p(g);
             const Vec3 u = glm::normalize(glm::cross(circle.axis, g.direction()));
-            const auto near = [&] {  // at the tube, within, or anywhere
+            const auto near = [&] {  // on the tube, inside it, or anywhere
                 const Vec3 out = glm::normalize(u + g.point(2) - circle.axis);
                 const Vec3 across = glm::normalize(out - circle.axis * glm::dot(circle.axis, out));
                 return circle.center + R * across + tube * (g.chance(0.5) ? g.direction() : g.point(3));

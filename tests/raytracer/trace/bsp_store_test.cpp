@@ -1,3 +1,4 @@
+// BspStore: BSPs are reused after an edit of the scene.
 #include "raytracer/trace/bsp_store.hpp"
 
 #include <bit>
@@ -12,8 +13,7 @@ namespace {
 
 constexpr int parts = 24;
 
-// A workbench of blocks with a hole each, on the ground; part `edited` has a hole of another width, and part `moved`
-// stands `by` further away.
+// Blocks with a hole each on the ground; the hole of block `edited` is wider, and block `moved` is moved by `by`.
 std::vector<Solid> workbench(int edited = -1, int moved = -1, double by = 0) {
     std::vector<Solid> solids = {Solid::sharp(Density::half_space({0, 1, 0}, 0))};
     for (int i = 0; i < parts; ++i) {
@@ -30,7 +30,7 @@ ImplicitTracer tracer_of(const std::vector<Solid>& solids, BspStore* store) {
     return ImplicitTracer(solids, Criterion::exact, RootMethod::where_needed, Accel::bvh, store);
 }
 
-// Rays that hit, each with the same bits through both; 0 if any differ.
+// Number of rays that hit, if the hits with and without the store have the same bits; 0 if any differ.
 int same_hits(const std::vector<Solid>& solids, BspStore& store) {
     const ImplicitTracer with = tracer_of(solids, &store), without = tracer_of(solids, nullptr);
     int hits = 0;
@@ -57,7 +57,7 @@ TEST_CASE("what an edit leaves as it was is not built again") {
     CHECK(store.kept() == 0);
     const std::size_t all = store.built();
     CHECK(all == parts + 1);
-    CHECK(same_hits(workbench(), store) > 1'000);  // read anew
+    CHECK(same_hits(workbench(), store) > 1'000);  // the same scene read again
     CHECK(store.kept() == all);
     CHECK(store.built() == 0);
     CHECK(same_hits(workbench(7), store) > 1'000);
@@ -65,7 +65,7 @@ TEST_CASE("what an edit leaves as it was is not built again") {
     CHECK(store.built() == 1);
     CHECK(same_hits(workbench(7, 3, 0.01), store) > 1'000);
     CHECK(store.built() == 1);
-    CHECK(same_hits(workbench(), store) > 1'000);  // what was forgotten is built again
+    CHECK(same_hits(workbench(), store) > 1'000);  // BSPs of earlier scenes were dropped
     CHECK(store.built() == 2);
 }
 
@@ -73,7 +73,7 @@ TEST_CASE("a scene that an edit makes much larger is built for its own scale") {
     BspStore store;
     CHECK(same_hits(workbench(), store) > 1'000);
     CHECK(same_hits(workbench(-1, 5, 1e5), store) > 1'000);
-    CHECK(store.built() > parts / 2);  // tolerances are others
+    CHECK(store.built() > parts / 2);  // its tolerances are others
     CHECK(same_hits(workbench(-1, 5, 1e5), store) > 1'000);
     CHECK(store.built() == 0);
 }

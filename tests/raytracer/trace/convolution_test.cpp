@@ -1,4 +1,4 @@
-// Convolved solids on rays: the tracer, its cells and its root finder against the set itself.
+// Rays against convolved solids, held against the set itself.
 #include "bounds/solid_tree.hpp"
 #include "catch.hpp"
 #include "random_case.hpp"

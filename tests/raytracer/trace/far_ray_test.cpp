@@ -1,4 +1,4 @@
-// Rays from far away, and rays that lead far away, against the plain definition.
+// Rays from and to points far away, against the plain definition.
 #include "raytracer/trace/far_ray.hpp"
 
 #include "bounds/free_form.hpp"
@@ -23,8 +23,8 @@ Quadric ball_at(Vec3 center, double radius) { return {center, Mat3(-1 / (radius 
 
 Density box(Vec3 lo, Vec3 hi) { return Density::box(lo, hi); }
 
-// Every kind of cell primitive: planes, products and their complements, sums of products, Boolean diagrams that are
-// neither, fields, true convolutions, sharp densities, primary CSG; placed, flush with a floor, and without an end.
+// Solids of every kind of cell primitive: planes, products and their complements, sums of products, other Boolean
+// diagrams, fields, true convolutions, sharp densities and primary CSG; transformed, flush with a floor, and unbounded.
 std::vector<Kind> kinds() {
     const double r = 0.05;
     const Density a = box({-0.4, -0.2, -0.2}, {0.6, 0.2, 0.7}), b = box({-1, -0.5, -0.5}, {0, 0.5, 0.5});
@@ -71,23 +71,23 @@ std::vector<Kind> kinds() {
 }
 
 constexpr double distances[] = {10, 100, 2e3, 2e4, 1e6, 1e9};
-constexpr double beside = 8;  // the definition is asked about no more of a ray than this around the solids
+constexpr double beside = 8;  // the definition is evaluated on a ray within this distance of the solids
 constexpr int steps = 8;
 
-// The definition has no convolution; the share of a ball itself is held against others elsewhere.
+// The plain definition has no convolution; the share of a ball is tested elsewhere.
 bool is_convolved(const SolidTree& tree) { return tree.leaves[0].density.nodes.back().op == Op::convolution; }
 
-// What the definition says of solids on a ray, beside them.
+// The definition's answers for a kind's solids, near them.
 class Expected {
 public:
     explicit Expected(const Kind& kind) {
         for (const Solid& s : kind.solids) trees_.push_back(flatten(s));
     }
 
-    /// First crossing beyond `from`; `found`: the tracer's, which is right before what the definition, which looks at
-    /// points only, comes upon, if the definition changes sides there.
+    /// First crossing beyond `from`. The definition is sampled at points only and may step over a sliver, so the
+    /// tracer's crossing at `found` is taken if it is nearer and the definition changes sides there.
     double first(const Ray& ray, double from, double found) const {
-        // More exact than doubles are: the ray's own numbers, where the solids are.
+        // The ray's point at `from`, computed with more precision than doubles have.
         Vec3 o;
         for (int k = 0; k < 3; ++k) o[k] = double((long double)ray.origin[k] + (long double)ray.direction[k] * from);
         double first = infinity;
@@ -105,8 +105,8 @@ public:
         return from + first;
     }
 
-    /// Whether what the definition says stays the same if the ray is moved aside by what its numbers are rounded by,
-    /// or by what the definition steps over.
+    /// True if the definition gives the same answer, within `off`, when the ray is moved sideways by the rounding error
+    /// of its coordinates.
     bool is_known(const Ray& ray, double from, double first_found, double off) const {
         const double aside = 2e-12 + 32 * epsilon * from;
         const Vec3 u = glm::normalize(glm::cross(ray.direction, Vec3(0.36, 0.48, 0.8))),
@@ -118,8 +118,8 @@ public:
         return true;
     }
 
-    /// A point of the solids' surroundings, often where some of their half-spaces begin to vary, are even, or cease to
-    /// vary: that is where cells begin and end.
+    /// A point near the solids, often where half-spaces begin or cease to vary or are ½, since cells begin and end
+    /// there.
     Vec3 point(Gen& g) const {
         Vec3 x = g.point(0.8);
         if (g.chance(0.3)) return x;
@@ -155,17 +155,17 @@ private:
     std::vector<SolidTree> trees_;
 };
 
-// What the place of a hit is off by if coordinates this large are rounded, and how far along the ray that is.
+// Error of t at a hit if coordinates as large as `distance` are rounded.
 double rounding_along(double distance, const Ray& ray, const Hit& hit) {
     return 1e-9 + 8 * epsilon * distance / std::max(1e-6, std::abs(glm::dot(hit.normal, ray.direction)));
 }
 
 bool suits(const Kind& kind, const Vec3& direction) {
-    // It meets what has no end within the part that the definition is asked about.
+    // Such a ray meets an unbounded solid within the part that the definition is evaluated on.
     return !kind.endless || (std::abs(direction.y) > 0.2 && std::abs(direction.y) < 0.9);
 }
 
-// Rays from one point far away, to be asked for together.
+// A packet of rays from one distant point.
 std::vector<Ray> packet_from(const Kind& kind, const Expected& expected, double distance, Gen& g) {
     Vec3 from = g.direction();
     while (!suits(kind, from)) from = g.direction();
@@ -178,13 +178,14 @@ std::vector<Ray> packet_from(const Kind& kind, const Expected& expected, double 
 }
 
 struct Tracers {
-    ImplicitTracer bsp, embree, searching;  // the last finds every root by M, L and G
+    ImplicitTracer bsp, embree, searching;  // `searching` finds every root by M, L and G
     explicit Tracers(const Kind& kind)
         : bsp(kind.solids),
           embree(kind.solids, Criterion::exact, RootMethod::where_needed, Accel::embree),
           searching(kind.solids, Criterion::exact, RootMethod::always) {}
 
-    /// Checks that the rays find the same bits alone and together, whatever leads them; how many differ.
+    /// Checks that the rays have the same results, bit by bit, alone and as a packet, through either BVH; returns the
+    /// number of differences.
     int differences(const std::vector<Ray>& rays, const std::vector<double>& t_max) const {
         int different = 0;
         TraceCounters counters;
@@ -223,7 +224,7 @@ TEST_CASE("rays from 10 to 1e9 sizes away hit where the definition says, to a fe
                     TraceCounters counters;
                     const Hit hit = tracers.bsp.closest_hit(ray, infinity, counters);
                     const double want = expected.first(ray, from, hit.t), off = rounding_along(distance, ray, hit);
-                    // Up to a little before what is hit, and up to a little behind it.
+                    // The shadow ray ends slightly before or slightly behind the hit.
                     t_max.push_back(want + (g.chance(0.5) ? 2 : -2) * off);
                     const double searched = tracers.searching.closest_hit(ray, infinity, counters).t;
                     const bool right = (hit.t == want || std::abs(hit.t - want) <= off) &&
@@ -270,7 +271,7 @@ TEST_CASE("shadow rays to and from lights 10 to 1e9 sizes away are dark where th
                     const Hit hit = tracers.bsp.closest_hit(view, infinity, counters);
                     if (!hit) continue;
                     const Ray to_light = leave(hit, glm::normalize(light - hit.position));
-                    // A little before the light, and before the surface.
+                    // The rays end slightly before the light and slightly before the surface.
                     const double apart = glm::distance(light, to_light.origin),
                                  off =
                                      1e-9 + 8 * epsilon * distance / std::abs(glm::dot(hit.normal, to_light.direction));
@@ -348,13 +349,13 @@ TEST_CASE("rays leave their own surface at any scale and place of the scene") {
                 const Vec3 o = m(g.direction() * 5.0), d = glm::normalize(m(Vec3(0.5) + g.point(0.5)) - o);
                 const Hit hit = tracer.closest_hit({o, d}, infinity, counters);
                 if (!hit || hit.solid != 0) continue;
-                // A convex solid does not see itself, however flat the ray leaves it.
+                // A ray that leaves a convex solid does not meet it again, however flat it leaves.
                 Vec3 out = g.direction();
                 const double steep = std::pow(10.0, g.between(-6, 0));
                 out = glm::normalize(out - hit.normal * glm::dot(out, hit.normal) + hit.normal * steep);
                 const Hit next = tracer.closest_hit(leave(hit, out), infinity, counters);
                 REQUIRE(next.solid != 0);
-                // Through it, the ray comes out on the other side, not where it went in.
+                // A ray into the solid leaves it on the other side, and not where it entered.
                 const Hit through = tracer.closest_hit(leave(hit, d), infinity, counters);
                 REQUIRE(through.solid == 0);
                 REQUIRE(glm::dot(through.normal, d) > 0);

@@ -1,4 +1,4 @@
-// Fields under primary CSG with rounded polyhedra: rays against the plain definition.
+// Rays against CSG of fields and rounded polyhedra, held against the plain definition.
 #include "ball_field.hpp"
 #include "catch.hpp"
 #include "plain_definition.hpp"
@@ -26,18 +26,19 @@ TEST_CASE("placed fields and rounded polyhedra, combined, are hit where the defi
             const Hit hit = tracer.closest_hit({o, d}, 100, counters);
             const auto side = [&](double t) { return plain::contains(tree, o + d * t); };
             double want = plain::first_crossing(tree, o, d, 100, 100);
-            // It may step over a sliver, where the definition has the last word.
+            // The definition's samples may step over a sliver; a nearer hit is right if the definition changes sides
+            // there.
             if (hit.t < want && side(hit.t - 1e-7) != side(hit.t + 1e-7)) want = hit.t;
             ++rays;
             hits += want < infinity;
             differ += hit.t != want && !(std::abs(hit.t - want) < 1e-5);
             if (hit.t == infinity) continue;
             REQUIRE(glm::length(hit.normal) == Approx(1));
-            // The normal leaves the solid: against the ray where that enters.
+            // The normal points out of the solid, so against the ray where the ray enters.
             const bool enters = plain::contains(tree, o + d * (hit.t + 1e-6));
             if (std::abs(glm::dot(hit.normal, d)) > 1e-3) CHECK((glm::dot(hit.normal, d) < 0) == enters);
         }
     }
     CHECK(hits > 1'500);
-    CHECK(differ <= rays / 2'000);  // rays that graze
+    CHECK(differ <= rays / 2'000);  // grazing rays
 }

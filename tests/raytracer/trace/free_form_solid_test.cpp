@@ -1,4 +1,4 @@
-// Quadrics and free forms through the BSP: rays against the plain definition.
+// Rays against quadrics and free forms, held against the plain definition.
 #include <cstdio>
 
 #include "catch.hpp"
@@ -16,8 +16,8 @@ struct Agreement {
     int rays = 0, hits = 0, differ = 0;
 };
 
-// First crossing by the definition. It looks at points and may step over a sliver; where the tracer
-// found a crossing before that, it is right if the definition has it.
+// First crossing by the definition. Its samples may step over a sliver; a nearer crossing that the tracer found is
+// taken if the definition changes sides there.
 double expected_hit(const SolidTree& tree, Vec3 o, Vec3 d, double found, int steps) {
     const double want = plain::first_crossing(tree, o, d, 100, steps);
     const auto side = [&](double t) { return plain::contains(tree, o + d * t); };
@@ -79,7 +79,7 @@ TEST_CASE("free forms, mirrored, sheared and scaled unevenly, under CSG with rou
                 g, 25, 200, 1, a);
     }
     CHECK(a.hits > 2'000);
-    CHECK(a.differ <= a.rays / 2'000);  // rays that graze
+    CHECK(a.differ <= a.rays / 2'000);  // grazing rays
 }
 
 TEST_CASE("quadrics of every kind, infinite ones too, near and far away") {
@@ -94,7 +94,7 @@ TEST_CASE("quadrics of every kind, infinite ones too, near and far away") {
 }
 
 TEST_CASE("a paraboloid is there all the way to infinity") {
-    // y = x² + z²; from the axis at height h, level with the ground, it is √h away.
+    // In y = x² + z² a horizontal ray from the axis at height h meets the surface after √h.
     const ImplicitTracer tracer({solid_of(revolved({0, 1, 0, -1}, Vec3(0), {0, 1, 0}, 1, 1))});
     for (const double h : {1e-6, 1.0, 1e3, 1e6, 1e10}) {
         TraceCounters counters;
@@ -110,7 +110,7 @@ TEST_CASE("a paraboloid is there all the way to infinity") {
 }
 
 TEST_CASE("rays along the lines of cylinders, cones and hyperboloids do not stop the search") {
-    // A ray in the surface is neither in nor out, by rounding; what matters is that it comes back.
+    // Rounding decides whether a ray in the surface is inside; the test is that the query returns.
     for (auto seed : seeds(300)) {
         CAPTURE(seed);
         Gen g(seed);
@@ -152,12 +152,12 @@ TEST_CASE("grazing rays: a ball is hit or missed right to a millionth of what is
 TEST_CASE("thin sheets are seen from wherever they are looked at") {
     for (const double thickness : {1e-2, 1e-4, 1e-6}) {
         CAPTURE(thickness);
-        Quadric disc;  // radius 1, as thick as that in the middle
+        Quadric disc;  // of radius 1 and this thickness in the middle
         disc.A = Mat3(Vec3(-1, 0, 0), Vec3(0, -4 / (thickness * thickness), 0), Vec3(0, 0, -1));
         disc.k = 1;
         const Solid solids[2] = {
             solid_of(disc),
-            // a shell between two balls
+            // A shell between two balls.
             solid_of(revolved({1, 0, -1, -1}, Vec3(0), {0, 1, 0}, 1, 1)) -
                 solid_of(revolved({1, 0, -1, -1}, Vec3(0), {0, 1, 0}, 1 - thickness, 1 - thickness))};
         for (const Solid& solid : solids) {
@@ -171,7 +171,7 @@ TEST_CASE("thin sheets are seen from wherever they are looked at") {
                 const Hit hit = tracer.closest_hit({o, d}, infinity, counters);
                 REQUIRE(hit);
                 REQUIRE(std::abs(glm::length(hit.normal) - 1) < 1e-9);
-                // Through the sheet to its other side, and on.
+                // The ray passes through the sheet to its other side, and on.
                 const Hit next = tracer.closest_hit({o + d * (hit.t + 1e-9), d}, infinity, counters);
                 REQUIRE(next);
                 REQUIRE(next.t <= thickness / std::max(1e-3, std::abs(d.y)) * 3 + 0.1);
@@ -184,7 +184,7 @@ TEST_CASE("rays that leave a surface do not meet it at once, also where large te
     int hits = 0, again = 0;
     for (auto seed : seeds(60)) {
         Gen g(seed);
-        // A bump and, in it, a dent, each a thousand times as high as what is left of them.
+        // A bump that contains a dent, each a thousand times as high as their sum.
         const Quadric disc = random_ellipsoid(g, 0.6, 0.8, 0.3);
         Quadric hole = disc;
         hole.A = hole.A * g.between(1.2, 1.6);
@@ -200,7 +200,7 @@ TEST_CASE("rays that leave a surface do not meet it at once, also where large te
             const Vec3 d = g.direction();
             if (std::abs(glm::dot(d, hit.normal)) < 0.2) continue;
             again += tracer.closest_hit(leave(hit, d), infinity, counters).t < 1e-6;
-            CHECK(hit.offset < 1e-7);  // far below anything to be seen
+            CHECK(hit.offset < 1e-7);  // far below anything visible
         }
     }
     CHECK(hits > 10'000);
@@ -208,7 +208,7 @@ TEST_CASE("rays that leave a surface do not meet it at once, also where large te
 }
 
 TEST_CASE("a form of many perturbations costs what reaches the cell") {
-    // The same density of bumps along a bar, ten and a hundred times as long.
+    // A bar with bumps of one density; ten and a hundred times as long.
     double cost[3];
     int i = 0;
     for (const int count : {10, 100, 1000}) {

@@ -13,14 +13,15 @@ using namespace deburr;
 
 namespace {
 
-// Half of the accuracy that users are promised.
+// Half of the tolerance that users are promised.
 constexpr double accuracy = 1e-5;
 
 struct Agreement {
     int rays = 0, hits = 0, differ = 0;
 };
 
-// Rays of a camera on a grid of pixels, against the nearest crossing of any solid.
+// Compares the hits of a camera's rays, one for each pixel of the grid, with the definition's first crossing of any
+// solid.
 Agreement compare(const std::vector<Solid>& solids, const Camera& camera, int columns, int rows, double t_max = 100,
                   int steps = 12) {
     const ImplicitTracer tracer(solids);
@@ -36,8 +37,8 @@ Agreement compare(const std::vector<Solid>& solids, const Camera& camera, int co
             double want = infinity;
             for (const SolidTree& tree : trees) {
                 const double found = plain::first_crossing(tree, ray.origin, ray.direction, t_max, steps);
-                // It looks at points and may step over a sliver. A nearer crossing is right if the
-                // definition has it.
+                // The definition's samples may step over a sliver; a nearer hit is right if the definition changes
+                // sides there.
                 const auto side = [&](double s) { return plain::contains(tree, ray.origin + ray.direction * s); };
                 const bool crosses = t < found && side(t - 1e-7) != side(t + 1e-7);
                 want = std::min(want, crosses ? t : found);
@@ -85,7 +86,7 @@ TEST_CASE("random solids are hit where the definition says, from outside and fro
         }
     }
     CHECK(hits > 1'500);
-    CHECK(differ <= rays / 2'000);  // rays that graze
+    CHECK(differ <= rays / 2'000);  // grazing rays
 }
 
 TEST_CASE("every criterion and any rays: any_hit agrees with closest_hit") {
@@ -152,7 +153,7 @@ TEST_CASE("a wheel of 40 sides, as a product and as a Boolean density with a hub
         CHECK(product.differ == 0);
         const Density hollow = (wheel(40, 1, -0.2, 0.2) & ~wheel(40, 0.8, -1, 1)) | wheel(40, 0.25, -0.3, 0.3) |
                                Density::box({-0.9, -0.1, -0.05}, {0.9, 0.1, 0.05});
-        if (r > 0.05) continue;  // the plain definition adds up every outcome of every side
+        if (r > 0.05) continue;  // the plain definition sums all outcomes of all sides
         const Agreement boolean =
             compare({Solid::rounded(r, hollow)}, look({1.2, 2.8, 1.5}, {0, 0, 0}, 45), 14, 10, 100, 4);
         CHECK(boolean.differ == 0);
@@ -221,7 +222,7 @@ TEST_CASE("600 tilted blocks, as 600 solids, as one union and as one Boolean den
     CHECK(apart.differ == 0);
     CHECK(apart.hits > 10);
 
-    // The same hits where parts are far from each other, as unions and Boolean densities.
+    // The hits are the same for separate solids, their union and one Boolean density.
     Solid all = solids[0];
     Density any = densities[0];
     for (std::size_t i = 1; i < solids.size(); ++i) {
@@ -238,7 +239,7 @@ TEST_CASE("600 tilted blocks, as 600 solids, as one union and as one Boolean den
         hits += bool(a);
         differ += a.t != b.t && !(std::abs(a.t - b.t) < accuracy);
         if (i % 30 == 0) {
-            // Only blocks within half a diagonal and the filter of the ray can matter.
+            // Only blocks within half a diagonal plus the filter radius of the ray can matter.
             std::vector<Density> near;
             for (std::size_t k = 0; k < centers.size(); ++k)
                 if (glm::length(glm::cross(centers[k] - o, d)) < 0.4) near.push_back(densities[k]);
@@ -272,7 +273,7 @@ TEST_CASE("unbounded solids are hit at any distance") {
 }
 
 TEST_CASE("bounded solids among unbounded ones are hit from near and far, pixel for pixel") {
-    // A beam and a trench without end; a block on the one, one in the other, one far outside.
+    // An unbounded beam and an unbounded trench; one block is on the beam, one in the trench, one far outside.
     const Solid beam =
         Solid::rounded(0.1, Density::half_space({0, 1, 0}, 0.5) * Density::half_space({0, -1, 0}, 0.5) *
                                 Density::half_space({0, 0, 1}, 0.5) * Density::half_space({0, 0, -1}, 0.5));
@@ -308,13 +309,13 @@ TEST_CASE("products need no search, and a search finds the same") {
         }
     }
     CHECK(hits > 3'000);
-    CHECK(differ < hits / 1'000);  // rays that graze, and edges
+    CHECK(differ < hits / 1'000);  // grazing rays, and rays through edges
     CHECK(direct.evaluations < by_search.evaluations);
 }
 
 TEST_CASE("coincident faces of a primary CSG tree leave no film behind") {
     const Density block = Density::box(Vec3(0), Vec3(1)), slot = Density::box({0.25, 0.5, 0.25}, {0.75, 1, 0.75});
-    Affine turn;  // the same planes by other arithmetic
+    Affine turn;  // gives the same planes by other arithmetic
     const double s = std::sin(0.3), c = std::cos(0.3);
     turn.linear = Mat3(c, s, 0, -s, c, 0, 0, 0, 1);
     const Solid cut = (Solid::sharp(block) - Solid::sharp(slot)).transformed(turn);
@@ -327,7 +328,7 @@ TEST_CASE("coincident faces of a primary CSG tree leave no film behind") {
         const Hit hit = tracer.closest_hit({aim - d * 3.0, d}, infinity, counters);
         REQUIRE(std::abs(hit.t - 3.5) < 1e-9);  // the floor of the slot
     }
-    // Two blocks that touch: nothing between them for a ray inside.
+    // Between two touching blocks there is no surface for a ray inside.
     const ImplicitTracer pair({Solid::sharp(block) | Solid::sharp(Density::box({1, 0, 0}, {2, 1, 1}))});
     CHECK(pair.closest_hit({{0.5, 0.5, 0.5}, {1, 0, 0}}, infinity, counters).t == Approx(1.5));
 }
@@ -350,7 +351,8 @@ TEST_CASE("Lobb's figure 11: the six objects, by the definition", "[slow]") {
 }
 
 TEST_CASE("cost per ray grows like the logarithm of the number of solids") {
-    // In cells and half-spaces looked at, not in time: 30 times as many blocks, less than thrice the cells.
+    // The cost is the number of cells and half-spaces visited: 30 times as many blocks take less than three times as
+    // many cells.
     double before = 0;
     for (const int side : {3, 10}) {
         std::vector<Solid> solids;
@@ -372,7 +374,7 @@ TEST_CASE("cost per ray grows like the logarithm of the number of solids") {
 }
 
 TEST_CASE("cells become no smaller than rays repay: the more holes a plate has, the fewer for each") {
-    double before = 0;  // cells for a hole
+    double before = 0;  // cells per hole
     for (const int side : {4, 12}) {
         Density plate = Density::box({0, 0, 0}, {double(side), 0.3, double(side)});
         for (int i = 0; i < side; ++i)

@@ -1,4 +1,4 @@
-// Prototypes and instances against one BSP of everything, ray by ray.
+// Instancing against one BSP of all solids, ray by ray.
 #include "raytracer/trace/instances.hpp"
 
 #include "ball_field.hpp"
@@ -25,7 +25,7 @@ struct Same {
     int hits = 0, misses = 0;
 };
 
-// Rays from points around and within, towards points within, half of them parallel to an axis.
+// Compares rays from points in and around the box [lo, hi] towards points in it; half of them are parallel to an axis.
 Same same_as_one_bsp(const std::vector<Solid>& solids, Vec3 lo, Vec3 hi, int rays = 4000) {
     const ImplicitTracer tracer(solids);
     const SurfaceTracer plain(build_bsp(solids), Criterion::exact);
@@ -53,7 +53,7 @@ Same same_as_one_bsp(const std::vector<Solid>& solids, Vec3 lo, Vec3 hi, int ray
         if (same && hit) {
             same = std::abs(hit.t - t) <= 1e-9 && glm::length(hit.normal - want.crossing.normal) <= 1e-6 &&
                    hit.solid == want.solid && hit.material == want.crossing.material;
-            // A new ray that leaves the surface does not meet it again at once.
+            // A ray that leaves the surface does not meet it again at once.
             const Hit next = tracer.closest_hit(leave(hit, hit.normal), infinity, counters);
             same &= !(next.t < 1e-9);
         }
@@ -78,18 +78,18 @@ TEST_CASE("equal solids share a space, however the scene came to them") {
     std::vector<Solid> solids;
     for (int i = 0; i < 5; ++i) {
         const Affine place = compose(shift(2 * i, 0, 0), turn(i));
-        solids.push_back(one.transformed(place));                                           // one value
-        solids.push_back(block().material(3).transformed(compose(shift(0, 3, 0), place)));  // a function's
+        solids.push_back(one.transformed(place));                                           // copies of one value
+        solids.push_back(block().material(3).transformed(compose(shift(0, 3, 0), place)));  // made anew by a function
         solids.push_back(
-            Solid::rounded(0.1, cube.transformed(compose(shift(0, 6, 0), place))));  // placed, then rounded
+            Solid::rounded(0.1, cube.transformed(compose(shift(0, 6, 0), place))));  // transformed, then rounded
     }
     CHECK(statistics(solids).prototypes == 2);
     CHECK(statistics(solids).instances == 15);
-    // Scaled before it is rounded it is another solid.
+    // A cube that is scaled before it is rounded is another solid.
     solids.push_back(Solid::rounded(0.1, cube.transformed(compose(shift(0, 9, 0), scale(2, 2, 2)))));
     solids.push_back(block(0.2).transformed(shift(5, 9, 0)));
     CHECK(statistics(solids).prototypes == 4);
-    // So it is where it is rounded in another way.
+    // So is a cube that is rounded in another way.
     const Solid truly = Solid::convolved(0.1, cube);
     CHECK(statistics({one, truly.transformed(shift(3, 0, 0)), truly.transformed(shift(6, 0, 0))}).prototypes == 3);
     const Same same = same_as_one_bsp(solids, {-1, -1, -1}, {10, 10, 1});
@@ -119,12 +119,12 @@ TEST_CASE("operands of a union that touch or overlap stay together") {
     Solid row = cube;
     for (const double x : {1.0, 2.5, 3.4, 5.0, 6.0 + 1e-13, 8.0, 9.0 + 1e-6})
         row = row | cube.transformed(shift(x, 0, 0));
-    // Together: 0 and 1; 2.5 and 3.4; 5 and 6. Apart: 8 and 9, by more than any tolerance.
+    // 0 and 1, 2.5 and 3.4, and 5 and 6 stay together; 8 and 9 are apart by more than any tolerance.
     const BspStatistics s = statistics({row, block().transformed(shift(0, 3, 0))});
     CHECK(s.instances == 6);
     const Same same = same_as_one_bsp({row, block().transformed(shift(0, 3, 0))}, {-0.5, -0.5, -0.5}, {10.5, 1.5, 1.5});
     CHECK(same.hits > 1000);
-    // From inside to outside in one go, through walls that are none.
+    // A ray inside leaves in one step, without hits on walls between the operands.
     TraceCounters counters;
     const ImplicitTracer tracer({row, block().transformed(shift(0, 3, 0))});
     CHECK(std::abs(tracer.closest_hit({{0.5, 0.4, 0.3}, {1, 0, 0}}, infinity, counters).t - 1.5) < 1e-12);
@@ -160,7 +160,7 @@ TEST_CASE("random solids, each placed several times, overlapping at random") {
             if (g.chance(0.3)) form = form | Solid::rounded(g.radius(), g.box()).transformed(shift(3, 0, 0));
             for (int i = 0; i < 4; ++i) solids.push_back(form.transformed(compose(shift(2 * i, 1.5 * k, 0), g.map())));
         }
-        // Unbounded ones fill half of space.
+        // Unbounded solids fill half of space.
         hits += same_as_one_bsp(solids, {-2, -2, -2}, {8, 5, 2}, 300).hits;
     }
     CHECK(hits > 4000);
@@ -226,7 +226,7 @@ TEST_CASE("spaces do not depend on the number of threads") {
     for (int i = 0; i < 9000; ++i)
         solids.push_back(block(0.05 + 0.01 * (i % 7))
                              .transformed(compose(shift(i % 20, i / 20 % 20, i / 400), scale(0.4, 0.5, 0.3))));
-    Density many = Density::box({0, 0, -3}, {0.5, 0.5, -2.5});  // and one solid that is built in parallel
+    Density many = Density::box({0, 0, -3}, {0.5, 0.5, -2.5});  // this solid is built in parallel
     for (int i = 1; i < 300; ++i)
         many = many | Density::box({0.7 * (i % 20), i / 20, -3}, {0.7 * (i % 20) + 0.8, i / 20 + 0.5, -2.5});
     solids.push_back(Solid::rounded(0.04, many));

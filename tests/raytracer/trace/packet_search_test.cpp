@@ -1,3 +1,4 @@
+// Packets of rays hit what the rays hit alone, bit by bit.
 #include "raytracer/trace/implicit_tracer.hpp"
 
 #include "catch.hpp"
@@ -12,7 +13,7 @@ namespace {
 
 Scene scene_of(const std::string& name) { return read_scene(DEBURR_SOURCE_DIR "/scenes/" + name + ".lua", {}); }
 
-// Of rays that are asked for together: how many hit, and how many do not find what they find alone.
+// Counts rays that hit, rays that are occluded, and rays whose results differ from those alone.
 struct Comparison {
     int rays = 0, hits = 0, occluded = 0, different = 0;
 
@@ -33,7 +34,7 @@ struct Comparison {
     }
 };
 
-// Rays that run together, more or less, from anywhere.
+// Compares packets of more or less coherent rays from anywhere.
 void compare_packets(Gen& g, const ImplicitTracer& tracer, Comparison& c) {
     for (int packet = 0; packet < 8; ++packet) {
         std::vector<Ray> rays;
@@ -42,7 +43,7 @@ void compare_packets(Gen& g, const ImplicitTracer& tracer, Comparison& c) {
         const double apart = g.chance(0.3) ? 2 : std::pow(10.0, g.between(-6, 0));
         for (int k = 2 + g.below(30); k > 0; --k) {
             Vec3 d = g.chance(0.1) ? g.normal() : aim - eye + g.point(apart);
-            if (g.chance(0.02)) d[g.below(3)] = std::nan("");  // which finds nothing, and hides nothing from others
+            if (g.chance(0.02)) d[g.below(3)] = std::nan("");  // finds nothing and must not disturb the others
             rays.push_back({g.chance(0.5) ? eye : eye + g.point(apart), glm::normalize(d)});
             t_max.push_back(g.chance(0.3) ? infinity : g.between(0, 6));
         }
@@ -90,7 +91,7 @@ TEST_CASE("rays that are traced together hit what they hit alone, to the bit: wh
         Gen g(seed);
         std::vector<Solid> solids;
         for (int i = 1 + g.below(3); i > 0; --i) solids.push_back(g.solid(2));
-        if (g.chance(0.4))  // equal ones, which share a space
+        if (g.chance(0.4))  // equal solids, which are instances of one prototype
             for (int i = 1 + g.below(8); i > 0; --i) solids.push_back(solids[0].transformed(g.map()));
         const ImplicitTracer tracer(solids);
         instances += tracer.statistics().instances;
@@ -107,7 +108,7 @@ TEST_CASE("rays that are traced together hit what they hit alone, to the bit: ro
     for (auto seed : seeds(300)) {
         CAPTURE(seed);
         Gen g(seed);
-        std::vector<Solid> solids;  // each with tolerances of its own
+        std::vector<Solid> solids;  // each has its own tolerances
         double size = 1;
         for (int i = 0; i < 3; ++i, size *= 4) {
             const test::RoundCase round = test::round_case(g, 1 + g.below(3));

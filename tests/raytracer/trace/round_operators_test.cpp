@@ -1,5 +1,5 @@
-// Rays against densities of round parts under all operators, with radii of their own and placed, and against their
-// plain definition [docs/design.md, Round primitives].
+// Rays against densities of round parts under all operators, with radii of their own and transformed, held against
+// their plain definition [docs/design.md, Round primitives].
 #include <map>
 
 #include "catch.hpp"
@@ -10,14 +10,14 @@ using namespace deburr;
 
 namespace {
 
-// Parts as the definition has them: a draw of the coordinate is at most `limit`, and for a distance at least −limit.
+// A part in the definition: true where the draw is at most `limit`, and for a distance at least −limit.
 struct PlainPart {
     int family;
     double limit;
     bool is_distance;
 };
 
-// An expression whose leaves are parts; what is Boolean is summed over all draws.
+// An expression of parts; its Boolean subexpressions are summed over all draws.
 class Plain {
 public:
     enum class Op { part, sum, product, difference, either, both, no };
@@ -27,7 +27,7 @@ public:
         PlainPart part{};
     };
 
-    // Surfaces of one coordinate and one radius are of one family; `key` names the coordinate.
+    // Adds a part. Surfaces of one coordinate and one radius form a family; `key` identifies the coordinate.
     int part(const std::string& key, std::function<double(Vec3)> coordinate, double radius, double limit,
              bool is_distance) {
         const auto [at, is_new] = known_.try_emplace({key, radius}, int(families_.size()));
@@ -59,7 +59,7 @@ private:
         if (n.a >= 0) parts(n.a, found);
         if (n.b >= 0) parts(n.b, found);
     }
-    // Of the expression, read as a Boolean function.
+    // Probability that the expression is true, read as a Boolean function.
     double probability(int root, Vec3 x) const {
         std::vector<int> below;
         parts(root, below);
@@ -117,7 +117,7 @@ struct Both {
     int plain;
 };
 
-// Both forms side by side. Concentric, coaxial and flush parts of one radius are frequent.
+// Makes random densities in both forms. Concentric, coaxial and flush parts of one radius are frequent.
 class Generator {
 public:
     Generator(Gen& g) : g_(g), axis_(g.direction()), center_(g.point(0.2)) {
@@ -128,7 +128,7 @@ public:
     Plain plain;
     double radius() const { return radii_[0]; }
 
-    // A convex part of up to three: a product, or a conjunction.
+    // A convex part: a product or conjunction of up to three.
     Both convex(Vec3 shift) {
         Both all = part(shift);
         for (int k = g_.below(3); k > 0; --k) {
@@ -139,15 +139,15 @@ public:
         }
         return all;
     }
-    // Legal under the papers' operators.
+    // A density that is legal under the papers' operators.
     Both papers() {
         switch (g_.below(3)) {
             case 0: return convex(Vec3(0.0));
-            case 1: {  // apart
+            case 1: {  // the operands are apart
                 const Both a = bounded(Vec3(0.0)), b = bounded(Vec3(2.5, 0, 0));
                 return {a.density + b.density, plain.add({Plain::Op::sum, a.plain, b.plain})};
             }
-            default: {  // within
+            default: {  // the second operand is inside the first
                 const Both a = ball("ball" + std::to_string(0.0), center_, 1.7, radii_[0]), b = bounded(Vec3(0.0));
                 return {a.density - b.density, plain.add({Plain::Op::difference, a.plain, b.plain})};
             }
@@ -176,7 +176,7 @@ private:
         return {Density::sphere(c, R).radius(r), plain.part(
                                                      name, [=](Vec3 x) { return glm::distance(x, c); }, r, R, true)};
     }
-    Both bounded(Vec3 shift) {  // in a ball of radius 1
+    Both bounded(Vec3 shift) {  // within a ball of radius 1
         const Both a = convex(shift), b = ball("ball" + std::to_string(shift.x), center_ + shift, 1, radii_[0]);
         return {a.density * b.density, plain.add({Plain::Op::product, a.plain, b.plain})};
     }
@@ -186,7 +186,7 @@ private:
     }
     int no(int a) { return plain.add({Plain::Op::no, a}); }
     int product(int a, int b) { return plain.add({Plain::Op::product, a, b}); }
-    // The opposite half-space of the plane's family.
+    // The opposite half-space, of the same family as the plane.
     int above(const std::string& name, Vec3 n, double limit, double r) { return no(plane(name, n, limit, r)); }
 
     Both part(Vec3 shift) {
@@ -212,7 +212,7 @@ private:
                 const double long_ = 1 / std::hypot(1.0, slope_), k = slope_, end = R - k * (high - low);
                 const Vec3 from = c + low * axis;
                 const double limit =
-                    long_ * (R + k * (low + at));  // across·s + along·t counted from the origin's height
+                    long_ * (R + k * (low + at));  // across·s + along·t, counted from the origin's height
                 const auto cone = [=](double sign) {
                     return [=](Vec3 x) {
                         return long_ * (sign * glm::length(glm::cross(axis, x - c)) + k * glm::dot(axis, x));
@@ -265,7 +265,8 @@ TEST_CASE(
         Gen g(seed);
         Generator make(g);
         const Both both = make.make();
-        // A placement of the density keeps lengths; one of the solid carries the density along.
+        // A density's transform must keep lengths; a solid's transform may be any map and transforms its density as a
+        // field.
         Affine placed, carried;
         if (g.chance(0.5)) {
             const Vec3 a = glm::normalize(g.point(1)), b = glm::normalize(glm::cross(a, g.point(1)));
@@ -297,7 +298,7 @@ TEST_CASE(
                 }
                 before = now;
             }
-            // Between two steps it may go in and out.
+            // Between two samples the density may go in and out.
             if (hit.t < want && inside(hit.t - 1e-6) != inside(hit.t + 1e-6)) want = hit.t;
             hits += want < infinity;
             if (hit.t == want || std::abs(hit.t - want) < 1e-6) continue;

@@ -1,4 +1,4 @@
-// Rays against solids with round parts, and the plain definition of these.
+// Rays against solids with round parts, held against their plain definition.
 #include "catch.hpp"
 #include "plain_round.hpp"
 #include "raytracer/trace/implicit_tracer.hpp"
@@ -9,11 +9,11 @@ using test::RoundCase;
 namespace {
 
 struct Search {
-    double t = infinity;  // of the first change of sides
+    double t = infinity;  // of the first change of sides; infinity if there is none
     bool is_grazing = false;
 };
 
-// Looks everywhere; a stretch in which the density comes near to ½ without a crossing may hold two.
+// First change of sides on [0, length], by even samples and bisection. Two changes between samples go unseen.
 template <class Inside>
 Search first_change(Inside inside, double length, int steps) {
     const bool start = inside(0.0);
@@ -57,7 +57,7 @@ TEST_CASE("solids with round parts are hit where the definition says", "[slow]")
         }
     }
     CHECK(hits > 4'000);
-    CHECK(differ <= rays / 3'000);  // rays that graze
+    CHECK(differ <= rays / 3'000);  // grazing rays
 }
 
 TEST_CASE("single round parts are hit where geometry says, from near and far") {
@@ -97,20 +97,20 @@ TEST_CASE("thin rods, wide filters and shells of a millionth") {
     const auto hit = [&](const Density& d, double r, Vec3 o, Vec3 u) {
         return ImplicitTracer({Solid::rounded(r, d)}).closest_hit({o, u}, infinity, counters).t;
     };
-    // A rod goes as a wall does: at 0.694 r.
+    // A thin rod vanishes as a wall does.
     const auto rod = [](double R) { return Density::cylinder({0, -20, 0}, {0, 20, 0}, R); };
     CHECK(hit(rod(0.68), 2, {0, 0, 9}, {0, 0, -1}) == infinity);
     const double on_axis = hit(rod(0.71), 2, {0, 0, 9}, {0, 0, -1});
     CHECK(on_axis > 8.29);
     CHECK(on_axis < 9);
     CHECK(hit(rod(1.5), 1, {0, 0, 9}, {0, 0, -1}) == Approx(7.5));
-    // A tube of 10⁻⁶ between coaxial cylinders, rounded by less, and one that is thinner than its filter.
+    // A tube of thickness 10⁻⁶ between coaxial cylinders, with a smaller and with a larger filter.
     const auto tube = [](double thickness) {
         return Density::cylinder({0, -2, 0}, {0, 2, 0}, 1) & ~Density::cylinder({0, -3, 0}, {0, 3, 0}, 1 - thickness);
     };
     CHECK(hit(tube(1e-6), 1e-7, {0, 0, 9}, {0, 0, -1}) == Approx(8));
     CHECK(hit(tube(1e-6), 1e-5, {0, 0, 9}, {0, 0, -1}) == infinity);
-    // Concentric and coaxial surfaces that coincide leave nothing, and no seam.
+    // Coincident concentric and coaxial surfaces leave nothing, and no seam.
     const Density ball = Density::sphere(Vec3(0.0), 1);
     CHECK(hit(ball & ~ball, 0.1, {0, 0, 9}, {0, 0, -1}) == infinity);
     CHECK(hit(ball | ball, 0.1, {0, 0, 9}, {0, 0, -1}) == Approx(8));

@@ -1,5 +1,5 @@
-// Rays against tori, rounded, sharp, and as grooves in a block, each of which is a polynomial of degree four, and
-// against their distance.
+// Rays against tori, rounded, sharp and as grooves in a block. They are found as roots of a quartic; the reference is
+// the distance from the torus.
 #include "catch.hpp"
 #include "random_case.hpp"
 #include "raytracer/trace/implicit_tracer.hpp"
@@ -16,7 +16,7 @@ struct Ring {
         const Vec3 y = x - center;
         return std::hypot(glm::length(glm::cross(axis, y)) - radius, glm::dot(axis, y)) - tube;
     }
-    // The first place where the distance is 0, by steps that cannot pass it; NaN where it only comes near.
+    // First t where the distance is 0, by steps that cannot pass it; NaN if the ray only comes near the surface.
     double first(Vec3 o, Vec3 d, double end) const {
         const double side = distance(o) > 0 ? 1 : -1;
         constexpr double near = 1e-11;
@@ -48,12 +48,12 @@ TEST_CASE(
     for (auto seed : seeds(4'000)) {
         Gen g(seed);
         const Ring ring = random_ring(g);
-        // As wide as the filter may be, and so narrow that it hardly shows.
+        // The radius is the greatest that is possible, or so small that it hardly shows.
         const double r = g.chance(0.3) ? ring.radius - ring.tube : std::pow(10, g.between(-4, -1)) * ring.tube;
-        if (r > ring.tube) continue;  // which is another shape
+        if (r > ring.tube) continue;  // the density is another shape then
         const Density torus = Density::torus(ring.center, ring.axis, ring.radius, ring.tube);
         const bool is_groove = g.chance(0.4), is_sharp = !is_groove && g.chance(0.3);
-        const double size = 12;  // beyond where rays begin
+        const double size = 12;  // so that rays begin inside
         const Density block = Density::box(Vec3(-size), Vec3(size));
         const ImplicitTracer tracer({is_sharp    ? Solid::sharp(torus)
                                      : is_groove ? Solid::rounded(r, block & ~torus)
@@ -63,15 +63,15 @@ TEST_CASE(
         const int kind = g.below(6);
         Vec3 o, d;
         switch (kind) {
-            case 0:  // along the axis, and on it
+            case 0:  // parallel to the axis, or on it
                 o = ring.center + (g.chance(0.2) ? 0 : s) * out + 4.0 * ring.axis;
                 d = -ring.axis;
                 break;
-            case 1:  // in the plane, through the center or beside it
+            case 1:  // in the circle's plane, through the center or beside it
                 o = ring.center + 4.0 * out + (g.chance(0.3) ? 0 : s) * around;
                 d = -out;
                 break;
-            case 2: {  // touches the top's circle, or the inner equator, within a ten-millionth
+            case 2: {  // touches the top circle or the inner equator within 10⁻⁷
                 const double beside = 1e-7 * (g.chance(0.5) ? 1 : -1);
                 o = ring.center + ring.radius * out + (ring.tube + beside) * ring.axis;
                 d = g.chance(0.5) ? out : around;
@@ -82,11 +82,11 @@ TEST_CASE(
                 o -= 4.0 * d;
                 break;
             }
-            case 3:  // from within the tube
+            case 3:  // from inside the tube
                 o = ring.center + ring.radius * out + 0.9 * g.number() * ring.tube * g.direction();
                 d = g.direction();
                 break;
-            case 4:  // from afar
+            case 4:  // from far away
                 o = ring.center + std::pow(10, is_groove ? 0.8 : g.between(1, 4)) * g.direction();
                 d = glm::normalize(ring.center + g.point(0.7) - o);
                 break;
@@ -96,7 +96,7 @@ TEST_CASE(
         const double end = 3 * glm::distance(o, ring.center) + 5, want = ring.first(o, d, end);
         TraceCounters counters;
         const Hit hit = tracer.closest_hit({o, d}, end, counters);
-        if (std::isnan(want)) {  // touches it
+        if (std::isnan(want)) {  // the ray touches the surface
             ++unclear;
             continue;
         }
@@ -107,9 +107,9 @@ TEST_CASE(
         }
         ++(counters.segments == 0 ? at_once : searched)[is_groove];
         REQUIRE(hit.t < infinity);
-        // As near as coordinates are rounded.
+        // The hit is on the surface within the rounding error of its coordinates.
         off += !(std::abs(ring.distance(o + hit.t * d)) < 1e-14 * (is_groove ? 30 : 3 + glm::distance(o, ring.center)));
-        // A ray that runs along the surface meets it somewhere in a long stretch.
+        // A ray that runs along the surface may meet it anywhere in a long stretch.
         CHECK(hit.t == Approx(want).margin(2e-4));
         CHECK(glm::distance(hit.normal, glm::normalize(hit.normal)) < 1e-9);
     }
@@ -118,6 +118,6 @@ TEST_CASE(
     CHECK(misses[2] > 20);
     CHECK(unclear < 200);
     CHECK(searched[0] == 0);
-    CHECK(at_once[1] > searched[1]);  // the block and the groove are in one cell where that costs little
+    CHECK(at_once[1] > searched[1]);  // block and groove share a cell where that costs little
     CHECK(off == 0);
 }

@@ -1,3 +1,4 @@
+// SurfaceSearch: the surface found does not depend on the order of the candidates.
 #include "raytracer/trace/surface_search.hpp"
 
 #include <algorithm>
@@ -18,7 +19,7 @@ bool same_bits(const FoundSurface& a, const FoundSurface& b) {
            a.crossing.material == b.crossing.material && a.error == b.error;
 }
 
-// Solids that overlap, faces of which coincide, and others that are equal.
+// Solids that overlap, some with coincident faces, and some equal to another.
 std::vector<Solid> crowd(Gen& g) {
     std::vector<Solid> solids;
     const Solid within = Solid::sharp(Density::box(Vec3(-2), Vec3(2)));
@@ -49,7 +50,7 @@ TEST_CASE("the surface found is the same to the bit in whatever order surfaces a
         for (int k = 0; k < 40; ++k) {
             Vec3 from = g.chance(0.2) ? g.point(1) : g.point(4);
             Vec3 d = glm::normalize(g.point(1) - from);
-            if (g.chance(0.5)) {  // in cells' walls, and where walls meet
+            if (g.chance(0.5)) {  // in the walls between cells, and where walls meet
                 d = Vec3(0);
                 const int axis = g.below(3);
                 d[axis] = g.chance(0.5) ? 1 : -1;
@@ -70,7 +71,7 @@ TEST_CASE("the surface found is the same to the bit in whatever order surfaces a
                 SurfaceSearch<false> search(all, ray, t_max, infinity, counters, nullptr);
                 SurfaceSearch<true> any(all, ray, t_max, infinity, counters, nullptr);
                 if (g.chance(0.5)) search.visit_planes();
-                const int twice = g.below(4);  // as where two roads lead to a surface
+                const int twice = g.below(4);  // visits some twice, as two cells may share a surface
                 for (const std::uint32_t i : order)
                     for (int n = 0; n < (i % 4 == std::uint32_t(twice) ? 2 : 1); ++n) search.visit(i);
                 search.visit_planes();

@@ -1,3 +1,4 @@
+// The typing distance, and suggestions for mistyped names.
 #include "raytracer/util/nearest_name.hpp"
 
 #include "catch.hpp"
@@ -14,7 +15,7 @@ TEST_CASE("the typing distance counts letters inserted, left out, replaced, and 
     CHECK(typing_distance("rander", "render") == 1);
     CHECK(typing_distance("redner", "render") == 1);
     CHECK(typing_distance("kitten", "sitting") == 3);
-    CHECK(typing_distance("ca", "abc") == 3);  // of optimal string alignment; 2 if letters swapped may be parted
+    CHECK(typing_distance("ca", "abc") == 3);  // optimal string alignment; the full Damerau-Levenshtein distance is 2
 }
 
 TEST_CASE("the nearest name is suggested, and none where nothing is near") {

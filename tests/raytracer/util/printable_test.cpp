@@ -1,3 +1,4 @@
+// Printable text: escaped control characters, and cuts between characters.
 #include "raytracer/util/printable.hpp"
 
 #include "catch.hpp"
@@ -11,13 +12,13 @@ TEST_CASE("printable text holds no control character, whatever it is made of") {
     CHECK(printable(std::string("a\n\r\t\0b\177", 7)) == "a\\n\\r\\t\\x00b\\x7f");
     CHECK(printable("a\n\t\33", "\n\t") == "a\n\t\\x1b");
     CHECK(printable("\xC2\x9B"
-                    "31m") == "\\u{9b}31m");          // C1: the control sequence introducer
+                    "31m") == "\\u{9b}31m");          // C1 control sequence introducer
     CHECK(printable("\xE2\x80\xAE") == "\\u{202e}");  // right-to-left override
     CHECK(printable("\xE2\x80\xA8\xEF\xBB\xBF") == "\\u{2028}\\u{feff}");
     CHECK(printable("\xF3\xA0\x80\xA0") == "\\u{e0020}");
     CHECK(printable("\x9B"
-                    "31m\xFF") == "\\x9b31m\\xff");                                    // the same in a single byte
-    CHECK(printable("\xC0\x9B\xE0\x80\x9B\xC3") == "\\xc0\\x9b\\xe0\\x80\\x9b\\xc3");  // too long a form; cut off
+                    "31m\xFF") == "\\x9b31m\\xff");                                    // the same as a single byte
+    CHECK(printable("\xC0\x9B\xE0\x80\x9B\xC3") == "\\xc0\\x9b\\xe0\\x80\\x9b\\xc3");  // overlong forms; cut-off form
     CHECK(printable("\xED\xA0\x80\xF4\x90\x80\x80") == "\\xed\\xa0\\x80\\xf4\\x90\\x80\\x80");
 }
 

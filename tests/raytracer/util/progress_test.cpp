@@ -1,3 +1,4 @@
+// Progress on a terminal, as lines, as JSON and for render farms.
 #include "raytracer/util/progress.hpp"
 
 #include "catch.hpp"
@@ -6,7 +7,7 @@ using namespace deburr;
 
 namespace {
 
-// What a Progress prints under a clock that the test turns.
+// Records what a Progress prints; the test sets its clock.
 struct Screen {
     double now = 100;
     std::vector<std::string> printed;
@@ -42,7 +43,7 @@ TEST_CASE("the bar is monotone, fits the terminal and reaches 100 % only at the 
         CHECK(percent_of(text) >= before);
         before = percent_of(text);
     }
-    CHECK(screen.printed.size() > 400);  // ten times a second
+    CHECK(screen.printed.size() > 400);  // ten per second
     CHECK(screen.printed.size() < 510);
     CHECK(before == 99);
     progress.finish();

@@ -1,3 +1,4 @@
+// Files that are written whole or not at all.
 #include "raytracer/util/whole_file.hpp"
 
 #include <fcntl.h>
@@ -98,7 +99,7 @@ TEST_CASE("files that belong together appear together, or none of them does") {
         CHECK(read_file(folder / "a") == "one");
         CHECK(folder.names() == Names{"a", "b"});
     }
-    // The first of them is complete when the second becomes too large.
+    // The first file is complete when the second exceeds the limit of size.
     rlimit before{};
     REQUIRE(getrlimit(RLIMIT_FSIZE, &before) == 0);
     const auto handler = signal(SIGXFSZ, SIG_IGN);
@@ -120,7 +121,8 @@ TEST_CASE("a full device is an error") {
 
 TEST_CASE("the hidden file of a run that was killed is removed by the next, another's is not") {
     const Folder folder;
-    // The owner of the first is gone; this process holds the second, and the others are no hidden files of ours.
+    // The owner of the first file has ended; this process holds the second; the others are not hidden files of the
+    // program's.
     write_file(folder / ".deburr-99999999-0.tmp", "half");
     write_file(folder / ".deburr-1-0.tmp", "in work");
     write_file(folder / ".deburr-notes.tmp", "kept");

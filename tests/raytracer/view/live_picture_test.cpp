@@ -1,3 +1,4 @@
+// LivePicture: previews are cut short when the camera moves.
 #include "raytracer/view/live_picture.hpp"
 
 #include "catch.hpp"
@@ -5,7 +6,7 @@
 
 using namespace deburr;
 
-// The picture is so large that its sharp preview takes much longer than all else, on any machine.
+// The picture is so large that its sharp preview takes much longer than anything else, on any machine.
 TEST_CASE("a camera that moves cuts the sharp preview and the samples of the last one short") {
     const std::string text =
         "return { image = { width = 1200, height = 900 }, camera = { eye = {3, 2, 4}, target = {0, 0, 0}, fov = 40 }, "
@@ -34,14 +35,14 @@ TEST_CASE("a camera that moves cuts the sharp preview and the samples of the las
     const Clock::time_point coarse = Clock::now();
     while (next()->width < 1200) {
     }
-    const auto sharp = Clock::now() - coarse;  // with the wait for calm before it
-    // Where the machine was quicker this time, the sharp one is done before the camera moves: then once more.
+    const auto sharp = Clock::now() - coarse;  // includes the pause before it
+    // If the machine is faster this time and the sharp preview ends before the camera moves, the test tries again.
     bool is_cut = false;
     for (int i = 0; i < 30 && !is_cut; ++i) {
         move();
         while (next()->width == 1200) {
         }
-        std::this_thread::sleep_for(sharp / 2);  // the sharp one is under way
+        std::this_thread::sleep_for(sharp / 2);  // the sharp preview is under way
         move();
         is_cut = next()->width < 1200;
     }

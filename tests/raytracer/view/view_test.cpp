@@ -1,4 +1,4 @@
-// `deburr view` as a browser uses it: over HTTP, while its file is edited.
+// `deburr view` as a browser uses it, over HTTP, while its file is edited.
 #include <httplib.h>
 #include <signal.h>
 #include <zlib.h>
@@ -19,7 +19,7 @@ struct Frame {
     std::string rgba;
 };
 
-// The program with a page open.
+// A running `deburr view` and a client that plays its page.
 struct Page : Folder {
     std::string scene = *this / "cube.lua";
     std::unique_ptr<Call> call;
@@ -31,7 +31,7 @@ struct Page : Folder {
         write_file(scene, cube_scene());
         begin(more);
     }
-    // Of another file, which the program openscad in its folder reads.
+    // Shows another file, which a script in the place of openscad reads.
     Page(const std::string& name, const std::string& text, const std::string& openscad) {
         scene = *this / name;
         write_file(scene, text);
@@ -63,7 +63,7 @@ struct Page : Folder {
         const auto answer = client->Post((root + path).c_str(), body, "application/json");
         return answer ? answer->status : -1;
     }
-    // The first frame from now on of which this is true.
+    // The first frame from now on for which test(frame) is true.
     template <class Test>
     Frame frame(Test test) {
         for (int i = 0; i < 2000; ++i) {
@@ -93,7 +93,7 @@ struct Page : Folder {
 
 TEST_CASE("a camera that moves is answered by a picture before its samples") {
     Page page({"--spp", "20"});
-    // A page that asks late sees only what came last; of many pictures one is seen at its beginning.
+    // A late request gets only the latest frame; of many pictures at least one is seen at its beginning.
     bool coarse = false;
     for (int i = 0; i < 100 && !coarse; ++i) {
         coarse = page.frame([](const Frame&) { return true; }).head["samples"] == 0;
@@ -129,7 +129,7 @@ TEST_CASE("only who knows the token, by this host's name, gets anything") {
     REQUIRE(html);
     CHECK(html->status == 200);
     CHECK(html->body.find("<!doctype html>") == 0);
-    CHECK(html->body.find("http://") == std::string::npos);  // nothing comes from elsewhere
+    CHECK(html->body.find("http://") == std::string::npos);  // nothing is loaded from elsewhere
     CHECK(html->body.find("https://") == std::string::npos);
     for (const char* header : {"Content-Security-Policy", "X-Content-Type-Options", "Referrer-Policy"})
         CHECK(html->has_header(header));
@@ -161,7 +161,7 @@ TEST_CASE("the camera, parameters and the place that is clicked are answered") {
     REQUIRE(page.post("parameters", R"({"r": "0.3"})") == 200);
     const Frame rounder = page.frame(
         [&](const Frame& f) { return f.head["finished"] == true && f.head["scene"] != before.head["scene"]; });
-    CHECK(rounder.rgba != moved.rgba);  // and the camera is kept
+    CHECK(rounder.rgba != moved.rgba);  // the camera is kept, too
     REQUIRE(page.post("camera", "null") == 200);
     const json hit = json::parse(page.get("pick?x=30&y=20")->body);
     CHECK(hit["solid"] == "solid 1");
@@ -199,7 +199,7 @@ TEST_CASE("a file that is edited, broken, mended, replaced, deleted and there ag
     CHECK(broken.rgba == first.rgba);  // the last picture stays
     std::string other = cube_scene();
     other.replace(other.find("0.1"), 3, "0.4");
-    write_file(page / "new", other);  // as editors do
+    write_file(page / "new", other);  // as editors write files
     std::filesystem::rename(page / "new", page.scene);
     const Frame mended = page.finished();
     CHECK(mended.head["scene"] > scene);
@@ -225,7 +225,7 @@ TEST_CASE("two pages see the same, and closing them ends nothing") {
     CHECK(taken.err.find("the port is taken") != std::string::npos);
 }
 
-// Stands for OpenSCAD: of cube(N); it makes a tetrahedron of that size, of all else an error.
+// A script in the place of OpenSCAD: for `cube(N);` it makes a tetrahedron of size N, for all else an error.
 constexpr const char* openscad_for_tests = R"(#!/bin/sh
 s=$(sed -n 's/^cube(\([0-9]*\));$/\1/p' "$3")
 if [ -z "$s" ]; then echo "ERROR: Parser error: syntax error in file $3, line 1" >&2; exit 1; fi
