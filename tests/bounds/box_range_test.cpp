@@ -22,7 +22,7 @@ Box random_box(Gen& g, Vec3 at) {
     return box;
 }
 
-// A random point of the box, on its sides and corners as often as inside; infinite sides are cut at ±9.
+// A random point of the box, mostly on its sides, edges and corners; infinite sides are cut at ±9.
 Vec3 point_in(const Box& box, Gen& g) {
     Vec3 x;
     for (int k = 0; k < 3; ++k) {

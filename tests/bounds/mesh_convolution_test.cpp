@@ -241,8 +241,9 @@ TEST_CASE("ranges over boxes hold the share and its rate, and what is pruned to 
 }
 
 TEST_CASE("what is pruned to a box tells inside from outside where none of its triangles is near") {
-    // The box reaches from the middle of a cavity through its wall to where the outer face is near. The outer face is
-    // nearer to the cavity's middle than that wall is, and part of the wall is farther than the radius from the box.
+    // The box reaches from the middle of a cavity through its far wall to where the outer face is near. The outer face
+    // is nearer to the cavity's middle than that wall is, but the cavity's side between the two is farther from the box
+    // than the radius.
     Shape shell = Shape::prism({{-5, -5}, {10, -5}, {10, 0.4}, {-5, 4.4}}, {{0, 1, 2}, {0, 2, 3}}, -5, 5);
     const Shape cavity = Shape::box({-2, -2, -3}, {4, 1.5, 3});
     const int before = int(shell.vertices.size());

@@ -148,7 +148,8 @@ const tests = {
     await page.keyboard.press('0');
     await shows(page, first);
 
-    // The page shows the mesh's edges, changes a parameter, copies the camera as Lua, and saves files.
+    // The page shows the mesh's edges, changes a parameter, copies the camera as Lua, and serves the STL that mesh
+    // makes.
     let count = await painted(page);
     await page.click('#wires');
     await picture_after(page, count);

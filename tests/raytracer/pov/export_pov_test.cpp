@@ -230,7 +230,7 @@ return {
     const int code = std::system(povray.c_str());
     INFO(read_file(folder / "log"));
     REQUIRE(code == 0);
-    // Compares the linear light of the pixels away from silhouettes.
+    // Compares the total linear light of the pixels in the middle of the picture, away from silhouettes.
     const OIIO::ImageBuf ours(folder / "ours.png"), theirs(folder / "theirs.png");
     const auto light = [](const OIIO::ImageBuf& image, int x, int y) {
         return std::pow(double(image.getchannel(x, y, 0, 1)), 2.2);
