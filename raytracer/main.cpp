@@ -1,3 +1,4 @@
+// The entry point of the program deburr.
 #include "figures/command_figures.hpp"
 #include "raytracer/cli/command_line.hpp"
 

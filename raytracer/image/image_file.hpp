@@ -3,12 +3,12 @@
 //   EXR       one part, ZIP. R G B are scene-linear Rec. 709 as the film holds them, background
 //             included; A is the share of samples that hit something. A crop is a data window
 //             inside the whole display window.
-//   8 bit     sRGB. The background is part of the picture, so it is opaque and there is no alpha.
-//             A crop is a picture of the crop's size. A PNG has 16 bits, or alpha, on request.
-//   alpha     on request of films without background: colour has been weighed by alpha, as an EXR
-//             has it, and is divided by it for a PNG.
-//   .hdr      as 8 bit, but scene-linear.
-//   exposure  is for pictures for the screen: scene-linear values are kept as they are.
+//   8 bit     sRGB. The background is part of the picture, which is opaque and has no alpha. A crop
+//             is a picture of the crop's size. A PNG has 16 bits, or alpha, on request.
+//   alpha     For films without background, on request. Their colour is premultiplied by alpha, as
+//             in an EXR, and is divided by it for a PNG.
+//   .hdr      As 8 bit, but scene-linear.
+//   exposure  Applies to pictures for the screen; scene-linear values are kept as they are.
 //
 // Values above 65504, the largest half, are written as 65504, so that filters meet no infinity.
 #pragma once

@@ -1,3 +1,4 @@
+// The module behind raytracer/model/model_module.hpp: all code that calls Assimp.
 #include <assimp/postprocess.h>
 #include <assimp/scene.h>
 

@@ -1,4 +1,4 @@
-// The smallest words of POV-Ray's scene language.
+// Vectors, colours and indentation in POV-Ray's scene language.
 #pragma once
 #include <fmt/format.h>
 
@@ -9,12 +9,12 @@
 namespace deburr {
 
 inline std::string pov_vector(Vec3 v) {
-    v += 0.0;  // −0 is 0
+    v += 0.0;  // turns −0 into 0
     return fmt::format("<{}, {}, {}>", v.x, v.y, v.z);
 }
 inline std::string pov_color(Vec3 c) { return fmt::format("rgb <{}, {}, {}>", c.x, c.y, c.z); }
 
-/// Every line moved in by two spaces.
+/// The text with every line indented by two spaces.
 inline std::string pov_indented(const std::string& text) {
     std::string out = "  ";
     for (const char c : text) {

@@ -136,7 +136,7 @@ struct Scene {
     bool default_light = false;  // whether `lights` holds the default light, which follows the camera
     Background background;
     std::optional<Background>
-        environment;    // what gives light in place of the background, which then only the camera sees
+        environment;    // lights the scene instead of the background, which then only the camera sees
     Vec3 ambient{0.0};  // constant radiance from all around, for diffuse surfaces
     const Background& lighting() const { return environment ? *environment : background; }
 

@@ -1,3 +1,4 @@
+// A ray's crossings of the surface of a LocalSolid, for every form of its leaves.
 #include <algorithm>
 
 #include "raytracer/trace/local_solid.hpp"
