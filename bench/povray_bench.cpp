@@ -21,7 +21,7 @@ void primary_hits(Report& report) {
     Scene scene = scene_of("first");
     scene.solids.pop_back();  // removes the ground
     const ImplicitTracer tracer(scene.solids);
-    const PinholeCamera camera(scene.camera, scene.width, scene.height);
+    const ProjectiveCamera camera(scene.camera, scene.width, scene.height);
     TraceCounters counters;
     std::vector<Ray> rays;
     for (int y = 0; y < scene.height; y += patch)

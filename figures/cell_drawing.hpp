@@ -44,7 +44,7 @@ private:
     std::vector<int> loop_;
     std::vector<std::vector<int>> faces_;
     std::vector<std::vector<Vec3>> walls_;
-    PinholeCamera camera_;
+    ProjectiveCamera camera_;
     Vec3 towards_eye_;
 };
 

@@ -29,7 +29,7 @@ Film wire_picture(const FigureContext& context, const Scene& scene, const Mesh& 
     const MeshTracer tracer(mesh);
     draw_strokes(film,
                  wire_frame(mesh, mesh_edges(mesh, appearance.edges), tracer,
-                            PinholeCamera(scene.camera, width, height), film.window, appearance.mode),
+                            ProjectiveCamera(scene.camera, width, height), film.window, appearance.mode),
                  Vec3(0.02), appearance.line_width);
     return film;
 }

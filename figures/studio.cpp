@@ -53,7 +53,7 @@ Camera framing(const Box& box, Vec3 direction, int width, int height, double fov
     // As near as the projections of the eight corners allow, with a margin; iterated, since perspective changes.
     for (int pass = 0; pass < 16; ++pass) {
         camera.eye = camera.target + distance * away;
-        const PinholeCamera pinhole(camera, width, height);
+        const ProjectiveCamera pinhole(camera, width, height);
         Vec2 lo(1e9), hi(-1e9);
         for (int k = 0; k < 8; ++k) {
             const Vec2 p(pinhole.project(
@@ -93,8 +93,8 @@ Film mesh_picture(const FigureContext& context, const Mesh& mesh, const std::vec
     }
     if (appearance.lines)
         draw_strokes(film,
-                     wire_frame(mesh, mesh_edges(mesh, appearance.edges), tracer, PinholeCamera(camera, width, height),
-                                film.window, appearance.mode),
+                     wire_frame(mesh, mesh_edges(mesh, appearance.edges), tracer,
+                                ProjectiveCamera(camera, width, height), film.window, appearance.mode),
                      appearance.line_color, appearance.line_width);
     return film;
 }

@@ -25,7 +25,7 @@ Film picture(const FigureContext& context, const std::function<double(Vec2)>& f,
     Film film = mesh_picture(context, mesh, {{0.55, 0.66, 0.80}, {0.30, 0.38, 0.50}}, camera, appearance);
     const MeshTracer tracer(mesh);
     const int width = film.width, tall = film.height;
-    const PinholeCamera pinhole(camera, width, tall);
+    const ProjectiveCamera pinhole(camera, width, tall);
     const auto draw = [&](const std::vector<Vec2>& line, const std::function<double(Vec2)>& value, Vec3 color,
                           double thick) {
         std::vector<Vec3> points, normals;

@@ -43,7 +43,7 @@ Film cloud(const FigureContext& context, const Scene& scene, const Mesh& mesh, i
     Film film(width, height, {0, 0, width, height});
     for (Pixel& p : film.pixels) p.color = Vec3(1.0);
     const MeshTracer tracer(mesh);
-    const PinholeCamera camera(scene.camera, width, height);
+    const ProjectiveCamera camera(scene.camera, width, height);
     std::vector<Vec3> normal(mesh.positions.size(), Vec3(0.0));
     for (const Triangle& t : mesh.triangles)
         for (const int v : t.vertex) normal[v] += mesh.area_vector(t);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <stdexcept>
+#include <string>
 
 namespace deburr {
 namespace {
@@ -32,7 +33,8 @@ Bvh8::Bvh8(const Builder& from, int root) {
 std::int32_t Bvh8::collapse(const Builder& from, int root, int depth) {
     const auto part = [&](int i) -> const Builder::Part& { return from.parts_[i]; };
     if (part(root).b < 0) return ~part(root).a;
-    if (depth >= BoxTree::max_depth) throw std::length_error("expected a tree of at most 150 levels");
+    if (depth >= BoxTree::max_depth)
+        throw std::length_error("expected a tree of at most " + std::to_string(BoxTree::max_depth) + " levels");
     std::vector<int> children{part(root).a, part(root).b};
     while (children.size() < BoxNode::width) {
         int largest = -1;

@@ -42,7 +42,7 @@ void build_mesh(const RenderOptions& o, const Frame& frame, RenderWorld& world) 
         std::make_unique<MeshTracer>(o.flat ? flat_shaded(std::move(mesh.mesh)) : std::move(mesh.mesh), mesh.near);
     if (!lines) return;
     const auto edges = mesh_edges(drawn, o.via == "triage" ? EdgeChoice::polygons : EdgeChoice::triangles);
-    const PinholeCamera camera(world.scene.camera, frame.size.width, frame.size.height);
+    const ProjectiveCamera camera(world.scene.camera, frame.size.width, frame.size.height);
     world.strokes = wire_frame(drawn, edges, *world.tracer, camera, frame.window,
                                o.wire == "front" ? WireMode::front : WireMode::visible);
 }

@@ -44,7 +44,7 @@ struct Line3 {
 };
 
 // Clips the line to what is in front of the camera; false if nothing is.
-bool clip(Line3& line, const PinholeCamera& camera) {
+bool clip(Line3& line, const ProjectiveCamera& camera) {
     // A fraction of the line's length; a nearer point would be projected too far away to be represented.
     const double near = 1e-4 * glm::length(line.b - line.a);
     const double za = glm::dot(line.a - camera.eye(), camera.forward());
@@ -81,7 +81,7 @@ bool clip(Vec2 p, Vec2 q, const Window& window, double& t0, double& t1) {
 }
 
 // Whether the point x of a surface is visible.
-bool seen(Vec3 x, Vec3 normal, const RayTracer& hiding, const PinholeCamera& camera) {
+bool seen(Vec3 x, Vec3 normal, const RayTracer& hiding, const ProjectiveCamera& camera) {
     const Vec3 back = camera.to_eye(x);
     const double distance = glm::length(back);
     const Vec3 start = x + (normal + glm::normalize(back)) * std::min(max_lift * distance, camera.pixel(distance));
@@ -92,7 +92,7 @@ bool seen(Vec3 x, Vec3 normal, const RayTracer& hiding, const PinholeCamera& cam
 }
 
 // Appends the visible parts of one line.
-void add_visible(Line3 line, const RayTracer* hiding, const PinholeCamera& camera, const Window& window,
+void add_visible(Line3 line, const RayTracer* hiding, const ProjectiveCamera& camera, const Window& window,
                  std::vector<Stroke>& out) {
     if (!clip(line, camera)) return;
     const Vec3 p = camera.project(line.a), q = camera.project(line.b);
@@ -121,8 +121,8 @@ void add_visible(Line3 line, const RayTracer* hiding, const PinholeCamera& camer
 }
 
 template <class LineOf>
-std::vector<Stroke> strokes_of(std::size_t lines, LineOf line_of, const RayTracer* hiding, const PinholeCamera& camera,
-                               const Window& window) {
+std::vector<Stroke> strokes_of(std::size_t lines, LineOf line_of, const RayTracer* hiding,
+                               const ProjectiveCamera& camera, const Window& window) {
     std::vector<std::vector<Stroke>> parts(lines);  // in the lines' order, whichever thread computes them
     tbb::parallel_for(std::size_t(0), lines, [&](std::size_t i) {
         Line3 line;
@@ -160,7 +160,7 @@ std::vector<MeshEdge> mesh_edges(const Mesh& mesh, EdgeChoice choice) {
 }
 
 std::vector<Stroke> wire_frame(const Mesh& mesh, const std::vector<MeshEdge>& edges, const RayTracer& hiding,
-                               const PinholeCamera& camera, const Window& window, WireMode mode) {
+                               const ProjectiveCamera& camera, const Window& window, WireMode mode) {
     const auto line_of = [&](std::size_t i, Line3& line) {
         const MeshEdge& e = edges[i];
         line.a = mesh.positions[e.a];
@@ -183,7 +183,7 @@ std::vector<Stroke> wire_frame(const Mesh& mesh, const std::vector<MeshEdge>& ed
 }
 
 std::vector<Stroke> visible_line(const std::vector<Vec3>& points, const std::vector<Vec3>& normals,
-                                 const RayTracer& hiding, const PinholeCamera& camera, const Window& window) {
+                                 const RayTracer& hiding, const ProjectiveCamera& camera, const Window& window) {
     const auto line_of = [&](std::size_t i, Line3& line) {
         line = {points[i], points[i + 1], normals[i], normals[i + 1]};
         return true;

@@ -33,7 +33,7 @@ enum class WireMode {
     front,    // all edges of polygons that face the camera, even where hidden
 };
 
-/// A straight line in a picture, in pixels (see PinholeCamera).
+/// A straight line in a picture, in pixels (see ProjectiveCamera).
 struct Stroke {
     Vec2 from, to;
 };
@@ -41,12 +41,12 @@ struct Stroke {
 /// The visible parts of edges in and around a window of the camera's picture. `hiding` traces the surfaces that hide
 /// edges, among them the mesh.
 std::vector<Stroke> wire_frame(const Mesh& mesh, const std::vector<MeshEdge>& edges, const RayTracer& hiding,
-                               const PinholeCamera& camera, const Window& window, WireMode mode);
+                               const ProjectiveCamera& camera, const Window& window, WireMode mode);
 
 /// The visible parts of a polyline that lies on surfaces; normals[i] is the surface's normal at points[i]. A point is
 /// visible if nothing hides it after it is lifted a little along its normal and towards the eye.
 std::vector<Stroke> visible_line(const std::vector<Vec3>& points, const std::vector<Vec3>& normals,
-                                 const RayTracer& hiding, const PinholeCamera& camera, const Window& window);
+                                 const RayTracer& hiding, const ProjectiveCamera& camera, const Window& window);
 
 /// Draws strokes over the film, weighing each pixel by the share that the lines cover. `line_width` is in pixels,
 /// `color` linear. With `alpha` lines also make pixels opaque; otherwise alpha stays that of the solids.

@@ -86,7 +86,7 @@ std::string pov_settings(const Scene& scene, bool radiosity) {
 
 std::string pov_camera(const Camera& camera, Size size) {
     // Computed from rays through three of the picture's corners, scaled to a common depth.
-    const PinholeCamera pinhole(camera, size.width, size.height);
+    const ProjectiveCamera pinhole(camera, size.width, size.height);
     const auto at = [&](double x, double y) {
         const Ray ray = pinhole.ray(x, y);
         if (camera.orthographic) return ray.origin;

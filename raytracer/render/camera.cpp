@@ -26,7 +26,7 @@ Vec3 rightwards(Vec3 forward, Vec3 up) {
 
 }  // namespace
 
-PinholeCamera::PinholeCamera(const Camera& camera, int width, int height)
+ProjectiveCamera::ProjectiveCamera(const Camera& camera, int width, int height)
     : orthographic_(camera.orthographic),
       eye_(camera.eye),
       forward_(unit_or(camera.target - camera.eye, {0, 0, -1})),
@@ -53,7 +53,7 @@ static Vec2 disc(Vec2 u) {
     return r * Vec2(std::cos(phi), std::sin(phi));
 }
 
-Ray PinholeCamera::ray(double x, double y, Vec2 u) const {
+Ray ProjectiveCamera::ray(double x, double y, Vec2 u) const {
     const Vec3 on_picture = corner_ + x * dx_ + y * dy_;
     const Vec3 center = orthographic_ ? eye_ + (on_picture - forward_) : eye_;
     const Vec3 in_focus = center + focus_ * (orthographic_ ? forward_ : on_picture);
@@ -62,14 +62,14 @@ Ray PinholeCamera::ray(double x, double y, Vec2 u) const {
     return {origin, glm::normalize(in_focus - origin)};
 }
 
-Vec3 PinholeCamera::project(Vec3 point) const {
+Vec3 ProjectiveCamera::project(Vec3 point) const {
     const Vec3 d = point - eye_;
     const double z = glm::dot(d, forward_);
     const Vec3 on_picture = orthographic_ ? d - z * forward_ + forward_ - corner_ : d / z - corner_;
     return {glm::dot(on_picture, dx_) / glm::dot(dx_, dx_), glm::dot(on_picture, dy_) / glm::dot(dy_, dy_), z};
 }
 
-Vec3 PinholeCamera::to_eye(Vec3 point) const {
+Vec3 ProjectiveCamera::to_eye(Vec3 point) const {
     return orthographic_ ? -glm::dot(point - eye_, forward_) * forward_ : eye_ - point;
 }
 

@@ -6,10 +6,10 @@
 
 namespace deburr {
 
-/// A camera for a picture of a given size; with a lens in spite of its name, if lens_radius is set.
-class PinholeCamera {
+/// A camera for a picture of a given size: perspective or orthographic, a pinhole or, if lens_radius is set, a lens.
+class ProjectiveCamera {
 public:
-    PinholeCamera(const Camera& camera, int width, int height);
+    ProjectiveCamera(const Camera& camera, int width, int height);
     /// The ray through the point (x, y) of the picture, in pixels: (x + ½, y + ½) is the center of pixel (x, y).
     Ray ray(double x, double y) const {
         const Vec3 on_picture = corner_ + x * dx_ + y * dy_;

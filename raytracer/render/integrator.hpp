@@ -102,7 +102,7 @@ private:
     const Scene& scene_;
     const RayTracer& tracer_;
     RenderSettings settings_;
-    PinholeCamera camera_;
+    ProjectiveCamera camera_;
     std::vector<SurfaceLayer> layers_;  // by material
     std::vector<LightSource> lights_;
     SkyLight seen_, sky_;                          // background as the camera sees it; as lights all else

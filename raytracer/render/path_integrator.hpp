@@ -41,7 +41,7 @@ private:
     const Scene& scene_;
     const RayTracer& tracer_;
     RenderSettings settings_;
-    PinholeCamera camera_;
+    ProjectiveCamera camera_;
     AlbedoTables tables_;
     // Indexed by blur (path_blur.hpp), then by level; a material's levels begin at first_levels_.
     std::vector<std::vector<ScatteringMaterial>> materials_;

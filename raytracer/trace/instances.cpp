@@ -251,11 +251,11 @@ private:
     }
 
     // The union of these operands. It is kept in sums_, since canonical_ refers to it.
-    const Solid& sum(const Placements& all, const std::vector<int>& members) {
+    Solid sum(const Placements& all, const std::vector<int>& members) {
         Solid to = solid_of(all[members[0]]);
         for (std::size_t k = 1; k < members.size(); ++k) to = to | solid_of(all[members[k]]);
         sums_.push_back(to);
-        return sums_.back();
+        return to;
     }
 
     void put(int prototype, Group& group, const Solid& solid, int number) {

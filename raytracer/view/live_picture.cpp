@@ -120,7 +120,7 @@ std::optional<PickedSurface> LivePicture::pick(double x, double y) const {
         world = world_;
     }
     if (!world) return std::nullopt;
-    const PinholeCamera camera(world->scene.camera, world->scene.width, world->scene.height);
+    const ProjectiveCamera camera(world->scene.camera, world->scene.width, world->scene.height);
     TraceCounters counters;
     const Hit hit = world->tracer->closest_hit(camera.ray(x, y), infinity, counters);
     if (!hit) return std::nullopt;
@@ -141,7 +141,7 @@ void LivePicture::publish(const Film& film, const World& world, int samples, int
     Film with_wires;
     if (world.wires && film.window.width == world.scene.width) {
         with_wires = film;
-        const PinholeCamera camera(world.scene.camera, film.width, film.height);
+        const ProjectiveCamera camera(world.scene.camera, film.width, film.height);
         draw_strokes(with_wires,
                      wire_frame(world.wires->mesh, mesh_edges(world.wires->mesh, EdgeChoice::polygons),
                                 *world.wire_tracer, camera, film.window, WireMode::visible),

@@ -231,7 +231,7 @@ TEST_CASE("many planes in one ball: the parts of a union of many-sided pieces ad
     }
 }
 
-TEST_CASE("many planes in one ball: the time grows with the square of their number") {
+TEST_CASE("240 planes in one ball take no walk along the chords of all of them") {
     const auto seconds_at = [](int count) {
         const DensityTree tree = flatten_convolved(many_sided(count), 1);
         const std::clock_t begin = std::clock();

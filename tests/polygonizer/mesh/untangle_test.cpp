@@ -84,7 +84,7 @@ TEST_CASE("a vertex that was pulled over its neighbours is untangled, and the me
     CHECK(tangled == 4);
 }
 
-TEST_CASE("what could be untangled only farther from the surface than allowed stays as it is", "[slow]") {
+TEST_CASE("what could be untangled only farther from the surface than allowed stays tangled", "[slow]") {
     const SolidTree solid = flatten(Solid::sharp(Density::box(Vec3(0.0), Vec3(1.0))));
     Mesh mesh = cube();
     // The points of the middle of the top are pushed through the bottom.

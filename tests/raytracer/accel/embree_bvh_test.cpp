@@ -71,7 +71,7 @@ TEST_CASE("the scenes: camera rays, shadow rays and reflections hit the same to 
         CAPTURE(file.path().string());
         const Scene scene = read_scene(file.path());
         Roads roads(scene.solids);
-        const PinholeCamera camera(scene.camera, 60, 40);
+        const ProjectiveCamera camera(scene.camera, 60, 40);
         for (int y = 0; y < 40; ++y)
             for (int x = 0; x < 60; ++x)
                 roads.follow(camera.ray(x + 0.5, y + 0.5), infinity, scene.camera.eye + Vec3(1, 5, -2));

@@ -34,7 +34,7 @@ TEST_CASE("worldToNDC sends what a pixel sees to the pixel's place in the window
         Camera given = camera();
         given.orthographic = kind % 2 == 1;
         if (kind >= 2) given.shift = {0.2, -0.4, 0};
-        const PinholeCamera pinhole(given, width, height);
+        const ProjectiveCamera pinhole(given, width, height);
         const Matrix44 ndc = world_to_ndc(given, width, height);
         for (const double px : {0.0, 100.5, 320.0, 640.0})
             for (const double py : {0.0, 17.5, 180.0, 360.0})
@@ -49,7 +49,7 @@ TEST_CASE("worldToNDC sends what a pixel sees to the pixel's place in the window
 }
 
 TEST_CASE("worldToCamera looks along +z, with x right and y up") {
-    const PinholeCamera pinhole(camera(), 640, 360);
+    const ProjectiveCamera pinhole(camera(), 640, 360);
     const Matrix44 m = world_to_camera(camera());
     const auto at = [&](double px, double py) {
         const Ray ray = pinhole.ray(px, py);

@@ -27,14 +27,14 @@ constexpr int width = 400, height = 300;
 
 std::vector<Stroke> strokes_of(const Mesh& mesh, WireMode mode, Camera camera) {
     return wire_frame(mesh, mesh_edges(mesh, EdgeChoice::polygons), MeshTracer(mesh),
-                      PinholeCamera(camera, width, height), {0, 0, width, height}, mode);
+                      ProjectiveCamera(camera, width, height), {0, 0, width, height}, mode);
 }
 
 }  // namespace
 
 TEST_CASE("A point is seen where the ray through it starts") {
-    const PinholeCamera camera({.eye = {3, 2, 5}, .target = {0.2, 0.1, -1}, .up = {0.1, 1, 0}, .fov = 35}, width,
-                               height);
+    const ProjectiveCamera camera({.eye = {3, 2, 5}, .target = {0.2, 0.1, -1}, .up = {0.1, 1, 0}, .fov = 35}, width,
+                                  height);
     for (const Vec2 at : {Vec2(0.5, 0.5), Vec2(200, 150), Vec2(399, 12)}) {
         const Ray ray = camera.ray(at.x, at.y);
         const Vec3 seen = camera.project(ray.origin + 7.0 * ray.direction);
@@ -53,7 +53,7 @@ TEST_CASE("A box has 12 edges of polygons and 18 of triangles") {
 TEST_CASE("Of a box seen from a corner's side nine edges are seen, and all of their length") {
     const Mesh mesh = mesh_of(Density::box({0, 0, 0}, {1, 1, 1}), 0);
     const Camera camera{.eye = {4, 3, 5}, .target = {0.5, 0.5, 0.5}, .fov = 25};
-    const PinholeCamera pinhole(camera, width, height);
+    const ProjectiveCamera pinhole(camera, width, height);
     double expected = 0;
     int seen = 0;
     for (const MeshEdge& e : mesh_edges(mesh, EdgeChoice::polygons)) {
@@ -123,7 +123,7 @@ TEST_CASE("The lines of crops are those of the whole picture, to the bit, and co
     const auto edges = mesh_edges(mesh, EdgeChoice::polygons);
     const MeshTracer tracer(mesh);
     const auto lines_of = [&](const Window& window, WireMode mode, int scale) {
-        const PinholeCamera pinhole(camera, scale * width, scale * height);
+        const ProjectiveCamera pinhole(camera, scale * width, scale * height);
         return wire_frame(mesh, edges, tracer, pinhole, window, mode);
     };
     const auto picture = [&](const Window& window, WireMode mode) {

@@ -70,25 +70,31 @@ std::vector<bool> covered(const std::string& png) {
 }
 
 // Renders the solid by Deburr and by POV-Ray; returns the number of pixels that only one of them covers, divided by the
-// number that Deburr covers.
-double mismatch(const std::string& solid, const std::vector<std::string>& options = {}) {
+// number that Deburr covers. POV-Ray gets what export-pov makes of `exported` with the options; of the solid where it
+// is empty.
+double mismatch(const std::string& solid, const std::vector<std::string>& options = {},
+                const std::string& exported = {}) {
     const Folder folder;
-    write_file(folder / "s.lua", R"(
+    const auto write_scene = [&](const char* name, const std::string& text) {
+        write_file(folder / name, R"(
 local pit = box({0.25, 0.8, 0.25}, {0.75, 1.8, 0.75})
 return {
   image = { width = 160, height = 120 },
   camera = { eye = {1.9, 2.8, 3}, target = {0.5, 0.5, 0.5}, up = {0.1, 1, 0}, fov = 28 },
   lights = { point_light{ position = {4, 6, 3}, power = 400 } },
   background = {0, 1, 0},
-  solids = { (()" + solid + R"()):material(matte{ color = {1, 0, 0} }) },
+  solids = { (()" + text + R"()):material(matte{ color = {1, 0, 0} }) },
 })");
+    };
+    write_scene("s.lua", solid);
+    write_scene("exported.lua", exported.empty() ? solid : exported);
     const auto call = [&](std::vector<std::string> words) {
         const Outcome outcome = run(words);
         INFO(outcome.err);
         REQUIRE(outcome.code == 0);
     };
     call({"render", folder / "s.lua", "-q", "--spp", "1", "-o", folder / "ours.png"});
-    std::vector<std::string> words{"export-pov", folder / "s.lua", "-q", "-o", folder / "s.pov"};
+    std::vector<std::string> words{"export-pov", folder / "exported.lua", "-q", "-o", folder / "s.pov"};
     words.insert(words.end(), options.begin(), options.end());
     call(words);
     const std::string povray =
@@ -257,7 +263,9 @@ TEST_CASE("export-pov --sharp is the scene with every radius 0") {
     CHECK(text.find("isosurface") == std::string::npos);
     // The clip is the cube's own top; without it no two faces coincide.
     CHECK(text.find("box { <0.25, 0.8, 0.25>, <0.75, 1.8, 0.75> }") != std::string::npos);
-    CHECK(mismatch("rounded(0, cube() - halfspace({0, 1, 0}, 1) * pit)") < 0.005);
+    const std::string solid = "cube() - halfspace({0, 1, 0}, 1) * pit)";
+    CHECK(mismatch("rounded(0, " + solid, {"--sharp"}, "rounded(0.2, " + solid) < 0.005);
+    CHECK(mismatch("rounded(0.2, " + solid, {"--sharp"}) > 0.005);
 }
 
 TEST_CASE("export-pov refuses what it cannot do, and writes nothing") {

@@ -256,7 +256,7 @@ TEST_CASE("A point is projected to where its ray begins, with every projection a
             Camera camera{{3, 2, 4}, {0.5, 0, 0}, {0, 1, 0}, 35};
             camera.orthographic = orthographic;
             camera.shift = shift;
-            const PinholeCamera view(camera, 120, 80);
+            const ProjectiveCamera view(camera, 120, 80);
             for (const Vec2 at : {Vec2(0.5, 0.5), Vec2(60, 40), Vec2(100, 7)}) {
                 const Ray ray = view.ray(at.x, at.y);
                 const Vec3 seen = view.project(ray.origin + 3.0 * ray.direction);
@@ -323,7 +323,7 @@ TEST_CASE("A Cornell box has the light of plain paths", "[slow]") {
     const Cornell box;
     const AnalyticTracer tracer(box.walls);
     const int side = 4, plain_paths = 1 << 18, spp = 1 << 15;
-    const PinholeCamera camera(box.scene.camera, side, side);
+    const ProjectiveCamera camera(box.scene.camera, side, side);
     RenderSettings settings{side, side, spp, 5};
     const Integrator integrator(box.scene, tracer, settings);
     Vec3 plain(0.0), found(0.0);

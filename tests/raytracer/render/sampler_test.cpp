@@ -119,7 +119,7 @@ TEST_CASE("The filter has unit area, is positive, and offsets are distributed li
 
 TEST_CASE("The camera's conventions: centres, up, right, field of view") {
     const Camera camera{{1, 2, 3}, {1, 2, -7}, {0, 1, 0}, 60};
-    const PinholeCamera pinhole(camera, 400, 200);
+    const ProjectiveCamera pinhole(camera, 400, 200);
     CHECK(close(pinhole.forward(), {0, 0, -1}, 0));
     CHECK(close(pinhole.ray(200, 100).direction, {0, 0, -1}, 1e-15));
     CHECK(pinhole.ray(200, 100).origin == camera.eye);
@@ -138,7 +138,7 @@ TEST_CASE("A camera without a view or an up still has rays") {
     for (const Camera& camera :
          {Camera{{0, 0, 0}, {0, 0, 0}, {0, 1, 0}, 40}, Camera{{0, 5, 0}, {0, 0, 0}, {0, 1, 0}, 40},
           Camera{{0, 0, 0}, {0, 0, -1}, {0, 0, 0}, 40}, Camera{{0, 0, 0}, {1, 1, 1}, {1, 1, 1}, 40}}) {
-        const PinholeCamera pinhole(camera, 10, 10);
+        const ProjectiveCamera pinhole(camera, 10, 10);
         const Vec3 a = pinhole.ray(0, 0).direction, b = pinhole.ray(10, 10).direction;
         CHECK(glm::length(a) == Approx(1));
         CHECK(glm::dot(a, pinhole.forward()) == Approx(glm::dot(b, pinhole.forward())));

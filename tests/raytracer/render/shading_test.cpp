@@ -194,7 +194,7 @@ TEST_CASE("Layers are those of the ray through the pixel's centre at any number 
     const Zoo zoo;
     const AnalyticTracer tracer(zoo.shapes);
     const int width = 24, height = 16;
-    const PinholeCamera camera(zoo.scene.camera, width, height);
+    const ProjectiveCamera camera(zoo.scene.camera, width, height);
     int hits = 0;
     for (int spp : {1, 4}) {
         const Integrator integrator(zoo.scene, tracer, {width, height, spp, 0});

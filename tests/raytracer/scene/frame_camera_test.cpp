@@ -28,7 +28,7 @@ Scene framed(const std::string& solids, const std::string& camera = "") {
 
 // The box of the points' projections: pixels in x and y, depths in z.
 Box seen(const Camera& camera, const std::vector<Vec3>& points, int w = width, int h = height) {
-    const PinholeCamera view(camera, w, h);
+    const ProjectiveCamera view(camera, w, h);
     Box box;
     for (const Vec3 p : points) {
         const Vec3 at = view.project(p);

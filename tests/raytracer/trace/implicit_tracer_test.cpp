@@ -27,7 +27,7 @@ Agreement compare(const std::vector<Solid>& solids, const Camera& camera, int co
     const ImplicitTracer tracer(solids);
     std::vector<SolidTree> trees;
     for (const Solid& s : solids) trees.push_back(flatten(s));
-    const PinholeCamera pinhole(camera, columns, rows);
+    const ProjectiveCamera pinhole(camera, columns, rows);
     Agreement a;
     for (int y = 0; y < rows; ++y)
         for (int x = 0; x < columns; ++x) {

@@ -60,7 +60,7 @@ TEST_CASE("rays that are traced together hit what they hit alone, to the bit: pi
         const Scene scene = scene_of(name);
         const ImplicitTracer tracer(scene.solids);
         const int width = 97, height = 61;
-        const PinholeCamera camera(scene.camera, width, height);
+        const ProjectiveCamera camera(scene.camera, width, height);
         Comparison c;
         Gen g(1);
         const Vec3 light = g.direction();
