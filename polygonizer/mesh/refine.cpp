@@ -24,16 +24,31 @@ public:
           mesh_(mesh),
           good_(good) {
         generation_.resize(facets_.size(), 0);
+        distances_.resize(facets_.size(), unknown_edges);
     }
 
     // Queues the facets of the given mesh that are far from the surface.
     void open_far() {
-        std::vector<char> far(facets_.size(), false);
+        std::vector<char> asked(facets_.size(), false), far(facets_.size(), false);
+        // An edge's distance is found by the one of its facets in which it runs to the greater vertex, and is then
+        // there for the other.
+        judge_in_parallel(judge_, facets_.size(), [&](const FacetJudge& judge, std::size_t first, std::size_t last) {
+            for (std::size_t f = first; f < last; ++f) {
+                if (f % 1024 == 0) throw_if_cancelled(cancel_);
+                asked[f] = facets_.at(int(f)).origin.leaf >= 0 && may_be_far(int(f));
+                const auto& v = facets_.at(int(f)).triangle.vertex;
+                for (std::size_t k = 0; asked[f] && k < 3; ++k)
+                    if (v[k] < v[(k + 1) % 3]) distances_[f][k] = edge_distance(judge, int(f), k);
+            }
+        });
         judge_in_parallel(judge_, facets_.size(), [&](const FacetJudge& judge, std::size_t first, std::size_t last) {
             Edge edges[3];
             for (std::size_t f = first; f < last; ++f) {
                 if (f % 1024 == 0) throw_if_cancelled(cancel_);
-                far[f] = facets_.at(int(f)).origin.leaf >= 0 && is_far(judge, int(f), edges);
+                const auto& v = facets_.at(int(f)).triangle.vertex;
+                for (std::size_t k = 0; asked[f] && k < 3; ++k)
+                    if (v[k] > v[(k + 1) % 3]) distances_[f][k] = edge_distance(judge, int(f), k);
+                far[f] = asked[f] && is_far(judge, int(f), edges);
             }
         });
         for (std::size_t f = 0; f < facets_.size(); ++f)
@@ -48,7 +63,7 @@ public:
             if (++looks % 1024 == 0) throw_if_cancelled(cancel_);
             const int f = open_.front();
             open_.pop_front();
-            if (!facets_.alive(f) || facets_.at(f).origin.leaf < 0 || !is_far(judge_, f, edges_)) continue;
+            if (!facets_.alive(f) || facets_.at(f).origin.leaf < 0 || !learn_far(f)) continue;
             if (generation_[f] >= max_generation || !improve(f)) stuck_.push_back(f);
         }
         std::vector<int> order(facets_.size(), -1), left;
@@ -58,7 +73,7 @@ public:
         // Other facets may have taken the place of some.
         sort_once(stuck_);
         for (const int f : stuck_)
-            if (facets_.alive(f) && is_far(judge_, f, edges_)) left.push_back(order[f]);
+            if (facets_.alive(f) && learn_far(f)) left.push_back(order[f]);
         facets_.finish();
         return left;
     }
@@ -68,6 +83,9 @@ private:
         double distance, curvature;
         std::size_t k;
     };
+
+    static constexpr double unknown = -1;
+    static constexpr std::array<double, 3> unknown_edges{unknown, unknown, unknown};
 
     static double distance(const FacetJudge& judge, Vec3 x) { return std::abs(judge.solid().at(x).distance); }
 
@@ -80,24 +98,53 @@ private:
         return farthest;
     }
 
-    // Whether points of the facet are too far from the surface; then `edges` are its edges, ordered by how much they
-    // need a vertex.
-    bool is_far(const FacetJudge& judge, int f, Edge (&edges)[3]) const {
+    // distance() of edge k of facet f. It is taken from the facet beyond the edge if that knows it, and otherwise
+    // computed from the lesser vertex to the greater, so that both facets get the same bits.
+    double edge_distance(const FacetJudge& judge, int f, std::size_t k) const {
+        const auto& v = facets_.at(f).triangle.vertex;
+        const int a = v[k], b = v[(k + 1) % 3];
+        if (const int other = facets_.across(a, b); other >= 0) {
+            const auto& beyond = facets_.at(other).triangle.vertex;
+            for (std::size_t j = 0; j < 3; ++j)
+                if (beyond[j] == b && beyond[(j + 1) % 3] == a && distances_[other][j] != unknown)
+                    return distances_[other][j];
+        }
+        return distance(judge, facets_.position(std::min(a, b)), facets_.position(std::max(a, b)));
+    }
+
+    // False if the facet was found good, or is so small that it must be near the surface.
+    bool may_be_far(int f) const {
         const Triangle& t = facets_.at(f).triangle;
         if (good_ && good_->has(mesh_, t, facets_.at(f).origin)) return false;
+        Vec3 x[3];
+        for (std::size_t k = 0; k < 3; ++k) x[k] = facets_.position(t.vertex[k]);
+        // A triangle whose vertices are on the surface is nearer to it than its edges are long.
+        const double longest = std::max({glm::length(x[0] - x[1]), glm::length(x[1] - x[2]), glm::length(x[2] - x[0])});
+        return longest > 2 * tolerance_;
+    }
+
+    // Whether the facet may be far and is_far() says so, after finding those of its edges' distances that are unknown.
+    bool learn_far(int f) {
+        if (!may_be_far(f)) return false;
+        for (std::size_t k = 0; k < 3; ++k)
+            if (distances_[f][k] == unknown) distances_[f][k] = edge_distance(judge_, f, k);
+        return is_far(judge_, f, edges_);
+    }
+
+    // Whether points of the facet, whose edges' distances are known, are too far from the surface; then `edges` are its
+    // edges, ordered by how much they need a vertex.
+    bool is_far(const FacetJudge& judge, int f, Edge (&edges)[3]) const {
+        const Triangle& t = facets_.at(f).triangle;
         Vec3 x[3], n[3];
         for (std::size_t k = 0; k < 3; ++k) {
             x[k] = facets_.position(t.vertex[k]);
             n[k] = facets_.normal(t.normal[k]);
         }
-        // A triangle whose vertices are on the surface is nearer to it than its edges are long.
-        const double longest = std::max({glm::length(x[0] - x[1]), glm::length(x[1] - x[2]), glm::length(x[2] - x[0])});
-        if (longest <= 2 * tolerance_) return false;
         double farthest = 0, max_turn = 0;
         std::size_t turns_most = 0;
         for (std::size_t k = 0; k < 3; ++k) {
             const std::size_t l = (k + 1) % 3;
-            const double d = distance(judge, x[k], x[l]), length = glm::length(x[k] - x[l]);
+            const double d = distances_[f][k], length = glm::length(x[k] - x[l]);
             const double turn = glm::length(n[k] - n[l]) * length;
             farthest = std::max(farthest, d);
             edges[k] = {d, d / (length * length), k};
@@ -131,18 +178,35 @@ private:
         for (const int v : facets_.at(other).triangle.vertex)
             if (v != a && v != b) d = v;
         constexpr double much = 0.5;
-        if (distance(judge_, facets_.position(c), facets_.position(d)) >= much * edge.distance) return false;
+        const Vec3 from = facets_.position(c), to = facets_.position(d);
+        for (const double share : {0.5, 0.25, 0.75})
+            if (distance(judge_, from + share * (to - from)) >= much * edge.distance) return false;
         const auto change = facets_.flip(f, edge.k);
         return change && is_better(*change) && apply(*change);
     }
 
     bool apply(const Change& change) {
+        struct KnownEdge {
+            int a, b;
+            double distance;
+        };
+        ShortList<KnownEdge, 6> known;
         int generation = 0;
-        for (const int f : change.out) generation = std::max(generation, generation_[f]);
+        for (const int f : change.out) {
+            generation = std::max(generation, generation_[f]);
+            const auto& v = facets_.at(f).triangle.vertex;
+            for (std::size_t k = 0; k < 3; ++k) known.push_back({v[k], v[(k + 1) % 3], distances_[f][k]});
+        }
         for (const int fresh : facets_.apply(change)) {
             open_.push_back(fresh);
             generation_.resize(std::max(generation_.size(), std::size_t(fresh) + 1));
+            distances_.resize(generation_.size());
             generation_[fresh] = generation + 1;
+            distances_[fresh] = unknown_edges;
+            const auto& v = facets_.at(fresh).triangle.vertex;
+            for (std::size_t k = 0; k < 3; ++k)
+                for (const KnownEdge& e : known)
+                    if (e.a == v[k] && e.b == v[(k + 1) % 3]) distances_[fresh][k] = e.distance;
         }
         return true;
     }
@@ -189,7 +253,8 @@ private:
     const Mesh& mesh_;
     const GoodFacets* good_;
     std::deque<int> open_;
-    std::vector<int> generation_;  // by facet: the number of changes that led to it
+    std::vector<int> generation_;                   // by facet: the number of changes that led to it
+    std::vector<std::array<double, 3>> distances_;  // by facet and edge: distance(), or `unknown`
     std::vector<int> stuck_;
     Edge edges_[3];
 };
