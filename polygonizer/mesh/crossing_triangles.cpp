@@ -1,6 +1,7 @@
 #include "polygonizer/mesh/crossing_triangles.hpp"
 
 #include <algorithm>
+#include <utility>
 
 #include "bounds/in_parallel.hpp"
 
@@ -19,21 +20,17 @@ std::vector<std::pair<int, int>> crossing_triangles(const Mesh& mesh, const Tria
         std::vector<std::pair<int, int>> pairs;
         std::size_t looked = 0;
     };
-    constexpr std::size_t most = 8192;  // triangles that one thread takes at a time
-    std::vector<Found> found((mesh.triangles.size() + most - 1) / most);
-    in_parallel_ranges(mesh.triangles.size(), most, [&](std::size_t begin, std::size_t end) {
+    constexpr std::size_t most = 4096;  // nodes of the tree that one thread takes at a time
+    std::vector<Found> found((tree.nodes() + most - 1) / most);
+    in_parallel_ranges(tree.nodes(), most, [&](std::size_t begin, std::size_t end) {
         Found& own = found[begin / most];
-        for (std::size_t s = begin; s < end; ++s) {
-            if (s % check_interval == 0) throw_if_cancelled(cancel);
-            const std::size_t first = own.pairs.size();
-            tree.visit(tree.box(int(s)), [&](int t) {
-                if (t <= int(s)) return true;
+        for (std::size_t node = begin; node < end; ++node) {
+            if (node % check_interval == 0) throw_if_cancelled(cancel);
+            tree.visit_pairs(node, [&](int s, int t) {
                 ++own.looked;
-                if (triangles_cross(mesh, mesh.triangles[s], mesh.triangles[t], slack))
-                    own.pairs.push_back({int(s), t});
-                return true;
+                if (s > t) std::swap(s, t);
+                if (triangles_cross(mesh, mesh.triangles[s], mesh.triangles[t], slack)) own.pairs.push_back({s, t});
             });
-            std::sort(own.pairs.begin() + std::ptrdiff_t(first), own.pairs.end());
         }
     });
     std::vector<std::pair<int, int>> pairs;
@@ -42,6 +39,7 @@ std::vector<std::pair<int, int>> crossing_triangles(const Mesh& mesh, const Tria
         pairs.insert(pairs.end(), f.pairs.begin(), f.pairs.end());
         looked += f.looked;
     }
+    std::sort(pairs.begin(), pairs.end());
     if (looked_at) *looked_at = looked;
     return pairs;
 }

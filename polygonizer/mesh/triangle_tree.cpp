@@ -1,6 +1,7 @@
 #include "polygonizer/mesh/triangle_tree.hpp"
 
 #include <algorithm>
+#include <ranges>
 
 #include "polygonizer/mesh/exact_orientation.hpp"
 
@@ -33,7 +34,7 @@ TriangleTree::TriangleTree(const Mesh& mesh) : mesh_(mesh) {
 
 void TriangleTree::build(int first, int count) {
     const int at = int(nodes_.size());
-    nodes_.push_back({{}, -1, first, count});
+    nodes_.push_back({{}, at + 1, first, count});
     Box box, middles;
     for (int k = first; k < first + count; ++k) {
         const Box& b = boxes_[order_[k]];
@@ -51,8 +52,8 @@ void TriangleTree::build(int first, int count) {
                          return std::pair{middle(s), s} < std::pair{middle(t), t};
                      });
     build(first, half);
-    nodes_[at].second = int(nodes_.size());
     build(first + half, count - half);
+    nodes_[at].end = int(nodes_.size());
 }
 
 std::optional<int> TriangleTree::winding(Vec3 x) const {
@@ -83,14 +84,10 @@ std::optional<int> TriangleTree::winding(Vec3 x, Vec3 far) const {
     for (std::size_t at = 0; at < nodes_.size();) {
         const Node& n = nodes_[at];
         if (!meets(n.box, x, d)) {
-            // Skips the node's children, which follow it.
-            std::size_t skip = at;
-            while (nodes_[skip].second >= 0) skip = std::size_t(nodes_[skip].second);
-            at = skip + 1;
+            at = std::size_t(n.end);
             continue;
         }
-        ++at;
-        if (n.second >= 0) continue;
+        if (!is_leaf(n, int(at++))) continue;
         for (int k = n.first; k < n.first + n.count; ++k) {
             const int t = order_[k];
             if (!meets(boxes_[t], x, d)) continue;
@@ -118,16 +115,44 @@ int sign(double x, double slack = 0, double unit = 1) { return std::abs(x) <= sl
 
 double twice_area(const TrianglePositions& t) { return glm::length(glm::cross(t[1] - t[0], t[2] - t[0])); }
 
-// Whether the segment passes from one side of the triangle to the other through its interior.
-bool pierces(Vec3 p, Vec3 q, const TrianglePositions& t, double slack) {
-    const double area = twice_area(t), length = glm::distance(p, q);
-    const int from = sign(orientation(t[0], t[1], t[2], p), slack, area);
-    if (from == 0 || from != -sign(orientation(t[0], t[1], t[2], q), slack, area)) return false;
+// Tells on which side of a triangle's plane a point is: −1, 1, or 0 within the slack. Its arithmetic is exact only
+// where rounding could change the answer.
+class Sides {
+public:
+    Sides(const TrianglePositions& plane, double slack) : plane_(plane) {
+        const Vec3 u = plane[1] - plane[0], v = plane[2] - plane[0];
+        normal_ = glm::cross(u, v);
+        least_ = slack * twice_area(plane);
+        // A bound for the rounding of differences, products, and sums of two and three, by the sizes of what is added.
+        constexpr double rounding = 16 * epsilon;
+        rounding_ = rounding * size(u) * size(v);
+    }
+    int of(Vec3 x) const {
+        const Vec3 d = x - plane_[0];
+        const double height = glm::dot(normal_, d), off = rounding_ * size(d);
+        if (std::abs(height) > least_ + off) return height > 0 ? 1 : -1;
+        if (std::abs(height) + off < least_) return 0;
+        return sign(orientation(plane_[0], plane_[1], plane_[2], x), least_);
+    }
+
+private:
+    static double size(Vec3 d) { return std::abs(d.x) + std::abs(d.y) + std::abs(d.z); }
+
+    const TrianglePositions& plane_;
+    Vec3 normal_;
+    double least_, rounding_;
+};
+
+// Whether the segment, whose ends are on these sides of the triangle's plane, passes through the triangle's interior.
+bool pierces(Vec3 p, int side_of_p, Vec3 q, int side_of_q, const TrianglePositions& t, double slack) {
+    if (side_of_p == 0 || side_of_p != -side_of_q) return false;
+    const double length = glm::distance(p, q);
     const auto side = [&](std::size_t k) {
         const Vec3 a = t[k], b = t[(k + 1) % 3];
         return sign(orientation(p, q, a, b), slack, length * glm::distance(a, b));
     };
-    return side(0) != 0 && side(0) == side(1) && side(0) == side(2);
+    const int first = side(0);
+    return first != 0 && first == side(1) && first == side(2);
 }
 
 // Whether two triangles in one plane overlap: no side of either has the other triangle beyond it.
@@ -187,31 +212,33 @@ bool share_a_line(const TrianglePositions& a, const TrianglePositions& b, double
 
 bool triangles_cross(const Mesh& mesh, const Triangle& s, const Triangle& t, double slack) {
     TrianglePositions a, b;
+    std::array<bool, 3> a_shared{}, b_shared{};
     int shared = 0;
     for (std::size_t k = 0; k < 3; ++k) {
         a[k] = mesh.positions[s.vertex[k]];
         b[k] = mesh.positions[t.vertex[k]];
-        for (const int v : t.vertex) shared += v == s.vertex[k];
+        for (std::size_t l = 0; l < 3; ++l) {
+            if (t.vertex[l] != s.vertex[k]) continue;
+            ++shared;
+            a_shared[k] = b_shared[l] = true;
+        }
     }
     // Triangles that share an edge, or of which one does not reach through the other's plane, can only overlap in one
     // plane.
-    const auto reaches_through = [slack](const TrianglePositions& plane, const TrianglePositions& of, bool& flat) {
-        const double area = twice_area(plane);
-        int least = 1, most = -1;
-        for (const Vec3& x : of) {
-            const int side = sign(orientation(plane[0], plane[1], plane[2], x), slack, area);
-            least = std::min(least, side);
-            most = std::max(most, side);
-        }
-        flat = least == 0 && most == 0;
-        return least < 0 && most > 0;
+    const auto reaches_through = [slack](const TrianglePositions& plane, const TrianglePositions& of,
+                                         const std::array<bool, 3>& on_it, std::array<int, 3>& sides) {
+        const Sides sides_of_plane(plane, slack);
+        for (std::size_t k = 0; k < 3; ++k) sides[k] = on_it[k] ? 0 : sides_of_plane.of(of[k]);
+        return std::ranges::min(sides) < 0 && std::ranges::max(sides) > 0;
     };
-    bool flat = false;
-    if (!reaches_through(a, b, flat)) return flat && overlap(a, b, slack);
-    if (shared >= 2 || !reaches_through(b, a, flat)) return false;
+    std::array<int, 3> sides_of_a{}, sides_of_b{};
+    if (!reaches_through(a, b, b_shared, sides_of_b)) return sides_of_b == std::array{0, 0, 0} && overlap(a, b, slack);
+    if (shared >= 2 || !reaches_through(b, a, a_shared, sides_of_a)) return false;
     for (std::size_t k = 0; k < 3; ++k) {
         const std::size_t n = (k + 1) % 3;
-        if (pierces(a[k], a[n], b, slack) || pierces(b[k], b[n], a, slack)) return true;
+        if (pierces(a[k], sides_of_a[k], a[n], sides_of_a[n], b, slack) ||
+            pierces(b[k], sides_of_b[k], b[n], sides_of_b[n], a, slack))
+            return true;
     }
     return shared == 0 && share_a_line(a, b, slack);
 }

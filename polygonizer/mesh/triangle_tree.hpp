@@ -18,15 +18,27 @@ public:
     /// Calls visit(t) for each triangle whose box meets the given one, until visit returns false; then visit() returns
     /// false, too.
     template <class Visit>
-    bool visit(const Box& box, Visit visit, int node = 0) const {
-        if (nodes_.empty() || intersection(nodes_[node].box, box).empty()) return true;
-        const Node& n = nodes_[node];
-        if (n.second >= 0) return this->visit(box, visit, node + 1) && this->visit(box, visit, n.second);
-        for (int k = n.first; k < n.first + n.count; ++k) {
-            const int t = order_[k];
-            if (!intersection(boxes_[t], box).empty() && !visit(t)) return false;
-        }
-        return true;
+    bool visit(const Box& box, Visit visit) const {
+        return visit_nodes(box, 0, [&](const Node& n) {
+            for (int k = n.first; k < n.first + n.count; ++k)
+                if (meet(boxes_[order_[k]], box) && !visit(order_[k])) return false;
+            return true;
+        });
+    }
+
+    /// Nodes of the tree, each of which has pairs of triangles of its own.
+    std::size_t nodes() const { return nodes_.size(); }
+    /// Calls visit(s, t) once for each pair of triangles whose boxes meet, in either order, over all nodes.
+    template <class Visit>
+    void visit_pairs(std::size_t node, Visit visit) const {
+        const Node& own = nodes_[node];
+        if (!is_leaf(own, int(node))) return;
+        visit_nodes(own.box, int(node), [&](const Node& n) {
+            for (int k = own.first; k < own.first + own.count; ++k)
+                for (int l = &n == &own ? k + 1 : n.first; l < n.first + n.count; ++l)
+                    if (meet(boxes_[order_[k]], boxes_[order_[l]])) visit(order_[k], order_[l]);
+            return true;
+        });
     }
 
     /// How often the mesh, which must be closed, winds around x: 1 inside, 0 outside. None if x is on the surface, or
@@ -41,9 +53,28 @@ public:
 private:
     struct Node {
         Box box;
-        int second = -1;           // second child; the first one follows the node; −1: a leaf
+        int end = 0;               // the number after the last of the nodes below, which follow this one
         int first = 0, count = 0;  // range in order_
     };
+    static bool is_leaf(const Node& node, int at) { return node.end == at + 1; }
+    static bool meet(const Box& a, const Box& b) {
+        return a.lo.x <= b.hi.x && b.lo.x <= a.hi.x && a.lo.y <= b.hi.y && b.lo.y <= a.hi.y && a.lo.z <= b.hi.z &&
+               b.lo.z <= a.hi.z;
+    }
+    // Calls visit(leaf) for leaves whose boxes meet the given one, from node `first` on, until that returns false.
+    template <class Visit>
+    bool visit_nodes(const Box& box, int first, Visit visit) const {
+        for (int at = 0; at < int(nodes_.size());) {
+            const Node& n = nodes_[at];
+            if (n.end <= first || !meet(n.box, box)) {
+                at = n.end;
+                continue;
+            }
+            if (is_leaf(n, at) && !visit(n)) return false;
+            ++at;
+        }
+        return true;
+    }
     void build(int first, int count);
     std::optional<int> winding(Vec3 x, Vec3 far) const;
 

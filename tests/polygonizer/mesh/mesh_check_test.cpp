@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "catch.hpp"
+#include "polygonizer/mesh/crossing_triangles.hpp"
 #include "polygonizer/mesh/triangle_tree.hpp"
 #include "polygonizer/triage/triage.hpp"
 #include "random_case.hpp"
@@ -121,6 +122,39 @@ TEST_CASE("Triangles cross where their insides meet, and not where they touch") 
     CHECK(cross(x, {0, 1, 2}, {0, 1, 7}));         // coplanar, folded over the shared edge
     CHECK(cross(x, {0, 1, 2}, {11, 13, 12}));      // coplanar, inside it
     CHECK(cross(x, {0, 1, 2}, {0, 2, 1}));         // the same triangle, reversed
+}
+
+TEST_CASE("Crossing triangles are those of all pairs, each once, in a plane that leans as well") {
+    std::size_t all = 0, in_plane = 0;
+    for (const auto seed : seeds(60)) {
+        CAPTURE(seed);
+        Gen g(seed);
+        const bool flat = g.chance(0.5);
+        const Vec3 u(0.6, 0.48, 0.64), v(-0.8, 0.36, 0.48), w(0, -0.8, 0.6);
+        std::vector<Vec3> positions;
+        for (int k = 0; k < 60; ++k)
+            positions.push_back(g.between(0, 5) * u + g.between(0, 5) * v + (flat ? 0 : g.between(0, 5)) * w);
+        std::vector<std::array<int, 3>> triangles;
+        while (triangles.size() < 80) {
+            const int a = g.below(60), b = g.below(60), c = g.below(60);
+            if (a != b && b != c && c != a) triangles.push_back({a, b, c});
+        }
+        const Mesh mesh = of_triangles(positions, triangles);
+        const TriangleTree tree(mesh);
+        const double slack = touching_slack(tree.box());
+        std::vector<std::pair<int, int>> pairs;
+        std::size_t near = 0, looked = 0;
+        for (int s = 0; s < 80; ++s)
+            for (int t = s + 1; t < 80; ++t) {
+                near += !intersection(tree.box(s), tree.box(t)).empty();
+                if (triangles_cross(mesh, mesh.triangles[s], mesh.triangles[t], slack)) pairs.push_back({s, t});
+            }
+        CHECK(crossing_triangles(mesh, tree, nullptr, &looked) == pairs);
+        CHECK(looked == near);
+        (flat ? in_plane : all) += pairs.size();
+    }
+    CHECK(all > 1'000);
+    CHECK(in_plane > 1'000);
 }
 
 TEST_CASE("Winding numbers tell inside and outside, and edges in the way do not matter") {
