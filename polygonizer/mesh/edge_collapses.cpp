@@ -1,6 +1,7 @@
 #include "polygonizer/mesh/edge_collapses.hpp"
 
 #include <algorithm>
+#include <deque>
 
 #include "polygonizer/mesh/split_on_surface.hpp"
 
@@ -130,7 +131,26 @@ private:
                glm::dot(normal_at(f, v), normal_at(g, v)) < crease;
     }
 
-    Kind kind_of(int v) const {
+    // Kept until a facet around v changes.
+    const Kind& kind_of(int v) {
+        kind_numbers_.resize(std::size_t(facets_.vertices()), -1);
+        int& number = kind_numbers_[v];
+        if (number < 0) {
+            number = int(kinds_.size());
+            kinds_.push_back(find_kind(v));
+            is_kind_known_.push_back(true);
+        } else if (!is_kind_known_[number]) {
+            kinds_[number] = find_kind(v);
+            is_kind_known_[number] = true;
+        }
+        return kinds_[number];
+    }
+
+    void forget_kind(int v) {
+        if (std::size_t(v) < kind_numbers_.size() && kind_numbers_[v] >= 0) is_kind_known_[kind_numbers_[v]] = false;
+    }
+
+    Kind find_kind(int v) const {
         Kind kind;
         const Vec3 x = facets_.position(v);
         kind.fixed = is_on_border(v) || std::any_of(options_.dense.begin(), options_.dense.end(),
@@ -158,7 +178,7 @@ private:
     // Finds the places to which v may go, in order of error; false if v must stay.
     bool find_candidates(int v, double tolerance) {
         candidates_.clear();
-        const Kind kind = kind_of(v);
+        const Kind& kind = kind_of(v);
         if (kind.fixed) return false;
         planes_ = kind.planes.size();
         find_opposite(v, opposite_);
@@ -188,7 +208,7 @@ private:
         // At the edge's middle, beside the surface, the error is not much greater than on the surface.
         c.error = error(opposite_, to, a, c.x);
         if (c.error > 2 * tolerance) return;
-        const Kind other = kind_of(to);
+        const Kind& other = kind_of(to);
         if (other.fixed || other.planes.size() != kind.planes.size() || other.line_ends.size() != kind.line_ends.size())
             return;
         if (!other.line_ends.empty() && other.line_ends[0] != v && other.line_ends[1] != v) return;
@@ -299,7 +319,10 @@ private:
                 flat_normals_.resize(std::max(flat_normals_.size(), std::size_t(f) + 1));
                 flat_normals_[f] = flat_normal(facets_.at(f));
                 changed_.resize(std::size_t(facets_.vertices()), true);
-                for (const int u : facets_.at(f).triangle.vertex) changed_[u] = true;
+                for (const int u : facets_.at(f).triangle.vertex) {
+                    changed_[u] = true;
+                    forget_kind(u);
+                }
             }
             return true;
         }
@@ -372,8 +395,11 @@ private:
     std::vector<Opposite> opposite_, opposite_of_other_;
     std::vector<LeafSurface> pieces_;
     std::size_t planes_ = 0;
-    std::vector<char> changed_;  // vertices whose facets have changed since they were last tried
-    int spare_ = -1;             // a vertex without facets, for the next half-way candidate; −1: none
+    std::vector<char> changed_;        // vertices whose facets have changed since they were last tried
+    int spare_ = -1;                   // a vertex without facets, for the next half-way candidate; −1: none
+    std::deque<Kind> kinds_;           // of the vertices that were asked for theirs
+    std::vector<char> is_kind_known_;  // by index in kinds_: whether no facet around the vertex has changed since
+    std::vector<int> kind_numbers_;    // by vertex: index in kinds_; −1 if it was never asked for
 };
 
 }  // namespace

@@ -89,6 +89,8 @@ std::optional<Change> Facets::collapse(int u, int v) const {
         std::count_if(nu.begin(), nu.end(), [&](int w) { return std::find(nv.begin(), nv.end(), w) != nv.end(); });
     if (common != 2 || (nu.size() == 3 && nv.size() == 3)) return {};
     Change change;
+    change.out.reserve(around(u).size());
+    change.in.reserve(around(u).size());
     for (const int f : around(u)) {
         change.out.push_back(f);
         Facet moved = at(f);
