@@ -131,7 +131,7 @@ private:
                glm::dot(normal_at(f, v), normal_at(g, v)) < crease;
     }
 
-    // Kept until a facet around v changes.
+    // What v must stay on. It is remembered until a facet around v changes.
     const Kind& kind_of(int v) {
         kind_numbers_.resize(std::size_t(facets_.vertices()), -1);
         int& number = kind_numbers_[v];

@@ -26,9 +26,10 @@ public:
         });
     }
 
-    /// Nodes of the tree, each of which has pairs of triangles of its own.
+    /// The number of nodes.
     std::size_t nodes() const { return nodes_.size(); }
-    /// Calls visit(s, t) once for each pair of triangles whose boxes meet, in either order, over all nodes.
+    /// Calls visit(s, t) for the pairs of different triangles whose boxes meet and that belong to this node. Over all
+    /// nodes each pair comes once, with its two triangles in either order.
     template <class Visit>
     void visit_pairs(std::size_t node, Visit visit) const {
         const Node& own = nodes_[node];
