@@ -132,7 +132,7 @@ Box without_empty_ends(const SolidTree& tree, Box box) {
         if (leaf.field) seen = hull(seen, leaf.field->extent());
     if (box.empty() || box.finite() || seen.empty() || !seen.finite()) return box;
     const Vec3 middle = 0.5 * (seen.lo + seen.hi), size = seen.hi - seen.lo;
-    const double least = std::max({size.x, size.y, size.z}) * 0x1p-4;
+    const double least = max_component(size) * 0x1p-4;
     constexpr double most = 0x1p40;  // the farthest place looked at, in multiples of `least`
     constexpr double closer = 0.98;  // bisection ends where the two ends' distances differ by less than this factor
     for (int pass = 0; pass < 2; ++pass)  // narrowing one axis helps with the others

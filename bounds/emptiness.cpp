@@ -55,7 +55,7 @@ Side side_of(const SolidTree& tree, const Box& box) {
 // The axis along which α of some half-space changes most over the box; the longest axis if none changes.
 int axis_to_halve(const Candidate& now) {
     const Vec3 size = now.box.hi - now.box.lo;
-    const double longest = std::max({size.x, size.y, size.z});
+    const double longest = max_component(size);
     Vec3 change(0.0);
     for (const SolidLeaf& leaf : now.tree.leaves)
         for (const HalfSpace& h : leaf.density.half_spaces)

@@ -68,7 +68,7 @@ private:
         const Box box = bounding_box(density_);
         if (box.empty() || !box.finite()) return node;
         const Vec3 size = box.hi - box.lo;
-        const Box outer = inflated(box, around * std::max({size.x, size.y, size.z}));
+        const Box outer = inflated(box, around * max_component(size));
         return add({SolidOp::intersect, node, leaf({flatten(Density::box(outer.lo, outer.hi), 0), material_, line_})});
     }
 

@@ -17,6 +17,13 @@ constexpr double epsilon = std::numeric_limits<double>::epsilon();
 /// Largest absolute value of the coordinates.
 inline double largest(Vec3 v) { return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)}); }
 
+/// The greatest coordinate. Signs count.
+inline double max_component(Vec3 v) { return std::max({v.x, v.y, v.z}); }
+
+inline bool is_finite(Vec3 v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
+/// v, or 0 if any of its coordinates is infinite or a NaN.
+inline Vec3 finite_or_zero(Vec3 v) { return is_finite(v) ? v : Vec3(0.0); }
+
 /// Axis of the greatest coordinate, 0 to 2; the first of several that are equal. Signs count.
 inline int greatest_axis(Vec3 v) { return v.x >= v.y && v.x >= v.z ? 0 : v.y >= v.z ? 1 : 2; }
 

@@ -52,7 +52,7 @@ Json glb_material(const MeshNotes& notes, int index, std::set<std::string>& used
     if (s.clearcoat > 0)
         extend("KHR_materials_clearcoat",
                {{"clearcoatFactor", s.clearcoat}, {"clearcoatRoughnessFactor", s.clearcoat_roughness}});
-    const double strength = std::max({s.emission.x, s.emission.y, s.emission.z});
+    const double strength = max_component(s.emission);
     if (strength > 0) {
         const Vec3 e = s.emission / std::max(1.0, strength);
         material["emissiveFactor"] = {e.x, e.y, e.z};

@@ -19,7 +19,7 @@ constexpr double nearly_black = 0.018;
 constexpr double step = 0.1;
 
 // The largest of a pixel's three values, in linear light.
-double brightest_channel(const Pixel& pixel) { return std::max({pixel.color.x, pixel.color.y, pixel.color.z}); }
+double brightest_channel(const Pixel& pixel) { return max_component(pixel.color); }
 
 // The value that only `left_share` of the pixels exceed is the one with this number in rising order.
 std::size_t rank_of_shown(std::size_t pixels) { return std::size_t((1 - left_share) * double(pixels - 1)); }

@@ -74,7 +74,7 @@ Vec3 onto(const std::vector<Plane>& planes, Vec3 x) {
         right += p.normal * (p.offset - glm::dot(p.normal, x));
     }
     const Eigensystem e = eigensystem(square);
-    const double most = std::max({e.values.x, e.values.y, e.values.z});
+    const double most = max_component(e.values);
     Vec3 way(0.0);
     for (int k = 0; k < 3; ++k)
         if (e.values[k] > 1e-6 * most) way += e.vectors[k] * (glm::dot(e.vectors[k], right) / e.values[k]);

@@ -28,7 +28,7 @@ Box sight(const Scene& scene, const std::vector<SolidTree>& trees) {
         if (!box.empty() && box.finite()) all = hull(all, box);
     }
     const Vec3 size = all.hi - all.lo;
-    return inflated(all, reach * std::max({size.x, size.y, size.z}));
+    return inflated(all, reach * max_component(size));
 }
 
 }  // namespace

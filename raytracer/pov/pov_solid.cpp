@@ -122,7 +122,7 @@ private:
             if (box.empty()) return PovCsg::nothing();
         }
         const Vec3 size = box.hi - box.lo;
-        box = inflated(box, clear_of_walls * std::max({size.x, size.y, size.z}));
+        box = inflated(box, clear_of_walls * max_component(size));
         double radius = infinity;
         for (const HalfSpace& h : tree.half_spaces) radius = std::min(radius, h.radius);
         const PovField field(tree, leaf_.line);

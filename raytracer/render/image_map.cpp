@@ -35,7 +35,7 @@ Vec3 value_of(const PictureData& picture, double right, double up) {
 // The weights of the projections along the three axes, whose sum is 1.
 Vec3 shares(Vec3 normal, double blend) {
     const Vec3 size = glm::abs(normal);
-    const double largest = std::max({size.x, size.y, size.z});
+    const double largest = max_component(size);
     if (!(largest > 0)) return {1, 0, 0};
     const Vec3 share = glm::max(size / largest - (1 - blend), Vec3(0.0));
     const double sum = share.x + share.y + share.z;

@@ -14,10 +14,6 @@ namespace deburr {
 enum Purpose : std::uint32_t { first_light = 3, purposes = 1024 };
 constexpr std::uint32_t lens = 0xffffffffu;
 
-inline double brightest(Vec3 c) { return std::max({c.x, c.y, c.z}); }
-inline bool finite(Vec3 v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
-inline Vec3 finite_or_zero(Vec3 v) { return finite(v) ? v : Vec3(0.0); }
-
 /// The state of a path from the camera.
 struct Integrator::Path {
     Sampler sampler;

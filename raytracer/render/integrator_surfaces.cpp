@@ -124,7 +124,7 @@ void Integrator::trace_mirrors(const Surfaces& surfaces, const PathOf& path_of) 
         if (path.depth >= scene_.bounces) continue;
         const Vec3 albedo = batch.vec(SurfaceField::layer_albedo, i);
         // A layer that is not smooth has already been lit by the lights.
-        Path next = path.reflected(brightest(albedo));
+        Path next = path.reflected(max_component(albedo));
         next.sees_lights = next.sees_lights && layer.smooth();
         batch.set(SurfaceField::mirrored, i,
                   color_along(leave(*surfaces.hits[i], batch.vec(SurfaceField::towards, i)), next));

@@ -74,7 +74,7 @@ int place_of(const Box& all, const LightBounds& light, int axis) {
 Cut best_cut(const std::vector<LightBounds>& lights, const int* begin, const int* end, const Box& all) {
     Cut best;
     const Vec3 size = all.hi - all.lo;
-    const double longest = std::max({size.x, size.y, size.z});
+    const double longest = max_component(size);
     for (int axis = 0; axis < 3; ++axis) {
         if (!(size[axis] > 0)) continue;
         std::array<LightBounds, cuts> slices{};
@@ -116,7 +116,7 @@ std::uint32_t LightTree::build(const std::vector<LightBounds>& lights, std::vect
         middles = hull(middles, {middle, middle});
     }
     const Vec3 size = glm::max(glm::abs(all.box.lo), glm::abs(all.box.hi));
-    all.box = inflated(all.box, box_slack * std::max({size.x, size.y, size.z}));
+    all.box = inflated(all.box, box_slack * max_component(size));
     nodes_[at].bounds = all;
     if (end - begin == 1) {
         nodes_[at].light = order[begin];

@@ -41,10 +41,6 @@ inline constexpr double min_survival = 0.05, max_late_survival = 0.95;
 // Most glass surfaces that light passes straight through; it is lost at further ones.
 inline constexpr int max_glass_passed = 16;
 
-inline double brightest_of(Vec3 c) { return std::max({c.x, c.y, c.z}); }
-inline bool all_finite(Vec3 v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
-inline Vec3 zero_unless_finite(Vec3 v) { return all_finite(v) ? v : Vec3(0.0); }
-
 /// A batch of paths for one block of the picture.
 class PathIntegrator::Batch {
 public:
@@ -108,7 +104,7 @@ public:
         // In order of the paths, so that a sample does not depend on the rest of the batch.
         for (std::size_t i = rays_; i < m_.paths.size(); ++i) m_.paths[m_.paths[i].parent].color += m_.paths[i].color;
         for (std::size_t i = 0; i < rays_; ++i)
-            if (m_.uses[i].sample) sums_[m_.uses[i].pixel].color += zero_unless_finite(m_.paths[i].color);
+            if (m_.uses[i].sample) sums_[m_.uses[i].pixel].color += finite_or_zero(m_.paths[i].color);
         clear();
     }
 
@@ -186,7 +182,7 @@ private:
     }
 
     void take_emission(Path& path, const Hit& hit, const Material& material) const {
-        if (!(brightest_of(material.emission) > 0) || glm::dot(hit.normal, path.ray.direction) > 0) return;
+        if (!(max_component(material.emission) > 0) || glm::dot(hit.normal, path.ray.direction) > 0) return;
         double weight = 1;
         if (const auto sampled = in_.emitters_.of_solid(hit.solid, path.from)) {
             if (is_counted_already(path)) return;
@@ -213,8 +209,8 @@ private:
     void add_guides(Path& path, const Use& use, Vec3 color, Vec3 normal) {
         if (layers_ && path.guides) {
             const Vec3 share = glm::min(path.throughput, Vec3(1.0));
-            layers_[use.pixel].albedo += zero_unless_finite(share * color);
-            layers_[use.pixel].guide_normal += zero_unless_finite(brightest_of(share) * normal);
+            layers_[use.pixel].albedo += finite_or_zero(share * color);
+            layers_[use.pixel].guide_normal += finite_or_zero(max_component(share) * normal);
         }
         path.guides = false;
     }
@@ -307,9 +303,9 @@ private:
     void take_sample(std::uint32_t i, const Hit& hit, const Scattering& surface, std::size_t emitter, double times,
                      Vec2 u) {
         const Emitters::Sample light = in_.emitters_.at(emitter, hit.position, u);
-        if (!(brightest_of(light.irradiance) > 0)) return;
+        if (!(max_component(light.irradiance) > 0)) return;
         const Scattering::Value value = surface.value(light.direction);
-        if (!(brightest_of(value.value) > 0)) return;
+        if (!(max_component(value.value) > 0)) return;
         const bool single = light.density == infinity;
         const double weight = single ? 1 / times : 1 / (times + value.density / light.density);
         Path& path = m_.paths[i];
@@ -336,11 +332,11 @@ private:
             const Hit hit = in_.tracer_.closest_hit(ray, infinity, counters_);
             if (!hit || in_.emitters_.hidden(ray, hit.t, emitter)) break;
             const Vec3 emission = in_.scene_.materials[hit.material].emission;
-            if (hit.solid == solid && brightest_of(emission) > 0)
+            if (hit.solid == solid && max_component(emission) > 0)
                 return glm::dot(hit.normal, ray.direction) < 0 ? share * emission : Vec3(0.0);
             if (in_.scene_.caustics) break;
             share *= passed_by(hit, ray.direction);
-            if (!(brightest_of(share) > 0)) break;
+            if (!(max_component(share) > 0)) break;
             ray = leave(hit, ray.direction);
         }
         return Vec3(0.0);
@@ -364,7 +360,7 @@ private:
             const Hit hit = in_.tracer_.closest_hit(ray, left, counters_);
             if (!hit) return share;
             share *= passed_by(hit, ray.direction);
-            if (!(brightest_of(share) > 0)) break;
+            if (!(max_component(share) > 0)) break;
             left -= hit.t;
             ray = leave(hit, ray.direction);
         }
@@ -378,7 +374,7 @@ private:
         const double choice = surface.is_choice(first_choice) ? sampler.line(dimension(path, lobe)) : 0.5;
         if (!surface.sample(first_choice + choice, sampler.square(dimension(path, lobe_direction)), next)) return false;
         path.throughput *= next.weight;
-        const double left = brightest_of(path.throughput);
+        const double left = max_component(path.throughput);
         if (!(left > 0) || !std::isfinite(left)) return false;
         if (depth_ + 1 >= first_roulette) {
             const double survival =

@@ -8,10 +8,6 @@ namespace {
 // Most samples of a pass: a tile of them is soon done, and its scheduling costs little in comparison.
 constexpr int largest_pass = 32;
 
-Vec3 zero_unless_all_finite(Vec3 v) {
-    return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z) ? v : Vec3(0.0);
-}
-
 }  // namespace
 
 SampleRange next_pass(SampleRange all, int done) {
@@ -37,8 +33,8 @@ LayerSums& LayerSums::operator+=(const LayerSums& other) {
 }
 
 void LayerSums::set_center(const Hit& hit, Vec3 direction, Vec3 forward) {
-    rest.position = zero_unless_all_finite(hit.position);
-    rest.normal = zero_unless_all_finite(hit.normal);
+    rest.position = finite_or_zero(hit.position);
+    rest.normal = finite_or_zero(hit.normal);
     rest.z = hit.t * glm::dot(direction, forward);
     rest.id = std::uint32_t(hit.solid + 1);
 }

@@ -13,8 +13,6 @@ constexpr double min_ior_step = 1e-3;
 // Least probability of sampling a part that exists; otherwise a dim part would be noisy.
 constexpr double min_part = 0.1;
 
-double largest_component(Vec3 c) { return std::max({c.x, c.y, c.z}); }
-
 }  // namespace
 
 const AlbedoTable* AlbedoTables::get(AlbedoTable::Kind kind, double alpha, double ior) {
@@ -94,14 +92,14 @@ Scattering::Scattering(const ScatteringMaterial& material, Vec3 color, Vec3 outw
             const Vec3 f = m_.kind == Material::Kind::mirror ? color : color + (1.0 - color) / 21.0;
             metal_base_ = m_.metal * f * f * mean / (1.0 - f * (1 - mean));
         }
-        layer += m_.metal * e *
-                 largest_component(m_.kind == Material::Kind::mirror ? color : fresnel_schlick(color, cos_eye_));
+        layer +=
+            m_.metal * e * max_component(m_.kind == Material::Kind::mirror ? color : fresnel_schlick(color, cos_eye_));
     }
     if (m_.glass > 0) glass_scale_ = 1 / (inside_ ? m_.leaving : m_.entering)->at(cos_eye_);
     const Vec3 base = base_albedo();
 
     const auto share = [](double part) { return part > 0 ? std::max(part, min_part) : 0.0; };
-    p_base_ = share(largest_component(base));
+    p_base_ = share(max_component(base));
     p_layer_ = share(below_coat_ * layer);
     p_glass_ = share(below_coat_ * m_.glass);
     p_coat_ = share(1 - below_coat_);
@@ -149,7 +147,7 @@ Vec3 Scattering::layer_fresnel(double cosine) const {
 
 Scattering::GlassChoice Scattering::glass_choice(double fresnel) const {
     if (both_ways_) return {1, 1};
-    const double back = fresnel / (fresnel + (1 - fresnel) * std::max(largest_component(color_), 0.01));
+    const double back = fresnel / (fresnel + (1 - fresnel) * std::max(max_component(color_), 0.01));
     return {back, 1 - back};
 }
 

@@ -20,7 +20,7 @@ double light_from_above(const Background& background) {
     constexpr double zenith_share = 0.8;
     const Vec3 color =
         background.sky ? glm::mix(background.horizon, background.zenith, zenith_share) : background.color;
-    return std::max({color.x, color.y, color.z});
+    return max_component(color);
 }
 
 }  // namespace

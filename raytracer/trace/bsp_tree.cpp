@@ -101,7 +101,7 @@ private:
         bsp_.tolerances.scale = scale > 0 ? scale : 1;
         margin_ = bsp_.tolerances.margin();
         const Vec3 sides = bounds_.hi - bounds_.lo;
-        const double size = std::max({sides.x, sides.y, sides.z});
+        const double size = max_component(sides);
         splitter_ = BspSplitter(inflated(bounds_, 0.05 * size + margin_), margin_, 1e-5 * size);
         max_depth_ = 16 + int(2.5 * std::log2(1.0 + double(bsp_.half_spaces)));
     }

@@ -49,7 +49,7 @@ std::vector<double> luminances(const Scene& scene, int spp, std::uint64_t seed =
     TraceCounters counters;
     integrator.block({0, 0, width, height}, pixels.data(), nullptr, counters);
     std::vector<double> all;
-    for (const Pixel& p : pixels) all.push_back(std::max({p.color.x, p.color.y, p.color.z}));
+    for (const Pixel& p : pixels) all.push_back(max_component(p.color));
     return all;
 }
 

@@ -318,7 +318,7 @@ TEST_CASE(
         REQUIRE(scene.lights.size() == 1);
         const SkyLight sky(scene.background);
         const Vec3 up = scene.ambient + sky.mean({0, 1, 0});
-        return std::pair(scene.lights[0].power / std::numbers::pi, std::max({up.x, up.y, up.z}));
+        return std::pair(scene.lights[0].power / std::numbers::pi, max_component(up));
     };
     for (const char* fields : {"", "background = 0.3,", "background = 0,", "background = sky{},",
                                "background = sky{ horizon = 0.1, zenith = {0.2, 0.3, 0.4} },"}) {
