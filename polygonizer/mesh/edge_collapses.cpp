@@ -1,16 +1,13 @@
 #include "polygonizer/mesh/edge_collapses.hpp"
 
 #include <algorithm>
-#include <deque>
 
 #include "polygonizer/mesh/split_on_surface.hpp"
+#include "polygonizer/mesh/vertex_constraints.hpp"
 
 namespace deburr {
 namespace {
 
-constexpr double same_normal = 1e-6;
-// A common edge of two facets is a crease if the cosine between their normals at a vertex is below this.
-constexpr double crease = 0.9;
 // The least cosine between a facet and its surface that a collapse may leave.
 constexpr double upright = 0.8;
 // The least ratio of height to longest side that a collapse may leave of curved facets, unless they were thinner
@@ -44,15 +41,15 @@ public:
     EdgeCollapses(Mesh& mesh, std::vector<Origin>& origins, const FacetJudge& judge, double tolerance,
                   const CollapseOptions& options)
         : facets_(mesh, origins),
+          constraints_(facets_, options.border, options.dense),
           judge_(judge),
           tolerance_(tolerance),
           options_(options),
           left_(mesh.triangles.size()),
           first_(mesh.positions.size(), options.around.empty()) {
-        for (std::size_t f = 0; f < facets_.size(); ++f) {
-            flat_normals_.push_back(flat_normal(facets_.at(int(f))));
+        for (std::size_t f = 0; f < facets_.size() && !options.around.empty(); ++f) {
             const auto& t = facets_.at(int(f)).triangle.vertex;
-            if (!options.around.empty() && std::ranges::any_of(t, [&](int v) { return bool(options.around[v]); }))
+            if (std::ranges::any_of(t, [&](int v) { return bool(options.around[v]); }))
                 for (const int v : t) first_[v] = true;
         }
     }
@@ -82,13 +79,6 @@ private:
         bool half_way = false;  // both ends of the edge go to the surface near its middle
         Vec3 x{0.0};            // half_way: the new vertex
     };
-    // The planes and lines that a vertex must stay on.
-    struct Kind {
-        ShortList<Vec3, 4> planes;    // normals of the flat facets around
-        ShortList<int, 4> line_ends;  // other ends of edges that must stay lines
-        bool fixed = false;
-    };
-
     std::size_t pass(double tolerance, double share_of_phase) {
         constexpr int at_once = 1024;
         std::size_t gone = 0;
@@ -106,93 +96,24 @@ private:
         return gone;
     }
 
-    // Whether the vertex is on the mesh's border; vertices that were added since are not.
-    bool is_on_border(int v) const { return std::size_t(v) < options_.border.size() && options_.border[v]; }
-
-    // The normal of a facet of which all corners have one normal; else 0.
-    Vec3 flat_normal(const Facet& f) const {
-        const auto& n = f.triangle.normal;
-        const Vec3 a = facets_.normal(n[0]);
-        for (const std::size_t k : {1, 2})
-            if (n[k] != n[0] && glm::length(facets_.normal(n[k]) - a) >= same_normal) return Vec3(0.0);
-        return a;
-    }
-
-    Vec3 normal_at(int f, int v) const {
-        return facets_.normal(facets_.at(f).triangle.normal[facets_.corner_index(f, v)]);
-    }
-
-    // Whether the edge from v to u between facets f and g must stay a line of edges: a crease, a border of materials,
-    // or the border of a flat face. Otherwise curved facets would spread over a flat face, tilted by less than the
-    // tolerance.
-    bool is_line(int f, int g, int v) const {
-        if ((flat_normals_[f] == Vec3(0.0)) != (flat_normals_[g] == Vec3(0.0))) return true;
-        return facets_.at(f).triangle.material != facets_.at(g).triangle.material ||
-               glm::dot(normal_at(f, v), normal_at(g, v)) < crease;
-    }
-
-    // What v must stay on. It is remembered until a facet around v changes.
-    const Kind& kind_of(int v) {
-        kind_numbers_.resize(std::size_t(facets_.vertices()), -1);
-        int& number = kind_numbers_[v];
-        if (number < 0) {
-            number = int(kinds_.size());
-            kinds_.push_back(find_kind(v));
-            is_kind_known_.push_back(true);
-        } else if (!is_kind_known_[number]) {
-            kinds_[number] = find_kind(v);
-            is_kind_known_[number] = true;
-        }
-        return kinds_[number];
-    }
-
-    void forget_kind(int v) {
-        if (std::size_t(v) < kind_numbers_.size() && kind_numbers_[v] >= 0) is_kind_known_[kind_numbers_[v]] = false;
-    }
-
-    Kind find_kind(int v) const {
-        Kind kind;
-        const Vec3 x = facets_.position(v);
-        kind.fixed = is_on_border(v) || std::any_of(options_.dense.begin(), options_.dense.end(),
-                                                    [&](const Box& box) { return box.contains(x); });
-        if (kind.fixed) return kind;
-        const auto& fan = facets_.around(v);
-        for (const int f : fan) {
-            const Vec3 n = flat_normals_[f];
-            if (n != Vec3(0.0) && std::none_of(kind.planes.begin(), kind.planes.end(),
-                                               [&](Vec3 p) { return glm::length(p - n) < same_normal; }))
-                kind.planes.push_back(n);
-        }
-        for (const int f : fan) {
-            const int u = facets_.at(f).triangle.vertex[(facets_.corner_index(f, v) + 1) % 3];
-            const int g = facets_.across(v, u) == f ? facets_.across(u, v) : facets_.across(v, u);
-            if (g < 0)
-                kind.fixed = true;
-            else if (is_line(f, g, v))
-                kind.line_ends.push_back(u);
-        }
-        kind.fixed |= kind.planes.size() > 2 || (!kind.line_ends.empty() && kind.line_ends.size() != 2);
-        return kind;
-    }
-
     // Finds the places to which v may go, in order of error; false if v must stay.
     bool find_candidates(int v, double tolerance) {
         candidates_.clear();
-        const Kind& kind = kind_of(v);
-        if (kind.fixed) return false;
-        planes_ = kind.planes.size();
+        const VertexConstraint& kept = constraints_.at(v);
+        if (kept.fixed) return false;
+        planes_ = kept.planes.size();
         find_opposite(v, opposite_);
         const Vec3 x = facets_.position(v);
         for (const int f : facets_.around(v)) {
             const int to = facets_.at(f).triangle.vertex[(facets_.corner_index(f, v) + 1) % 3];
-            if (is_on_border(to)) continue;
-            if (!kind.line_ends.empty() && to != kind.line_ends[0] && to != kind.line_ends[1]) continue;
+            if (constraints_.is_on_border(to)) continue;
+            if (!kept.line_ends.empty() && to != kept.line_ends[0] && to != kept.line_ends[1]) continue;
             const Vec3 d = facets_.position(to) - x;
             const auto leaves = [&](Vec3 plane) { return std::abs(glm::dot(plane, d)) > 1e-9 * judge_.size(); };
-            if (std::any_of(kind.planes.begin(), kind.planes.end(), leaves)) continue;
+            if (std::any_of(kept.planes.begin(), kept.planes.end(), leaves)) continue;
             const double error = this->error(opposite_, to, x, facets_.position(to));
             if (error <= tolerance) candidates_.push_back({error, to});
-            offer_half_way(v, to, kind, tolerance);
+            offer_half_way(v, to, kept, tolerance);
         }
         std::sort(candidates_.begin(), candidates_.end(), [](const Candidate& a, const Candidate& b) {
             return a.error != b.error ? a.error < b.error : a.to != b.to ? a.to < b.to : a.half_way < b.half_way;
@@ -201,15 +122,15 @@ private:
     }
 
     // Offers the middle of the edge from v to `to`, if both vertices are equally free.
-    void offer_half_way(int v, int to, const Kind& kind, double tolerance) {
+    void offer_half_way(int v, int to, const VertexConstraint& kept, double tolerance) {
         if (to < v) return;  // it is offered from the other end
         const Vec3 a = facets_.position(v), b = facets_.position(to);
         Candidate c{0, to, true, 0.5 * (a + b)};
         // At the edge's middle, beside the surface, the error is not much greater than on the surface.
         c.error = error(opposite_, to, a, c.x);
         if (c.error > 2 * tolerance) return;
-        const Kind& other = kind_of(to);
-        if (other.fixed || other.planes.size() != kind.planes.size() || other.line_ends.size() != kind.line_ends.size())
+        const VertexConstraint& other = constraints_.at(to);
+        if (other.fixed || other.planes.size() != kept.planes.size() || other.line_ends.size() != kept.line_ends.size())
             return;
         if (!other.line_ends.empty() && other.line_ends[0] != v && other.line_ends[1] != v) return;
         find_opposite(to, opposite_of_other_);
@@ -272,7 +193,7 @@ private:
         };
         ShortList<OfLeaf, 4> normals;
         for (Facet& f : change->in) {
-            const Vec3 flat = flat_normal(f);
+            const Vec3 flat = constraints_.flat_normal(f);
             for (std::size_t k = 0; k < 3; ++k) {
                 if (f.triangle.vertex[k] != to) continue;
                 f.triangle.vertex[k] = middle;
@@ -316,13 +237,9 @@ private:
             if (c.half_way) spare_ = -1;
             left_ -= change->out.size() - change->in.size();
             for (const int f : facets_.apply(*change)) {
-                flat_normals_.resize(std::max(flat_normals_.size(), std::size_t(f) + 1));
-                flat_normals_[f] = flat_normal(facets_.at(f));
+                constraints_.update(f);
                 changed_.resize(std::size_t(facets_.vertices()), true);
-                for (const int u : facets_.at(f).triangle.vertex) {
-                    changed_[u] = true;
-                    forget_kind(u);
-                }
+                for (const int u : facets_.at(f).triangle.vertex) changed_[u] = true;
             }
             return true;
         }
@@ -359,9 +276,10 @@ private:
         if (v == to) return false;
         double thinnest = slender;
         for (const int f : change.out)
-            if (flat_normals_[f] == Vec3(0.0)) thinnest = std::min(thinnest, slenderness(facets_.at(f).triangle));
+            if (constraints_.flat_normal(f) == Vec3(0.0))
+                thinnest = std::min(thinnest, slenderness(facets_.at(f).triangle));
         for (const Facet& f : change.in)
-            if (flat_normal(f) == Vec3(0.0) && slenderness(f.triangle) < thinnest) return false;
+            if (constraints_.flat_normal(f) == Vec3(0.0) && slenderness(f.triangle) < thinnest) return false;
         // The middle of the longest new edge is most often too far from the surface.
         const int longest = longest_new_edge(change, to);
         const Vec3 x = facets_.position(to);
@@ -384,22 +302,19 @@ private:
     }
 
     Facets facets_;
+    VertexConstraints constraints_;
     const FacetJudge& judge_;
     double tolerance_;
     const CollapseOptions options_;
-    std::size_t left_;                // triangles left
-    std::vector<char> first_;         // vertices to be tried first
-    std::vector<Vec3> flat_normals_;  // by facet; 0: curved
+    std::size_t left_;         // triangles left
+    std::vector<char> first_;  // vertices to be tried first
     // Working data of the vertex that is being tried.
     std::vector<Candidate> candidates_;
     std::vector<Opposite> opposite_, opposite_of_other_;
     std::vector<LeafSurface> pieces_;
     std::size_t planes_ = 0;
-    std::vector<char> changed_;        // vertices whose facets have changed since they were last tried
-    int spare_ = -1;                   // a vertex without facets, for the next half-way candidate; −1: none
-    std::deque<Kind> kinds_;           // of the vertices that were asked for theirs
-    std::vector<char> is_kind_known_;  // by index in kinds_: whether no facet around the vertex has changed since
-    std::vector<int> kind_numbers_;    // by vertex: index in kinds_; −1 if it was never asked for
+    std::vector<char> changed_;  // vertices whose facets have changed since they were last tried
+    int spare_ = -1;             // a vertex without facets, for the next half-way candidate; −1: none
 };
 
 }  // namespace
