@@ -29,15 +29,15 @@ public:
 
     // Queues the facets of the given mesh that are far from the surface.
     void open_far() {
-        std::vector<char> asked(facets_.size(), false), far(facets_.size(), false);
-        // An edge's distance is found by the one of its facets in which it runs to the greater vertex, and is then
-        // there for the other.
+        std::vector<char> far(facets_.size(), false);
+        // An edge's distance is found by the facet in which the edge runs to the greater vertex, and is then there for
+        // the other facet.
         judge_in_parallel(judge_, facets_.size(), [&](const FacetJudge& judge, std::size_t first, std::size_t last) {
             for (std::size_t f = first; f < last; ++f) {
                 if (f % 1024 == 0) throw_if_cancelled(cancel_);
-                asked[f] = facets_.at(int(f)).origin.leaf >= 0 && may_be_far(int(f));
+                far[f] = facets_.at(int(f)).origin.leaf >= 0 && may_be_far(int(f));
                 const auto& v = facets_.at(int(f)).triangle.vertex;
-                for (std::size_t k = 0; asked[f] && k < 3; ++k)
+                for (std::size_t k = 0; far[f] && k < 3; ++k)
                     if (v[k] < v[(k + 1) % 3]) distances_[f][k] = edge_distance(judge, int(f), k);
             }
         });
@@ -45,10 +45,7 @@ public:
             Edge edges[3];
             for (std::size_t f = first; f < last; ++f) {
                 if (f % 1024 == 0) throw_if_cancelled(cancel_);
-                const auto& v = facets_.at(int(f)).triangle.vertex;
-                for (std::size_t k = 0; asked[f] && k < 3; ++k)
-                    if (v[k] > v[(k + 1) % 3]) distances_[f][k] = edge_distance(judge, int(f), k);
-                far[f] = asked[f] && is_far(judge, int(f), edges);
+                far[f] = far[f] && is_far(judge, int(f), edges);
             }
         });
         for (std::size_t f = 0; f < facets_.size(); ++f)
@@ -63,7 +60,7 @@ public:
             if (++looks % 1024 == 0) throw_if_cancelled(cancel_);
             const int f = open_.front();
             open_.pop_front();
-            if (!facets_.alive(f) || facets_.at(f).origin.leaf < 0 || !learn_far(f)) continue;
+            if (!facets_.alive(f) || facets_.at(f).origin.leaf < 0 || !is_far(f)) continue;
             if (generation_[f] >= max_generation || !improve(f)) stuck_.push_back(f);
         }
         std::vector<int> order(facets_.size(), -1), left;
@@ -73,7 +70,7 @@ public:
         // Other facets may have taken the place of some.
         sort_once(stuck_);
         for (const int f : stuck_)
-            if (facets_.alive(f) && learn_far(f)) left.push_back(order[f]);
+            if (facets_.alive(f) && is_far(f)) left.push_back(order[f]);
         facets_.finish();
         return left;
     }
@@ -123,17 +120,15 @@ private:
         return longest > 2 * tolerance_;
     }
 
-    // Whether the facet may be far and is_far() says so, after finding those of its edges' distances that are unknown.
-    bool learn_far(int f) {
-        if (!may_be_far(f)) return false;
-        for (std::size_t k = 0; k < 3; ++k)
-            if (distances_[f][k] == unknown) distances_[f][k] = edge_distance(judge_, f, k);
-        return is_far(judge_, f, edges_);
-    }
+    // Whether points of the facet are too far from the surface; then edges_ are its edges, ordered by how much they
+    // need a vertex.
+    bool is_far(int f) { return may_be_far(f) && is_far(judge_, f, edges_); }
 
-    // Whether points of the facet, whose edges' distances are known, are too far from the surface; then `edges` are its
-    // edges, ordered by how much they need a vertex.
-    bool is_far(const FacetJudge& judge, int f, Edge (&edges)[3]) const {
+    // The same for a facet that may be far, with the edges in `edges`. It finds those of its edges' distances that are
+    // unknown.
+    bool is_far(const FacetJudge& judge, int f, Edge (&edges)[3]) {
+        for (std::size_t k = 0; k < 3; ++k)
+            if (distances_[f][k] == unknown) distances_[f][k] = edge_distance(judge, f, k);
         const Triangle& t = facets_.at(f).triangle;
         Vec3 x[3], n[3];
         for (std::size_t k = 0; k < 3; ++k) {
