@@ -21,7 +21,7 @@ public:
     bool visit(const Box& box, Visit visit) const {
         return visit_nodes(box, 0, [&](const Node& n) {
             for (int k = n.first; k < n.first + n.count; ++k)
-                if (meet(boxes_[order_[k]], box) && !visit(order_[k])) return false;
+                if (!intersection(boxes_[order_[k]], box).empty() && !visit(order_[k])) return false;
             return true;
         });
     }
@@ -37,7 +37,7 @@ public:
         visit_nodes(own.box, int(node), [&](const Node& n) {
             for (int k = own.first; k < own.first + own.count; ++k)
                 for (int l = &n == &own ? k + 1 : n.first; l < n.first + n.count; ++l)
-                    if (meet(boxes_[order_[k]], boxes_[order_[l]])) visit(order_[k], order_[l]);
+                    if (!intersection(boxes_[order_[k]], boxes_[order_[l]]).empty()) visit(order_[k], order_[l]);
             return true;
         });
     }
@@ -58,16 +58,12 @@ private:
         int first = 0, count = 0;  // range in order_
     };
     static bool is_leaf(const Node& node, int at) { return node.end == at + 1; }
-    static bool meet(const Box& a, const Box& b) {
-        return a.lo.x <= b.hi.x && b.lo.x <= a.hi.x && a.lo.y <= b.hi.y && b.lo.y <= a.hi.y && a.lo.z <= b.hi.z &&
-               b.lo.z <= a.hi.z;
-    }
     // Calls visit(leaf) for leaves whose boxes meet the given one, from node `first` on, until that returns false.
     template <class Visit>
     bool visit_nodes(const Box& box, int first, Visit visit) const {
         for (int at = 0; at < int(nodes_.size());) {
             const Node& n = nodes_[at];
-            if (n.end <= first || !meet(n.box, box)) {
+            if (n.end <= first || intersection(n.box, box).empty()) {
                 at = n.end;
                 continue;
             }
