@@ -6,6 +6,7 @@
 #include "raytracer/render/bump.hpp"
 #include "raytracer/render/path_blur.hpp"
 #include "raytracer/render/path_integrator.hpp"
+#include "raytracer/render/straight_transmission.hpp"
 #include "raytracer/render/textures.hpp"
 
 namespace deburr {
@@ -37,9 +38,6 @@ inline constexpr std::size_t max_paths = 128;
 inline constexpr int first_roulette = 3, last_certain = 32;
 inline constexpr double survival_factor = 8;
 inline constexpr double min_survival = 0.05, max_late_survival = 0.95;
-
-// Most glass surfaces that light passes straight through; it is lost at further ones.
-inline constexpr int max_glass_passed = 16;
 
 /// A batch of paths for one block of the picture.
 class PathIntegrator::Batch {
@@ -84,7 +82,12 @@ public:
 
     /// Results are added to `sums` and, unless it is null, `layers`, row by row.
     Batch(const PathIntegrator& integrator, PixelSums* sums, LayerSums* layers, TraceCounters& counters, Memory& memory)
-        : in_(integrator), sums_(sums), layers_(layers), counters_(counters), m_(memory) {
+        : in_(integrator),
+          straight_(integrator, counters),
+          sums_(sums),
+          layers_(layers),
+          counters_(counters),
+          m_(memory) {
         clear();
     }
 
@@ -312,59 +315,17 @@ private:
         Vec3 color = path.throughput * value.value * light.irradiance * weight;
         const Ray ray = leave(hit, light.direction);
         if (light.solid >= 0) {
-            path.color += color * emission_of(light.solid, ray, emitter);
+            path.color += color * straight_.emission(light.solid, ray, emitter);
             return;
         }
         if (in_.emitters_.hidden(ray, light.distance, emitter)) return;
         if (in_.glass_ && (single || !in_.scene_.caustics)) {
-            path.color += color * through_glass(ray, light.distance);
+            path.color += color * straight_.transmittance(ray, light.distance);
             return;
         }
         m_.shadow_rays.push_back(ray);
         m_.shadow_ends.push_back(light.distance);
         m_.shadows.push_back({color, i});
-    }
-
-    // The light of a glowing solid that a ray sent to it finds.
-    Vec3 emission_of(int solid, Ray ray, std::size_t emitter) {
-        Vec3 share(1.0);
-        for (int k = 0; k < max_glass_passed; ++k) {
-            const Hit hit = in_.tracer_.closest_hit(ray, infinity, counters_);
-            if (!hit || in_.emitters_.hidden(ray, hit.t, emitter)) break;
-            const Vec3 emission = in_.scene_.materials[hit.material].emission;
-            if (hit.solid == solid && max_component(emission) > 0)
-                return glm::dot(hit.normal, ray.direction) < 0 ? share * emission : Vec3(0.0);
-            if (in_.scene_.caustics) break;
-            share *= passed_by(hit, ray.direction);
-            if (!(max_component(share) > 0)) break;
-            ray = leave(hit, ray.direction);
-        }
-        return Vec3(0.0);
-    }
-
-    // The share of light that passes straight through the surface.
-    Vec3 passed_by(const Hit& hit, Vec3 direction) const {
-        const Material& m = in_.scene_.materials[hit.material];
-        if (!in_.lets_light_pass(m)) return Vec3(0.0);
-        const double metal = m.metallic_texture ? value_at(*m.metallic_texture, hit.position, hit.normal) : m.metallic;
-        const double passed = m.kind == Material::Kind::glass ? 1.0 : (1 - metal) * m.transmission;
-        return color_at(m.color, hit.position, hit.normal) *
-               (passed * (1 - fresnel_dielectric(glm::dot(hit.normal, direction), m.ior)));
-    }
-
-    // The share of light that passes straight through all glass on the ray's first `left` units; 0 if anything else is
-    // in the way.
-    Vec3 through_glass(Ray ray, double left) {
-        Vec3 share(1.0);
-        for (int k = 0; k < max_glass_passed; ++k) {
-            const Hit hit = in_.tracer_.closest_hit(ray, left, counters_);
-            if (!hit) return share;
-            share *= passed_by(hit, ray.direction);
-            if (!(max_component(share) > 0)) break;
-            left -= hit.t;
-            ray = leave(hit, ray.direction);
-        }
-        return Vec3(0.0);
     }
 
     // Continues the path in a sampled direction; false if it ends.
@@ -398,6 +359,7 @@ private:
     }
 
     const PathIntegrator& in_;
+    const StraightTransmission straight_;
     PixelSums* sums_;
     LayerSums* layers_;
     TraceCounters& counters_;

@@ -32,6 +32,7 @@ public:
 
 private:
     class Batch;
+    class StraightTransmission;
     void samples(Batch& batch, int x, int y, std::uint32_t pixel, SampleRange range) const;
 
     bool lets_light_pass(const Material& m) const { return m.kind == Material::Kind::glass || m.transmission > 0; }
