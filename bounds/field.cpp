@@ -47,7 +47,7 @@ public:
     double filter_radius() const override {
         const Mat3 square = glm::transpose(map_.linear) * map_.linear;
         const Vec3 v = eigensystem(square).values;
-        return inner_->filter_radius() * std::sqrt(std::max(0.0, std::min({v.x, v.y, v.z})));
+        return inner_->filter_radius() * std::sqrt(std::max(0.0, min_component(v)));
     }
     std::vector<HalfSpace> planes() const override {
         std::vector<HalfSpace> planes = inner_->planes();

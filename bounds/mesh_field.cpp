@@ -223,7 +223,7 @@ LocalSize MeshField::local_size(const Box& box) const {
     constexpr double large = 4;  // shortest side in radii
     const Box seen = reached(box);
     const Vec3 sides = seen.hi - seen.lo;
-    if (std::min({sides.x, sides.y, sides.z}) > large * radius_) {
+    if (min_component(sides) > large * radius_) {
         const std::size_t count = mesh_->count_near(seen, radius_);
         if (count > many) return {{-0.5, 0.5}, int(std::min<std::size_t>(count, 500'000'000) * 2)};
     }

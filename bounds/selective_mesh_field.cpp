@@ -247,7 +247,7 @@ LocalSize SelectiveMeshField::local_size(const Box& box) const {
     constexpr std::size_t many = 256;
     constexpr double large = 4;  // shortest side in radii
     const Vec3 sides = seen.hi - seen.lo;
-    if (std::min({sides.x, sides.y, sides.z}) > large * radius_->full()) {
+    if (min_component(sides) > large * radius_->full()) {
         const std::size_t count = mesh_->count_near(seen, radius_->full());
         if (count > many) return {{-0.5, 0.5}, int(std::min<std::size_t>(count, 500'000'000) * 2)};
     }

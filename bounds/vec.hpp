@@ -17,7 +17,8 @@ constexpr double epsilon = std::numeric_limits<double>::epsilon();
 /// Largest absolute value of the coordinates.
 inline double largest(Vec3 v) { return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)}); }
 
-/// The greatest coordinate. Signs count.
+/// The least and the greatest coordinate. Signs count.
+inline double min_component(Vec3 v) { return std::min({v.x, v.y, v.z}); }
 inline double max_component(Vec3 v) { return std::max({v.x, v.y, v.z}); }
 
 inline bool is_finite(Vec3 v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }

@@ -18,9 +18,6 @@ constexpr double nearly_black = 0.018;
 // The proposed exposure is rounded to this, in stops.
 constexpr double step = 0.1;
 
-// The largest of a pixel's three values, in linear light.
-double brightest_channel(const Pixel& pixel) { return max_component(pixel.color); }
-
 // The value that only `left_share` of the pixels exceed is the one with this number in rising order.
 std::size_t rank_of_shown(std::size_t pixels) { return std::size_t((1 - left_share) * double(pixels - 1)); }
 
@@ -28,7 +25,7 @@ std::size_t rank_of_shown(std::size_t pixels) { return std::size_t((1 - left_sha
 double exposure_that_shows(const Film& film) {
     std::vector<double> brightest;
     brightest.reserve(film.pixels.size());
-    for (const Pixel& pixel : film.pixels) brightest.push_back(brightest_channel(pixel));
+    for (const Pixel& pixel : film.pixels) brightest.push_back(max_component(pixel.color));
     const auto at = brightest.begin() + std::ptrdiff_t(rank_of_shown(brightest.size()));
     std::nth_element(brightest.begin(), at, brightest.end());
     return step * std::floor(-std::log2(*at) / step);
@@ -42,7 +39,7 @@ std::optional<std::string> exposure_advice(const Film& film, double exposure) {
     const double scale = std::exp2(exposure);
     std::size_t lit = 0, dark = 0, clipped = 0, covered = 0;
     for (const Pixel& pixel : film.pixels) {
-        const double shown = scale * brightest_channel(pixel);
+        const double shown = scale * max_component(pixel.color);
         lit += shown != 0;
         dark += shown < nearly_black;
         clipped += shown > 1;

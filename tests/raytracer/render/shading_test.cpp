@@ -289,7 +289,7 @@ TEST_CASE("No pixel holds a NaN, wherever the camera and the lights are") {
                 const Seen s = seen(integrator, i % 20, i / 20, counters);
                 const Pixel& p = s.pixel;
                 CHECK(finite(s));
-                CHECK(std::min({p.color.x, p.color.y, p.color.z}) >= 0);
+                CHECK(min_component(p.color) >= 0);
                 lit += p.color.x > 0.02;
                 ++pixels;
             }
