@@ -53,11 +53,11 @@ Camera framing(const Box& box, Vec3 direction, int width, int height, double fov
     // As near as the projections of the eight corners allow, with a margin; iterated, since perspective changes.
     for (int pass = 0; pass < 16; ++pass) {
         camera.eye = camera.target + distance * away;
-        const ProjectiveCamera pinhole(camera, width, height);
+        const ProjectiveCamera view(camera, width, height);
         Vec2 lo(1e9), hi(-1e9);
         for (int k = 0; k < 8; ++k) {
-            const Vec2 p(pinhole.project(
-                {k & 1 ? box.hi.x : box.lo.x, k & 2 ? box.hi.y : box.lo.y, k & 4 ? box.hi.z : box.lo.z}));
+            const Vec2 p(
+                view.project({k & 1 ? box.hi.x : box.lo.x, k & 2 ? box.hi.y : box.lo.y, k & 4 ? box.hi.z : box.lo.z}));
             lo = glm::min(lo, p);
             hi = glm::max(hi, p);
         }

@@ -25,7 +25,7 @@ Film picture(const FigureContext& context, const std::function<double(Vec2)>& f,
     Film film = mesh_picture(context, mesh, {{0.55, 0.66, 0.80}, {0.30, 0.38, 0.50}}, camera, appearance);
     const MeshTracer tracer(mesh);
     const int width = film.width, tall = film.height;
-    const ProjectiveCamera pinhole(camera, width, tall);
+    const ProjectiveCamera view(camera, width, tall);
     const auto draw = [&](const std::vector<Vec2>& line, const std::function<double(Vec2)>& value, Vec3 color,
                           double thick) {
         std::vector<Vec3> points, normals;
@@ -37,7 +37,7 @@ Film picture(const FigureContext& context, const std::function<double(Vec2)>& f,
             normals.push_back(std::abs(dx) + std::abs(dy) > 100 ? Vec3(0, 1, 0)
                                                                 : glm::normalize(Vec3(-height * dx, 1, height * dy)));
         }
-        draw_strokes(film, visible_line(points, normals, tracer, pinhole, {0, 0, width, tall}), color, thick);
+        draw_strokes(film, visible_line(points, normals, tracer, view, {0, 0, width, tall}), color, thick);
     };
     constexpr int lines = 18, steps = 360;
     for (int k = 0; k <= lines; ++k)

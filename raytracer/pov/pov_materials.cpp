@@ -86,16 +86,16 @@ std::string pov_settings(const Scene& scene, bool radiosity) {
 
 std::string pov_camera(const Camera& camera, Size size) {
     // Computed from rays through three of the picture's corners, scaled to a common depth.
-    const ProjectiveCamera pinhole(camera, size.width, size.height);
+    const ProjectiveCamera view(camera, size.width, size.height);
     const auto at = [&](double x, double y) {
-        const Ray ray = pinhole.ray(x, y);
+        const Ray ray = view.ray(x, y);
         if (camera.orthographic) return ray.origin;
-        return ray.direction / glm::dot(ray.direction, pinhole.forward());
+        return ray.direction / glm::dot(ray.direction, view.forward());
     };
     const Vec3 corner = at(0, 0), right = at(size.width, 0) - corner, up = corner - at(0, size.height);
     const Vec3 middle = camera.shift.x * right + camera.shift.y * up;  // offset of the picture's middle from the axis
     const Vec3 location = camera.orthographic ? camera.eye + middle : camera.eye;
-    const Vec3 direction = camera.orthographic ? pinhole.forward() : pinhole.forward() + middle;
+    const Vec3 direction = camera.orthographic ? view.forward() : view.forward() + middle;
     return fmt::format("camera {{\n  {}\n  location {}\n  direction {}\n  right {}\n  up {}\n}}\n",
                        camera.orthographic ? "orthographic" : "perspective", pov_vector(location),
                        pov_vector(direction), pov_vector(right), pov_vector(up));

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <functional>
 #include <map>
+#include <span>
 #include <unordered_map>
 
 #include "bounds/bounding_box.hpp"
@@ -188,7 +189,7 @@ private:
     }
 
     /// Clusters of boxes that nearly meet, directly or through others: sorted indices, ordered by their least index.
-    static std::vector<std::vector<int>> clusters(const LargeVector<Box>& boxes, double clearance) {
+    static std::vector<std::vector<int>> clusters(std::span<const Box> boxes, double clearance) {
         Bvh8::Builder builder;
         std::vector<int> items;
         for (std::size_t i = 0; i < boxes.size(); ++i) items.push_back(builder.item(std::uint32_t(i), boxes[i]));

@@ -34,12 +34,12 @@ TEST_CASE("worldToNDC sends what a pixel sees to the pixel's place in the window
         Camera given = camera();
         given.orthographic = kind % 2 == 1;
         if (kind >= 2) given.shift = {0.2, -0.4, 0};
-        const ProjectiveCamera pinhole(given, width, height);
+        const ProjectiveCamera view(given, width, height);
         const Matrix44 ndc = world_to_ndc(given, width, height);
         for (const double px : {0.0, 100.5, 320.0, 640.0})
             for (const double py : {0.0, 17.5, 180.0, 360.0})
                 for (const double distance : {0.5, 3.0, 50.0}) {
-                    const Ray ray = pinhole.ray(px, py);
+                    const Ray ray = view.ray(px, py);
                     const auto p = times(ray.origin + distance * ray.direction, ndc);
                     CAPTURE(kind, px, py, distance);
                     CHECK(std::abs(p[0] / p[3] - px / width) < float_error);
@@ -49,10 +49,10 @@ TEST_CASE("worldToNDC sends what a pixel sees to the pixel's place in the window
 }
 
 TEST_CASE("worldToCamera looks along +z, with x right and y up") {
-    const ProjectiveCamera pinhole(camera(), 640, 360);
+    const ProjectiveCamera view(camera(), 640, 360);
     const Matrix44 m = world_to_camera(camera());
     const auto at = [&](double px, double py) {
-        const Ray ray = pinhole.ray(px, py);
+        const Ray ray = view.ray(px, py);
         return times(ray.origin + 2.0 * ray.direction, m);
     };
     const auto middle = at(320, 180);

@@ -53,7 +53,7 @@ TEST_CASE("A box has 12 edges of polygons and 18 of triangles") {
 TEST_CASE("Of a box seen from a corner's side nine edges are seen, and all of their length") {
     const Mesh mesh = mesh_of(Density::box({0, 0, 0}, {1, 1, 1}), 0);
     const Camera camera{.eye = {4, 3, 5}, .target = {0.5, 0.5, 0.5}, .fov = 25};
-    const ProjectiveCamera pinhole(camera, width, height);
+    const ProjectiveCamera view(camera, width, height);
     double expected = 0;
     int seen = 0;
     for (const MeshEdge& e : mesh_edges(mesh, EdgeChoice::polygons)) {
@@ -62,7 +62,7 @@ TEST_CASE("Of a box seen from a corner's side nine edges are seen, and all of th
         const Vec3 far = glm::max(a, b);
         if ((far.x < 1e-9) + (far.y < 1e-9) + (far.z < 1e-9) >= 2) continue;
         ++seen;
-        expected += glm::length(Vec2(pinhole.project(a)) - Vec2(pinhole.project(b)));
+        expected += glm::length(Vec2(view.project(a)) - Vec2(view.project(b)));
     }
     REQUIRE(seen == 9);
     CHECK(total_length(strokes_of(mesh, WireMode::visible, camera)) == Approx(expected).margin(9 * 0.5));
@@ -123,8 +123,8 @@ TEST_CASE("The lines of crops are those of the whole picture, to the bit, and co
     const auto edges = mesh_edges(mesh, EdgeChoice::polygons);
     const MeshTracer tracer(mesh);
     const auto lines_of = [&](const Window& window, WireMode mode, int scale) {
-        const ProjectiveCamera pinhole(camera, scale * width, scale * height);
-        return wire_frame(mesh, edges, tracer, pinhole, window, mode);
+        const ProjectiveCamera view(camera, scale * width, scale * height);
+        return wire_frame(mesh, edges, tracer, view, window, mode);
     };
     const auto picture = [&](const Window& window, WireMode mode) {
         Film film(width, height, window);

@@ -119,18 +119,18 @@ TEST_CASE("The filter has unit area, is positive, and offsets are distributed li
 
 TEST_CASE("The camera's conventions: centres, up, right, field of view") {
     const Camera camera{{1, 2, 3}, {1, 2, -7}, {0, 1, 0}, 60};
-    const ProjectiveCamera pinhole(camera, 400, 200);
-    CHECK(close(pinhole.forward(), {0, 0, -1}, 0));
-    CHECK(close(pinhole.ray(200, 100).direction, {0, 0, -1}, 1e-15));
-    CHECK(pinhole.ray(200, 100).origin == camera.eye);
+    const ProjectiveCamera view(camera, 400, 200);
+    CHECK(close(view.forward(), {0, 0, -1}, 0));
+    CHECK(close(view.ray(200, 100).direction, {0, 0, -1}, 1e-15));
+    CHECK(view.ray(200, 100).origin == camera.eye);
     // The top and bottom of the picture are half of the field of view up and down; y = 0 is the top.
-    const Vec3 top = pinhole.ray(200, 0).direction, bottom = pinhole.ray(200, 200).direction;
+    const Vec3 top = view.ray(200, 0).direction, bottom = view.ray(200, 200).direction;
     CHECK(std::atan2(top.y, -top.z) * 180 / pi == Approx(30).epsilon(1e-13));
     CHECK(std::atan2(bottom.y, -bottom.z) * 180 / pi == Approx(-30).epsilon(1e-13));
     // Pixels are square and x points right; the picture is twice as wide as high.
-    const Vec3 right = pinhole.ray(400, 100).direction;
+    const Vec3 right = view.ray(400, 100).direction;
     CHECK(right.x / -right.z == Approx(2 * std::tan(pi / 6)).epsilon(1e-13));
-    CHECK(glm::length(pinhole.ray(13.5, 77.5).direction) == Approx(1).epsilon(1e-15));
+    CHECK(glm::length(view.ray(13.5, 77.5).direction) == Approx(1).epsilon(1e-15));
 }
 
 TEST_CASE("A camera without a view or an up still has rays") {
@@ -138,10 +138,10 @@ TEST_CASE("A camera without a view or an up still has rays") {
     for (const Camera& camera :
          {Camera{{0, 0, 0}, {0, 0, 0}, {0, 1, 0}, 40}, Camera{{0, 5, 0}, {0, 0, 0}, {0, 1, 0}, 40},
           Camera{{0, 0, 0}, {0, 0, -1}, {0, 0, 0}, 40}, Camera{{0, 0, 0}, {1, 1, 1}, {1, 1, 1}, 40}}) {
-        const ProjectiveCamera pinhole(camera, 10, 10);
-        const Vec3 a = pinhole.ray(0, 0).direction, b = pinhole.ray(10, 10).direction;
+        const ProjectiveCamera view(camera, 10, 10);
+        const Vec3 a = view.ray(0, 0).direction, b = view.ray(10, 10).direction;
         CHECK(glm::length(a) == Approx(1));
-        CHECK(glm::dot(a, pinhole.forward()) == Approx(glm::dot(b, pinhole.forward())));
+        CHECK(glm::dot(a, view.forward()) == Approx(glm::dot(b, view.forward())));
         CHECK(glm::dot(a, b) < 0.9);
         ++cameras;
     }

@@ -27,11 +27,11 @@ Agreement compare(const std::vector<Solid>& solids, const Camera& camera, int co
     const ImplicitTracer tracer(solids);
     std::vector<SolidTree> trees;
     for (const Solid& s : solids) trees.push_back(flatten(s));
-    const ProjectiveCamera pinhole(camera, columns, rows);
+    const ProjectiveCamera view(camera, columns, rows);
     Agreement a;
     for (int y = 0; y < rows; ++y)
         for (int x = 0; x < columns; ++x) {
-            const Ray ray = pinhole.ray(x + 0.5, y + 0.5);
+            const Ray ray = view.ray(x + 0.5, y + 0.5);
             TraceCounters counters;
             const double t = tracer.closest_hit(ray, t_max, counters).t;
             double want = infinity;
