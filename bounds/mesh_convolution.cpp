@@ -1,53 +1,16 @@
 #include "bounds/mesh_convolution.hpp"
 
 #include <algorithm>
-#include <utility>
 #include <vector>
+
+#include "bounds/index_map.hpp"
+#include "bounds/mesh_steepness.hpp"
+#include "bounds/triangle_in_ball.hpp"
 
 namespace deburr {
 namespace {
 
-constexpr double pi = 3.14159265358979323846;
-
-// A point where an edge pierces the sphere. Both triangles of the edge have the same key for it.
-struct Piercing {
-    int key;
-    Vec3 at;  // from the ball's centre, in radii
-};
-
-// The part of the edge from a to b in the unit ball: where it enters and leaves. It is computed with the vertices in
-// one order whichever triangle asks, so that both triangles get the same bits.
-struct Chord {
-    bool inside[2] = {false, false};  // whether each end is in the ball
-    bool enters = false, leaves = false;
-    Vec3 entry{0.0}, exit{0.0};
-};
-
-Chord chord_of(Vec3 a, Vec3 b) {
-    Chord c;
-    const Vec3 d = b - a;
-    const double aa = glm::dot(a, a), bb = glm::dot(b, b), dd = glm::dot(d, d), ad = glm::dot(a, d);
-    c.inside[0] = aa < 1;
-    c.inside[1] = bb < 1;
-    if (c.inside[0] && c.inside[1]) return c;
-    // The edge's point nearest to the centre, and half of the chord in units of d.
-    const bool both_out = !c.inside[0] && !c.inside[1];
-    if (both_out && !(ad < 0 && -ad < dd)) return c;
-    const double s = -ad / dd;
-    const Vec3 foot = a + s * d;
-    const double square = 1 - glm::dot(foot, foot);
-    if (both_out && !(square > 0)) return c;
-    const double half = std::sqrt(std::max(0.0, square) / dd);
-    if (!c.inside[0]) {
-        c.enters = true;
-        c.entry = foot - std::min(half, std::max(s, 0.0)) * d;
-    }
-    if (!c.inside[1]) {
-        c.leaves = true;
-        c.exit = foot + std::min(half, std::max(1 - s, 0.0)) * d;
-    }
-    return c;
-}
+constexpr double pi = mesh_pi;
 
 // A sum of angles in (−π, π] that are given by their sines and cosines, up to a common factor > 0.
 class AngleSum {
@@ -55,218 +18,292 @@ public:
     void add(double sine, double cosine) {
         const double re = re_ * cosine - im_ * sine, im = re_ * sine + im_ * cosine;
         const bool was_upper = im_ > 0 || (im_ == 0 && re_ > 0), is_upper = im > 0 || (im == 0 && re > 0);
-        // A turn by less than π, to the left from the upper half-plane into the lower, or to the right the other way
-        // round.
         const double size = std::max(std::abs(re), std::abs(im));
         if (!(size > 0)) return;
+        // A turn by less than π, to the left from the upper half-plane into the lower, or to the right the other way
+        // round.
         const bool left = sine > 0 || (sine == 0 && cosine < 0);
         if (left && was_upper && !is_upper) ++turns_;
         if (sine < 0 && !was_upper && is_upper) --turns_;
-        re_ = re / size;
-        im_ = im / size;
+        const double scale = size > least_size && size < 1 / least_size ? 1 : 1 / size;
+        re_ = re * scale;
+        im_ = im * scale;
     }
     double value() const { return (im_ == 0 && re_ < 0 ? -pi : std::atan2(im_, re_)) + 2 * pi * turns_; }
 
 private:
+    static constexpr double least_size = 0x1p-64;  // of the product that is not scaled
+
     double re_ = 1, im_ = 0;
     int turns_ = 0;
 };
 
-// Memory that a thread keeps from one evaluation to the next.
-struct Scratch {
-    struct Arc {
-        int from, to;  // keys
-    };
-    std::vector<Arc> arcs;
-    AngleSum turn;  // of the boundary on the sphere, where it passes from one triangle to the next
-    std::vector<char> seen;
-};
-
-// The number of closed curves that the arcs make up; −1 if an arc ends where none begins, because its triangle is
-// missing.
-int count_loops(Scratch& scratch) {
-    auto& arcs = scratch.arcs;
-    std::sort(arcs.begin(), arcs.end(), [](const auto& a, const auto& b) { return a.from < b.from; });
-    scratch.seen.assign(arcs.size(), false);
+// The number of closed curves that the arcs make up; −1 if an arc ends where none begins. `starts` is overwritten.
+int count_loops(std::vector<Arc>& arcs, IndexMap& starts) {
+    starts.reset(arcs.size());
+    for (std::size_t i = 0; i < arcs.size(); ++i) starts.find_or_insert(arcs[i].from, int(i));
     int loops = 0;
-    for (std::size_t i = 0; i < arcs.size(); ++i) {
-        if (scratch.seen[i]) continue;
+    for (Arc& first : arcs) {
+        if (first.to < 0) continue;
         ++loops;
-        for (std::size_t at = i; !scratch.seen[at];) {
-            scratch.seen[at] = true;
-            const auto next = std::lower_bound(arcs.begin(), arcs.end(), arcs[at].to,
-                                               [](const auto& arc, int key) { return arc.from < key; });
-            if (next == arcs.end() || next->from != arcs[at].to) return -1;
-            at = std::size_t(next - arcs.begin());
+        for (Arc* arc = &first; arc->to >= 0;) {
+            const int next = starts.find(arc->to);
+            if (next < 0) return -1;
+            arc->to = -1;  // has been counted
+            arc = &arcs[std::size_t(next)];
         }
     }
     return loops;
 }
 
-// The part of one triangle in the unit ball around the origin.
-class Sector {
+// Sums up the shares of the faces of a mesh in a ball. A face is made of all triangles in one plane: edges between them
+// count for nothing, and an edge between two faces is looked at once for both.
+class FaceSums {
 public:
-    Sector(const ClosedMesh& mesh, int t, Vec3 x, double r) : mesh_(mesh), t_(t), normal_(mesh.plane(t).normal) {
-        for (int k = 0; k < 3; ++k) corner_[k] = (mesh.corner(t, k) - x) * (1 / r);
-        h_ = (mesh.plane(t).offset - glm::dot(normal_, x)) / r;
+    // Sets `v`; returns false, with an approximation in `v`, if the ball holds a part of an edge of which one triangle
+    // is not among `triangles`.
+    bool find(const ClosedMesh& mesh, std::span<const int> triangles, Vec3 x, double r, ShareRates& v) {
+        prepare(mesh, triangles, x, r);
+        double share = 0, heights = 0;  // heights: Σ h |D|
+        int circles = 0;
+        Vec3 areas(0.0);
+        for (const Face& f : faces_) {
+            const PlanePart part = part_of(f);
+            areas += part.area * f.normal;
+            share += f.h * (part.area + part.arcs);
+            heights += f.h * part.area;
+            circles += part.circles;
+        }
+        const int loops = count_loops(arcs_, index_);
+        share = (share - turn_.value()) / (4 * pi) - 0.5 * (circles + std::max(0, loops));
+        share -= std::floor(share);
+        // The sum is determined up to whole numbers, which matters only between 0 and 1.
+        constexpr double near_whole = 1e-7;
+        if (share < near_whole || share > 1 - near_whole) {
+            const bool in = mesh.contains(x, triangles, r);
+            const double off = share < 0.5 ? share : share - 1;
+            share = in ? std::min(1.0, 1 + off) : std::max(0.0, off);
+        }
+        v = {share, areas * (-3 / (4 * pi * r)), heights * (-3 / (4 * pi * r))};
+        return complete_ && loops >= 0;
     }
 
-    // Computes the part and adds its arcs and turns to `scratch`; false if the ball does not meet the triangle.
-    bool find(Scratch& scratch) {
-        foot_ = h_ * normal_;
-        square_ = std::max(0.0, 1 - h_ * h_);  // of the radius of the circle in which the plane cuts the ball
-        int events = 0;
-        for (int k = 0; k < 3; ++k) {
-            const int l = (k + 1) % 3;
-            const ClosedMesh::Corners& v = mesh_.triangles()[t_];
-            const bool up = v[k] < v[l];
-            Chord c = up ? chord_of(corner_[k], corner_[l]) : chord_of(corner_[l], corner_[k]);
-            // A key is twice the edge's number, plus 1 where the edge leaves the ball going from the lesser vertex to
-            // the greater.
-            const int id = 2 * mesh_.edge_id(t_, k);
-            int entry_key = id, exit_key = id + 1;
-            if (!up) {
-                std::swap(c.inside[0], c.inside[1]);
-                std::swap(c.enters, c.leaves);
-                std::swap(c.entry, c.exit);
-                std::swap(entry_key, exit_key);
-            }
-            const bool has_part = c.inside[0] || c.inside[1] || c.enters;
-            if (!has_part) continue;
-            const Vec3 from = c.inside[0] ? corner_[k] : c.entry, to = c.inside[1] ? corner_[l] : c.exit;
-            twice_area_ += cross(from - foot_, to - foot_);
-            if (c.enters) event_[events++] = {{entry_key, c.entry}, k, true};
-            if (c.leaves) {
-                event_[events++] = {{exit_key, c.exit}, k, false};
-                add_turn(k, c.exit, scratch.turn);
-            }
-            any_ = true;
-        }
-        if (events == 0) {
-            if (any_) return true;  // all of the triangle is in the ball
-            if (square_ == 0) return false;
-            for (int k = 0; k < 3; ++k)
-                if (cross(corner_[k] - foot_, corner_[(k + 1) % 3] - foot_) <= 0) return false;
-            arcs_ = 2 * pi;
-            ++loops_;
-            twice_area_ = square_ * arcs_;
-            return true;
-        }
-        // Arcs of the circle, from where the triangle's border leaves the ball to where it comes back.
-        for (int i = 0; i < events; ++i) {
-            if (event_[i].enters) continue;
-            const Event &out = event_[i], &in = event_[(i + 1) % events];
-            const double angle = arc(out, in);
-            arcs_ += angle;
-            twice_area_ += square_ * angle;
-            // With the solid on the left the arc runs the other way.
-            scratch.arcs.push_back({in.piercing.key, out.piercing.key});
-        }
-        return true;
+    // Calls visit(triangle, area) with one triangle of each face that the ball meets, and the area in the ball of those
+    // of the face's triangles that are given.
+    template <class Visit>
+    void areas(const ClosedMesh& mesh, std::span<const int> triangles, Vec3 x, double r, Visit visit) {
+        prepare(mesh, triangles, x, r);
+        for (const Face& f : faces_)
+            if (const double area = part_of(f).area; area > 0)
+                visit(near_[std::size_t(f.first)].triangle, area * r * r);
     }
-
-    /// Signed distance of the plane, in radii.
-    double h() const { return h_; }
-    double area() const { return 0.5 * twice_area_; }  // |D| in squared radii
-    /// The sum of the arcs' angles, and the number of whole circles in the triangle.
-    double arcs() const { return arcs_; }
-    int loops() const { return loops_; }
 
 private:
-    struct Event {
+    // A face of which some triangle may reach the ball.
+    struct Face {
+        Vec3 normal;
+        double h;                  // signed distance of the plane, in radii
+        int first = -1;            // of the face's triangles, an index of near_
+        bool any_inside = false;   // any triangle is in the ball as a whole; its edges are not among these
+        double cross_sum = 0;      // twice the area of whole triangles, and between the centre's foot and edges
+        int held = 0, missed = 0;  // edges that have a part in the ball, and edges that have none
+        bool open = false;         // a triangle is missing at an edge that has a part in the ball
+        int passes = -1;           // where the face's border leaves the ball or comes back, an index of passes_
+    };
+    // A place where the boundary on the sphere passes from one face to another.
+    struct Pass {
         Piercing piercing;
-        int edge;
-        bool enters;
+        bool leaves;  // whether the face's border leaves the ball there, or comes back
+        int next;     // pass of the face, an index of passes_; −1 ends the list
+        double angle = 0;
+    };
+    // A triangle that may reach the ball.
+    struct Near {
+        int triangle;
+        int face;
+        int next;     // triangle of the face, an index of near_; −1 ends the list
+        bool inside;  // the whole triangle is in the ball
     };
 
-    double cross(Vec3 a, Vec3 b) const { return glm::dot(normal_, glm::cross(a, b)); }
-    double angle(Vec3 a, Vec3 b) const {
-        return std::atan2(cross(a - foot_, b - foot_), glm::dot(a - foot_, b - foot_));
+    Vec3 place(int vertex) const { return (mesh_->vertices()[std::size_t(vertex)] - x_) * (1 / r_); }
+
+    // Finds the faces near the ball, and what all edges add to them.
+    void prepare(const ClosedMesh& mesh, std::span<const int> triangles, Vec3 x, double r) {
+        mesh_ = &mesh;
+        x_ = x;
+        r_ = r;
+        passes_.clear();
+        arcs_.clear();
+        turn_ = {};
+        complete_ = true;
+        gather(triangles);
+        for (const Near& n : near_)
+            for (int k = 0; k < 3 && !n.inside; ++k) look_at_edge(n, k);
     }
 
-    // The angle of the arc, counter-clockwise. Where it is either short or nearly the whole circle, the triangle's
-    // border tells which: outside of the circle both go around equally far.
-    double arc(const Event& out, const Event& in) const {
-        const double direct = angle(out.piercing.at, in.piercing.at);
+    void gather(std::span<const int> triangles) {
+        near_.clear();
+        faces_.clear();
+        index_.reset(triangles.size());
+        // Triangles farther outside or inside of the sphere than this are not cut by it, whatever rounding does.
+        const double rounding = 1e-9 * r_ + 16 * epsilon * (largest(x_) + r_), reach = r_ + rounding;
+        for (const int t : triangles) {
+            const ClosedMesh::Ball& ball = mesh_->ball(t);
+            const ClosedMesh::Plane& plane = mesh_->plane(t);
+            const Vec3 away = ball.center - x_;
+            const double square = glm::dot(away, away), within = r_ - ball.radius - rounding;
+            if (square >= (ball.radius + reach) * (ball.radius + reach)) continue;
+            const double h = plane.offset - glm::dot(plane.normal, x_);
+            if (std::abs(h) > reach) continue;
+            const int f = index_.find_or_insert(plane.id, int(faces_.size()));
+            if (f == int(faces_.size())) faces_.push_back({.normal = plane.normal, .h = h / r_});
+            Face& face = faces_[std::size_t(f)];
+            const bool inside = within > 0 && square < within * within;
+            if (inside) face.cross_sum += 2 * mesh_->area(t) / (r_ * r_);
+            face.any_inside |= inside;
+            near_.push_back({t, f, face.first, inside});
+            face.first = int(near_.size()) - 1;
+        }
+        index_.reset(near_.size());
+        for (std::size_t i = 0; i < near_.size(); ++i) index_.find_or_insert(near_[i].triangle, int(i));
+    }
+
+    void look_at_edge(const Near& n, int k) {
+        const int other = mesh_->across(n.triangle, k).triangle, m = index_.find(other);
+        Face& here = faces_[std::size_t(n.face)];
+        const bool beside_inside = m >= 0 && near_[std::size_t(m)].inside;
+        if (m >= 0 && !beside_inside && (near_[std::size_t(m)].face == n.face || other < n.triangle)) return;
+        const ClosedMesh::Corners& v = mesh_->triangles()[std::size_t(n.triangle)];
+        const int v0 = v[std::size_t(k)], v1 = v[std::size_t((k + 1) % 3)];
+        const Vec3 a = place(std::min(v0, v1)), b = place(std::max(v0, v1));
+        const Chord c = chord_of(a, b);
+        const bool has_part = c.inside[0] || c.inside[1] || c.enters;
+        ++(has_part ? here.held : here.missed);
+        if (beside_inside) {
+            here.cross_sum += glm::dot(here.normal, v0 < v1 ? glm::cross(a, b) : glm::cross(b, a));
+            return;
+        }
+        if (m < 0) {
+            here.open |= has_part;
+            complete_ &= !has_part;
+            return;
+        }
+        Face& there = faces_[std::size_t(near_[std::size_t(m)].face)];
+        ++(has_part ? there.held : there.missed);
+        if (!has_part) return;
+        Face &left = v0 < v1 ? here : there, &right = v0 < v1 ? there : here;
+        const Vec3 area = glm::cross(c.inside[0] ? a : c.entry, c.inside[1] ? b : c.exit);
+        left.cross_sum += glm::dot(left.normal, area);
+        right.cross_sum -= glm::dot(right.normal, area);
+        const int key = 2 * mesh_->edge_id(n.triangle, k);
+        if (c.enters) pass({key, c.entry}, right, left);
+        if (c.leaves) pass({key + 1, c.exit}, left, right);
+    }
+
+    // The boundary on the sphere passes from one face to another: where the border of `from` leaves the ball that of
+    // `to` comes back, and the solid's boundary turns to the left by an angle.
+    void pass(const Piercing& p, Face& from, Face& to) {
+        passes_.push_back({p, true, from.passes});
+        from.passes = int(passes_.size()) - 1;
+        passes_.push_back({p, false, to.passes});
+        to.passes = int(passes_.size()) - 1;
+        turn_.add(glm::dot(p.at, glm::cross(from.normal, to.normal)),
+                  glm::dot(from.normal, to.normal) - glm::dot(p.at, from.normal) * glm::dot(p.at, to.normal));
+    }
+
+    PlanePart part_of(const Face& f) {
+        if (f.open) return part_by_triangles(f);
+        const double square = std::max(0.0, 1 - f.h * f.h);  // of the radius of the plane's circle
+        if (f.passes >= 0) return part_with_arcs(f, square);
+        const bool holds_face = f.missed == 0, holds_whole_triangles_only = f.held == 0 && f.any_inside;
+        if (holds_face || holds_whole_triangles_only) return {.area = 0.5 * f.cross_sum};
+        if (f.held == 0) {
+            const Side side = square > 0 ? side_of_foot(f) : Side::out;
+            if (side == Side::out) return {};
+            if (side == Side::in) return {pi * square, 2 * pi, 1};
+        }
+        return part_by_triangles(f);
+    }
+
+    // The arcs run counter-clockwise around the plane's circle from where the face's border leaves the ball to where it
+    // comes back, if their ends are so far apart that their order is sure.
+    PlanePart part_with_arcs(const Face& f, double square) {
+        const Vec3 foot = f.h * f.normal, first = passes_[std::size_t(f.passes)].piercing.at - foot;
+        around_.clear();
+        for (int i = f.passes; i >= 0; i = passes_[std::size_t(i)].next) {
+            Pass& pass = passes_[std::size_t(i)];
+            const Vec3 at = pass.piercing.at - foot;
+            pass.angle = i == f.passes ? 0 : std::atan2(glm::dot(f.normal, glm::cross(first, at)), glm::dot(first, at));
+            if (pass.angle < 0) pass.angle += 2 * pi;
+            around_.push_back(&pass);
+        }
+        std::sort(around_.begin(), around_.end(), [](const Pass* p, const Pass* q) { return p->angle < q->angle; });
         constexpr double sure = 1e-3;
-        if (std::abs(direct) > sure) return direct < 0 ? direct + 2 * pi : direct;
-        double around = 0;
-        Vec3 at = out.piercing.at;
-        int k = out.edge;
-        do {
-            k = (k + 1) % 3;
-            around += angle(at, corner_[k]);
-            at = corner_[k];
-        } while (k != in.edge);
-        around += angle(at, in.piercing.at);
-        return around > pi ? direct + 2 * pi : direct;
+        const std::size_t n = around_.size(), arcs_before = arcs_.size();
+        PlanePart part;
+        for (std::size_t i = 0; i < n; ++i) {
+            const Pass &p = *around_[i], &q = *around_[(i + 1) % n];
+            const double angle = q.angle - p.angle + (i + 1 == n ? 2 * pi : 0);
+            if (p.leaves == q.leaves || angle < sure) {
+                arcs_.resize(arcs_before);
+                return part_by_triangles(f);
+            }
+            if (!p.leaves) continue;
+            part.arcs += angle;
+            // With the solid on the left the arc runs the other way.
+            arcs_.push_back({q.piercing.key, p.piercing.key});
+        }
+        part.area = 0.5 * (f.cross_sum + square * part.arcs);
+        return part;
     }
 
-    // Adds the left turn of the solid's boundary on the sphere where it passes at y across edge k to the next triangle.
-    void add_turn(int k, Vec3 y, AngleSum& turn) const {
-        const ClosedMesh::Plane &here = mesh_.plane(t_), &there = mesh_.plane(mesh_.across(t_, k).triangle);
-        if (here.id == there.id) return;
-        turn.add(glm::dot(y, glm::cross(here.normal, there.normal)),
-                 glm::dot(here.normal, there.normal) - glm::dot(y, here.normal) * glm::dot(y, there.normal));
+    // Where the foot of the ball's centre on the face's plane is: in one of the face's triangles, out of all of them,
+    // or so near to an edge that rounding may decide.
+    enum class Side { in, out, unsure };
+    Side side_of_foot(const Face& f) const {
+        Side side = Side::out;
+        const Vec3 foot = f.h * f.normal;
+        for (int i = f.first; i >= 0; i = near_[std::size_t(i)].next) {
+            const ClosedMesh::Corners& v = mesh_->triangles()[std::size_t(near_[std::size_t(i)].triangle)];
+            const Vec3 a = place(v[0]) - foot, b = place(v[1]) - foot, c = place(v[2]) - foot;
+            const double least =
+                min_component({glm::dot(f.normal, glm::cross(a, b)), glm::dot(f.normal, glm::cross(b, c)),
+                               glm::dot(f.normal, glm::cross(c, a))});
+            const double rounding = 64 * epsilon * (glm::dot(a, a) + glm::dot(b, b) + glm::dot(c, c));
+            if (least > rounding) return Side::in;
+            if (least >= -rounding) side = Side::unsure;
+        }
+        return side;
     }
 
-    const ClosedMesh& mesh_;
-    int t_;
-    Vec3 normal_;
-    Vec3 corner_[3];
-    double h_;
-    Vec3 foot_{0.0};
-    double square_ = 0, twice_area_ = 0, arcs_ = 0;
-    Event event_[6];
-    bool any_ = false;
-    int loops_ = 0;
+    PlanePart part_by_triangles(const Face& f) {
+        PlanePart sum;
+        for (int i = f.first; i >= 0; i = near_[std::size_t(i)].next) {
+            const PlanePart part = triangle_in_ball(*mesh_, near_[std::size_t(i)].triangle, x_, r_, arcs_);
+            sum.area += part.area;
+            sum.arcs += part.arcs;
+            sum.circles += part.circles;
+        }
+        return sum;
+    }
+
+    const ClosedMesh* mesh_ = nullptr;
+    Vec3 x_{0.0};
+    double r_ = 0;
+    // Memory is kept from one evaluation to the next.
+    std::vector<Near> near_;
+    std::vector<Face> faces_;
+    std::vector<Pass> passes_;
+    std::vector<const Pass*> around_;
+    std::vector<Arc> arcs_;
+    IndexMap index_;  // of faces by their planes, of triangles, of arcs
+    AngleSum turn_;   // of the boundary on the sphere, where it passes from one face to the next
+    bool complete_ = true;
 };
 
-// Sets `v`; returns false, with an approximation in `v`, if a triangle that the sphere cuts is missing.
 bool sum_up(const ClosedMesh& mesh, std::span<const int> triangles, Vec3 x, double r, ShareRates& v) {
-    thread_local Scratch scratch;
-    scratch.arcs.clear();
-    scratch.turn = {};
-    double share = 0, heights = 0;  // heights: Σ h |D|
-    int loops = 0;
-    Vec3 areas(0.0);
-    // Triangles farther outside or inside of the sphere than this are not cut by it, whatever rounding does.
-    const double rounding = 1e-9 * r + 16 * epsilon * (largest(glm::abs(x)) + r);
-    for (const int t : triangles) {
-        const ClosedMesh::Ball& ball = mesh.ball(t);
-        const ClosedMesh::Plane& plane = mesh.plane(t);
-        const Vec3 away = ball.center - x;
-        const double square = glm::dot(away, away), reach = ball.radius + r + rounding;
-        if (square >= reach * reach) continue;
-        const double h = plane.offset - glm::dot(plane.normal, x);
-        if (std::abs(h) > r + rounding) continue;
-        const double within = r - ball.radius - rounding;
-        if (within > 0 && square < within * within) {
-            const double area = mesh.area(t) / (r * r);
-            areas += area * plane.normal;
-            share += h / r * area;
-            heights += h / r * area;
-            continue;
-        }
-        Sector sector(mesh, t, x, r);
-        if (!sector.find(scratch)) continue;
-        areas += sector.area() * plane.normal;
-        share += sector.h() * (sector.area() + sector.arcs());
-        heights += sector.h() * sector.area();
-        loops += sector.loops();
-    }
-    const int curves = scratch.arcs.empty() ? 0 : count_loops(scratch);
-    share = (share - scratch.turn.value()) / (4 * pi) - 0.5 * (loops + std::max(0, curves));
-    share -= std::floor(share);
-    // The sum is determined up to whole numbers, which matters only between 0 and 1.
-    constexpr double near_whole = 1e-7;
-    if (share < near_whole || share > 1 - near_whole) {
-        const bool in = mesh.contains(x, triangles, r);
-        const double off = share < 0.5 ? share : share - 1;
-        share = in ? std::min(1.0, 1 + off) : std::max(0.0, off);
-    }
-    v = {share, areas * (-3 / (4 * pi * r)), heights * (-3 / (4 * pi * r))};
-    return curves >= 0;
+    thread_local FaceSums sums;
+    return sums.find(mesh, triangles, x, r, v);
 }
 
 }  // namespace
@@ -296,14 +333,20 @@ ShareRates ball_share_rates(const ClosedMesh& mesh, std::span<const int> triangl
     return v;
 }
 
-double area_in_ball(const ClosedMesh& mesh, int triangle, Vec3 x, double r) {
-    const ClosedMesh::Plane& plane = mesh.plane(triangle);
-    if (!(r > 0) || std::abs(plane.offset - glm::dot(plane.normal, x)) >= r) return 0;
-    thread_local Scratch scratch;
-    scratch.arcs.clear();
-    scratch.turn = {};
-    Sector sector(mesh, triangle, x, r);
-    return sector.find(scratch) ? sector.area() * r * r : 0;
+void face_areas(const ClosedMesh& mesh, std::span<const int> triangles, Vec3 x, double least, double greatest,
+                std::vector<FaceAreas>& found) {
+    thread_local FaceSums sums;
+    thread_local IndexMap by_plane;
+    found.clear();
+    if (!(greatest > 0)) return;
+    sums.areas(mesh, triangles, x, greatest, [&](int t, double area) { found.push_back({t, 0, area}); });
+    if (!(least > 0)) return;
+    by_plane.reset(found.size());
+    for (std::size_t i = 0; i < found.size(); ++i) by_plane.find_or_insert(mesh.plane(found[i].triangle).id, int(i));
+    sums.areas(mesh, triangles, x, least, [&](int t, double area) {
+        if (const int i = by_plane.find(mesh.plane(t).id); i >= 0)
+            found[std::size_t(i)].in_least = std::min(area, found[std::size_t(i)].in_greatest);
+    });
 }
 
 }  // namespace deburr

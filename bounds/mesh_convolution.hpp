@@ -10,6 +10,7 @@
 // the centre lies on a face, an edge or a vertex. The theorem leaves a multiple of the whole ball undetermined.
 #pragma once
 #include <span>
+#include <vector>
 
 #include "bounds/box_range.hpp"
 #include "bounds/closed_mesh.hpp"
@@ -31,7 +32,16 @@ struct ShareRates {
     double by_radius = 0;
 };
 ShareRates ball_share_rates(const ClosedMesh& mesh, std::span<const int> triangles, Vec3 x, double r);
-/// The area of the triangle's part in the ball of radius r around x; 0 where r ≤ 0.
-double area_in_ball(const ClosedMesh& mesh, int triangle, Vec3 x, double r);
+
+/// The areas of the parts of a face in two balls around one point. A face is made of all connected triangles in one
+/// plane.
+struct FaceAreas {
+    int triangle = 0;  // one of the face's
+    double in_least = 0, in_greatest = 0;
+};
+/// Sets `found` to the faces that the ball of the radius `greatest` around x meets, with the areas of the parts of the
+/// given triangles in this ball and in the concentric one of the radius `least`; 0 where the radius is not positive.
+void face_areas(const ClosedMesh& mesh, std::span<const int> triangles, Vec3 x, double least, double greatest,
+                std::vector<FaceAreas>& found);
 
 }  // namespace deburr

@@ -58,16 +58,15 @@ double reach_across(const ClosedMesh& mesh, std::span<const int> triangles, Vec3
     return std::sqrt(square);
 }
 
-// Calls visit(triangle, least, greatest) with the range of |D|, in squared radii, for balls whose centres are within
-// `reach` radii of x: such a ball holds one around x that is smaller by this, and lies in one that is larger by this.
+// Calls visit(normal, least, greatest) with the range of a face's |D|, in squared radii, for balls whose centres are
+// within `reach` radii of x: such a ball holds one around x that is smaller by this, and lies in one that is larger.
 template <class Visit>
 void each_area_range(const ClosedMesh& mesh, std::span<const int> triangles, Vec3 x, double r, double reach,
                      Visit visit) {
-    const auto area = [&](int t, double of) { return area_in_ball(mesh, t, x, of) / (r * r); };
-    for (const int t : triangles) {
-        const double greatest = area(t, (1 + reach) * r);
-        if (greatest > 0) visit(t, area(t, (1 - reach) * r), std::min(greatest, pi));
-    }
+    thread_local std::vector<FaceAreas> faces;
+    face_areas(mesh, triangles, x, (1 - reach) * r, (1 + reach) * r, faces);
+    for (const FaceAreas& f : faces)
+        visit(mesh.plane(f.triangle).normal, f.in_least / (r * r), std::min(f.in_greatest / (r * r), pi));
 }
 
 }  // namespace
@@ -142,8 +141,7 @@ Range MeshField::range(const Box& box, std::span<const int> triangles) const {
     off = std::min(off, glm::dot(glm::abs(v.gradient), half) + 0.5 * curvature * reach * reach);
     if (reach < 1) {
         Vec3 lo(0.0), hi(0.0);  // range of Σ n |D|
-        each_area_range(*mesh_, triangles, center, radius_, reach, [&](int t, double least, double greatest) {
-            const Vec3 n = mesh_->plane(t).normal;
+        each_area_range(*mesh_, triangles, center, radius_, reach, [&](Vec3 n, double least, double greatest) {
             lo += glm::min(n * least, n * greatest);
             hi += glm::max(n * least, n * greatest);
         });
@@ -177,8 +175,8 @@ Range MeshField::rate_range(const Box& box, Vec3 direction) const {
     Range rates{rate - off, rate + off};
     if (reach < 1) {
         Range sum;  // range of Σ n·direction |D|
-        each_area_range(*mesh_, found, center, radius_, reach, [&](int t, double least, double greatest) {
-            const double along = glm::dot(mesh_->plane(t).normal, direction);
+        each_area_range(*mesh_, found, center, radius_, reach, [&](Vec3 n, double least, double greatest) {
+            const double along = glm::dot(n, direction);
             sum.lo += std::min(along * least, along * greatest);
             sum.hi += std::max(along * least, along * greatest);
         });

@@ -165,12 +165,12 @@ Range SelectiveMeshField::rate_range(const Box& box, Vec3 direction) const {
     const double middle = glm::dot(r.gradient, direction), off = std::min(2 * l.radius.rate, l.radius.bend * reach);
     const Range swell{std::max(middle - off, -l.radius.rate), std::min(middle + off, l.radius.rate)};
     Range sum{0, 0};  // range of Σ aᵢ (nᵢ·u + ηᵢ r′)
-    for (const int t : l.triangles) {
-        const ClosedMesh::Plane& plane = mesh_->plane(t);
-        const double greatest_area = area_in_ball(*mesh_, t, center, radius.hi + reach);
-        if (!(greatest_area > 0)) continue;
-        const Range area{area_in_ball(*mesh_, t, center, radius.lo - reach) / (radius.hi * radius.hi),
-                         std::min(greatest_area / (radius.lo * radius.lo), mesh_pi)};
+    thread_local std::vector<FaceAreas> faces;
+    face_areas(*mesh_, l.triangles, center, radius.lo - reach, radius.hi + reach, faces);
+    for (const FaceAreas& f : faces) {
+        const ClosedMesh::Plane& plane = mesh_->plane(f.triangle);
+        const Range area{f.in_least / (radius.hi * radius.hi),
+                         std::min(f.in_greatest / (radius.lo * radius.lo), mesh_pi)};
         const double h = plane.offset - glm::dot(plane.normal, center), dh = glm::dot(glm::abs(plane.normal), half);
         const auto in_radii = [&](double d) { return std::clamp(d > 0 ? d / radius.lo : d / radius.hi, -1.0, 1.0); };
         const auto least_in_radii = [&](double d) {
