@@ -173,7 +173,8 @@ TriangleSoup read_apart(const std::string& bytes, const std::string& format, con
 
 Model read_model(const std::string& path) {
     Model model;
-    const std::string bytes = is_openscad_path(path) ? openscad_output(path) : file_bytes(path);
+    std::string bytes = is_openscad_path(path) ? openscad_output(path) : file_bytes(path);
+    fold_stl_text(bytes);
     model.format = model_format(bytes, is_openscad_path(path) ? path + ".stl" : path);
     const TriangleSoup soup = read_apart(bytes, model.format, path);
     for (const auto& t : soup.triangles)

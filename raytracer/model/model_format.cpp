@@ -51,6 +51,18 @@ void check_ply_counts(const std::string& bytes, const std::string& path) {
 
 }  // namespace
 
+void fold_stl_text(std::string& bytes) {
+    const auto lower = [](unsigned char c) { return char(c >= 'A' && c <= 'Z' ? c - 'A' + 'a' : c); };
+    const auto space = [](unsigned char c) { return c == ' ' || (c >= '\t' && c <= '\r'); };
+    const std::size_t mark = bytes.compare(0, 3, "\xEF\xBB\xBF") == 0 ? 3 : 0;  // of UTF-8
+    const auto begin = std::find_if_not(bytes.begin() + std::ptrdiff_t(mark), bytes.end(), space);
+    const std::string sign = "solid";
+    if (std::size_t(bytes.end() - begin) < sign.size() || bytes.find('\0') != std::string::npos) return;
+    if (!std::equal(sign.begin(), sign.end(), begin, [&](char a, char b) { return a == lower(b); })) return;
+    bytes.erase(bytes.begin(), begin);
+    std::transform(bytes.begin(), bytes.end(), bytes.begin(), lower);
+}
+
 bool is_model_path(const std::string& path) {
     const std::string end = extension(path);
     return std::find(std::begin(extensions), std::end(extensions), end) != std::end(extensions);

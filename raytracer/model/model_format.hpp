@@ -9,6 +9,10 @@ bool is_model_path(const std::string& path);
 /// Whether the path is an OpenSCAD program: .scad or .csg.
 bool is_openscad_path(const std::string& path);
 
+/// Brings STL text to the form that ModelReader knows: keywords in lower case, and nothing before the first. Other
+/// bytes stay as they are.
+void fold_stl_text(std::string& bytes);
+
 /// The format's name for ModelReader, recognized by the first bytes, or by the extension where a format has no
 /// signature. Throws SceneError, which names `path`, if the file has no known format or is cut off.
 std::string model_format(const std::string& bytes, const std::string& path);

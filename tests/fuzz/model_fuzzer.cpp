@@ -68,9 +68,10 @@ void look_at(const TriangleSoup& soup) {
     }
 }
 
-void read_file(const std::string& bytes, const std::string& name) {
+void read_file(std::string bytes, const std::string& name) {
     static ModelReader* const reader =
         module_function<ModelModuleEntry>("deburr_models.so", model_module_entry, "models")();
+    fold_stl_text(bytes);
     std::string format;
     try {
         format = model_format(bytes, name);

@@ -1,6 +1,8 @@
 // Models from files: what is read, what is mended and reported, and the errors for what is refused.
 #include "raytracer/model/model_file.hpp"
 
+#include <cctype>
+
 #include "catch.hpp"
 #include "closed_shapes.hpp"
 #include "raytracer/folder.hpp"
@@ -88,9 +90,14 @@ Shape together(Shape a, const Shape& b) {
 
 TEST_CASE("a box is the same from every format") {
     const Shape s = box();
+    std::string capitals = ascii_stl(s);
+    for (char& c : capitals) c = char(std::toupper(c));
     const std::pair<const char*, std::string> files[] = {
-        {"a.stl", s.stl()}, {"b.stl", ascii_stl(s)},   {"a.obj", obj(s)},        {"a.off", off(s)},
-        {"a.ply", ply(s)},  {"no_extension", s.stl()}, {"wrong.obj.ply", ply(s)}};
+        {"c.stl", capitals},      {"d.stl", "\xEF\xBB\xBF \r\n" + ascii_stl(s)},
+        {"a.stl", s.stl()},       {"b.stl", ascii_stl(s)},
+        {"a.obj", obj(s)},        {"a.off", off(s)},
+        {"a.ply", ply(s)},        {"no_extension", s.stl()},
+        {"wrong.obj.ply", ply(s)}};
     for (const auto& [name, bytes] : files) {
         CAPTURE(name);
         const Model model = read(name, bytes);
