@@ -33,14 +33,14 @@ struct PrototypeInstances::Entered {
     Entered(const PrototypeInstances& around, std::uint32_t number, std::size_t rays, TraceCounters& counters)
         : p(around.prototype_.instances[number]),
           prototype(around.all_[p.prototype]),
-          bsp(prototype.bsp),
+          tracer(prototype.tracer),
           instances(around.all_, prototype) {
         counters.instances += rays;
     }
 
     const Instance& p;
     const Prototype& prototype;
-    const SurfaceTracer& bsp;
+    const SurfaceTracer& tracer;
     PrototypeInstances instances;
 };
 
@@ -93,7 +93,7 @@ FoundSurface PrototypeInstances::closest_hit(std::uint32_t number, const Ray& ra
                                              TraceCounters& counters) const {
     const Entered e(*this, number, 1, counters);
     const Inside in(e.p, ray);
-    FoundSurface found = e.bsp.closest_hit(in.ray, t_max * in.rate, counters, &e.instances, in.end(end));
+    FoundSurface found = e.tracer.closest_hit(in.ray, t_max * in.rate, counters, &e.instances, in.end(end));
     outside(found, e.p, ray, in.rate);
     return found;
 }
@@ -101,7 +101,7 @@ FoundSurface PrototypeInstances::closest_hit(std::uint32_t number, const Ray& ra
 bool PrototypeInstances::any_hit(std::uint32_t number, const Ray& ray, double t_max, TraceCounters& counters) const {
     const Entered e(*this, number, 1, counters);
     const Inside in(e.p, ray);
-    return e.bsp.any_hit(in.ray, t_max * in.rate, counters, &e.instances);
+    return e.tracer.any_hit(in.ray, t_max * in.rate, counters, &e.instances);
 }
 
 void PrototypeInstances::closest_hit_packet(std::uint32_t number, const RayPacket& rays, const double* end, Lanes lanes,
@@ -110,7 +110,7 @@ void PrototypeInstances::closest_hit_packet(std::uint32_t number, const RayPacke
     RayPacket inside;
     alignas(64) double rate[RayPacket::size];
     packet_functions.map(e.p.into, e.p.only_moved, rays, end, inside, rate);
-    e.bsp.closest_hit_packet(inside, lanes, found, counters, &e.instances);
+    e.tracer.closest_hit_packet(inside, lanes, found, counters, &e.instances);
     for_each_lane(found.found, [&](int k) { outside(found, k, e.p, rays, rate[k]); });
 }
 
@@ -120,7 +120,7 @@ Lanes PrototypeInstances::any_hit_packet(std::uint32_t number, const RayPacket& 
     RayPacket inside;
     alignas(64) double rate[RayPacket::size];
     packet_functions.map(e.p.into, e.p.only_moved, rays, rays.t_max, inside, rate);
-    return e.bsp.any_hit_packet(inside, lanes, counters, &e.instances);
+    return e.tracer.any_hit_packet(inside, lanes, counters, &e.instances);
 }
 
 }  // namespace
@@ -158,13 +158,13 @@ Hit hit_of(const FoundSurface& found, const Ray& ray) {
 Hit ImplicitTracer::closest_hit(const Ray& ray, double t_max, TraceCounters& counters) const {
     ++counters.rays;
     const PrototypeInstances instances(*prototypes_, (*prototypes_)[0]);
-    return hit_of((*prototypes_)[0].bsp.closest_hit(ray, t_max, counters, &instances), ray);
+    return hit_of((*prototypes_)[0].tracer.closest_hit(ray, t_max, counters, &instances), ray);
 }
 
 bool ImplicitTracer::any_hit(const Ray& ray, double t_max, TraceCounters& counters) const {
     ++counters.shadow_rays;
     const PrototypeInstances instances(*prototypes_, (*prototypes_)[0]);
-    return (*prototypes_)[0].bsp.any_hit(ray, t_max, counters, &instances);
+    return (*prototypes_)[0].tracer.any_hit(ray, t_max, counters, &instances);
 }
 
 namespace {
@@ -215,7 +215,7 @@ void ImplicitTracer::closest_hits(std::span<const Ray> rays, Hit* hits, TraceCou
     for (std::size_t first = 0; first < rays.size(); first += RayPacket::size) {
         const auto some = rays.subspan(first, std::min(rays.size() - first, std::size_t(RayPacket::size)));
         const Lanes lanes = load(packet, some, endless);
-        (*prototypes_)[0].bsp.closest_hit_packet(packet, lanes, found, counters, &instances);
+        (*prototypes_)[0].tracer.closest_hit_packet(packet, lanes, found, counters, &instances);
         for (std::size_t k = 0; k < some.size(); ++k) set_hit(hits[first + k], some[k], found, int(k));
     }
 }
@@ -228,7 +228,7 @@ void ImplicitTracer::any_hits(std::span<const Ray> rays, std::span<const double>
     for (std::size_t first = 0; first < rays.size(); first += RayPacket::size) {
         const std::size_t count = std::min(rays.size() - first, std::size_t(RayPacket::size));
         const Lanes lanes = load(packet, rays.subspan(first, count), &t_max[first]);
-        const Lanes any = (*prototypes_)[0].bsp.any_hit_packet(packet, lanes, counters, &instances);
+        const Lanes any = (*prototypes_)[0].tracer.any_hit_packet(packet, lanes, counters, &instances);
         for (std::size_t k = 0; k < count; ++k) occluded[first + k] = any >> k & 1;
     }
 }
@@ -242,10 +242,10 @@ BspStatistics ImplicitTracer::statistics() const {
             continue;
         }
         const Prototype& prototype = *prototypes_->built(i);
-        const CellPrimitives& primitives = prototype.bsp.surfaces().cell_primitives;
-        s.instances += prototype.instances.size() + prototype.bsp.trees().size() - 1;
+        const CellPrimitives& primitives = prototype.tracer.surfaces().cell_primitives;
+        s.instances += prototype.instances.size() + prototype.tracer.trees().size() - 1;
         std::uint32_t first = 0;  // the tree's first cell primitive
-        for (const BspTree& tree : prototype.bsp.trees()) {
+        for (const BspTree& tree : prototype.tracer.trees()) {
             ++s.prototypes;
             s.cells += tree.cells.size();
             s.half_spaces += tree.half_spaces;

@@ -368,7 +368,7 @@ Prototypes::Prototypes(const std::vector<Solid>& solids, Criterion criterion, Ro
         in_parallel(bsps.size() - 1, [&](std::size_t k) { build(k + 1, min_share_of_scale * scale); });
         auto prototype = std::make_unique<Prototype>(
             Prototype{SurfaceTracer(std::move(bsps), planned.boxes, criterion, accel), std::move(planned.instances)});
-        prototype->bsp.instances_lie_at(prototype->instances.data(), sizeof(Instance));
+        prototype->tracer.instances_lie_at(prototype->instances.data(), sizeof(Instance));
         all[i] = std::move(prototype);
     });
     for (std::size_t i = 0; i < all.size(); ++i) prototypes_[i] = all[i].release();

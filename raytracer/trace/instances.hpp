@@ -30,7 +30,7 @@ using Instances = LargeVector<Instance>;
 
 /// One prototype: the solids that are traced in it, and the instances placed in it.
 struct Prototype {
-    SurfaceTracer bsp;  // its own surfaces, and the boxes of its instances
+    SurfaceTracer tracer;  // of its own surfaces, and the boxes of its instances
     Instances instances;
 };
 
