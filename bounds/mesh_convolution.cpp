@@ -125,6 +125,9 @@ private:
         bool inside;  // the whole triangle is in the ball
     };
 
+    double height(const ClosedMesh::Plane& plane) const { return plane.offset - glm::dot(plane.normal, x_); }
+    // Whether the plane does not reach the ball.
+    bool is_beyond(const ClosedMesh::Plane& plane) const { return std::abs(height(plane)) > reach_; }
     Vec3 place(int vertex) const { return (mesh_->vertices()[std::size_t(vertex)] - x_) * (1 / r_); }
 
     // Finds the faces near the ball, and what all edges add to them.
@@ -146,17 +149,17 @@ private:
         faces_.clear();
         index_.reset(triangles.size());
         // Triangles farther outside or inside of the sphere than this are not cut by it, whatever rounding does.
-        const double rounding = 1e-9 * r_ + 16 * epsilon * (largest(x_) + r_), reach = r_ + rounding;
+        const double rounding = 1e-9 * r_ + 16 * epsilon * (largest(x_) + r_);
+        reach_ = r_ + rounding;
         for (const int t : triangles) {
             const ClosedMesh::Ball& ball = mesh_->ball(t);
             const ClosedMesh::Plane& plane = mesh_->plane(t);
             const Vec3 away = ball.center - x_;
             const double square = glm::dot(away, away), within = r_ - ball.radius - rounding;
-            if (square >= (ball.radius + reach) * (ball.radius + reach)) continue;
-            const double h = plane.offset - glm::dot(plane.normal, x_);
-            if (std::abs(h) > reach) continue;
+            if (square >= (ball.radius + reach_) * (ball.radius + reach_)) continue;
+            if (is_beyond(plane)) continue;
             const int f = index_.find_or_insert(plane.id, int(faces_.size()));
-            if (f == int(faces_.size())) faces_.push_back({.normal = plane.normal, .h = h / r_});
+            if (f == int(faces_.size())) faces_.push_back({.normal = plane.normal, .h = height(plane) / r_});
             Face& face = faces_[std::size_t(f)];
             const bool inside = within > 0 && square < within * within;
             if (inside) face.cross_sum += 2 * mesh_->area(t) / (r_ * r_);
@@ -173,6 +176,10 @@ private:
         Face& here = faces_[std::size_t(n.face)];
         const bool beside_inside = m >= 0 && near_[std::size_t(m)].inside;
         if (m >= 0 && !beside_inside && (near_[std::size_t(m)].face == n.face || other < n.triangle)) return;
+        if (m < 0 && is_beyond(mesh_->plane(other))) {
+            ++here.missed;
+            return;
+        }
         const ClosedMesh::Corners& v = mesh_->triangles()[std::size_t(n.triangle)];
         const int v0 = v[std::size_t(k)], v1 = v[std::size_t((k + 1) % 3)];
         const Vec3 a = place(std::min(v0, v1)), b = place(std::max(v0, v1));
@@ -289,7 +296,7 @@ private:
 
     const ClosedMesh* mesh_ = nullptr;
     Vec3 x_{0.0};
-    double r_ = 0;
+    double r_ = 0, reach_ = 0;  // reach_: the radius, and what rounding may add to it
     // Memory is kept from one evaluation to the next.
     std::vector<Near> near_;
     std::vector<Face> faces_;
