@@ -50,6 +50,9 @@ public:
     /// Planes that are worth cutting space along, also at their parallels at ±radius, because less of the field is left
     /// on either side. Empty if they would be many.
     virtual std::vector<HalfSpace> planes() const { return {}; }
+    /// A unit vector along which f does not change in the box that this field was pruned to; none if there is none or
+    /// it is not known, and for fields of parallel planes.
+    virtual std::optional<Vec3> swept_along() const { return std::nullopt; }
     /// A range that holds the rate at which f changes along the unit vector, over the finite box.
     virtual Range rate_range(const Box&, Vec3 /*direction*/) const { return {-infinity, infinity}; }
     /// Cost of one evaluation, as a multiple of that of a half-space's density.

@@ -33,9 +33,9 @@ void each_steepness(const ClosedMesh& mesh, std::span<const int> triangles, Vec3
     }
 }
 
-// Half the extent of the box center ± half across the direction that all planes have in common, if there is one,
-// because along it the share does not change; in world distances.
-double reach_across(const ClosedMesh& mesh, std::span<const int> triangles, Vec3 half) {
+// A unit vector perpendicular to the normals of all these triangles; 0 if they are all parallel, none if there is no
+// such direction.
+std::optional<Vec3> swept_direction(const ClosedMesh& mesh, std::span<const int> triangles) {
     constexpr double same_direction = 1e-9;  // sine of the angle between normals
     const Vec3 first = mesh.plane(triangles[0]).normal;
     Vec3 sweep(0.0);
@@ -46,14 +46,22 @@ double reach_across(const ClosedMesh& mesh, std::span<const int> triangles, Vec3
             const double sine = glm::length(common);
             if (sine > same_direction) sweep = common / sine;
         } else if (std::abs(glm::dot(sweep, n)) > same_direction) {
-            return glm::length(half);
+            return std::nullopt;
         }
     }
-    if (sweep == Vec3(0.0)) return glm::dot(glm::abs(first), half);
+    return sweep;
+}
+
+// Half the extent of the box center ± half across the direction that all planes have in common, if there is one,
+// because along it the share does not change; in world distances.
+double reach_across(const ClosedMesh& mesh, std::span<const int> triangles, Vec3 half) {
+    const std::optional<Vec3> sweep = swept_direction(mesh, triangles);
+    if (!sweep) return glm::length(half);
+    if (*sweep == Vec3(0.0)) return glm::dot(glm::abs(mesh.plane(triangles[0]).normal), half);
     double square = 0;
     for (int corner = 0; corner < 4; ++corner) {
         const Vec3 d(half.x, (corner & 1) != 0 ? -half.y : half.y, (corner & 2) != 0 ? -half.z : half.z);
-        square = std::max(square, glm::dot(d, d) - glm::dot(d, sweep) * glm::dot(d, sweep));
+        square = std::max(square, glm::dot(d, d) - glm::dot(d, *sweep) * glm::dot(d, *sweep));
     }
     return std::sqrt(square);
 }
@@ -184,6 +192,12 @@ Range MeshField::rate_range(const Box& box, Vec3 direction) const {
         rates = {std::max(rates.lo, -unit * sum.hi - slack), std::min(rates.hi, -unit * sum.lo + slack)};
     }
     return rates;
+}
+
+std::optional<Vec3> MeshField::swept_along() const {
+    if (whole_ || triangles_.empty()) return std::nullopt;
+    const std::optional<Vec3> sweep = swept_direction(*mesh_, triangles_);
+    return sweep == Vec3(0.0) ? std::nullopt : sweep;
 }
 
 FieldPtr MeshField::prune(const Box& box) const {

@@ -26,6 +26,7 @@ public:
     Range rate_range(const Box& box, Vec3 direction) const override;
     Box bounding_box() const override { return box_; }
     FieldPtr prune(const Box& box) const override;
+    std::optional<Vec3> swept_along() const override;
     std::optional<DensityTree> as_density(const Box& box) const override;
     bool is_density() const override { return true; }
     double filter_radius() const override { return sharp_ ? 0 : radius_; }

@@ -18,7 +18,11 @@ bool is_parallel_family(const LocalDensity& density) {
 }
 
 bool is_swept(const LocalDensity& density, Vec3& direction) {
-    if (density.field()) return false;
+    if (density.field()) {
+        const std::optional<Vec3> sweep = density.field()->swept_along();
+        if (sweep) direction = *sweep;
+        return sweep.has_value();
+    }
     const auto& planes = density.half_spaces();
     double best = same_direction;
     for (const HalfSpace& h : planes) {

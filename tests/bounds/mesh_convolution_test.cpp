@@ -353,6 +353,38 @@ TEST_CASE("a share falls in every direction that all triangles face, however lar
     CHECK(field.rate_range(cap, {1, 0, 0}).hi > 0);
 }
 
+TEST_CASE(
+    "where all planes that reach a box have a direction in common the share does not change along it, and the field "
+    "knows it") {
+    int swept = 0, along_prism = 0, other = 0;
+    for (auto seed : seeds(500)) {
+        CAPTURE(seed);
+        Gen g(seed);
+        const Mat3 turn = g.map(false).linear;
+        Shape prism = Shape::l_prism();
+        for (Vec3& v : prism.vertices) v = turn * (v * Vec3(1, 1, 5));
+        const double r = g.between(0.2, 0.6);
+        const MeshField field(std::make_shared<ClosedMesh>(prism.mesh()), r);
+        CHECK(!field.swept_along());
+        const Vec3 center = turn * Vec3(g.between(0, 2), g.between(0, 2), g.between(-1, 6));
+        const Box box = inflated(Box{center, center}, 0.1);
+        const FieldPtr part = field.prune(box);
+        if (!part) continue;
+        const std::optional<Vec3> along = part->swept_along();
+        if (!along) {
+            ++other;
+            continue;
+        }
+        ++swept;
+        along_prism += std::abs(glm::dot(*along, turn[2])) > 1 - 1e-12;
+        for (const double t : {-0.1, 0.05, 0.1})
+            CHECK(std::abs(part->at(center + t * *along).value - part->at(center).value) <= 1e-12);
+    }
+    CHECK(swept > along_prism);
+    CHECK(along_prism > 100);
+    CHECK(other > 50);
+}
+
 TEST_CASE("a cell without an end holds no more of a mesh than its finite part") {
     const MeshField field(std::make_shared<ClosedMesh>(Shape::sphere(1, 40).mesh()), 0.01);
     const Box left{{-infinity, -infinity, -infinity}, {-0.2, infinity, infinity}},
