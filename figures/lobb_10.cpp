@@ -63,87 +63,122 @@ void upright(Plot& plot, double x, Vec2 range, const std::string& text, const ch
         {.at = {x + (align == Label::Align::right ? -0.06 : 0.06), y}, .text = text, .align = align, .color = color});
 }
 
+const RayBounds bounds{1, 1, 1};
+
+// Least distances from a segment's end to a turning point beyond a root.
+struct TurningDistances {
+    double printed, exact;
+};
+
+TurningDistances turning_distances(SegmentEnd end) {
+    return {lobb_turning_distance(end, bounds), min_turning_distance(end, bounds)};
+}
+
+// Adds dots at the motion's ends.
+void add_ends(Plot& plot, const Motion& motion) {
+    dot(plot, motion.points.front(), house::blue);
+    dot(plot, {motion.t, motion.f}, house::blue);
+}
+
+// The slope points towards the root.
+void towards_root(FigureContext& context) {
+    const SegmentEnd end{0.45, -0.5};
+    const auto [printed, exact] = turning_distances(end);
+    const Vec2 y{-0.15, 0.6};
+    Plot plot = panel("(a) towards the root", {0, 2.2}, y);
+    const Motion m = quickest(end.f, end.slope, bounds.G);
+    plot.curves.push_back({.points = m.points, .color = house::blue, .width = 2.6});
+    plot.curves.push_back(
+        {.points = {{0, end.f}, {end.f / bounds.L, 0}}, .color = house::grey, .width = 1.4, .dash = "."});
+    add_ends(plot, m);
+    upright(plot, printed, y, "eq. 6", house::red, 0.53, Label::Align::left);
+    upright(plot, exact, y, "exact", house::green, 0.46, Label::Align::left);
+    context.plot(plot, fmt::format("ρ₁ and ρ₁′ of different signs: at least {:.2f}, exactly {:.2f}", printed, exact));
+}
+
+// The way that eq. 6 assumes where the slope points away from the root: the density returns to its value with the
+// opposite slope, at the distance `turn_around`, and then heads for the turning point.
+Motion turned_around(SegmentEnd end, double turn_around) {
+    Motion back{.f = end.f, .slope = end.slope};
+    back.follow({{-bounds.G, turn_around}, {bounds.G, end.slope / bounds.G}});
+    return back;
+}
+
+// The slope points away from the root: the turn-around.
+void away_from_root(FigureContext& context) {
+    const SegmentEnd end{0.12, 0.7};
+    const auto [printed, exact] = turning_distances(end);
+    const Vec2 y{-0.15, 0.6};
+    Plot plot = panel("(b) away from the root", {0, 3}, y);
+    const double turn_around = 2 * end.slope / bounds.G;
+    const Motion m = quickest(end.f, end.slope, bounds.G);
+    plot.curves.push_back(
+        {.points = {{0, end.f}, {turn_around, end.f}}, .color = house::grey, .width = 1.2, .dash = "."});
+    plot.labels.push_back({.at = {0.5 * turn_around, end.f - 0.035},
+                           .text = "turn-around",
+                           .align = Label::Align::center,
+                           .color = house::grey});
+    plot.curves.push_back({.points = m.points, .color = house::blue, .width = 2.6});
+    plot.curves.push_back(
+        {.points = turned_around(end, turn_around).points, .color = house::ink, .width = 1.4, .dash = "-"});
+    add_ends(plot, m);
+    upright(plot, printed, y, "eq. 6", house::red, 0.53, Label::Align::left);
+    upright(plot, exact, y, "exact", house::green, 0.53, Label::Align::right);
+    context.plot(plot, fmt::format("Of one sign: eq. 6 says {:.2f}, but braking early needs {:.2f}", printed, exact));
+}
+
+// A segment with two roots that eq. 6 accepts: its length, and both of its ends.
+constexpr double length = 5.5;
+constexpr SegmentEnd either_end{1e-12, 1};
+
+// A motion along the segment, down to a lowest point in its middle, and back.
+Motion down_and_back() {
+    const double w = (length / 2 - 1) / 2;
+    Motion m{.f = either_end.f, .slope = either_end.slope};
+    m.follow({{-1, 1 + w}, {1, 2 * w}, {-1, 1 + w}});
+    return m;
+}
+
+// Distances at which the motion's sign has changed.
+std::vector<double> sign_changes(const Motion& m) {
+    std::vector<double> changes;
+    for (std::size_t k = 1; k < m.points.size(); ++k)
+        if ((m.points[k].y > 0) != (m.points[k - 1].y > 0)) changes.push_back(m.points[k].x);
+    return changes;
+}
+
+double lowest_value(const Motion& m) {
+    double lowest = infinity;
+    for (const Vec2 p : m.points) lowest = std::min(lowest, p.y);
+    return lowest;
+}
+
+void segment_with_two_roots(FigureContext& context, const Motion& m) {
+    const auto [printed, exact] = turning_distances(either_end);
+    const Vec2 y{-0.45, 0.75};
+    Plot plot = panel("(c) a segment with two roots", {0, 6.2}, y);
+    plot.curves.push_back({.points = m.points, .color = house::blue, .width = 2.6});
+    for (const double t : sign_changes(m)) dot(plot, {t, 0}, house::red);
+    add_ends(plot, m);
+    upright(plot, 2 * printed, y, "eq. 6", house::red, 0.6, Label::Align::right);
+    upright(plot, 2 * exact, y, "exact", house::green, 0.6, Label::Align::right);
+    context.plot(plot, fmt::format("Length {:g}: eq. 6 accepts up to {:.2f}, the exact criterion up to {:.2f}", length,
+                                   2 * printed, 2 * exact));
+}
+
 void make(FigureContext& context) {
     context.columns(3);
-    const RayBounds bounds{1, 1, 1};
-
-    // (a) The slope points towards the root.
-    {
-        const SegmentEnd end{0.45, -0.5};
-        const double printed = lobb_turning_distance(end, bounds), exact = min_turning_distance(end, bounds);
-        const Vec2 y{-0.15, 0.6};
-        Plot plot = panel("(a) towards the root", {0, 2.2}, y);
-        Motion m = quickest(end.f, end.slope, bounds.G);
-        plot.curves.push_back({.points = m.points, .color = house::blue, .width = 2.6});
-        plot.curves.push_back(
-            {.points = {{0, end.f}, {end.f / bounds.L, 0}}, .color = house::grey, .width = 1.4, .dash = "."});
-        dot(plot, {0, end.f}, house::blue);
-        dot(plot, {m.t, m.f}, house::blue);
-        upright(plot, printed, y, "eq. 6", house::red, 0.53, Label::Align::left);
-        upright(plot, exact, y, "exact", house::green, 0.46, Label::Align::left);
-        context.plot(plot,
-                     fmt::format("ρ₁ and ρ₁′ of different signs: at least {:.2f}, exactly {:.2f}", printed, exact));
-    }
-    // (b) The slope points away from it: the turn-around.
-    {
-        const SegmentEnd end{0.12, 0.7};
-        const double printed = lobb_turning_distance(end, bounds), exact = min_turning_distance(end, bounds);
-        const Vec2 y{-0.15, 0.6};
-        Plot plot = panel("(b) away from the root", {0, 3}, y);
-        // Eq. 6 assumes that the density returns to its value with the opposite slope.
-        Motion back{.f = end.f, .slope = end.slope};
-        const double turn_around = 2 * end.slope / bounds.G;
-        back.follow({{-bounds.G, turn_around}, {bounds.G, end.slope / bounds.G}});
-        Motion m = quickest(end.f, end.slope, bounds.G);
-        plot.curves.push_back(
-            {.points = {{0, end.f}, {turn_around, end.f}}, .color = house::grey, .width = 1.2, .dash = "."});
-        plot.labels.push_back({.at = {0.5 * turn_around, end.f - 0.035},
-                               .text = "turn-around",
-                               .align = Label::Align::center,
-                               .color = house::grey});
-        plot.curves.push_back({.points = m.points, .color = house::blue, .width = 2.6});
-        plot.curves.push_back({.points = back.points, .color = house::ink, .width = 1.4, .dash = "-"});
-        dot(plot, {0, end.f}, house::blue);
-        dot(plot, {m.t, m.f}, house::blue);
-        upright(plot, printed, y, "eq. 6", house::red, 0.53, Label::Align::left);
-        upright(plot, exact, y, "exact", house::green, 0.53, Label::Align::right);
-        context.plot(plot,
-                     fmt::format("Of one sign: eq. 6 says {:.2f}, but braking early needs {:.2f}", printed, exact));
-    }
-    // (c) A segment with two roots that eq. 6 accepts: down to a lowest point in its middle, and back.
-    double lowest = 0, length = 5.5;
-    const SegmentEnd end{1e-12, 1};
-    const bool printed_accepts = at_most_one_root(end, end, bounds, length, Criterion::lobb);
-    const bool exact_accepts = at_most_one_root(end, end, bounds, length, Criterion::exact);
-    const double printed = 2 * lobb_turning_distance(end, bounds), exact = 2 * min_turning_distance(end, bounds);
-    int roots = 0;
-    {
-        const double w = (length / 2 - 1) / 2;
-        Motion m{.f = end.f, .slope = end.slope};
-        m.follow({{-1, 1 + w}, {1, 2 * w}, {-1, 1 + w}});
-        for (std::size_t k = 1; k < m.points.size(); ++k) {
-            lowest = std::min(lowest, m.points[k].y);
-            roots += (m.points[k].y > 0) != (m.points[k - 1].y > 0);
-        }
-        const Vec2 y{-0.45, 0.75};
-        Plot plot = panel("(c) a segment with two roots", {0, 6.2}, y);
-        plot.curves.push_back({.points = m.points, .color = house::blue, .width = 2.6});
-        for (std::size_t k = 1; k < m.points.size(); ++k)
-            if ((m.points[k].y > 0) != (m.points[k - 1].y > 0)) dot(plot, {m.points[k].x, 0}, house::red);
-        dot(plot, {0, end.f}, house::blue);
-        dot(plot, {m.t, m.f}, house::blue);
-        upright(plot, printed, y, "eq. 6", house::red, 0.6, Label::Align::right);
-        upright(plot, exact, y, "exact", house::green, 0.6, Label::Align::right);
-        context.plot(plot, fmt::format("Length {:g}: eq. 6 accepts up to {:.2f}, the exact criterion up to {:.2f}",
-                                       length, printed, exact));
-    }
+    towards_root(context);
+    away_from_root(context);
+    const Motion m = down_and_back();
+    segment_with_two_roots(context, m);
+    const auto accepts = [](Criterion c) { return at_most_one_root(either_end, either_end, bounds, length, c); };
     context.measured(fmt::format(
         "With L = G = 1, f = 0⁺ and slope 1 inwards at both ends, a segment of length {:g} is {} by eq. 6 as holding "
-        "at most one root, and the "
-        "function drawn in (c), which keeps to the bounds, has {} (lowest value {:.3f}). The exact criterion {} it. "
-        "Eq. 6 is not a safe "
-        "bound; rendering uses the exact one.",
-        length, printed_accepts ? "accepted" : "refused", roots, lowest, exact_accepts ? "accepts" : "refuses"));
+        "at most one root, and the function drawn in (c), which keeps to the bounds, has {} (lowest value {:.3f}). The "
+        "exact criterion {} it. Eq. 6 is not a safe bound; rendering uses the exact one.",
+        length, accepts(Criterion::lobb) ? "accepted" : "refused", sign_changes(m).size(), lowest_value(m),
+        accepts(Criterion::exact) ? "accepts" : "refuses"));
 }
 
 const RegisteredFigure registered{{

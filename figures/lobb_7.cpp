@@ -23,23 +23,30 @@ double length_of(const std::vector<Span>& spans) {
     return sum;
 }
 
-void make(FigureContext& context) {
-    // A block with a slot and a wedge beside it: a legal difference and a legal sum.
-    const Density wedge = Density::half_space({0.35, 1, 0}, 0.35 * 5.1 + 1.75) * block(4.6, 0, 6.1, 4);
-    const DensityTree tree = flatten(block(0, 0, 3.6, 2.3) - block(1.2, 0.8, 2.2, 2.3) + wedge, r);
-    const LocalDensity density(tree);
-    const BoundCsg outer = outer_bound(tree, 0.5), inner = inner_bound(tree, 0.5);
-    const BoundCsg by_r = outer_bound(tree, 0), by_minus_r = inner_bound(tree, 1);
+// The ray.
+const Vec2 start{-1.2, 1.22}, end{7.3, 1.52}, direction = glm::normalize(end - start);
+const double length = glm::length(end - start);
 
-    const Vec2 start{-1.2, 1.22}, end{7.3, 1.52}, direction = glm::normalize(end - start);
-    const double length = glm::length(end - start);
+Vec2 at(double t) { return start + t * direction; }
+
+// A block with a slot and a wedge beside it: a legal difference and a legal sum.
+DensityTree block_and_wedge() {
+    const Density wedge = Density::half_space({0.35, 1, 0}, 0.35 * 5.1 + 1.75) * block(4.6, 0, 6.1, 4);
+    return flatten(block(0, 0, 3.6, 2.3) - block(1.2, 0.8, 2.2, 2.3) + wedge, r);
+}
+
+// The ray's spans inside the outer bound and outside of the inner one.
+std::vector<Span> spans_between(const BoundCsg& outer, const BoundCsg& inner) {
     SearchSpans search;
-    const auto spans = [&](const BoundCsg& o, const BoundCsg& i) {
-        return search.between(o, i, in_space(start), in_space(direction), 0, length);
-    };
-    const BoundCsg nothing{{}, {{BoundCsg::Kind::nothing}}, false};
-    const std::vector<Span> in_outer = spans(outer, nothing), in_inner = spans(inner, nothing),
-                            regions = spans(outer, inner), wide = spans(by_r, by_minus_r);
+    return search.between(outer, inner, in_space(start), in_space(direction), 0, length);
+}
+
+std::vector<Span> spans_inside(const BoundCsg& bound) {
+    return spans_between(bound, {{}, {{BoundCsg::Kind::nothing}}, false});
+}
+
+// The distances along the ray at which it crosses the isosurface.
+std::vector<double> crossings_of(const LocalDensity& density) {
     RayDensity ray;
     ray.set(density, in_space(start), in_space(direction));
     RootCounters counters;
@@ -49,60 +56,104 @@ void make(FigureContext& context) {
         roots.push_back(c.t);
         return true;
     });
+    return roots;
+}
 
-    Plot plot = drawing(900, 520);
-    plot.x_range = Vec2(-3.3, 7.6);
-    plot.y_range = Vec2(-3.2, 2.85);
-    const Vec2 lo{-1, -0.9}, hi{7.2, 3.2};
-    const auto fill = [&](const std::function<double(Vec2)>& f, const char* color, double outline) {
-        for (const auto& line : level_lines(f, 0.5, lo, hi, 246, 123))
-            plot.curves.push_back({.points = line, .color = color, .kind = Curve::Kind::fill, .width = outline});
-    };
-    fill([&](Vec2 x) { return outer.contains(in_space(x)) ? 1 : 0; }, house::shade, 0);
-    fill([&](Vec2 x) { return inner.contains(in_space(x)) ? 1 : 0; }, "#b3c8de", 0);
-    for (const auto& line : level_lines([&](Vec2 x) { return density.at(in_space(x)); }, 0.5, lo, hi, 246, 123))
+// The lines f = ½ in the part of the plane that holds the objects.
+std::vector<std::vector<Vec2>> borders(const std::function<double(Vec2)>& f) {
+    return level_lines(f, 0.5, {-1, -0.9}, {7.2, 3.2}, 246, 123);
+}
+
+void add_object(Plot& plot, const BoundCsg& object, const char* color) {
+    for (const auto& line : borders([&](Vec2 x) { return object.contains(in_space(x)) ? 1 : 0; }))
+        plot.curves.push_back({.points = line, .color = color, .kind = Curve::Kind::fill, .width = 0});
+}
+
+void add_isosurface(Plot& plot, const LocalDensity& density) {
+    for (const auto& line : borders([&](Vec2 x) { return density.at(in_space(x)); }))
         plot.curves.push_back({.points = line, .color = house::blue, .width = 2.4});
-    const auto at = [&](double t) { return start + t * direction; };
-    for (const Span& s : regions)
+}
+
+void add_ray(Plot& plot, const std::vector<Span>& searched) {
+    for (const Span& s : searched)
         plot.curves.push_back({.points = {at(s.lo), at(s.hi)}, .color = house::amber, .width = 6});
     plot.arrows.push_back({.from = start, .to = end, .color = house::ink, .width = 1.6});
+}
 
-    // Draws the ray's state, from outside (low) to inside (high).
-    const auto state = [&](double base, const std::vector<Span>& inside, const std::string& name, const char* color) {
-        std::vector<Vec2> points{{at(0).x, base}};
-        for (const Span& s : inside)
-            for (const Vec2 p : {Vec2(s.lo, 0), Vec2(s.lo, 1), Vec2(s.hi, 1), Vec2(s.hi, 0)})
-                points.push_back({at(p.x).x, base + 0.42 * p.y});
-        points.push_back({at(length).x, base});
-        plot.curves.push_back({.points = points, .color = color, .width = 2});
-        plot.labels.push_back({.at = {-1.45, base + 0.2}, .text = name, .align = Label::Align::right});
-    };
-    const double a = -1.4, b = -2.2, c = -3.0;
-    for (const Span& s : regions) {
+// Heights of the diagrams below the ray, and the height of a state in them.
+constexpr double base_a = -1.4, base_b = -2.2, base_c = -3.0, state_height = 0.42;
+
+void add_name(Plot& plot, double base, const char* name) {
+    plot.labels.push_back({.at = {-1.45, base + 0.2}, .text = name, .align = Label::Align::right});
+}
+
+// Adds a diagram of the ray's state, from outside (low) to inside (high).
+void add_state(Plot& plot, double base, const std::vector<Span>& inside, const char* name) {
+    std::vector<Vec2> points{{at(0).x, base}};
+    for (const Span& s : inside)
+        for (const Vec2 p : {Vec2(s.lo, 0), Vec2(s.lo, 1), Vec2(s.hi, 1), Vec2(s.hi, 0)})
+            points.push_back({at(p.x).x, base + state_height * p.y});
+    points.push_back({at(length).x, base});
+    plot.curves.push_back({.points = points, .color = house::blue, .width = 2});
+    add_name(plot, base, name);
+}
+
+// Adds bars over the stretches that are searched.
+void add_searched(Plot& plot, const std::vector<Span>& searched) {
+    const double c = base_c, top = c + state_height;
+    for (const Span& s : searched) {
         const double x0 = at(s.lo).x, x1 = at(s.hi).x;
-        plot.curves.push_back({.points = {{x0, c}, {x1, c}, {x1, c + 0.42}, {x0, c + 0.42}, {x0, c}},
+        plot.curves.push_back({.points = {{x0, c}, {x1, c}, {x1, top}, {x0, top}, {x0, c}},
                                .color = house::amber,
                                .kind = Curve::Kind::fill,
                                .width = 0,
                                .opacity = 0.7});
     }
-    state(a, in_outer, "(a) expanded", house::blue);
-    state(b, in_inner, "(b) contracted", house::blue);
-    plot.curves.push_back({.points = {{at(0).x, c}, {at(length).x, c}}, .color = house::ink, .width = 1.2});
-    plot.labels.push_back({.at = {-1.45, c + 0.2}, .text = "(c) search", .align = Label::Align::right});
+}
+
+// Adds the line below the bars.
+void add_search_axis(Plot& plot) {
+    plot.curves.push_back({.points = {{at(0).x, base_c}, {at(length).x, base_c}}, .color = house::ink, .width = 1.2});
+    add_name(plot, base_c, "(c) search");
+}
+
+// Adds the crossing, and a dotted line from it to the stretches that are searched.
+void add_crossing(Plot& plot, double t) {
+    const Vec2 x = at(t);
+    plot.curves.push_back({.points = {{x.x, x.y}, {x.x, base_c}}, .color = house::grey, .width = 0.8, .dash = "."});
+    plot.curves.push_back({.points = circle(x, 0.06), .color = house::red, .kind = Curve::Kind::fill, .width = 0});
+}
+
+void make(FigureContext& context) {
+    const DensityTree tree = block_and_wedge();
+    const LocalDensity density(tree);
+    const BoundCsg outer = outer_bound(tree, 0.5), inner = inner_bound(tree, 0.5);
+    const std::vector<Span> searched = spans_between(outer, inner),
+                            moved_by_r = spans_between(outer_bound(tree, 0), inner_bound(tree, 1));
+    const std::vector<double> crossings = crossings_of(density);
+
+    Plot plot = drawing(900, 520);
+    plot.x_range = Vec2(-3.3, 7.6);
+    plot.y_range = Vec2(-3.2, 2.85);
+    add_object(plot, outer, house::shade);
+    add_object(plot, inner, "#b3c8de");
+    add_isosurface(plot, density);
+    add_ray(plot, searched);
+    add_searched(plot, searched);
+    add_state(plot, base_a, spans_inside(outer), "(a) expanded");
+    add_state(plot, base_b, spans_inside(inner), "(b) contracted");
+    add_search_axis(plot);
     int held = 0;
-    for (const double t : roots) {
-        const Vec2 x = at(t);
-        plot.curves.push_back({.points = {{x.x, x.y}, {x.x, c}}, .color = house::grey, .width = 0.8, .dash = "."});
-        plot.curves.push_back({.points = circle(x, 0.06), .color = house::red, .kind = Curve::Kind::fill, .width = 0});
-        for (const Span& s : regions) held += s.lo <= t && t <= s.hi;
+    for (const double t : crossings) {
+        add_crossing(plot, t);
+        for (const Span& s : searched) held += s.lo <= t && t <= s.hi;
     }
     context.plot(plot);
     context.measured(fmt::format(
         "The ray crosses the surface {} times, {} of them in the {} stretches that are searched. These are {:.1f} % of "
-        "the ray; planes "
-        "moved by r and −r, which would do (§3.2), leave {:.1f} %.",
-        roots.size(), held, regions.size(), 100 * length_of(regions) / length, 100 * length_of(wide) / length));
+        "the ray; planes moved by r and −r, which would do (§3.2), leave {:.1f} %.",
+        crossings.size(), held, searched.size(), 100 * length_of(searched) / length,
+        100 * length_of(moved_by_r) / length));
 }
 
 const RegisteredFigure registered{{

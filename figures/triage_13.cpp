@@ -1,5 +1,5 @@
 // Triage, figures 13, 15 and 16: subspace polygonization of single cells.
-#include <set>
+#include <cassert>
 
 #include "figures/cell_drawing.hpp"
 #include "figures/figure.hpp"
@@ -79,116 +79,176 @@ void four_steps(FigureContext& context) {
         std::max(worst, 1e-16)));
 }
 
+// An edge of the isosurface's polygon, in a face of the cell, and the point by which it is refined.
+struct RefinedEdge {
+    Vec3 a, b, refined;
+    Vec3 middle() const { return 0.5 * (a + b); }                    // p_mid
+    double rise() const { return glm::length(refined - middle()); }  // by which the middle is moved
+};
+
+// The edge whose middle is moved most.
+RefinedEdge most_refined_edge(const CellDrawing& cell) {
+    const auto& loop = cell.loop();
+    const auto point = [&](std::size_t k) { return cell.points()[loop[k % loop.size()]]; };
+    RefinedEdge best{};
+    double most = -1;
+    for (std::size_t k = 0; k < loop.size(); ++k) {
+        if (point(k).on != On::face) continue;
+        const RefinedEdge edge{point(k + loop.size() - 1).x, point(k + 1).x, point(k).x};
+        if (edge.rise() > most) most = edge.rise(), best = edge;
+    }
+    return best;
+}
+
+Vec3 normal_of(const std::vector<Vec3>& wall) {
+    return glm::normalize(glm::cross(wall[1] - wall[0], wall[2] - wall[0]));
+}
+
+// The face of the cell in which the edge is.
+const std::vector<Vec3>& wall_with(const CellDrawing& cell, const RefinedEdge& edge) {
+    constexpr double near = 1e-7;
+    const std::vector<Vec3>* found = nullptr;
+    for (const auto& wall : cell.walls()) {
+        double far = 0;
+        for (const Vec3 x : {edge.a, edge.b, edge.refined})
+            far = std::max(far, std::abs(glm::dot(normal_of(wall), x - wall[0])));
+        if (far < near) found = &wall;
+    }
+    assert(found);
+    return *found;
+}
+
+// A face of the cell as a plane figure: its origin is p_mid, the middle of the polygon's edge, along which x runs.
+struct FaceDrawing {
+    std::vector<Vec2> face;                     // counter-clockwise
+    Vec2 lo, hi;                                // the face's box
+    Vec2 a, b, refined;                         // the edge's ends, and the point by which it is refined
+    Vec2 gradient;                              // direction of ∇ρ at p_mid, projected into the face
+    Vec2 start, end;                            // where the gradient's line leaves the face: s_start and s_end
+    std::vector<std::vector<Vec2>> isosurface;  // lines in which it meets the face's plane
+};
+
+// The stretch of the line t·direction in a convex, counter-clockwise polygon.
+Range stretch_within(const std::vector<Vec2>& polygon, Vec2 direction) {
+    Range t{-infinity, infinity};
+    for (std::size_t k = 0; k < polygon.size(); ++k) {
+        const Vec2 p = polygon[k], q = polygon[(k + 1) % polygon.size()], inward(p.y - q.y, q.x - p.x);
+        const double speed = glm::dot(inward, direction), at_zero = glm::dot(inward, -p);
+        if (speed > 0)
+            t.lo = std::max(t.lo, -at_zero / speed);
+        else if (speed < 0)
+            t.hi = std::min(t.hi, -at_zero / speed);
+    }
+    return t;
+}
+
+FaceDrawing face_drawing(const CellDrawing& cell, const RefinedEdge& edge) {
+    const std::vector<Vec3>& wall = wall_with(cell, edge);
+    const Vec3 middle = edge.middle(), u = glm::normalize(edge.b - edge.a), v = glm::cross(normal_of(wall), u);
+    const auto flat = [&](Vec3 x) { return Vec2(glm::dot(x - middle, u), glm::dot(x - middle, v)); };
+    const auto space = [&](Vec2 p) { return middle + p.x * u + p.y * v; };
+    FaceDrawing d{.face = {},
+                  .lo = Vec2(1e9),
+                  .hi = Vec2(-1e9),
+                  .a = flat(edge.a),
+                  .b = flat(edge.b),
+                  .refined = flat(edge.refined),
+                  .gradient = {},
+                  .start = {},
+                  .end = {},
+                  .isosurface = {}};
+    for (const Vec3& x : wall) {
+        d.face.push_back(flat(x));
+        d.lo = glm::min(d.lo, d.face.back());
+        d.hi = glm::max(d.hi, d.face.back());
+    }
+    const Vec3 gradient = cell.density().gradient_at(middle).gradient;
+    d.gradient = glm::normalize(Vec2(glm::dot(gradient, u), glm::dot(gradient, v)));
+    const Range t = stretch_within(d.face, d.gradient);
+    d.start = t.lo * d.gradient;
+    d.end = t.hi * d.gradient;
+    d.isosurface =
+        level_lines([&](Vec2 p) { return cell.density().at(space(p)); }, 0.5, d.lo - 0.02, d.hi + 0.02, 160, 160);
+    return d;
+}
+
+// The line, interrupted where it is outside of a convex, counter-clockwise polygon.
+std::vector<Vec2> part_within(const std::vector<Vec2>& polygon, const std::vector<Vec2>& line) {
+    std::vector<Vec2> part;
+    for (const Vec2 p : line) {
+        bool in = true;
+        for (std::size_t k = 0; k < polygon.size(); ++k)
+            in &= cross(polygon[(k + 1) % polygon.size()] - polygon[k], p - polygon[k]) >= -1e-6;
+        part.push_back(in ? p : Vec2(NAN));
+    }
+    return part;
+}
+
+// The steps of a refinement: the gradient's line through p_mid, the root on it, and the edge through the root.
+enum class Step { line, root, edge };
+
+Plot plot_of(const FaceDrawing& d, Step step) {
+    Plot plot = drawing(330, 300);
+    const Vec2 size = d.hi - d.lo, margin = 0.12 * size;
+    plot.x_range = Vec2(d.lo.x - margin.x, d.hi.x + margin.x);
+    plot.y_range = Vec2(d.lo.y - margin.y, d.hi.y + margin.y);
+    plot.curves.push_back({.points = d.face, .color = "#f2f4f7", .kind = Curve::Kind::fill, .width = 1.5});
+    for (const auto& line : d.isosurface)
+        plot.curves.push_back({.points = part_within(d.face, line), .color = house::grey, .width = 1.5, .dash = "."});
+    const auto dot = [&](Vec2 p, const char* color) {
+        plot.curves.push_back({.points = {p}, .color = color, .kind = Curve::Kind::points, .width = 3.2});
+    };
+    const auto name = [&](Vec2 p, const char* text, Vec2 shift) {
+        plot.labels.push_back({.at = p + shift * size, .text = text, .size = 12});
+    };
+    if (step == Step::edge) {
+        plot.curves.push_back({.points = {d.a, d.refined, d.b}, .color = house::blue, .width = 2.4});
+    } else {
+        plot.curves.push_back({.points = {d.a, d.b}, .color = house::blue, .width = 2.4});
+        plot.curves.push_back(
+            {.points = {d.start, d.end}, .color = house::red, .width = 1.4, .dash = step == Step::line ? "-" : ""});
+        dot(d.start, house::red);
+        name(d.start, "{/:Italic s}_{start}", {-0.2, -0.02});
+        dot(d.end, house::red);
+        name(d.end, "{/:Italic s}_{end}", {0.0, 0.08});
+        dot({0, 0}, house::ink);
+        name({0, 0}, "{/:Italic p}_{mid}", {0.03, -0.07});
+    }
+    if (step != Step::line) dot(d.refined, house::amber);
+    dot(d.a, house::red);
+    dot(d.b, house::red);
+    return plot;
+}
+
+// The greatest distance of the isosurface's points beside the refined edge's halves from these.
+double greatest_distance_from_refined_edge(const FaceDrawing& d) {
+    double greatest = 0;
+    for (const auto& line : d.isosurface)
+        for (const Vec2 p : line) {
+            double nearest = infinity;
+            for (const Vec2 end : {d.a, d.b}) {
+                const Vec2 half = d.refined - end;
+                const double t = glm::dot(p - end, half) / glm::dot(half, half);
+                if (t >= 0 && t <= 1) nearest = std::min(nearest, glm::length(p - end - t * half));
+            }
+            if (nearest < infinity) greatest = std::max(greatest, nearest);
+        }
+    return greatest;
+}
+
 // Draws the face of the cell in which the polygon's edge is refined most, as a plane figure.
 void refinement(FigureContext& context) {
     context.columns(3);
     const CellDrawing cell = corner_cell();
-    std::size_t best = 0;
-    double most = -1;
-    const auto& loop = cell.loop();
-    const auto point = [&](std::size_t k) { return cell.points()[loop[k % loop.size()]]; };
-    for (std::size_t k = 0; k < loop.size(); ++k) {
-        if (point(k).on != On::face) continue;
-        const double rise = glm::length(point(k).x - 0.5 * (point(k + loop.size() - 1).x + point(k + 1).x));
-        if (rise > most) most = rise, best = k;
-    }
-    const Vec3 a = point(best + loop.size() - 1).x, b = point(best + 1).x, refined = point(best).x,
-               middle = 0.5 * (a + b);
-    const std::vector<Vec3>* wall = nullptr;
-    Vec3 normal(0.0);
-    for (const auto& w : cell.walls()) {
-        const Vec3 n = glm::normalize(glm::cross(w[1] - w[0], w[2] - w[0]));
-        double far = 0;
-        for (const Vec3 x : {a, b, refined}) far = std::max(far, std::abs(glm::dot(n, x - w[0])));
-        if (far < 1e-7) wall = &w, normal = n;
-    }
-    // Axes in the face: x along the polygon's edge.
-    const Vec3 u = glm::normalize(b - a), v = glm::cross(normal, u);
-    const auto flat = [&](Vec3 x) { return Vec2(glm::dot(x - middle, u), glm::dot(x - middle, v)); };
-    const auto space = [&](Vec2 p) { return middle + p.x * u + p.y * v; };
-    std::vector<Vec2> face;
-    Vec2 lo(1e9), hi(-1e9);
-    for (const Vec3& x : *wall) {
-        face.push_back(flat(x));
-        lo = glm::min(lo, face.back());
-        hi = glm::max(hi, face.back());
-    }
-    // ∇ρ at p_mid, projected into the face; its line leaves the face at s_start and s_end.
-    const Vec3 gradient = cell.density().gradient_at(middle).gradient;
-    const Vec2 g = glm::normalize(Vec2(glm::dot(gradient, u), glm::dot(gradient, v)));
-    double t0 = -infinity, t1 = infinity;
-    for (std::size_t k = 0; k < face.size(); ++k) {
-        const Vec2 p = face[k], q = face[(k + 1) % face.size()], inward(p.y - q.y, q.x - p.x);
-        const double speed = glm::dot(inward, g), at_zero = glm::dot(inward, -p);
-        if (speed > 0)
-            t0 = std::max(t0, -at_zero / speed);
-        else if (speed < 0)
-            t1 = std::min(t1, -at_zero / speed);
-    }
-    const Vec2 start = t0 * g, end = t1 * g;
-    const auto level =
-        level_lines([&](Vec2 p) { return cell.density().at(space(p)); }, 0.5, lo - 0.02, hi + 0.02, 160, 160);
-
-    const auto draw = [&](int step) {
-        Plot plot = drawing(330, 300);
-        const Vec2 margin = 0.12 * (hi - lo);
-        plot.x_range = Vec2(lo.x - margin.x, hi.x + margin.x);
-        plot.y_range = Vec2(lo.y - margin.y, hi.y + margin.y);
-        plot.curves.push_back({.points = face, .color = "#f2f4f7", .kind = Curve::Kind::fill, .width = 1.5});
-        for (const auto& line : level) {
-            std::vector<Vec2> within;
-            for (const Vec2 p : line) {
-                bool in = true;
-                for (std::size_t k = 0; k < face.size(); ++k) {
-                    const Vec2 d = face[(k + 1) % face.size()] - face[k], e = p - face[k];
-                    in &= d.x * e.y - d.y * e.x >= -1e-6;
-                }
-                within.push_back(in ? p : Vec2(NAN));
-            }
-            plot.curves.push_back({.points = within, .color = house::grey, .width = 1.5, .dash = "."});
-        }
-        const auto dot = [&](Vec2 p, const char* color, const char* name, Vec2 shift) {
-            plot.curves.push_back({.points = {p}, .color = color, .kind = Curve::Kind::points, .width = 3.2});
-            if (*name) plot.labels.push_back({.at = p + shift * (hi - lo), .text = name, .size = 12});
-        };
-        if (step < 3)
-            plot.curves.push_back({.points = {flat(a), flat(b)}, .color = house::blue, .width = 2.4});
-        else
-            plot.curves.push_back({.points = {flat(a), flat(refined), flat(b)}, .color = house::blue, .width = 2.4});
-        if (step < 3) {
-            plot.curves.push_back(
-                {.points = {start, end}, .color = house::red, .width = 1.4, .dash = step == 1 ? "-" : ""});
-            dot(start, house::red, "{/:Italic s}_{start}", {-0.2, -0.02});
-            dot(end, house::red, "{/:Italic s}_{end}", {0.0, 0.08});
-            dot({0, 0}, house::ink, "{/:Italic p}_{mid}", {0.03, -0.07});
-        }
-        if (step > 1) dot(flat(refined), house::amber, "", {0, 0});
-        dot(flat(a), house::red, "", {0, 0});
-        dot(flat(b), house::red, "", {0, 0});
-        return plot;
-    };
-    context.plot(draw(1), "(a) the gradient's line through p_mid");
-    context.plot(draw(2), "(b) the root on it");
-    context.plot(draw(3), "(c) the refined edge");
-    const Vec2 r = flat(refined);
-    context.measured(
-        fmt::format("The program's new vertex is {:.1e} r off the gradient's line, and the edge's distance from the "
-                    "isoline falls from "
-                    "{:.3f} r to {:.3f} r.",
-                    std::max(std::abs(r.x * g.y - r.y * g.x), 1e-16), most, [&] {
-                        double worst = 0;
-                        for (const auto& line : level)
-                            for (const Vec2 p : line) {
-                                double nearest = infinity;
-                                for (const Vec3 end_point : {a, b}) {
-                                    const Vec2 s = flat(end_point), d = r - s;
-                                    const double t = glm::dot(p - s, d) / glm::dot(d, d);
-                                    if (t >= 0 && t <= 1) nearest = std::min(nearest, glm::length(p - s - t * d));
-                                }
-                                if (nearest < infinity) worst = std::max(worst, nearest);
-                            }
-                        return worst;
-                    }()));
+    const RefinedEdge edge = most_refined_edge(cell);
+    const FaceDrawing d = face_drawing(cell, edge);
+    context.plot(plot_of(d, Step::line), "(a) the gradient's line through p_mid");
+    context.plot(plot_of(d, Step::root), "(b) the root on it");
+    context.plot(plot_of(d, Step::edge), "(c) the refined edge");
+    context.measured(fmt::format(
+        "The program's new vertex is {:.1e} r off the gradient's line, and the edge's distance from the "
+        "isoline falls from {:.3f} r to {:.3f} r.",
+        std::max(std::abs(cross(d.refined, d.gradient)), 1e-16), edge.rise(), greatest_distance_from_refined_edge(d)));
 }
 
 void two_half_spaces(FigureContext& context) {

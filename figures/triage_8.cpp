@@ -45,11 +45,73 @@ void outline(Plot& plot, const Block& block, const char* color, double width, co
     plot.curves.push_back({.points = line, .color = color, .width = width, .dash = dash});
 }
 
-// The planes of a block, and their parallels at ±r.
+using Lines = std::vector<std::vector<Vec2>>;
+
+// The planes of a block along one axis, and their parallels at ±r.
 std::vector<double> planes(double a, double b) { return {a - r, a, a + r, b - r, b, b + r}; }
 
-// Adds every region between the planes with its class from table 1.
-void add_regions(Plot& plot, const Block& block) {
+// Twice the signed area that a closed line encloses.
+double double_area(const std::vector<Vec2>& line) {
+    double area = 0;
+    for (std::size_t i = 0; i + 1 < line.size(); ++i) area += line[i].x * line[i + 1].y - line[i].y * line[i + 1].x;
+    return area;
+}
+
+void add_lines(Plot& plot, const Lines& lines, double width) {
+    for (const auto& line : lines) plot.curves.push_back({.points = line, .color = house::blue, .width = width});
+}
+
+// The smoothed object between its outer border and the hole's.
+Plot object_within(const Lines& borders) {
+    Plot plot = panel();
+    for (const bool outer : {true, false})  // the hole is drawn over the object
+        for (const auto& line : borders)
+            if ((std::abs(double_area(line)) > 10) == outer)
+                plot.curves.push_back(
+                    {.points = line, .color = outer ? house::shade : "#ffffff", .kind = Curve::Kind::fill, .width = 0});
+    add_lines(plot, borders, 2.4);
+    return plot;
+}
+
+Plot definition() {
+    Plot plot = panel();
+    outline(plot, whole, house::ink, 2);
+    outline(plot, hole, house::ink, 2, "-");
+    plot.labels.push_back({.at = {2, 2.55}, .text = "A", .align = Label::Align::center, .size = 14});
+    plot.labels.push_back({.at = {2.05, 1.55}, .text = "B", .align = Label::Align::center, .size = 14});
+    plot.labels.push_back({.at = {2, -0.5}, .text = fmt::format("A − B, r = {:g}", r), .align = Label::Align::center});
+    return plot;
+}
+
+Plot density_of(const Block& block) {
+    Plot plot = panel();
+    const SolidTree solid = flatten(Solid::rounded(r, block.density()));
+    plot.field = sampled([&](Vec2 x) { return solid.leaves[0].density.at(Vec3(x.x, x.y, 0)); }, lo, hi, 174, 144);
+    outline(plot, block, house::ink, 1);
+    return plot;
+}
+
+// Adds the block's planes, and their parallels dashed.
+void add_planes(Plot& plot, const Block& block, const char* color) {
+    const auto add = [&](Vec2 from, Vec2 to, bool own) {
+        plot.curves.push_back({.points = {from, to}, .color = color, .width = own ? 1.8 : 1, .dash = own ? "" : "-"});
+    };
+    const auto is_own = [](std::size_t i) { return i == 1 || i == 4; };
+    const std::vector<double> x = planes(block.lo.x, block.hi.x), y = planes(block.lo.y, block.hi.y);
+    for (std::size_t i = 0; i < x.size(); ++i) add({x[i], lo.y}, {x[i], hi.y}, is_own(i));
+    for (std::size_t i = 0; i < y.size(); ++i) add({lo.x, y[i]}, {hi.x, y[i]}, is_own(i));
+}
+
+Plot planes_of_both() {
+    Plot plot = panel();
+    add_planes(plot, whole, house::blue);
+    add_planes(plot, hole, house::red);
+    return plot;
+}
+
+// Every region between the block's planes with its class from table 1.
+Plot regions_of(const Block& block) {
+    Plot plot = panel();
     const std::vector<double> x = planes(block.lo.x, block.hi.x), y = planes(block.lo.y, block.hi.y);
     const std::vector<DensityClass> across = {DensityClass::low, DensityClass::high, DensityClass::one,
                                               DensityClass::high, DensityClass::low};
@@ -59,6 +121,7 @@ void add_regions(Plot& plot, const Block& block) {
                                    .color = color_of(combine(Op::product, across[i], across[j])),
                                    .kind = Curve::Kind::fill,
                                    .width = 0.8});
+    return plot;
 }
 
 // The corners of the cell's front face, as seen along z.
@@ -74,6 +137,25 @@ std::vector<Vec2> front_of(const CellComplex& complex, int cell) {
         if (front) corners = face;
     }
     return corners;
+}
+
+// The classes of the subdivision's cells in the density field.
+std::vector<DensityClass> classes_of(const Subdivision& s, const DensityTree& density) {
+    std::vector<DensityClass> classes;
+    for (int cell = 0; cell < int(s.complex.cells.size()); ++cell) classes.push_back(cell_class(s, cell, 0, density));
+    return classes;
+}
+
+// The cells in class colours, and the smoothed object's borders.
+Plot subdivision_of(const Subdivision& s, const std::vector<DensityClass>& classes, const Lines& borders) {
+    Plot plot = panel();
+    for (std::size_t cell = 0; cell < classes.size(); ++cell)
+        plot.curves.push_back({.points = front_of(s.complex, int(cell)),
+                               .color = color_of(classes[cell]),
+                               .kind = Curve::Kind::fill,
+                               .width = 0.8});
+    add_lines(plot, borders, 2.2);
+    return plot;
 }
 
 // The subdivision tree with its leaves from left to right, in class colours.
@@ -118,83 +200,23 @@ void make(FigureContext& context) {
     context.columns(4);
     const SolidTree solid = flatten(Solid::rounded(r, whole.density() - hole.density()));
     const DensityTree& density = solid.leaves.at(0).density;
-    const auto rho = [&](Vec2 x) { return density.at(Vec3(x.x, x.y, 0)); };
-    const auto level = level_lines(rho, 0.5, lo, hi, 290, 240);
-
-    Plot a = panel();
-    for (std::size_t k = 0; k < level.size(); ++k) {
-        double area = 0;
-        for (std::size_t i = 0; i + 1 < level[k].size(); ++i)
-            area += level[k][i].x * level[k][i + 1].y - level[k][i].y * level[k][i + 1].x;
-        a.curves.push_back({.points = level[k],
-                            .color = std::abs(area) > 10 ? house::shade : "#ffffff",
-                            .kind = Curve::Kind::fill,
-                            .width = 0});
-    }
-    std::stable_sort(a.curves.begin(), a.curves.end(),
-                     [](const Curve& x, const Curve& y) { return x.color != "#ffffff" && y.color == "#ffffff"; });
-    for (const auto& line : level) a.curves.push_back({.points = line, .color = house::blue, .width = 2.4});
-    Plot b = panel();
-    outline(b, whole, house::ink, 2);
-    outline(b, hole, house::ink, 2, "-");
-    b.labels.push_back({.at = {2, 2.55}, .text = "A", .align = Label::Align::center, .size = 14});
-    b.labels.push_back({.at = {2.05, 1.55}, .text = "B", .align = Label::Align::center, .size = 14});
-    b.labels.push_back({.at = {2, -0.5}, .text = fmt::format("A − B, r = {:g}", r), .align = Label::Align::center});
-    const auto field = [&](const Block& block) {
-        Plot plot = panel();
-        const SolidTree one = flatten(Solid::rounded(r, block.density()));
-        plot.field = sampled([&](Vec2 x) { return one.leaves[0].density.at(Vec3(x.x, x.y, 0)); }, lo, hi, 174, 144);
-        outline(plot, block, house::ink, 1);
-        return plot;
-    };
-    Plot d = panel();
-    for (const Block& block : {whole, hole}) {
-        const bool first = block.lo == whole.lo;
-        for (const auto& [values, k] :
-             {std::pair{planes(block.lo.x, block.hi.x), 0}, {planes(block.lo.y, block.hi.y), 1}})
-            for (std::size_t i = 0; i < values.size(); ++i) {
-                const bool own = i == 1 || i == 4;
-                const Vec2 from = k == 0 ? Vec2(values[i], lo.y) : Vec2(lo.x, values[i]),
-                           to = k == 0 ? Vec2(values[i], hi.y) : Vec2(hi.x, values[i]);
-                d.curves.push_back({.points = {from, to},
-                                    .color = first ? house::blue : house::red,
-                                    .width = own ? 1.8 : 1,
-                                    .dash = own ? "" : "-"});
-            }
-    }
-    Plot e = panel();
-    add_regions(e, whole);
-    Plot e2 = panel();
-    add_regions(e2, hole);
-
-    Subdivision subdivision(solid, {{lo.x, lo.y, -0.5}, {hi.x, hi.y, 0.5}});
-    Plot f = panel();
-    std::vector<DensityClass> classes;
-    std::array<int, 5> count{};
-    for (int cell = 0; cell < int(subdivision.complex.cells.size()); ++cell) {
-        classes.push_back(cell_class(subdivision, cell, 0, density));
-        ++count[std::size_t(classes.back())];
-        f.curves.push_back({.points = front_of(subdivision.complex, cell),
-                            .color = color_of(classes.back()),
-                            .kind = Curve::Kind::fill,
-                            .width = 0.8});
-    }
-    for (const auto& line : level) f.curves.push_back({.points = line, .color = house::blue, .width = 2.2});
-    context.plot(a, "(a) the smoothed object");
-    context.plot(b, "(b) its definition");
-    context.plot(field(whole), "(c) the density of A");
-    context.plot(d, "(d) planes of A (blue) and B (red), dashed at ±r");
-    context.plot(e, "(e) A's regions");
-    context.plot(e2, "(e) B's regions");
-    context.plot(f, "(f) Deburr's subdivision");
+    const Lines borders = level_lines([&](Vec2 x) { return density.at(Vec3(x.x, x.y, 0)); }, 0.5, lo, hi, 290, 240);
+    const Subdivision subdivision(solid, {{lo.x, lo.y, -0.5}, {hi.x, hi.y, 0.5}});
+    const std::vector<DensityClass> classes = classes_of(subdivision, density);
+    context.plot(object_within(borders), "(a) the smoothed object");
+    context.plot(definition(), "(b) its definition");
+    context.plot(density_of(whole), "(c) the density of A");
+    context.plot(planes_of_both(), "(d) planes of A (blue) and B (red), dashed at ±r");
+    context.plot(regions_of(whole), "(e) A's regions");
+    context.plot(regions_of(hole), "(e) B's regions");
+    context.plot(subdivision_of(subdivision, classes, borders), "(f) Deburr's subdivision");
     context.plot(tree_of(subdivision, classes), "(g) its BSP tree");
+    const auto count = [&](DensityClass c) { return std::count(classes.begin(), classes.end(), c); };
     context.measured(
         fmt::format("{} cells: {} unclassified, {} high, {} one, {} low, {} zero. Cells are not cut further once they "
-                    "are decided, so there are "
-                    "fewer than all planes would make.",
-                    classes.size(), count[std::size_t(DensityClass::unclassified)],
-                    count[std::size_t(DensityClass::high)], count[std::size_t(DensityClass::one)],
-                    count[std::size_t(DensityClass::low)], count[std::size_t(DensityClass::zero)]));
+                    "are decided, so there are fewer than all planes would make.",
+                    classes.size(), count(DensityClass::unclassified), count(DensityClass::high),
+                    count(DensityClass::one), count(DensityClass::low), count(DensityClass::zero)));
 }
 
 const RegisteredFigure registered{{
