@@ -105,9 +105,8 @@ double bytes_in_use() {
     return double(m.uordblks) + double(m.hblkhd);
 }
 
-}  // namespace
-
-void growth_of_tracing(Report& report) {
+// Measures rays through 10 to 100,000 placements of blocks.
+void growth_with_objects(Report& report) {
     Growth objects{100};
     double build_a_block = 0;
     for (const int count : {10, 100, 1'000, 10'000, 100'000}) {
@@ -127,7 +126,10 @@ void growth_of_tracing(Report& report) {
     }
     report.ratio(fmt::format("a ray through {:.0f} blocks / 100 blocks", objects.last_x),
                  {objects.last, objects.reference}, at_most(3));
+}
 
+// Measures the time and the memory that building 1,000 to 100,000 blocks of different sizes takes.
+void growth_with_different_objects(Report& report) {
     Growth forms{10'000};
     for (const int count : {1'000, 10'000, 100'000}) {
         const std::vector<Solid> solids = different_blocks(count);
@@ -146,16 +148,19 @@ void growth_of_tracing(Report& report) {
     report.figure("a ray under way and its hit: memory", double(sizeof(Ray) + sizeof(Hit)), "bytes");
     report.ratio(fmt::format("to build one of {:.0f} different blocks / of 10,000", forms.last_x),
                  {forms.last, forms.reference}, at_most(3));
+}
 
-    const auto build = [&](const std::string& what, const std::vector<Solid>& solids, double goal) {
-        report.figure(what + ": build", seconds_of([&] { ImplicitTracer tracer(solids); }, 3), "s", at_most(goal));
-        const double before = bytes_in_use();
-        const ImplicitTracer tracer(solids);
-        report.figure(what + ": memory of a cell", (bytes_in_use() - before) / double(tracer.statistics().cells),
-                      "bytes");
-    };
-    build("a plate of 1,024 holes of 12 sides", {holed_plate(32)}, 0.4);
-    build("an object of 2,000 half-spaces", {ball(2000)}, 0.3);
+// Measures the building of one object's tracer, which should take at most `longest` seconds, and its memory.
+void build_of_object(Report& report, const std::string& what, const Solid& object, double longest) {
+    const std::vector<Solid> solids = {object};
+    report.figure(what + ": build", seconds_of([&] { ImplicitTracer tracer(solids); }, 3), "s", at_most(longest));
+    const double before = bytes_in_use();
+    const ImplicitTracer tracer(solids);
+    report.figure(what + ": memory of a cell", (bytes_in_use() - before) / double(tracer.statistics().cells), "bytes");
+}
+
+// Measures what building again costs after an edit of one object among 20, as the others' trees are kept.
+void build_after_edit(Report& report) {
     const auto plates = [](int edited) {
         std::vector<Solid> all;
         for (int i = 0; i < 20; ++i)
@@ -171,12 +176,19 @@ void growth_of_tracing(Report& report) {
     };
     const double first = build_with_store(before_edit), again = build_with_store(after_edit);
     report.ratio("20 plates of 64 holes, one of them edited: to build again / to build", {again, first}, at_most(0.25));
+}
+
+// Measures the building of a million placements of one block.
+void build_of_placements(Report& report) {
     const Solid block = Solid::rounded(0.05, Density::box(Vec3(0.0), Vec3(0.7)));
     std::vector<Solid> placed;
     for (int i = 0; i < 1'000'000; ++i) placed.push_back(block.transformed({Mat3(1.0), Vec3(i % 1000, 0, i / 1000)}));
     report.figure("1,000,000 placements: build", cpu_seconds_of([&] { ImplicitTracer tracer(placed); }), "s",
                   at_most(1));
+}
 
+// Measures rays to flat parts of one object of 12 to 6,132 half-spaces.
+void growth_with_half_spaces(Report& report) {
     Growth half_spaces{12};
     for (const int k : {1, 4, 11, 35}) {
         const int count = 7 + 5 * k * k;
@@ -188,6 +200,18 @@ void growth_of_tracing(Report& report) {
     }
     report.ratio(fmt::format("a ray to {:.0f} half-spaces / 12", half_spaces.last_x),
                  {half_spaces.last, half_spaces.reference}, at_most(3));
+}
+
+}  // namespace
+
+void growth_of_tracing(Report& report) {
+    growth_with_objects(report);
+    growth_with_different_objects(report);
+    build_of_object(report, "a plate of 1,024 holes of 12 sides", holed_plate(32), 0.4);
+    build_of_object(report, "an object of 2,000 half-spaces", ball(2000), 0.3);
+    build_after_edit(report);
+    build_of_placements(report);
+    growth_with_half_spaces(report);
 }
 
 }  // namespace deburr::bench
