@@ -101,6 +101,10 @@ private:
     Sign point_sign(Vec3 x, const LocalDensity& density) const;
     void split_edges(int face, const LocalDensity& density);
     void split_face(int face, const LocalDensity& density);
+    Sign find_sign_changes(int face);
+    Sign centroid_sign(std::span<const int> vertices, const LocalDensity& density) const;
+    void cut_off(int face, int a, int b, Sign sign, const LocalDensity& density);
+    bool is_straight_border(int face, int a, int b) const;
     std::optional<Vec3> refine(int face, int a, int b, const LocalDensity& density) const;
     bool search(int face, Vec3 middle, Vec3 line, Vec3 normal, double length, const LocalDensity& density,
                 Vec3& root) const;
@@ -132,8 +136,9 @@ private:
     std::vector<int> rim_;
     std::vector<Vec3> points_;
     Disc disc_;
-    std::vector<Sign> rim_signs_, after_;
-    std::vector<int> changes_;
+    std::vector<Sign> rim_signs_;
+    std::vector<int> changes_;  // vertices
+    std::vector<Sign> after_;   // the sign after each change
     mutable std::vector<char> in_;
 };
 

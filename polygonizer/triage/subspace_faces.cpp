@@ -8,70 +8,72 @@ namespace deburr {
 
 // Joins the points where the sign changes along the face's border by segments [Triage §4.4.2].
 void Subspace::split_face(int face, const LocalDensity& density) {
+    const Sign last = find_sign_changes(face);
+    if (changes_.empty())
+        return face_labels_.set(face, last == Sign::none ? centroid_sign(complex_.corners(face), density) : last);
+    const Sign middle = changes_.size() > 2 ? centroid_sign(changes_, density) : after_[1];
+    face_labels_.set(face, middle);
+    for (std::size_t k = 0; k < changes_.size(); ++k) {
+        const int a = changes_[k], b = changes_[(k + 1) % changes_.size()];
+        if (after_[k] != middle && a != b) cut_off(face, a, b, after_[k], density);
+    }
+}
+
+// Lists the vertices where the sign changes along the face's border in changes_, and the sign after each in after_. An
+// edge along the surface takes the sign of the edge before it. Returns the last sign; none if all edges are along it.
+Subspace::Sign Subspace::find_sign_changes(int face) {
     const auto& loop = complex_.faces[face].loop;
     const std::size_t n = loop.size();
-    auto& signs = rim_signs_;
-    signs.clear();
-    for (const Step s : loop) signs.push_back(edge_signs_.at(s >> 1));
-    // An edge along the surface takes the sign of the edge before it.
-    const auto first = std::find_if(signs.begin(), signs.end(), [](Sign s) { return s != Sign::none; });
-    if (first == signs.end()) {
-        Vec3 centroid(0.0);
-        for (const Step s : loop) centroid += complex_.vertices[complex_.start(s)];
-        const Sign sign = point_sign(centroid / double(n), density);
-        return face_labels_.set(face, sign == Sign::above ? sign : Sign::below);
-    }
-    const std::size_t offset = std::size_t(first - signs.begin());
-    auto& changes = changes_;  // vertices
-    auto& after = after_;      // the sign after each change
-    changes.clear();
-    after.clear();
+    rim_signs_.clear();
+    changes_.clear();
+    after_.clear();
+    for (const Step s : loop) rim_signs_.push_back(edge_signs_.at(s >> 1));
+    const auto first = std::find_if(rim_signs_.begin(), rim_signs_.end(), [](Sign s) { return s != Sign::none; });
+    if (first == rim_signs_.end()) return Sign::none;
+    const std::size_t offset = std::size_t(first - rim_signs_.begin());
     Sign current = *first;
     for (std::size_t k = 1; k <= n; ++k) {
         const std::size_t at = (offset + k) % n;
-        if (signs[at] == Sign::none || signs[at] == current) continue;
-        changes.push_back(complex_.start(loop[at]));
-        current = signs[at];
-        after.push_back(current);
+        if (rim_signs_[at] == Sign::none || rim_signs_[at] == current) continue;
+        changes_.push_back(complex_.start(loop[at]));
+        current = rim_signs_[at];
+        after_.push_back(current);
     }
-    if (changes.empty()) return face_labels_.set(face, current);
+    return current;
+}
 
-    Sign middle = Sign::unknown;
-    if (changes.size() > 2) {
-        Vec3 centroid(0.0);
-        for (const int v : changes) centroid += complex_.vertices[v];
-        middle = point_sign(centroid / double(changes.size()), density);
-        if (middle == Sign::none) middle = Sign::below;
-    } else {
-        middle = after[1];
+// The sign at the vertices' centroid; below if that is on the surface.
+Subspace::Sign Subspace::centroid_sign(std::span<const int> vertices, const LocalDensity& density) const {
+    Vec3 centroid(0.0);
+    for (const int v : vertices) centroid += complex_.vertices[v];
+    const Sign sign = point_sign(centroid / double(vertices.size()), density);
+    return sign == Sign::none ? Sign::below : sign;
+}
+
+// Splits the face by the refined segment from vertex a to vertex b of its border. The new face, with the border from a
+// to b, gets the sign. Does nothing if that face would have no area.
+void Subspace::cut_off(int face, int a, int b, Sign sign, const LocalDensity& density) {
+    const std::optional<Vec3> between = refine(face, a, b, density);
+    if (!between && is_straight_border(face, a, b)) return;
+    const std::size_t edges = complex_.edges.size(), vertices = complex_.vertices.size();
+    const int new_face = between ? complex_.split_face(face, a, b, {&*between, 1}) : complex_.split_face(face, a, b);
+    leaf_of_face_.resize(complex_.faces.size(), leaf_of_face_[face]);
+    face_labels_.set(new_face, sign);
+    for (std::size_t e = edges; e < complex_.edges.size(); ++e) edge_signs_.set(int(e), Sign::none);
+    for (std::size_t v = vertices; v < complex_.vertices.size(); ++v) vertex_signs_.set(int(v), Sign::none);
+}
+
+// Whether the face's border from vertex a to vertex b is as straight as the segment between them.
+bool Subspace::is_straight_border(int face, int a, int b) const {
+    const auto& loop = complex_.faces[face].loop;
+    const Vec3 xa = complex_.vertices[a], d = complex_.vertices[b] - xa;
+    std::size_t at = 0;
+    while (complex_.start(loop[at]) != a) at = (at + 1) % loop.size();
+    for (; complex_.start(loop[at]) != b; at = (at + 1) % loop.size()) {
+        const Vec3 x = complex_.vertices[complex_.start(loop[at])] - xa;
+        if (!(glm::length(glm::cross(x, d)) <= complex_.tolerance * glm::length(d))) return false;
     }
-    face_labels_.set(face, middle);
-    int rest = face;
-    for (std::size_t k = 0; k < changes.size(); ++k) {
-        if (after[k] == middle) continue;
-        const int a = changes[k], b = changes[(k + 1) % changes.size()];
-        if (a == b) continue;
-        const std::optional<Vec3> between = refine(rest, a, b, density);
-        if (!between) {
-            // If the border between a and b is as straight as the segment, a face without area would result.
-            const auto& l = complex_.faces[rest].loop;
-            const Vec3 xa = complex_.vertices[a], d = complex_.vertices[b] - xa;
-            bool straight = true;
-            std::size_t at = 0;
-            while (complex_.start(l[at]) != a) at = (at + 1) % l.size();
-            for (; complex_.start(l[at]) != b && straight; at = (at + 1) % l.size()) {
-                const Vec3 x = complex_.vertices[complex_.start(l[at])] - xa;
-                straight = glm::length(glm::cross(x, d)) <= complex_.tolerance * glm::length(d);
-            }
-            if (straight) continue;
-        }
-        const std::size_t edges = complex_.edges.size(), vertices = complex_.vertices.size();
-        const int cut_off = between ? complex_.split_face(rest, a, b, {&*between, 1}) : complex_.split_face(rest, a, b);
-        leaf_of_face_.resize(complex_.faces.size(), leaf_of_face_[rest]);
-        face_labels_.set(cut_off, after[k]);
-        for (std::size_t e = edges; e < complex_.edges.size(); ++e) edge_signs_.set(int(e), Sign::none);
-        for (std::size_t v = vertices; v < complex_.vertices.size(); ++v) vertex_signs_.set(int(v), Sign::none);
-    }
+    return true;
 }
 
 // A point of the surface in the face, near the segment's middle [Triage §4.4.3]; none if the segment is straight
