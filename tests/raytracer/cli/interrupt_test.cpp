@@ -1,5 +1,4 @@
 // SIGINT and SIGTERM, as sent by a user or a scheduler.
-#include <OpenImageIO/imageio.h>
 #include <signal.h>
 
 #include <chrono>
@@ -8,6 +7,7 @@
 #include <thread>
 
 #include "catch.hpp"
+#include "raytracer/picture_file.hpp"
 #include "raytracer/program.hpp"
 
 using namespace deburr::test;
@@ -41,19 +41,7 @@ for i = 1, 100000 do all[i] = rounded(0.1, box({i, 0, 0}, {i + 0.6, 0.6, 0.6}) +
 return { solids = all }
 )";
 
-int incomplete(const std::string& path) {
-    const auto input = OIIO::ImageInput::open(path);
-    return input ? input->spec().get_int_attribute("deburr.incomplete", 0) : -1;
-}
-
-std::vector<float> pixels(const std::string& path) {
-    const auto input = OIIO::ImageInput::open(path);
-    REQUIRE(input);
-    const OIIO::ImageSpec& spec = input->spec();
-    std::vector<float> values(std::size_t(spec.width) * std::size_t(spec.height) * std::size_t(spec.nchannels));
-    REQUIRE(input->read_image(0, 0, 0, spec.nchannels, OIIO::TypeDesc::FLOAT, values.data()));
-    return values;
-}
+int incomplete(const std::string& path) { return read_picture(path).attribute<int>("deburr.incomplete"); }
 
 }  // namespace
 
@@ -122,7 +110,7 @@ TEST_CASE("an interrupted picture has the samples that all pixels have, and ends
     // Each pixel has exactly as many samples as the message says.
     const std::string samples = std::to_string(std::stoi(o.err.substr(at + std::string("interrupted after ").size())));
     REQUIRE(run({"render", place.scene, "-o", place / "b.exr", "-q", "--spp", samples}).code == 0);
-    CHECK(pixels(place / "a.exr") == pixels(place / "b.exr"));
+    CHECK(read_picture(place / "a.exr").values == read_picture(place / "b.exr").values);
 }
 
 TEST_CASE("--write-every writes what all pixels have, and the picture at the end is the same", "[slow]") {
@@ -140,7 +128,7 @@ TEST_CASE("--write-every writes what all pixels have, and the picture at the end
         REQUIRE(run(words).code == 0);
     }
     CHECK(incomplete(place / "c.exr") == 0);
-    CHECK(pixels(place / "b.exr") == pixels(place / "c.exr"));
+    CHECK(read_picture(place / "b.exr").values == read_picture(place / "c.exr").values);
 }
 
 TEST_CASE("an interrupt is heeded within a second in every phase") {

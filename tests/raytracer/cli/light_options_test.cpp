@@ -1,31 +1,13 @@
 // --integrator, --noise, --time and --view, and environment pictures from files.
-#include <OpenImageIO/imageio.h>
-
 #include <cmath>
 
 #include "catch.hpp"
+#include "raytracer/picture_file.hpp"
 #include "raytracer/program.hpp"
 
 using namespace deburr::test;
 
 namespace {
-
-struct Picture {
-    int width = 0, height = 0, channels = 0;
-    std::vector<float> values;
-    OIIO::ImageSpec spec;
-
-    float at(int x, int y, int c) const { return values[(std::size_t(y) * width + x) * channels + c]; }
-};
-
-Picture read(const std::string& path) {
-    const auto in = OIIO::ImageInput::open(path);
-    REQUIRE(in);
-    Picture p{in->spec().width, in->spec().height, in->spec().nchannels, {}, in->spec()};
-    p.values.resize(std::size_t(p.width) * p.height * p.channels);
-    REQUIRE(in->read_image(0, 0, 0, p.channels, OIIO::TypeDesc::FLOAT, p.values.data()));
-    return p;
-}
 
 struct Place : Folder {
     std::string scene = *this / "cube.lua";
@@ -35,55 +17,55 @@ struct Place : Folder {
         words.insert(words.end(), more.begin(), more.end());
         return run(words);
     }
-    Picture render(const std::string& name, std::vector<std::string> more, const std::string& file = "") const {
+    PictureFile render(const std::string& name, std::vector<std::string> more, const std::string& file = "") const {
         more.insert(more.end(), {"--float", "-o", *this / name});
         const Outcome o = call(more, file);
         CAPTURE(o.err);
         REQUIRE(o.code == 0);
-        return read(*this / name);
+        return read_picture(*this / name);
     }
 };
 
-bool same(const Picture& a, const Picture& b) { return a.values == b.values; }
+bool same(const PictureFile& a, const PictureFile& b) { return a.values == b.values; }
 
 }  // namespace
 
 TEST_CASE("one sample is a preview unless paths are asked for, and more are paths unless a preview is") {
     const Place place;
-    const Picture one = place.render("a.exr", {"--spp", "1"});
+    const PictureFile one = place.render("a.exr", {"--spp", "1"});
     CHECK(same(one, place.render("b.exr", {"--spp", "1", "--integrator", "preview"})));
     CHECK_FALSE(same(one, place.render("c.exr", {"--spp", "1", "--integrator", "path"})));
-    const Picture four = place.render("d.exr", {"--spp", "4"});
+    const PictureFile four = place.render("d.exr", {"--spp", "4"});
     CHECK(same(four, place.render("e.exr", {"--spp", "4", "--integrator", "path"})));
     CHECK_FALSE(same(four, place.render("f.exr", {"--spp", "4", "--integrator", "preview"})));
 }
 
 TEST_CASE("a picture with a bound of noise is the same for any threads, and a crop of it is a part of it") {
     const Place place;
-    const Picture whole = place.render("a.exr", {"--noise", "0.05", "--spp", "64", "--threads", "1"});
+    const PictureFile whole = place.render("a.exr", {"--noise", "0.05", "--spp", "64", "--threads", "1"});
     CHECK(same(whole, place.render("b.exr", {"--noise", "0.05", "--spp", "64", "--threads", "3"})));
-    const Picture crop = place.render("c.exr", {"--noise", "0.05", "--spp", "64", "--crop", "21x13+17+9"});
+    const PictureFile crop = place.render("c.exr", {"--noise", "0.05", "--spp", "64", "--crop", "21x13+17+9"});
     int compared = 0;
     for (int y = 0; y < 13; ++y)
         for (int x = 0; x < 21; ++x)
-            for (int c = 0; c < 3; ++c) compared += crop.at(x, y, c) == whole.at(x + 17, y + 9, c);
+            for (int c = 0; c < 3; ++c) compared += crop.at(x + 17, y + 9, c) == whole.at(x + 17, y + 9, c);
     CHECK(compared == 21 * 13 * 3);
     CHECK_FALSE(same(whole, place.render("d.exr", {"--noise", "0.005", "--spp", "256"})));
 }
 
 TEST_CASE("--time takes as many samples as it has time for") {
     const Place place;
-    const Picture p = place.render("a.exr", {"--time", "0.5"});
-    const int samples = p.spec.get_int_attribute("samplesPerPixel");
+    const PictureFile p = place.render("a.exr", {"--time", "0.5"});
+    const int samples = p.attribute<int>("samplesPerPixel");
     CHECK(samples > 2);
     CHECK(same(p, place.render("b.exr", {"--spp", std::to_string(samples)})));
 }
 
 TEST_CASE("a tone curve is for the screen and leaves an EXR as it is") {
     const Place place;
-    const Picture plain = place.render("a.exr", {"--spp", "2", "-o", place / "a.png"});
+    const PictureFile plain = place.render("a.exr", {"--spp", "2", "-o", place / "a.png"});
     CHECK(same(plain, place.render("b.exr", {"--spp", "2", "--view", "agx", "-o", place / "b.png"})));
-    CHECK_FALSE(same(read(place / "a.png"), read(place / "b.png")));
+    CHECK_FALSE(same(read_picture(place / "a.png"), read_picture(place / "b.png")));
 }
 
 TEST_CASE("a picture from a file lights a scene, behind another background, too") {
@@ -100,8 +82,8 @@ TEST_CASE("a picture from a file lights a scene, behind another background, too"
     write_file(place / "ball.lua", "return { background = environment{ file = 'room.exr', scale = 2 }, " + solids);
     write_file(place / "other.lua",
                "return { background = {1, 0, 0}, environment = environment{ file = 'room.exr', scale = 2 }, " + solids);
-    const Picture ball = place.render("ball.exr", {"--spp", "16"}, place / "ball.lua");
-    const Picture other = place.render("other.exr", {"--spp", "16"}, place / "other.lua");
+    const PictureFile ball = place.render("ball.exr", {"--spp", "16"}, place / "ball.lua");
+    const PictureFile other = place.render("other.exr", {"--spp", "16"}, place / "other.lua");
     for (int c = 0; c < 3; ++c) {
         CHECK(ball.at(10, 10, c) == Approx(0.6).margin(0.02));
         CHECK(ball.at(0, 0, c) == Approx(1).margin(1e-6));

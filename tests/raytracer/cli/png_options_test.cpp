@@ -1,9 +1,8 @@
 // --bits and --alpha: a PNG's pixels against those of the EXR of the same run.
-#include <OpenImageIO/imageio.h>
-
 #include <cmath>
 
 #include "catch.hpp"
+#include "raytracer/picture_file.hpp"
 #include "raytracer/program.hpp"
 
 using namespace deburr::test;
@@ -29,22 +28,6 @@ struct Place : Folder {
     }
 };
 
-struct Values {
-    OIIO::ImageSpec spec;
-    std::vector<float> numbers;  // of all pixels, interleaved; 8- and 16-bit values are divided by the greatest
-};
-
-Values read(const std::string& path) {
-    OIIO::ImageSpec as_it_is;
-    as_it_is.attribute("oiio:UnassociatedAlpha", 1);
-    const auto input = OIIO::ImageInput::open(path, &as_it_is);
-    REQUIRE(input);
-    Values v{input->spec(), {}};
-    v.numbers.resize(std::size_t(v.spec.image_pixels()) * std::size_t(v.spec.nchannels));
-    REQUIRE(input->read_image(0, 0, 0, v.spec.nchannels, OIIO::TypeDesc::FLOAT, v.numbers.data()));
-    return v;
-}
-
 double srgb(double linear) {
     if (!(linear > 0)) return 0;
     if (linear >= 1) return 1;
@@ -56,25 +39,25 @@ double srgb(double linear) {
 TEST_CASE("with --alpha colours are of solids alone, in an EXR weighed by alpha and in a PNG not") {
     const Place place;
     place.render({});
-    const Values whole = read(place / "a.exr");
+    const PictureFile whole = read_picture(place / "a.exr");
     const double background[] = {0.6, 0.7, 0.8};
     for (const std::string bits : {"8", "16"}) {
         place.render({"--alpha", "--bits", bits});
-        const Values exr = read(place / "a.exr"), png = read(place / "a.png");
-        REQUIRE(png.spec.nchannels == 4);
-        CHECK(png.spec.format == (bits == "8" ? OIIO::TypeDesc::UINT8 : OIIO::TypeDesc::UINT16));
+        const PictureFile exr = read_picture(place / "a.exr"), png = read_picture(place / "a.png");
+        REQUIRE(png.channels.size() == 4);
+        CHECK(png.types == std::vector<std::string>(4, "uint" + bits));
         const double step = bits == "8" ? 1 / 255.0 : 1 / 65535.0;
         int empty = 0, full = 0, between = 0;
-        for (std::size_t i = 0; i < whole.numbers.size(); i += 4) {
-            const double alpha = exr.numbers[i + 3];
+        for (std::size_t i = 0; i < whole.values.size(); i += 4) {
+            const double alpha = exr.values[i + 3];
             (alpha == 0 ? empty : alpha == 1 ? full : between) += 1;
-            REQUIRE(alpha == whole.numbers[i + 3]);
-            REQUIRE(std::abs(png.numbers[i + 3] - alpha) <= 0.51 * step);
+            REQUIRE(alpha == whole.values[i + 3]);
+            REQUIRE(std::abs(png.values[i + 3] - alpha) <= 0.51 * step);
             for (std::size_t k = 0; k < 3; ++k) {
-                const double color = exr.numbers[i + k];
-                REQUIRE(std::abs(color + (1 - alpha) * background[k] - whole.numbers[i + k]) < 1e-5);
+                const double color = exr.values[i + k];
+                REQUIRE(std::abs(color + (1 - alpha) * background[k] - whole.values[i + k]) < 1e-5);
                 const double straight = alpha > 0 ? color / alpha : 0;
-                REQUIRE(std::abs(png.numbers[i + k] - srgb(straight)) <= 0.51 * step);
+                REQUIRE(std::abs(png.values[i + k] - srgb(straight)) <= 0.51 * step);
             }
         }
         CHECK(empty > 100);
@@ -86,14 +69,13 @@ TEST_CASE("with --alpha colours are of solids alone, in an EXR weighed by alpha 
 TEST_CASE("a PNG of 16 bits is opaque sRGB, and 8 bits are what they were") {
     const Place place;
     place.render({"--bits", "16"});
-    const Values exr = read(place / "a.exr"), words = read(place / "a.png");
-    CHECK(words.spec.format == OIIO::TypeDesc::UINT16);
-    REQUIRE(words.spec.nchannels == 3);
-    for (std::size_t i = 0; i < exr.numbers.size() / 4; ++i)
+    const PictureFile exr = read_picture(place / "a.exr"), words = read_picture(place / "a.png");
+    REQUIRE(words.types == std::vector<std::string>(3, "uint16"));
+    for (std::size_t i = 0; i < exr.values.size() / 4; ++i)
         for (std::size_t k = 0; k < 3; ++k)
-            REQUIRE(std::abs(words.numbers[3 * i + k] - srgb(exr.numbers[4 * i + k])) < 0.51 / 65535);
+            REQUIRE(std::abs(words.values[3 * i + k] - srgb(exr.values[4 * i + k])) < 0.51 / 65535);
     place.render({"--bits", "8"});
-    CHECK(read(place / "a.png").spec.format == OIIO::TypeDesc::UINT8);
+    CHECK(read_picture(place / "a.png").types == std::vector<std::string>(3, "uint8"));
     const std::string asked = read_file(place / "a.png").substr(0, 33);
     place.render({});
     CHECK(read_file(place / "a.png").substr(0, 33) == asked);

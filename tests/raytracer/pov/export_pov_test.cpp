@@ -1,7 +1,5 @@
 // `deburr export-pov`: its formulas have the densities' values, its bounds on their slope hold, and POV-Ray, if it is
 // installed, sees the same shapes.
-#include <OpenImageIO/imagebuf.h>
-
 #include <cstdlib>
 #include <lua.hpp>
 #include <memory>
@@ -11,6 +9,7 @@
 #include "catch.hpp"
 #include "plain_round.hpp"
 #include "random_case.hpp"
+#include "raytracer/picture_file.hpp"
 #include "raytracer/pov/pov_field.hpp"
 #include "raytracer/program.hpp"
 
@@ -61,11 +60,10 @@ bool has_povray() {
 
 // True for the pixels that red solids cover before a green background.
 std::vector<bool> covered(const std::string& png) {
-    const OIIO::ImageBuf image(png);
-    REQUIRE(image.spec().width > 0);
+    const PictureFile picture = read_picture(png);
     std::vector<bool> mask;
-    for (int y = 0; y < image.spec().height; ++y)
-        for (int x = 0; x < image.spec().width; ++x) mask.push_back(image.getchannel(x, y, 0, 1) < 0.5f);
+    for (int y = 0; y < picture.height; ++y)
+        for (int x = 0; x < picture.width; ++x) mask.push_back(picture.at(x, y, 0) < 0.5);
     return mask;
 }
 
@@ -237,10 +235,8 @@ return {
     INFO(read_file(folder / "log"));
     REQUIRE(code == 0);
     // Compares the total linear light of the pixels in the middle of the picture, away from silhouettes.
-    const OIIO::ImageBuf ours(folder / "ours.png"), theirs(folder / "theirs.png");
-    const auto light = [](const OIIO::ImageBuf& image, int x, int y) {
-        return std::pow(double(image.getchannel(x, y, 0, 1)), 2.2);
-    };
+    const PictureFile ours = read_picture(folder / "ours.png"), theirs = read_picture(folder / "theirs.png");
+    const auto light = [](const PictureFile& picture, int x, int y) { return std::pow(picture.at(x, y, 0), 2.2); };
     double sum = 0, sum_theirs = 0;
     for (int y = 20; y < 40; ++y)
         for (int x = 25; x < 55; ++x) {
