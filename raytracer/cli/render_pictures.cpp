@@ -4,6 +4,7 @@
 
 #include <cstdlib>
 #include <ctime>
+#include <new>
 
 #include "raytracer/cli/option_values.hpp"
 #include "raytracer/util/errors.hpp"
@@ -65,6 +66,7 @@ ImageFormat format_of(const RenderOptions& o, double exposure, int threads) {
 void write_pictures(const std::vector<std::string>& paths, const Film& film, const ImageFormat& format,
                     const ImageNotes& notes, const std::function<void(double)>& work) {
     std::string error;
+    bool lacks_memory = false;
     for (const std::string& path : paths) {
         const double all = writing_work * double(film.pixels.size());
         double reported = 0;
@@ -73,11 +75,14 @@ void write_pictures(const std::vector<std::string>& paths, const Film& film, con
                 work(all * (share - reported));
                 reported = share;
             });
+        } catch (const std::bad_alloc&) {
+            lacks_memory = true;
         } catch (const std::exception& e) {
             if (error.empty()) error = e.what();
         }
     }
     if (!error.empty()) throw WorkError(error);
+    if (lacks_memory) throw std::bad_alloc();
 }
 
 }  // namespace deburr
