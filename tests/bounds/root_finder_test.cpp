@@ -128,7 +128,7 @@ TEST_CASE("all crossings of a segment are found, in order", "[slow]") {
                 inside = found[next++].entering;
             }
             const double rho = plain::density(tree, o + to * t);
-            if (std::abs(rho - 0.5) > 1e-9) REQUIRE((rho > 0.5) == inside);
+            if (std::abs(rho - 0.5) > 1e-9 && (rho > 0.5) != inside) FAIL("at t = " << t << " the density is " << rho);
         }
         total += int(found.size());
         many += found.size() > 2;

@@ -60,22 +60,30 @@ Words with(Words words, const Words& more) {
 }
 
 // Kills a run at random moments and resumes it until it ends, until `kills` runs were killed. The picture must have the
-// bytes of an uninterrupted run.
+// bytes of an uninterrupted run. The moments are in the first half of the time that a run takes here and now, so that
+// most kills are of a run that resumed another, and that has written a checkpoint of its own.
 void check_kills(int kills, unsigned seed) {
     const Place place;
-    const Words call = with(layers, {"--size", "160x100", "--spp", "300"});
+    const Words call = with(layers, {"--size", "60x40", "--spp", "300"});
     REQUIRE(place.render(with(call, {"-o", place / "whole.exr"})).code == 0);
+    const Words kept = with(
+        call, {"-o", place / "a.exr", "--checkpoint", place / "a.sums", "--checkpoint-every", "0.005", "--resume"});
+    const auto start = std::chrono::steady_clock::now();
+    REQUIRE(place.render(kept).code == 0);
+    const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    std::filesystem::remove(place / "a.sums");
     std::mt19937 random(seed);
-    int killed = 0, ended = 0;
+    int killed = 0, ended = 0, had_resumed = 0, had_written = 0;
     while (killed < kills) {
-        Call run(place.words(with(call, {"-o", place / "a.exr", "--checkpoint", place / "a.sums", "--checkpoint-every",
-                                         "0.02", "--resume"})),
-                 {"SOURCE_DATE_EPOCH=0"});
-        pause_for(0.001 * double(random() % 400));
+        const std::string before = place.bytes("a.sums");
+        Call run(place.words(kept), {"SOURCE_DATE_EPOCH=0"});
+        pause_for(0.5 * seconds * double(random() % 1000) / 1000);
         if (run.running()) {
             run.send(SIGKILL);
             run.wait();
             ++killed;
+            had_resumed += !before.empty();
+            had_written += place.bytes("a.sums") != before;
             continue;
         }
         const Outcome o = run.wait();
@@ -86,9 +94,10 @@ void check_kills(int kills, unsigned seed) {
         std::filesystem::remove(place / "a.sums");
         std::filesystem::remove(place / "a.exr");
     }
-    CAPTURE(ended);
-    const Outcome last = place.render(with(
-        call, {"-o", place / "a.exr", "--checkpoint", place / "a.sums", "--checkpoint-every", "0.02", "--resume"}));
+    CAPTURE(ended, had_resumed, had_written, seconds);
+    CHECK(had_resumed > kills / 10);
+    CHECK(had_written > kills / 10);
+    const Outcome last = place.render(kept);
     CAPTURE(last.err);
     CHECK(last.code == 0);
     CHECK(place.bytes("a.exr") == place.bytes("whole.exr"));
@@ -107,7 +116,7 @@ TEST_CASE("SIGTERM leaves a checkpoint and exit code 75, SIGINT 130, and --resum
           "[slow]") {
     for (const int signal : {SIGTERM, SIGINT}) {
         const Place place;
-        const Words call = {"--size", "200x200", "--spp", "400"};
+        const Words call = {"--size", "200x200", "--spp", "100"};
         Call run(place.words(with(
                      call, {"-o", place / "a.exr", "--checkpoint", place / "a.sums", "--checkpoint-every", "0.05"})),
                  {"SOURCE_DATE_EPOCH=0"});
