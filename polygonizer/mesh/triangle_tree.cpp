@@ -8,7 +8,7 @@
 namespace deburr {
 namespace {
 
-constexpr int leaf_size = 4;
+constexpr std::size_t leaf_size = 4;
 
 // Whether the segment from x to x + d meets the box; no component of d is 0.
 bool meets(const Box& box, Vec3 x, Vec3 d) {
@@ -25,34 +25,40 @@ bool meets(const Box& box, Vec3 x, Vec3 d) {
 }  // namespace
 
 TriangleTree::TriangleTree(const Mesh& mesh) : mesh_(mesh) {
-    for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
-        boxes_.push_back(bounding_box(mesh, mesh.triangles[t]));
-        order_.push_back(int(t));
+    const std::size_t count = mesh.triangles.size();
+    std::vector<Item> items;
+    items.reserve(count);
+    boxes_.reserve(count);
+    order_.reserve(count);
+    nodes_.reserve(count);
+    for (std::size_t t = 0; t < count; ++t) {
+        const Box& box = boxes_.emplace_back(bounding_box(mesh, mesh.triangles[t]));
+        items.push_back({box.lo + box.hi, int(t)});
     }
-    if (!order_.empty()) build(0, int(order_.size()));
+    if (count > 0) build(items);
 }
 
-void TriangleTree::build(int first, int count) {
-    const int at = int(nodes_.size());
-    nodes_.push_back({{}, at + 1, first, count});
-    Box box, middles;
-    for (int k = first; k < first + count; ++k) {
-        const Box& b = boxes_[order_[k]];
-        box = hull(box, b);
-        middles = hull(middles, Box{b.lo + b.hi, b.lo + b.hi});
+void TriangleTree::build(std::span<Item> items) {
+    const auto at = nodes_.size();
+    nodes_.push_back({{}, int(at) + 1, int(order_.size()), int(items.size())});
+    if (items.size() <= leaf_size) {
+        for (const Item& item : items) {
+            nodes_[at].box = hull(nodes_[at].box, boxes_[item.triangle]);
+            order_.push_back(item.triangle);
+        }
+        return;
     }
-    nodes_[at].box = box;
-    if (count <= leaf_size) return;
-    const Vec3 size = middles.hi - middles.lo;
-    const int axis = greatest_axis(size);
-    const auto middle = [&](int t) { return boxes_[t].lo[axis] + boxes_[t].hi[axis]; };
-    const int half = count / 2;
-    std::nth_element(order_.begin() + first, order_.begin() + first + half, order_.begin() + first + count,
-                     [&](int s, int t) {
-                         return std::pair{middle(s), s} < std::pair{middle(t), t};
-                     });
-    build(first, half);
-    build(first + half, count - half);
+    Box middles;
+    for (const Item& item : items) middles = hull(middles, Box{item.middle, item.middle});
+    const int axis = greatest_axis(middles.hi - middles.lo);
+    const auto half = std::ptrdiff_t(items.size() / 2);
+    std::nth_element(items.begin(), items.begin() + half, items.end(), [&](const Item& s, const Item& t) {
+        return s.middle[axis] != t.middle[axis] ? s.middle[axis] < t.middle[axis] : s.triangle < t.triangle;
+    });
+    build(items.first(std::size_t(half)));
+    const auto upper = nodes_.size();
+    build(items.subspan(std::size_t(half)));
+    nodes_[at].box = hull(nodes_[at + 1].box, nodes_[upper].box);
     nodes_[at].end = int(nodes_.size());
 }
 

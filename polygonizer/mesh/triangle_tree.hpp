@@ -3,6 +3,7 @@
 #pragma once
 #include <array>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "polygonizer/mesh/mesh.hpp"
@@ -72,7 +73,12 @@ private:
         }
         return true;
     }
-    void build(int first, int count);
+    // A triangle while the tree is built.
+    struct Item {
+        Vec3 middle;  // twice the middle of its box
+        int triangle;
+    };
+    void build(std::span<Item> items);
     std::optional<int> winding(Vec3 x, Vec3 far) const;
 
     const Mesh& mesh_;
