@@ -115,9 +115,12 @@ bool FacetJudge::is_near_within(const std::array<Vec3, 3>& corners, double toler
                        [&](Vec3 x) { return is_point_near(0.5 * (x + middle), tolerance); });
 }
 
+bool FacetJudge::is_near_inside(const std::array<Vec3, 3>& corners, double tolerance) const {
+    return is_point_near((corners[0] + corners[1] + corners[2]) / 3.0, tolerance) && is_near_within(corners, tolerance);
+}
+
 bool FacetJudge::is_near(const std::array<Vec3, 3>& corners, double tolerance) const {
-    if (!is_point_near((corners[0] + corners[1] + corners[2]) / 3.0, tolerance)) return false;
-    if (!is_near_within(corners, tolerance)) return false;
+    if (!is_near_inside(corners, tolerance)) return false;
     for (std::size_t k = 0; k < 3; ++k)
         if (!is_near_between(corners[k], corners[(k + 1) % 3], tolerance)) return false;
     return true;

@@ -48,6 +48,8 @@ public:
     /// Whether thirteen points all over the triangle are within `tolerance` of the solid's surface: its middle, and the
     /// points of is_near_within() and of is_near_between() on each edge.
     bool is_near(const std::array<Vec3, 3>& corners, double tolerance) const;
+    /// Whether the triangle's middle and the points of is_near_within() are within `tolerance` of the surface.
+    bool is_near_inside(const std::array<Vec3, 3>& corners, double tolerance) const;
     /// Whether the three points half-way between the triangle's middle and its corners are within `tolerance` of the
     /// surface.
     bool is_near_within(const std::array<Vec3, 3>& corners, double tolerance) const;

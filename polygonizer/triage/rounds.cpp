@@ -35,10 +35,14 @@ std::vector<int> halve(Subdivision& subdivision, const std::vector<Cut>& cuts, b
     return halves;
 }
 
-bool is_near(const Mesh& mesh, int t, const FacetJudge& judge, double tolerance) {
+std::array<Vec3, 3> corners_of(const Mesh& mesh, int t) {
     std::array<Vec3, 3> x;
     for (std::size_t k = 0; k < 3; ++k) x[k] = mesh.positions[mesh.triangles[t].vertex[k]];
-    return judge.is_near(x, tolerance);
+    return x;
+}
+
+bool is_near(const Mesh& mesh, int t, const FacetJudge& judge, double tolerance) {
+    return judge.is_near(corners_of(mesh, t), tolerance);
 }
 
 }  // namespace
@@ -54,13 +58,33 @@ std::vector<int> halve_all(Subdivision& subdivision, const std::vector<Cut>& cut
 }
 
 std::size_t add_far(const Mesh& mesh, const FacetJudge& judge, double tolerance, std::vector<int>& triangles) {
-    std::vector<char> far(mesh.triangles.size());
+    // Each edge is judged in the triangle in which it runs to the greater vertex, for both of its triangles.
+    std::vector<char> far(mesh.triangles.size()), far_edges(mesh.triangles.size());
     judge_in_parallel(judge, far.size(), [&](const FacetJudge& own, std::size_t first, std::size_t last) {
-        for (std::size_t t = first; t < last; ++t) far[t] = !is_near(mesh, int(t), own, tolerance);
+        for (std::size_t t = first; t < last; ++t) {
+            const auto& v = mesh.triangles[t].vertex;
+            far[t] = !own.is_near_inside(corners_of(mesh, int(t)), tolerance);
+            for (std::size_t k = 0; k < 3; ++k) {
+                const int a = v[k], b = v[(k + 1) % 3];
+                if (a < b && !own.is_near_between(mesh.positions[a], mesh.positions[b], tolerance))
+                    far_edges[t] |= char(1 << k);
+            }
+        }
     });
-    const std::size_t before = triangles.size();
+    std::vector<std::pair<int, int>> edges;
     for (std::size_t t = 0; t < far.size(); ++t)
+        for (std::size_t k = 0; far_edges[t] && k < 3; ++k)
+            if (far_edges[t] >> k & 1)
+                edges.push_back({mesh.triangles[t].vertex[k], mesh.triangles[t].vertex[(k + 1) % 3]});
+    std::sort(edges.begin(), edges.end());
+    const std::size_t before = triangles.size();
+    for (std::size_t t = 0; t < far.size(); ++t) {
+        const auto& v = mesh.triangles[t].vertex;
+        for (std::size_t k = 0; !edges.empty() && !far[t] && k < 3; ++k)
+            far[t] =
+                std::binary_search(edges.begin(), edges.end(), std::pair<int, int>(std::minmax(v[k], v[(k + 1) % 3])));
         if (far[t]) triangles.push_back(int(t));
+    }
     return triangles.size() - before;
 }
 
@@ -121,7 +145,7 @@ LocalRounds::Part LocalRounds::part_around(const std::vector<int>& cells) const 
     Part part;
     Subspace subspace(subdivision_, subdivision_.complex.with_neighbours(cells), slack_);
     subspace.polygonize();
-    part.mesh = surface(subspace, solid_, &part.origins);
+    part.mesh = surface(std::move(subspace), solid_, &part.origins);
     return part;
 }
 

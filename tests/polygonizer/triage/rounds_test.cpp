@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 
 #include "catch.hpp"
 #include "polygonizer/mesh/crossing_triangles.hpp"
@@ -134,4 +135,31 @@ TEST_CASE("Triangles that took the place of such as nothing helped are not told 
             CHECK(!judge.is_near(x, tolerance));
         }
     }
+}
+
+TEST_CASE("A triangle is told to be far if it is far by itself, though each edge is looked at for two triangles") {
+    std::size_t found = 0;
+    for (const int seed : {1, 2, 3, 5, 8}) {
+        CAPTURE(seed);
+        RandomPart part(seed);
+        const SolidTree solid = flatten(part.solid());
+        if (part.radius() == 0) continue;
+        const Subdivision subdivision(solid, polygonization_box(solid));
+        Subspace subspace(subdivision);
+        subspace.polygonize();
+        const Mesh mesh = surface(subspace, solid);
+        const FacetJudge judge(solid, mesh);
+        for (const double tolerance : {0.01 * part.radius(), 0.1 * part.radius()}) {
+            std::vector<int> far{-1}, expected{-1};
+            for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+                std::array<Vec3, 3> x{};
+                for (std::size_t k = 0; k < 3; ++k) x[k] = mesh.positions[mesh.triangles[t].vertex[k]];
+                if (!judge.is_near(x, tolerance)) expected.push_back(int(t));
+            }
+            CHECK(add_far(mesh, judge, tolerance, far) + 1 == expected.size());
+            CHECK(far == expected);
+            found += expected.size() - 1;
+        }
+    }
+    CHECK(found > 100);
 }
