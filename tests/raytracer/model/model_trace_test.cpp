@@ -40,7 +40,7 @@ double first_change(const ClosedMesh& mesh, double r, const Ray& ray, double len
 
 }  // namespace
 
-TEST_CASE("rays meet a rounded model where the share of a ball is a half") {
+TEST_CASE("rays meet a rounded model where the share of a ball is a half", "[slow]") {
     int hits = 0, misses = 0, grazing = 0;
     for (auto seed : seeds(40)) {
         Gen g(seed);

@@ -158,7 +158,7 @@ TEST_CASE("the default light stays over the viewer's left shoulder when the came
     CHECK(travels.z < 0);
 }
 
-TEST_CASE("a camera that frames many solids looks at few of them, and does not depend on their order") {
+TEST_CASE("a camera that frames many solids looks at few of them, and does not depend on their order", "[slow]") {
     // A rotated grid: its blocks' bounding boxes are much larger than the blocks, so the outermost blocks decide.
     const auto grid = [](int n, const char* order) {
         return scene_of(

@@ -45,7 +45,7 @@ double share_of_sphere(double a, double k) {
 
 }  // namespace
 
-TEST_CASE("a convolved ball is that of the closed form, to the tolerance that is stated") {
+TEST_CASE("a convolved ball is that of the closed form, to the tolerance that is stated", "[slow]") {
     double worst = 0;
     for (const double r : {0.1, 0.3, 0.6}) {
         const Convolved c(r, Density::sphere({1, 2, 3}, 1));

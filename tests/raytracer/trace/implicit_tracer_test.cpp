@@ -272,7 +272,7 @@ TEST_CASE("unbounded solids are hit at any distance") {
     CHECK_FALSE(tracer.closest_hit({{0.5, 3, 5}, glm::normalize(Vec3(0.1, 1, 0.1))}, infinity, counters));
 }
 
-TEST_CASE("bounded solids among unbounded ones are hit from near and far, pixel for pixel") {
+TEST_CASE("bounded solids among unbounded ones are hit from near and far, pixel for pixel", "[slow]") {
     // An unbounded beam and an unbounded trench; one block is on the beam, one in the trench, one far outside.
     const Solid beam =
         Solid::rounded(0.1, Density::half_space({0, 1, 0}, 0.5) * Density::half_space({0, -1, 0}, 0.5) *

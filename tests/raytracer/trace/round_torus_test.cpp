@@ -42,7 +42,8 @@ Ring random_ring(Gen& g) {
 }  // namespace
 
 TEST_CASE(
-    "a ring or a groove is hit where its distance is 0: along the axis, in its plane, tangent, from within and afar") {
+    "a ring or a groove is hit where its distance is 0: along the axis, in its plane, tangent, from within and afar",
+    "[slow]") {
     int hits[6] = {}, misses[6] = {}, unclear = 0;
     int at_once[2] = {}, searched[2] = {}, off = 0;
     for (auto seed : seeds(4'000)) {

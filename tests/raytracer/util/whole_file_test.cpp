@@ -144,11 +144,11 @@ TEST_CASE("a run that is killed while it writes leaves a hidden file until the n
     };
     bool left = false;
     for (int attempt = 0; attempt < 20 && !left; ++attempt) {
-        Call call({"render", folder / "cube.lua", "-q", "--size", "3000x2000", "--float", "--aov", "P,N", "-o",
+        Call call({"render", folder / "cube.lua", "-q", "--size", "1500x1000", "--float", "--aov", "P,N", "-o",
                    folder / "a.exr"});
         while (call.running() && !std::filesystem::exists(folder / "a.exr") && !left) {
-            if (!hidden()) continue;
             std::this_thread::sleep_for(std::chrono::milliseconds(1));
+            if (!hidden()) continue;
             call.send(SIGKILL);
             call.wait();
             left = hidden();
