@@ -145,7 +145,7 @@ LocalRounds::Part LocalRounds::part_around(const std::vector<int>& cells) const 
     Part part;
     Subspace subspace(subdivision_, subdivision_.complex.with_neighbours(cells), slack_);
     subspace.polygonize();
-    part.mesh = surface(std::move(subspace), solid_, &part.origins);
+    part.mesh = surface(subspace, solid_, &part.origins);
     return part;
 }
 
