@@ -60,7 +60,7 @@ TEST_CASE("the areas of faces in two balls are those of their given triangles in
         const ClosedMesh& mesh = meshes[g.below(2)];
         const double least = g.chance(0.1) ? 0 : std::pow(10.0, g.between(-1, 0.3)), greatest = least + g.between(0, 1);
         // The definition by sectors is not sure where the centre's foot is on an edge's line.
-        const Vec3 x = g.chance(0.5) ? adversarial(g, mesh, greatest) + 1e-3 * g.normal()
+        const Vec3 x = g.chance(0.5) ? adversarial(g, mesh, greatest) + 1e-3 * g.direction()
                                      : Vec3(g.between(-1, 2), g.between(-1, 2), g.between(-1, 2));
         std::vector<int> given;
         mesh.near({x, x}, greatest, given);
