@@ -10,6 +10,7 @@ namespace deburr {
 /// A hash table with open addressing. It allocates memory only when it has to hold more entries than ever before.
 class IndexMap {
 public:
+    IndexMap() { reset(0); }
     /// Empties the map and makes room for `most` entries; inserting more is an error.
     void reset(std::size_t most) {
         const int bits = std::bit_width(2 * most + 1);
@@ -41,9 +42,9 @@ private:
         return at;
     }
 
-    std::vector<int> keys_{none}, values_{0};
+    std::vector<int> keys_, values_;
     std::size_t mask_ = 0;
-    int shift_ = 31;
+    int shift_ = 0;
 };
 
 }  // namespace deburr

@@ -75,6 +75,7 @@ public:
             circles += part.circles;
         }
         const int loops = count_loops(arcs_, index_);
+        const bool is_complete = std::none_of(faces_.begin(), faces_.end(), [](const Face& f) { return f.open; });
         share = (share - turn_.value()) / (4 * pi) - 0.5 * (circles + std::max(0, loops));
         share -= std::floor(share);
         // The sum is determined up to whole numbers, which matters only between 0 and 1.
@@ -85,7 +86,7 @@ public:
             share = in ? std::min(1.0, 1 + off) : std::max(0.0, off);
         }
         v = {share, areas * (-3 / (4 * pi * r)), heights * (-3 / (4 * pi * r))};
-        return complete_ && loops >= 0;
+        return is_complete && loops >= 0;
     }
 
     // Calls visit(triangle, area) with one triangle of each face that the ball meets, and the area in the ball of those
@@ -138,7 +139,6 @@ private:
         passes_.clear();
         arcs_.clear();
         turn_ = {};
-        complete_ = true;
         gather(triangles);
         for (const Near& n : near_)
             for (int k = 0; k < 3 && !n.inside; ++k) look_at_edge(n, k);
@@ -192,7 +192,6 @@ private:
         }
         if (m < 0) {
             here.open |= has_part;
-            complete_ &= !has_part;
             return;
         }
         Face& there = faces_[std::size_t(near_[std::size_t(m)].face)];
@@ -305,7 +304,6 @@ private:
     std::vector<Arc> arcs_;
     IndexMap index_;  // of faces by their planes, of triangles, of arcs
     AngleSum turn_;   // of the boundary on the sphere, where it passes from one face to the next
-    bool complete_ = true;
 };
 
 bool sum_up(const ClosedMesh& mesh, std::span<const int> triangles, Vec3 x, double r, ShareRates& v) {
@@ -313,31 +311,31 @@ bool sum_up(const ClosedMesh& mesh, std::span<const int> triangles, Vec3 x, doub
     return sums.find(mesh, triangles, x, r, v);
 }
 
-}  // namespace
-
-ValueGradient ball_share(const ClosedMesh& mesh, Vec3 x, double r) {
+// The triangles that reach the ball; valid until the thread asks again.
+std::span<const int> triangles_near(const ClosedMesh& mesh, Vec3 x, double r) {
     thread_local std::vector<int> near;
     near.clear();
     mesh.near({x, x}, r, near);
-    ShareRates v;
-    sum_up(mesh, near, x, r, v);
-    return {v.value, v.gradient};
+    return near;
 }
 
-ValueGradient ball_share(const ClosedMesh& mesh, std::span<const int> triangles, Vec3 x, double r) {
-    ShareRates v;
-    if (!sum_up(mesh, triangles, x, r, v)) return ball_share(mesh, x, r);
-    return {v.value, v.gradient};
-}
+}  // namespace
 
 ShareRates ball_share_rates(const ClosedMesh& mesh, std::span<const int> triangles, Vec3 x, double r) {
     ShareRates v;
-    if (sum_up(mesh, triangles, x, r, v)) return v;
-    thread_local std::vector<int> near;
-    near.clear();
-    mesh.near({x, x}, r, near);
-    sum_up(mesh, near, x, r, v);
+    if (!sum_up(mesh, triangles, x, r, v)) sum_up(mesh, triangles_near(mesh, x, r), x, r, v);
     return v;
+}
+
+ValueGradient ball_share(const ClosedMesh& mesh, std::span<const int> triangles, Vec3 x, double r) {
+    const ShareRates v = ball_share_rates(mesh, triangles, x, r);
+    return {v.value, v.gradient};
+}
+
+ValueGradient ball_share(const ClosedMesh& mesh, Vec3 x, double r) {
+    ShareRates v;
+    sum_up(mesh, triangles_near(mesh, x, r), x, r, v);
+    return {v.value, v.gradient};
 }
 
 void face_areas(const ClosedMesh& mesh, std::span<const int> triangles, Vec3 x, double least, double greatest,
