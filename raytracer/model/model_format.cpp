@@ -17,9 +17,11 @@ namespace {
 
 constexpr const char* extensions[] = {".stl", ".obj", ".ply", ".off", ".3mf", ".glb", ".gltf", ".scad", ".csg"};
 
+char lower(unsigned char c) { return char(std::tolower(c)); }
+
 std::string extension(const std::string& path) {
     std::string end = std::filesystem::path(path).extension().string();
-    std::transform(end.begin(), end.end(), end.begin(), [](unsigned char c) { return char(std::tolower(c)); });
+    std::transform(end.begin(), end.end(), end.begin(), lower);
     return end;
 }
 
@@ -52,13 +54,13 @@ void check_ply_counts(const std::string& bytes, const std::string& path) {
 }  // namespace
 
 void fold_stl_text(std::string& bytes) {
-    const auto lower = [](unsigned char c) { return char(c >= 'A' && c <= 'Z' ? c - 'A' + 'a' : c); };
-    const auto space = [](unsigned char c) { return c == ' ' || (c >= '\t' && c <= '\r'); };
+    const auto space = [](unsigned char c) { return std::isspace(c) != 0; };
     const std::size_t mark = bytes.compare(0, 3, "\xEF\xBB\xBF") == 0 ? 3 : 0;  // of UTF-8
     const auto begin = std::find_if_not(bytes.begin() + std::ptrdiff_t(mark), bytes.end(), space);
     const std::string sign = "solid";
-    if (std::size_t(bytes.end() - begin) < sign.size() || bytes.find('\0') != std::string::npos) return;
-    if (!std::equal(sign.begin(), sign.end(), begin, [&](char a, char b) { return a == lower(b); })) return;
+    if (std::size_t(bytes.end() - begin) < sign.size()) return;
+    if (!std::equal(sign.begin(), sign.end(), begin, [](char a, unsigned char b) { return a == lower(b); })) return;
+    if (bytes.find('\0') != std::string::npos) return;  // binary STL, whose header may be any text
     bytes.erase(bytes.begin(), begin);
     std::transform(bytes.begin(), bytes.end(), bytes.begin(), lower);
 }
