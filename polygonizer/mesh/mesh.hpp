@@ -26,6 +26,9 @@ struct Mesh {
     std::vector<Triangle> triangles;
     std::size_t polygons = 0;  // faces before they were cut into triangles
 
+    std::array<Vec3, 3> corners(const Triangle& t) const {
+        return {positions[t.vertex[0]], positions[t.vertex[1]], positions[t.vertex[2]]};
+    }
     /// A vector along the outward normal whose length is twice the triangle's area.
     Vec3 area_vector(const Triangle& t) const {
         const Vec3 a = positions[t.vertex[0]];

@@ -35,14 +35,8 @@ std::vector<int> halve(Subdivision& subdivision, const std::vector<Cut>& cuts, b
     return halves;
 }
 
-std::array<Vec3, 3> corners_of(const Mesh& mesh, int t) {
-    std::array<Vec3, 3> x;
-    for (std::size_t k = 0; k < 3; ++k) x[k] = mesh.positions[mesh.triangles[t].vertex[k]];
-    return x;
-}
-
 bool is_near(const Mesh& mesh, int t, const FacetJudge& judge, double tolerance) {
-    return judge.is_near(corners_of(mesh, t), tolerance);
+    return judge.is_near(mesh.corners(mesh.triangles[t]), tolerance);
 }
 
 }  // namespace
@@ -63,7 +57,7 @@ std::size_t add_far(const Mesh& mesh, const FacetJudge& judge, double tolerance,
     judge_in_parallel(judge, far.size(), [&](const FacetJudge& own, std::size_t first, std::size_t last) {
         for (std::size_t t = first; t < last; ++t) {
             const auto& v = mesh.triangles[t].vertex;
-            far[t] = !own.is_near_inside(corners_of(mesh, int(t)), tolerance);
+            far[t] = !own.is_near_inside(mesh.corners(mesh.triangles[t]), tolerance);
             for (std::size_t k = 0; k < 3; ++k) {
                 const int a = v[k], b = v[(k + 1) % 3];
                 if (a < b && !own.is_near_between(mesh.positions[a], mesh.positions[b], tolerance))

@@ -1,6 +1,7 @@
 #include "polygonizer/triage/triage.hpp"
 
 #include <algorithm>
+#include <array>
 #include <optional>
 #include <utility>
 
@@ -55,8 +56,7 @@ constexpr double at_points_of_picture = 0.2;
 
 // Appends boxes around the triangle's corners, each as large as its shortest edge.
 void add_corners(const Mesh& mesh, const Triangle& triangle, std::vector<Box>& boxes) {
-    Vec3 x[3];
-    for (std::size_t k = 0; k < 3; ++k) x[k] = mesh.positions[triangle.vertex[k]];
+    const std::array<Vec3, 3> x = mesh.corners(triangle);
     const double shortest = std::min({glm::length(x[0] - x[1]), glm::length(x[1] - x[2]), glm::length(x[2] - x[0])});
     for (const Vec3& corner : x) boxes.push_back(inflated(Box{corner, corner}, 0.5 * shortest));
 }

@@ -56,8 +56,7 @@ double largest_distance(const Mesh& mesh, const SolidTree& solid) {
     const DistanceField field(solid, inflated(field_box(mesh), reach), reach);
     double largest = 0;
     for (const Triangle& t : mesh.triangles) {
-        Vec3 x[3];
-        for (std::size_t k = 0; k < 3; ++k) x[k] = mesh.positions[t.vertex[k]];
+        const std::array<Vec3, 3> x = mesh.corners(t);
         for (const Vec3& p :
              {(x[0] + x[1] + x[2]) / 3.0, 0.5 * (x[0] + x[1]), 0.5 * (x[1] + x[2]), 0.5 * (x[2] + x[0])})
             if (const double d = field.distance_along_normal(p, reach); std::isfinite(d))

@@ -107,9 +107,7 @@ TEST_CASE("Some triangles are brought within a tolerance alone, and the others s
     const auto far = [&](const Mesh& mesh) {
         std::vector<int> triangles;
         for (int t = 0; t < int(mesh.triangles.size()); ++t) {
-            std::array<Vec3, 3> x;
-            for (std::size_t k = 0; k < 3; ++k) x[k] = mesh.positions[mesh.triangles[t].vertex[k]];
-            if (!judge.is_near(x, tolerance)) triangles.push_back(t);
+            if (!judge.is_near(mesh.corners(mesh.triangles[t]), tolerance)) triangles.push_back(t);
         }
         return triangles;
     };

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <utility>
 
 #include "catch.hpp"
 #include "polygonizer/mesh/crossing_triangles.hpp"
@@ -27,6 +26,23 @@ SolidTree rod(double r) {
         all = all & Density::half_space({std::cos(a), std::sin(a), 0}, 1);
     }
     return flatten(Solid::rounded(r, all));
+}
+
+// Calls check(radius, solid, mesh, origins) for rounded random parts and their isosurfaces in an unrefined subdivision.
+template <class Check>
+void each_random_part(Check check) {
+    for (const int seed : {1, 2, 3, 5, 8}) {
+        CAPTURE(seed);
+        RandomPart part(seed);
+        const SolidTree solid = flatten(part.solid());
+        if (part.radius() == 0) continue;
+        const Subdivision subdivision(solid, polygonization_box(solid));
+        Subspace subspace(subdivision);
+        subspace.polygonize();
+        std::vector<Origin> origins;
+        const Mesh mesh = surface(subspace, solid, &origins);
+        check(part.radius(), solid, mesh, origins);
+    }
 }
 
 }  // namespace
@@ -117,49 +133,26 @@ TEST_CASE("Facets that were found good are known again by their corners, normals
 }
 
 TEST_CASE("Triangles that took the place of such as nothing helped are not told of unless they are far") {
-    for (const int seed : {1, 2, 3, 5, 8}) {
-        CAPTURE(seed);
-        RandomPart part(seed);
-        const SolidTree solid = flatten(part.solid());
-        if (part.radius() == 0) continue;
-        const Subdivision subdivision(solid, polygonization_box(solid));
-        Subspace subspace(subdivision);
-        subspace.polygonize();
-        std::vector<Origin> origins;
-        Mesh mesh = surface(subspace, solid, &origins);
+    each_random_part([](double radius, const SolidTree& solid, Mesh mesh, std::vector<Origin> origins) {
         const FacetJudge judge(solid, mesh);
-        const double tolerance = 0.003 * part.radius();
-        for (const int t : refine(mesh, origins, judge, tolerance)) {
-            std::array<Vec3, 3> x{};
-            for (std::size_t k = 0; k < 3; ++k) x[k] = mesh.positions[mesh.triangles[t].vertex[k]];
-            CHECK(!judge.is_near(x, tolerance));
-        }
-    }
+        const double tolerance = 0.003 * radius;
+        for (const int t : refine(mesh, origins, judge, tolerance))
+            CHECK(!judge.is_near(mesh.corners(mesh.triangles[t]), tolerance));
+    });
 }
 
 TEST_CASE("A triangle is told to be far if it is far by itself, though each edge is looked at for two triangles") {
     std::size_t found = 0;
-    for (const int seed : {1, 2, 3, 5, 8}) {
-        CAPTURE(seed);
-        RandomPart part(seed);
-        const SolidTree solid = flatten(part.solid());
-        if (part.radius() == 0) continue;
-        const Subdivision subdivision(solid, polygonization_box(solid));
-        Subspace subspace(subdivision);
-        subspace.polygonize();
-        const Mesh mesh = surface(subspace, solid);
+    each_random_part([&](double radius, const SolidTree& solid, const Mesh& mesh, const std::vector<Origin>&) {
         const FacetJudge judge(solid, mesh);
-        for (const double tolerance : {0.01 * part.radius(), 0.1 * part.radius()}) {
+        for (const double tolerance : {0.01 * radius, 0.1 * radius}) {
             std::vector<int> far{-1}, expected{-1};
-            for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
-                std::array<Vec3, 3> x{};
-                for (std::size_t k = 0; k < 3; ++k) x[k] = mesh.positions[mesh.triangles[t].vertex[k]];
-                if (!judge.is_near(x, tolerance)) expected.push_back(int(t));
-            }
+            for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
+                if (!judge.is_near(mesh.corners(mesh.triangles[t]), tolerance)) expected.push_back(int(t));
             CHECK(add_far(mesh, judge, tolerance, far) + 1 == expected.size());
             CHECK(far == expected);
             found += expected.size() - 1;
         }
-    }
+    });
     CHECK(found > 100);
 }
