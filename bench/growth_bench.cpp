@@ -2,8 +2,6 @@
 #include <fmt/format.h>
 #include <malloc.h>
 
-#include <numbers>
-
 #include "bench/blocks.hpp"
 #include "bench/picture.hpp"
 #include "bench/sections.hpp"
@@ -79,7 +77,7 @@ Solid holed_plate(int k, double radius = 0.03) {
         const Vec3 middle(i % k + 0.5, 0, i / k + 0.5);
         Density hole = Density::half_space({0, 1, 0}, 2) & Density::half_space({0, -1, 0}, 1);
         for (int j = 0; j < 12; ++j) {
-            const double a = 2 * std::numbers::pi * (j + 0.5) / 12;
+            const double a = 2 * pi * (j + 0.5) / 12;
             const Vec3 n(std::cos(a), 0, std::sin(a));
             hole = hole & Density::half_space(n, glm::dot(n, middle) + 0.29);
         }
@@ -91,7 +89,7 @@ Solid holed_plate(int k, double radius = 0.03) {
 // A convex body of n half-spaces around a ball, evenly distributed.
 Solid ball(int n) {
     const auto half_space = [n](int i) {
-        const double z = 1 - (2 * i + 1.0) / n, a = i * std::numbers::pi * (3 - std::sqrt(5.0));
+        const double z = 1 - (2 * i + 1.0) / n, a = i * pi * (3 - std::sqrt(5.0));
         const double s = std::sqrt(1 - z * z);
         return Density::half_space({s * std::cos(a), s * std::sin(a), z}, 1);
     };

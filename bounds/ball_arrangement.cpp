@@ -30,12 +30,9 @@
 #include "bounds/ball_arrangement.hpp"
 
 #include <algorithm>
-#include <numbers>
 
 namespace deburr {
 namespace {
-
-constexpr double pi = std::numbers::pi;
 
 // The pole is good enough if the antipole is at this distance from every plane, because ψ turns fast near a plane.
 constexpr double clear_enough = 0.1;

@@ -2,14 +2,11 @@
 
 #include <algorithm>
 #include <cassert>
-#include <numbers>
 
 #include "bounds/ball_arrangement.hpp"
 
 namespace deburr {
 namespace {
-
-constexpr double pi = std::numbers::pi;
 
 // In densities of at most this many half-spaces, as those of cells are, half-spaces are compared for equal ones.
 constexpr std::size_t max_compared = 64;

@@ -5,8 +5,6 @@
 namespace deburr {
 namespace {
 
-using Kind = BoundCsg::Kind;
-
 // The bound that a node's operands have to supply: outer or inner, at threshold t.
 struct Demand {
     bool outer = true;
@@ -69,7 +67,8 @@ public:
         }
         csg_.nodes.resize(std::size_t(new_index.back()) + 1);
         csg_.convex = true;
-        for (const BoundCsg::Node& n : csg_.nodes) csg_.convex &= n.kind == Kind::plane || n.kind == Kind::intersect;
+        for (const BoundCsg::Node& n : csg_.nodes)
+            csg_.convex &= n.kind == BoundCsg::Kind::plane || n.kind == BoundCsg::Kind::intersect;
         return std::move(csg_);
     }
 
@@ -78,8 +77,8 @@ private:
         csg_.nodes.push_back(node);
         return int(csg_.nodes.size()) - 1;
     }
-    Kind kind(int i) const { return csg_.nodes[i].kind; }
-    int constant(bool everything) { return add({everything ? Kind::everything : Kind::nothing}); }
+    BoundCsg::Kind kind(int i) const { return csg_.nodes[i].kind; }
+    int constant(bool everything) { return add({everything ? BoundCsg::Kind::everything : BoundCsg::Kind::nothing}); }
 
     int plane(const HalfSpace& h, Demand asked) {
         const auto [outer, t] = asked;
@@ -90,24 +89,25 @@ private:
         double offset = h.offset + (outer ? clearance : -clearance);
         if (h.radius > 0) offset += h.radius * displacement(outer ? t - inverse_slack : t + inverse_slack);
         csg_.planes.push_back({h.normal, offset});
-        return add({Kind::plane, int(csg_.planes.size()) - 1});
+        return add({BoundCsg::Kind::plane, int(csg_.planes.size()) - 1});
     }
 
     int intersect(int a, int b) {
-        if (kind(a) == Kind::nothing || kind(b) == Kind::nothing) return constant(false);
-        if (kind(a) == Kind::everything) return again(b);
-        if (kind(b) == Kind::everything) return again(a);
-        return add({Kind::intersect, a, b});
+        if (kind(a) == BoundCsg::Kind::nothing || kind(b) == BoundCsg::Kind::nothing) return constant(false);
+        if (kind(a) == BoundCsg::Kind::everything) return again(b);
+        if (kind(b) == BoundCsg::Kind::everything) return again(a);
+        return add({BoundCsg::Kind::intersect, a, b});
     }
     int unite(int a, int b) {
-        if (kind(a) == Kind::everything || kind(b) == Kind::everything) return constant(true);
-        if (kind(a) == Kind::nothing) return again(b);
-        if (kind(b) == Kind::nothing) return again(a);
-        return add({Kind::unite, a, b});
+        if (kind(a) == BoundCsg::Kind::everything || kind(b) == BoundCsg::Kind::everything) return constant(true);
+        if (kind(a) == BoundCsg::Kind::nothing) return again(b);
+        if (kind(b) == BoundCsg::Kind::nothing) return again(a);
+        return add({BoundCsg::Kind::unite, a, b});
     }
     int complement(int a) {
-        if (kind(a) == Kind::nothing || kind(a) == Kind::everything) return constant(kind(a) == Kind::nothing);
-        return add({Kind::complement, a});
+        if (kind(a) == BoundCsg::Kind::nothing || kind(a) == BoundCsg::Kind::everything)
+            return constant(kind(a) == BoundCsg::Kind::nothing);
+        return add({BoundCsg::Kind::complement, a});
     }
     // Node i, copied to the end if it is not the last node, because the root must come last.
     int again(int i) { return i + 1 == int(csg_.nodes.size()) ? i : add(csg_.nodes[i]); }
@@ -123,16 +123,16 @@ bool BoundCsg::contains(Vec3 x) const {
     for (const Node& n : nodes) {
         const auto at = [&](int child) -> bool { return in[child]; };
         switch (n.kind) {
-            case Kind::nothing: in.push_back(false); break;
-            case Kind::everything: in.push_back(true); break;
-            case Kind::plane: {
+            case BoundCsg::Kind::nothing: in.push_back(false); break;
+            case BoundCsg::Kind::everything: in.push_back(true); break;
+            case BoundCsg::Kind::plane: {
                 const BoundPlane& p = planes[n.a];
                 in.push_back(glm::dot(p.normal, x) <= p.offset);
                 break;
             }
-            case Kind::intersect: in.push_back(at(n.a) && at(n.b)); break;
-            case Kind::unite: in.push_back(at(n.a) || at(n.b)); break;
-            case Kind::complement: in.push_back(!at(n.a)); break;
+            case BoundCsg::Kind::intersect: in.push_back(at(n.a) && at(n.b)); break;
+            case BoundCsg::Kind::unite: in.push_back(at(n.a) || at(n.b)); break;
+            case BoundCsg::Kind::complement: in.push_back(!at(n.a)); break;
         }
     }
     return in.back();
@@ -181,14 +181,14 @@ void SearchSpans::general(const BoundCsg& csg, Vec3 origin, Vec3 direction) {
         const auto a = [&] { return parts_[n.a]; };
         const auto b = [&] { return parts_[n.b]; };
         switch (n.kind) {
-            case Kind::nothing: break;
-            case Kind::everything: pool_.push_back({-infinity, infinity}); break;
-            case Kind::plane: {
+            case BoundCsg::Kind::nothing: break;
+            case BoundCsg::Kind::everything: pool_.push_back({-infinity, infinity}); break;
+            case BoundCsg::Kind::plane: {
                 const Span s = ray_in_plane(csg.planes[n.a], origin, direction);
                 if (s.lo <= s.hi) pool_.push_back(s);
                 break;
             }
-            case Kind::intersect:
+            case BoundCsg::Kind::intersect:
                 for (std::size_t i = 0, j = 0; i < a().count && j < b().count;) {
                     const Span x = pool_[a().first + i], y = pool_[b().first + j];
                     const Span s = intersection(x, y);
@@ -196,7 +196,7 @@ void SearchSpans::general(const BoundCsg& csg, Vec3 origin, Vec3 direction) {
                     x.hi < y.hi ? ++i : ++j;
                 }
                 break;
-            case Kind::unite:
+            case BoundCsg::Kind::unite:
                 for (std::size_t i = 0, j = 0; i < a().count || j < b().count;) {
                     const bool from_a =
                         j >= b().count || (i < a().count && pool_[a().first + i].lo <= pool_[b().first + j].lo);
@@ -207,7 +207,7 @@ void SearchSpans::general(const BoundCsg& csg, Vec3 origin, Vec3 direction) {
                         pool_.push_back(s);
                 }
                 break;
-            case Kind::complement: {
+            case BoundCsg::Kind::complement: {
                 double from = -infinity;
                 for (std::size_t i = 0; i < a().count; ++i) {
                     const Span s = pool_[a().first + i];

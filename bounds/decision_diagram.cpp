@@ -10,13 +10,13 @@ namespace {
 
 // Normals (unit vectors) and radii (relatively) that differ by less count as the same: two chains of transforms that
 // lead to one plane differ by a few ε; a millionth of a degree is 2·10⁻⁸.
-constexpr double same_direction = 1e-9, same_radius = 1e-9;
+constexpr double same_normal = 1e-9, same_radius = 1e-9;
 // Thresholds that differ by less count as the same, relative to the largest offset, as their rounding is.
 constexpr double same_threshold = 1e-12;
 constexpr std::size_t max_nodes = 100'000;
 
 // The place of a half-space in its family.
-struct Literal {
+struct FamilyLiteral {
     int family = -1, threshold = -1;
     bool above = false;  // normal opposite to the family's: the half-space is true where the coordinate > τ
 };
@@ -51,7 +51,7 @@ private:
             const TreeNode& node = tree_.nodes[i];
             if (!reached_[i] || node.op != Op::half_space) continue;
             const HalfSpace& h = tree_.half_spaces[node.a];
-            Literal& literal = literals_[node.a];
+            FamilyLiteral& literal = literals_[node.a];
             literal.family = family_of(h);
             if (std::size_t(literal.family) == offsets.size()) offsets.emplace_back();
             const Vec3 n = diagram_.families[literal.family].normal;
@@ -80,7 +80,7 @@ private:
             }
             const Vec3 n = glm::dot(h.normal, family.normal) < 0 ? -h.normal : h.normal;
             if (std::abs(h.radius - family.radius) <= same_radius * family.radius &&
-                glm::length(n - family.normal) <= same_direction)
+                glm::length(n - family.normal) <= same_normal)
                 return int(f);
         }
         diagram_.families.push_back({h.normal, h.radius, {}, h.round});
@@ -135,7 +135,7 @@ private:
         diagram_.root = done[root];
     }
 
-    int literal(const Literal& l) {
+    int literal(const FamilyLiteral& l) {
         return add({l.family, {l.threshold}, l.above ? std::vector{0, 1} : std::vector{1, 0}});
     }
 
@@ -217,12 +217,22 @@ private:
     const DensityTree& tree_;
     DecisionDiagram diagram_;
     std::vector<char> reached_;
-    std::vector<Literal> literals_;
+    std::vector<FamilyLiteral> literals_;
     std::unordered_set<int, Hash, Same> unique_{16, Hash{diagram_.nodes}, Same{diagram_.nodes}};
     std::unordered_map<std::uint64_t, int> applied_;
 };
 
+std::string too_entangled(int line) {
+    std::string text;
+    if (line > 0) text.append("the solid of line ").append(std::to_string(line)).append(": ");
+    return text +=
+           "expected a Boolean density whose decision diagram has at most 100,000 nodes, got more; too many of its "
+           "planes meet within one radius";
+}
+
 }  // namespace
+
+TooEntangled::TooEntangled(int line) : std::length_error(too_entangled(line)) {}
 
 DecisionDiagram build_diagram(const DensityTree& tree, int root) { return Construction(tree, root).take(); }
 

@@ -17,10 +17,7 @@ namespace deburr {
 /// Thrown for a Boolean density whose diagram would be too large to be evaluated.
 struct TooEntangled : std::length_error {
     /// `line` is that of the solid in the scene, 0 if it is unknown.
-    explicit TooEntangled(int line = 0)
-        : std::length_error((line > 0 ? "the solid of line " + std::to_string(line) + ": " : "") +
-                            "expected a Boolean density whose decision diagram has at most 100,000 "
-                            "nodes, got more; too many of its planes meet within one radius") {}
+    explicit TooEntangled(int line = 0);
 };
 
 /// A node that branches on its family's random coordinate: children[j] is reached with the probability that the

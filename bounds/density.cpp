@@ -8,9 +8,7 @@
 namespace deburr {
 namespace {
 
-using Kind = DensityNode::Kind;
-
-std::shared_ptr<const DensityNode> make(Kind kind, DensityNode::Parts parts, int line = 0) {
+std::shared_ptr<const DensityNode> make(DensityNode::Kind kind, DensityNode::Parts parts, int line = 0) {
     return std::make_shared<DensityNode>(kind, std::move(parts), line);
 }
 
@@ -18,14 +16,14 @@ DensityNode::Operands pair(Density a, Density b) { return {std::move(a), std::mo
 
 }  // namespace
 
-DensityNode::DensityNode(Kind of_kind, Parts parts, int of_line)
+DensityNode::DensityNode(DensityNode::Kind of_kind, Parts parts, int of_line)
     : kind(of_kind),
-      has_radius(of_kind == Kind::radius),
-      has_round(of_kind == Kind::round),
-      may_be_illegal(of_kind == Kind::sum || of_kind == Kind::difference),
+      has_radius(of_kind == DensityNode::Kind::radius),
+      has_round(of_kind == DensityNode::Kind::round),
+      may_be_illegal(of_kind == DensityNode::Kind::sum || of_kind == DensityNode::Kind::difference),
       line(of_line),
       parts_(std::move(parts)) {
-    if (is_plane() || kind == Kind::round) return;
+    if (is_plane() || kind == DensityNode::Kind::round) return;
     leaves = 0;
     for (const Density& child : children()) {
         leaves += child.node().leaves;
@@ -33,7 +31,9 @@ DensityNode::DensityNode(Kind of_kind, Parts parts, int of_line)
         has_round |= child.node().has_round;
         may_be_illegal |= child.node().may_be_illegal;
     }
-    if (kind == Kind::disjunction || kind == Kind::conjunction || kind == Kind::complement) may_be_illegal = false;
+    if (kind == DensityNode::Kind::disjunction || kind == DensityNode::Kind::conjunction ||
+        kind == DensityNode::Kind::complement)
+        may_be_illegal = false;
 }
 
 std::span<const Density> DensityNode::children() const {
@@ -53,17 +53,17 @@ DensityNode::~DensityNode() {
 Density Density::half_space(Vec3 normal, double offset) {
     const double length = glm::length(normal);
     assert(length > 0);
-    return Density(make(Kind::half_space, DensityNode::HalfSpace{normal / length, offset / length}));
+    return Density(make(DensityNode::Kind::half_space, DensityNode::HalfSpace{normal / length, offset / length}));
 }
 
 Density Density::cover(Vec3 normal, double offset) {
     const double length = glm::length(normal);
     assert(length > 0);
-    return Density(make(Kind::cover, DensityNode::HalfSpace{normal / length, offset / length}));
+    return Density(make(DensityNode::Kind::cover, DensityNode::HalfSpace{normal / length, offset / length}));
 }
 
 Density Density::round(const RoundCoordinate& coordinate, double offset) {
-    return Density(make(Kind::round, std::make_unique<const RoundPart>(RoundPart{coordinate, offset})));
+    return Density(make(DensityNode::Kind::round, std::make_unique<const RoundPart>(RoundPart{coordinate, offset})));
 }
 
 Density Density::sphere(Vec3 center, double radius) {
@@ -104,35 +104,35 @@ Density Density::product(std::vector<Density> parts) {
     assert(!parts.empty());
     if (parts.size() == 1) return parts[0];
     if (parts.size() == 2) return product(parts[0], parts[1]);
-    return Density(make(Kind::product, std::move(parts)));
+    return Density(make(DensityNode::Kind::product, std::move(parts)));
 }
 
 Density Density::sum(Density a, Density b, int line) {
-    return Density(make(Kind::sum, pair(std::move(a), std::move(b)), line));
+    return Density(make(DensityNode::Kind::sum, pair(std::move(a), std::move(b)), line));
 }
 Density Density::product(Density a, Density b, int line) {
-    return Density(make(Kind::product, pair(std::move(a), std::move(b)), line));
+    return Density(make(DensityNode::Kind::product, pair(std::move(a), std::move(b)), line));
 }
 Density Density::difference(Density a, Density b, int line) {
-    return Density(make(Kind::difference, pair(std::move(a), std::move(b)), line));
+    return Density(make(DensityNode::Kind::difference, pair(std::move(a), std::move(b)), line));
 }
 Density Density::disjunction(Density a, Density b) {
-    return Density(make(Kind::disjunction, pair(std::move(a), std::move(b))));
+    return Density(make(DensityNode::Kind::disjunction, pair(std::move(a), std::move(b))));
 }
 Density Density::conjunction(Density a, Density b) {
-    return Density(make(Kind::conjunction, pair(std::move(a), std::move(b))));
+    return Density(make(DensityNode::Kind::conjunction, pair(std::move(a), std::move(b))));
 }
-Density Density::complement(Density a) { return Density(make(Kind::complement, std::move(a))); }
+Density Density::complement(Density a) { return Density(make(DensityNode::Kind::complement, std::move(a))); }
 
 Density Density::radius(double r) const {
     assert(r >= 0);
-    return Density(make(Kind::radius, DensityNode::Radius{*this, r}));
+    return Density(make(DensityNode::Kind::radius, DensityNode::Radius{*this, r}));
 }
 
 bool Density::has_radius() const { return node_->has_radius; }
 
 Density Density::transformed(const Affine& map) const {
-    return Density(make(Kind::transform, DensityNode::Transform{*this, map}));
+    return Density(make(DensityNode::Kind::transform, DensityNode::Transform{*this, map}));
 }
 
 }  // namespace deburr

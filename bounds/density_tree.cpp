@@ -10,15 +10,13 @@
 namespace deburr {
 namespace {
 
-using Kind = DensityNode::Kind;
-
 struct Placement {
     double radius;
     Affine map;
 };
 
 // A subexpression that is still to be flattened, or an operator whose operands are flattened already.
-struct Task {
+struct DensityTask {
     const DensityNode* node = nullptr;  // null: combine the last `count` results by `op`
     Placement placement{};
     bool boolean = false;
@@ -26,14 +24,14 @@ struct Task {
     int count = 0, line = 0;
 };
 
-Op arithmetic(Kind kind) {
+Op arithmetic(DensityNode::Kind kind) {
     switch (kind) {
-        case Kind::sum: return Op::sum;
-        case Kind::product: return Op::product;
-        case Kind::difference: return Op::difference;
-        case Kind::disjunction: return Op::disjunction;
-        case Kind::conjunction: return Op::conjunction;
-        case Kind::complement: return Op::complement;
+        case DensityNode::Kind::sum: return Op::sum;
+        case DensityNode::Kind::product: return Op::product;
+        case DensityNode::Kind::difference: return Op::difference;
+        case DensityNode::Kind::disjunction: return Op::disjunction;
+        case DensityNode::Kind::conjunction: return Op::conjunction;
+        case DensityNode::Kind::complement: return Op::complement;
         default: return Op::half_space;
     }
 }
@@ -48,12 +46,12 @@ bool associative(Op op) { return op != Op::difference && op != Op::complement &&
 
 // Flattens an expression into a DensityTree. Every loop keeps a stack of its own instead of recursing: scenes write
 // chains as long as their loops.
-class Flattening {
+class DensityFlattening {
 public:
     DensityTree run(const DensityNode& root, Placement placement, bool boolean) {
         tasks_.push_back({&root, placement, boolean});
         while (!tasks_.empty()) {
-            const Task task = tasks_.back();
+            const DensityTask task = tasks_.back();
             tasks_.pop_back();
             if (task.node)
                 open(task);
@@ -66,8 +64,8 @@ public:
 
 private:
     static const DensityNode& through_placements(const DensityNode* node, Placement& placement) {
-        while (node->kind == Kind::radius || node->kind == Kind::transform) {
-            if (node->kind == Kind::radius)
+        while (node->kind == DensityNode::Kind::radius || node->kind == DensityNode::Kind::transform) {
+            if (node->kind == DensityNode::Kind::radius)
                 placement.radius = node->radius();
             else
                 placement.map = compose(placement.map, node->map());
@@ -76,16 +74,16 @@ private:
         return *node;
     }
 
-    void open(Task task) {
+    void open(DensityTask task) {
         const DensityNode& node = through_placements(task.node, task.placement);
         if (node.is_plane()) {
             const HalfSpace unplaced{node.normal(), node.offset(), task.placement.radius};
             done_.push_back(add({Op::half_space, int(tree_.half_spaces.size())}));
             tree_.half_spaces.push_back(transformed(unplaced, task.placement.map, false));
-            if (node.kind == Kind::cover) tree_.half_spaces.back().offset += task.placement.radius;
+            if (node.kind == DensityNode::Kind::cover) tree_.half_spaces.back().offset += task.placement.radius;
             return;
         }
-        if (node.kind == Kind::round) {
+        if (node.kind == DensityNode::Kind::round) {
             done_.push_back(round(image(task.placement.map, node.round()), task.placement));
             return;
         }
@@ -99,7 +97,7 @@ private:
             tasks_.push_back({&node.children()[0].node(), task.placement, true});
             return;
         }
-        const std::vector<Task> operands = chain(node, task.placement, boolean, op);
+        const std::vector<DensityTask> operands = chain(node, task.placement, boolean, op);
         tasks_.push_back({nullptr, {}, boolean, op, int(operands.size()), node.line});
         tasks_.insert(tasks_.end(), operands.rbegin(), operands.rend());
     }
@@ -143,8 +141,8 @@ private:
 
     // The operands of a chain of one associative operator; the papers' sums and products count as one chain only if one
     // line of the scene wrote them.
-    std::vector<Task> chain(const DensityNode& node, Placement placement, bool boolean, Op op) const {
-        std::vector<Task> operands, open;
+    std::vector<DensityTask> chain(const DensityNode& node, Placement placement, bool boolean, Op op) const {
+        std::vector<DensityTask> operands, open;
         const auto expand = [&](const DensityNode& parent, const Placement& at) {
             const auto children = parent.children();
             for (auto child = children.rbegin(); child != children.rend(); ++child)
@@ -152,7 +150,7 @@ private:
         };
         expand(node, placement);
         while (!open.empty()) {
-            Task task = open.back();
+            DensityTask task = open.back();
             open.pop_back();
             const DensityNode& inner = through_placements(task.node, task.placement);
             const Op inner_op = boolean ? boolean_reading(arithmetic(inner.kind)) : arithmetic(inner.kind);
@@ -166,7 +164,7 @@ private:
         return operands;
     }
 
-    void combine(const Task& task) {
+    void combine(const DensityTask& task) {
         const std::size_t first = done_.size() - std::size_t(task.count);
         if (task.op == Op::complement) {
             done_.back() = add({Op::complement, done_.back()});
@@ -182,7 +180,7 @@ private:
 
     DensityTree tree_;
     std::shared_ptr<std::deque<RoundCoordinate>> rounds_;  // a deque, so that pointers to its elements stay valid
-    std::vector<Task> tasks_;
+    std::vector<DensityTask> tasks_;
     std::vector<int> done_;
 };
 
@@ -194,9 +192,14 @@ std::string count_text(double count) {
     return std::to_string(std::int64_t(count));
 }
 
-TooManyHalfSpaces::TooManyHalfSpaces(double got)
-    : std::length_error("expected a solid of at most " + count_text(max_half_spaces) +
-                        " half-spaces, those of shared parts counted once per use, got " + count_text(got)) {}
+static std::string too_many(double got) {
+    std::string text = "expected a solid of at most ";
+    text += count_text(max_half_spaces);
+    text += " half-spaces, those of shared parts counted once per use, got ";
+    return text += count_text(got);
+}
+
+TooManyHalfSpaces::TooManyHalfSpaces(double got) : std::length_error(too_many(got)) {}
 
 HalfSpace transformed(const HalfSpace& h, const Affine& map, bool carry_radius) {
     const Vec3 normal = glm::transpose(glm::inverse(map.linear)) * h.normal;
@@ -231,7 +234,7 @@ DensityTree placed(DensityTree tree, const Affine& map) {
 
 static DensityTree without_supports(const Density& density, double radius, const Affine& to_world, bool convolved) {
     if (density.node().leaves > max_half_spaces) throw TooManyHalfSpaces(density.node().leaves);
-    DensityTree tree = Flattening().run(density.node(), {radius, Affine{}}, convolved);
+    DensityTree tree = DensityFlattening().run(density.node(), {radius, Affine{}}, convolved);
     if (convolved) {
         for (HalfSpace& h : tree.half_spaces) h.radius = radius;
         tree.nodes.push_back({Op::convolution, tree.root()});

@@ -14,12 +14,12 @@ namespace {
 constexpr std::size_t max_made_local = 24;
 
 // A box shorter than this fraction of the whole is not halved: sets that are thinner stay unknown.
-constexpr double thinnest = 1e-9;
+constexpr double thinnest_known = 1e-9;
 
 // A half-space's density varies over this number of radii at most.
 constexpr double reach = 2;
 
-struct Candidate {
+struct UnknownBox {
     SolidTree tree;  // pruned to the box
     Box box;
 };
@@ -53,14 +53,14 @@ Side side_of(const SolidTree& tree, const Box& box) {
 }
 
 // The axis along which α of some half-space changes most over the box; the longest axis if none changes.
-int axis_to_halve(const Candidate& now) {
+int axis_to_halve(const UnknownBox& now) {
     const Vec3 size = now.box.hi - now.box.lo;
     const double longest = max_component(size);
     Vec3 change(0.0);
     for (const SolidLeaf& leaf : now.tree.leaves)
         for (const HalfSpace& h : leaf.density.half_spaces)
             for (int k = 0; k < 3; ++k) {
-                const double alpha = std::abs(h.normal[k]) * size[k] / std::max(h.radius, thinnest * longest);
+                const double alpha = std::abs(h.normal[k]) * size[k] / std::max(h.radius, thinnest_known * longest);
                 change[k] = std::max(change[k], std::min(alpha, reach) + 1e-3 * size[k] / longest);
             }
     if (change == Vec3(0.0)) change = size;
@@ -74,12 +74,12 @@ int axis_to_halve(const Candidate& now) {
 
 Emptiness emptiness(const SolidTree& tree, const Box& box, std::int64_t& nodes) {
     if (box.empty()) return Emptiness::empty;
-    std::deque<Candidate> open;
+    std::deque<UnknownBox> open;
     bool unknown = false;
     // Returns true if the part of the box has a point of the set; otherwise keeps it for halving if it may have one.
     const auto examine = [&](const SolidTree& from, const Box& part) {
         nodes -= size_of(from);
-        Candidate here{prune(from, part), part};
+        UnknownBox here{prune(from, part), part};
         if (here.tree.nodes.back().op == SolidOp::nothing) return false;
         if (here.tree.contains(0.5 * (part.lo + part.hi))) return true;
         nodes -= 4 * size_of(here.tree);
@@ -88,9 +88,9 @@ Emptiness emptiness(const SolidTree& tree, const Box& box, std::int64_t& nodes) 
         return side == Side::inside;
     };
     if (examine(tree, box)) return Emptiness::not_empty;
-    const double least = thinnest * glm::length(box.hi - box.lo);
+    const double least = thinnest_known * glm::length(box.hi - box.lo);
     while (!open.empty() && nodes > 0) {
-        const Candidate now = std::move(open.front());
+        const UnknownBox now = std::move(open.front());
         open.pop_front();
         const int axis = axis_to_halve(now);
         if (now.box.hi[axis] - now.box.lo[axis] < least) {

@@ -21,6 +21,9 @@ class Field;
 class FieldRay;
 using FieldPtr = std::shared_ptr<const Field>;
 
+/// The radius by which a field stands for a sharp solid, relative to the solid's size.
+constexpr double sharp_radius = 0x1p-26;
+
 /// Immutable, and safe to use from several threads.
 class Field {
 public:

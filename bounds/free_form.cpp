@@ -14,8 +14,6 @@
 namespace deburr {
 namespace {
 
-constexpr double slack = 16 * epsilon;  // relative rounding error of a quadric; cubing triples it
-
 // Cost of an evaluation in half-space densities: of the base and of each perturbation.
 constexpr int cost_base = 2, cost_perturbation = 2;
 
@@ -123,7 +121,7 @@ Range FreeForm::range(const Box& box) const {
         for (const Perturbation& p : perturbations_) {
             const Range q = positive_range(p, box);
             const Range r = times(p.factor, {positive_cube(q.lo), positive_cube(q.hi)});
-            sum = {sum.lo + r.lo * (1 + slack), sum.hi + r.hi * (1 + slack)};
+            sum = {sum.lo + r.lo * (1 + quadric_rounding), sum.hi + r.hi * (1 + quadric_rounding)};
         }
         return sum.lo <= sum.hi ? sum : Range{-infinity, infinity};
     }
@@ -139,7 +137,7 @@ Range FreeForm::range(const Box& box) const {
         off += 3 * std::abs(p.factor) * q.hi * q.hi * p.quadric.magnitude(reach(p.quadric));
     }
     const Range r = sum.range();
-    return {r.lo - slack * off, r.hi + slack * off};
+    return {r.lo - quadric_rounding * off, r.hi + quadric_rounding * off};
 }
 
 Box FreeForm::extent() const {

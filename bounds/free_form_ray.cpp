@@ -31,8 +31,6 @@ constexpr std::size_t first_perturbation = 4, stride = 4;
 
 Quadratic quadratic(const double* n) { return {n[0], n[1], n[2]}; }
 
-double cube(double x) { return x * x * x; }
-
 // The greatest absolute Bernstein coefficient of Σ c[k] s^k over [0, 1].
 template <std::size_t count>
 double bernstein_bound(const std::array<double, count>& c) {
@@ -182,7 +180,7 @@ RayBounds FreeForm::bounds(const FieldRay& ray, double t0, double t1) const {
             for (std::size_t k = 0; k < 7; ++k) sum[k] += f * terms[k];
         } else {
             const double slope = std::max(std::abs(b), std::abs(b + 2 * c));
-            M += std::abs(f) * cube(hi);
+            M += std::abs(f) * hi * hi * hi;
             L += std::abs(f) * 3 * hi * hi * slope;
             G += std::abs(f) * (6 * hi * slope * slope + 6 * hi * hi * std::abs(c));
         }

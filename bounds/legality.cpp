@@ -16,7 +16,7 @@ constexpr double tolerance = 1e-6;
 constexpr double off_middle[3] = {0.4142, 0.4472, 0.4690};
 
 // A box shorter than this fraction of the whole is not halved: faces that touch meet there, equal but for rounding.
-constexpr double thinnest = 1e-9;
+constexpr double touching = 1e-9;
 
 double excess(double rho) { return std::max(rho - 1, -rho); }
 
@@ -27,7 +27,7 @@ Box reach_of(const DensityTree& tree) {
     return {Vec3(-reach - 1), Vec3(reach + 1)};
 }
 
-struct Candidate {
+struct OpenBox {
     DensityTree tree;  // pruned to the box
     Box box;
 };
@@ -38,7 +38,7 @@ struct Candidate {
 IllegalDensity search(const DensityTree& tree, const Box& start, int boxes, std::int64_t& nodes) {
     IllegalDensity worst;
     double most = tolerance;
-    std::deque<Candidate> open;
+    std::deque<OpenBox> open;
     const auto examine = [&](const DensityTree& from, const Box& box) {
         nodes -= std::int64_t(from.nodes.size());
         Pruned here = prune(from, box);
@@ -60,14 +60,14 @@ IllegalDensity search(const DensityTree& tree, const Box& start, int boxes, std:
     examine(tree, start);
     for (int n = 0; n < boxes && !open.empty() && nodes > 0; n += 2) {
         const bool widest = n < boxes / 2;
-        const Candidate now = widest ? std::move(open.front()) : std::move(open.back());
+        const OpenBox now = widest ? std::move(open.front()) : std::move(open.back());
         widest ? open.pop_front() : open.pop_back();
         int axis = 0;
         for (int k = 1; k < 3; ++k)
             if (now.box.hi[k] - now.box.lo[k] > now.box.hi[axis] - now.box.lo[axis]) axis = k;
         Box low = now.box, high = now.box;
         low.hi[axis] = high.lo[axis] = 0.5 * (now.box.lo[axis] + now.box.hi[axis]);
-        if (now.box.hi[axis] - now.box.lo[axis] < thinnest * glm::length(start.hi - start.lo)) continue;
+        if (now.box.hi[axis] - now.box.lo[axis] < touching * glm::length(start.hi - start.lo)) continue;
         examine(now.tree, low);
         examine(now.tree, high);
         if (most > 0.5) break;  // bad enough to be reported

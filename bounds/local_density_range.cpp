@@ -55,10 +55,6 @@ Range LocalDensity::range_from(OfHalfSpace leaf) const {
 
 namespace {
 
-Range product(Range a, Range b) {
-    const auto [lo, hi] = std::minmax({a.lo * b.lo, a.lo * b.hi, a.hi * b.lo, a.hi * b.hi});
-    return {lo, hi};
-}
 Range sum(Range a, Range b) { return {a.lo + b.lo, a.hi + b.hi}; }
 Range difference(Range a, Range b) { return {a.lo - b.hi, a.hi - b.lo}; }
 Range hull(Range a, Range b) { return {std::min(a.lo, b.lo), std::max(a.hi, b.hi)}; }

@@ -10,8 +10,6 @@
 namespace deburr {
 namespace {
 
-constexpr double pi = mesh_pi;
-
 // A sum of angles in (−π, π] that are given by their sines and cosines, up to a common factor > 0.
 class AngleSum {
 public:

@@ -17,6 +17,9 @@
 
 namespace deburr {
 
+/// RootFinder::rounding times this bounds the rounding error of a share, which is a sum over triangles.
+constexpr double share_noise_scale = 64;
+
 /// The fraction ("share") of the ball of radius r > 0 around x that is inside the mesh, in [0, 1], and its gradient by
 /// x. `triangles` should hold all that reach the ball, and may hold more. If the sphere cuts an edge of which one
 /// triangle is missing, all triangles that reach the ball are searched for; if none reaches it, the share is 1 or 0 by

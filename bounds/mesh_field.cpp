@@ -9,13 +9,6 @@
 namespace deburr {
 namespace {
 
-// RootFinder::rounding times this bounds the rounding error of a share, which is a sum over triangles.
-constexpr double noise_scale = 64;
-
-constexpr double sharp_radius = 0x1p-26;  // relative to the mesh's size
-
-constexpr double pi = mesh_pi;
-
 constexpr double steepest = 0.75;  // the greatest change of a share per radius of movement
 
 // Calls visit(triangle, steepness) with bounds that hold for balls whose centres are within the box center ± half, and
@@ -249,7 +242,7 @@ double MeshField::last_sign_change_bound(Vec3 origin, Vec3 direction) const {
 }
 
 void MeshField::begin_ray(FieldRay& ray) const {
-    ray.noise_scale = noise_scale;
+    ray.noise_scale = share_noise_scale;
     ray.numbers.clear();
     const Vec3 a = ray.origin + ray.t0 * ray.direction, b = ray.origin + ray.t1 * ray.direction;
     const auto add = [&](int t) {
@@ -278,9 +271,9 @@ ValueSlope MeshField::at(const FieldRay& ray, double t) const {
         const double reach = ball.radius + radius_;
         if (glm::dot(away, away) <= reach * reach) triangles.push_back(int(number));
     }
-    if (triangles.empty()) return {(is_inside(x) ? 0.5 : -0.5) / noise_scale, 0};
+    if (triangles.empty()) return {(is_inside(x) ? 0.5 : -0.5) / share_noise_scale, 0};
     const ValueGradient v = ball_share(*mesh_, triangles, x, radius_);
-    return {(v.value - 0.5) / noise_scale, glm::dot(v.gradient, ray.direction) / noise_scale};
+    return {(v.value - 0.5) / share_noise_scale, glm::dot(v.gradient, ray.direction) / share_noise_scale};
 }
 
 RayBounds MeshField::bounds(const FieldRay& ray, double t0, double t1) const {
@@ -303,9 +296,9 @@ RayBounds MeshField::bounds(const FieldRay& ray, double t0, double t1) const {
         slope += along * s.area;
         curvature += along * (along * s.across + across * s.along);
     }
-    const double unit = 3 / (4 * pi) / noise_scale;
+    const double unit = 3 / (4 * pi) / share_noise_scale;
     const double rate = speed / radius_;
-    return {0.5 / noise_scale, unit * std::min(slope, pi) * rate, unit * curvature * rate * rate};
+    return {0.5 / share_noise_scale, unit * std::min(slope, pi) * rate, unit * curvature * rate * rate};
 }
 
 }  // namespace deburr

@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <cmath>
 
-namespace deburr {
+#include "bounds/vec.hpp"
 
-constexpr double mesh_pi = 3.14159265358979323846;
+namespace deburr {
 
 // What one triangle contributes to bounds on the share's derivatives, with lengths in radii, as upper bounds over a
 // range of plane distances |h|.
@@ -23,10 +23,10 @@ inline Steepness steepness(double area, double perimeter, double least_h, double
     if (least_h >= 1) return {};
     const double widest = 1 - least_h * least_h, h = std::min(greatest_h, 1.0), narrowest = std::sqrt(1 - h * h);
     Steepness s;
-    s.area = std::min(area, mesh_pi * widest);
+    s.area = std::min(area, pi * widest);
     if (!may_be_cut) return s;
     // The arcs in a triangle are no longer than its border.
-    s.arcs = perimeter < 2 * mesh_pi * narrowest ? perimeter / narrowest : 2 * mesh_pi;
+    s.arcs = perimeter < 2 * pi * narrowest ? perimeter / narrowest : 2 * pi;
     s.across = h * s.arcs;
     s.along = std::min(2 * std::sqrt(widest), perimeter);
     return s;

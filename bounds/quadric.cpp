@@ -5,10 +5,8 @@
 namespace deburr {
 namespace {
 
-// The rounding error of a sum of some ten products is less than this fraction of its magnitude().
-constexpr double slack = 16 * epsilon;
-
-Range product(Range a, Range b) {
+// The products of values of a and of b, which may be infinite; 0 times infinity is 0.
+Range extended_product(Range a, Range b) {
     const auto times = [](double x, double y) { return x == 0 || y == 0 ? 0.0 : x * y; };
     const auto [lo, hi] = std::minmax({times(a.lo, b.lo), times(a.lo, b.hi), times(a.hi, b.lo), times(a.hi, b.hi)});
     return {lo, hi};
@@ -65,13 +63,13 @@ Range Quadric::range(const Box& box) const {
                 if (std::isfinite(part)) reach += std::abs(part);
             for (int j = 0; j < i; ++j) {
                 if (A[i][j] == 0) continue;
-                const Range both = product({lo[i], hi[i]}, {lo[j], hi[j]});
+                const Range both = extended_product({lo[i], hi[i]}, {lo[j], hi[j]});
                 const double c = 2 * A[i][j];
                 sum = {sum.lo + c * (c > 0 ? both.lo : both.hi), sum.hi + c * (c > 0 ? both.hi : both.lo)};
             }
         }
         if (!(sum.lo <= sum.hi)) return {-infinity, infinity};  // ∞ − ∞
-        return {sum.lo - slack * reach, sum.hi + slack * reach};
+        return {sum.lo - quadric_rounding * reach, sum.hi + quadric_rounding * reach};
     }
     const Vec3 half = 0.5 * (box.hi - box.lo), y = box.lo + half - center;
     const Vec3 slope = 2.0 * (A * y) + b;
@@ -85,14 +83,16 @@ Range Quadric::range(const Box& box) const {
             sum = {sum.lo - both, sum.hi + both};
         }
     }
-    const double off = slack * magnitude(glm::abs(y) + half);
+    const double off = quadric_rounding * magnitude(glm::abs(y) + half);
     return {sum.lo - off, sum.hi + off};
 }
 
 // Along the eigenvectors of A the variables separate.
 Range Quadric::range_everywhere() const {
     const auto [axes, squares] = eigensystem(A);
-    const auto rounded = [](double value, double size) { return std::abs(value) <= slack * size ? 0.0 : value; };
+    const auto rounded = [](double value, double size) {
+        return std::abs(value) <= quadric_rounding * size ? 0.0 : value;
+    };
     Range sum{k, k};
     double size = std::abs(k);
     for (int i = 0; i < 3; ++i) {
@@ -138,16 +138,17 @@ Box Quadric::bounding_box() const {
     const double top = k + 0.5 * glm::dot(linear, middle);  // the greatest value of Q
     if (straight >= 0) {
         const double end = center[straight] - top / b[straight];
-        (b[straight] > 0 ? box.lo : box.hi)[straight] = end - slack * (std::abs(end) + std::abs(center[straight]));
+        (b[straight] > 0 ? box.lo : box.hi)[straight] =
+            end - quadric_rounding * (std::abs(end) + std::abs(center[straight]));
         return box;
     }
-    const double off = slack * (std::abs(k) + glm::dot(glm::abs(linear), glm::abs(middle)));
+    const double off = quadric_rounding * (std::abs(k) + glm::dot(glm::abs(linear), glm::abs(middle)));
     if (top < -off) return {};
-    const double wider = 1 + 4 * slack * diagonal / determinant;
+    const double wider = 1 + 4 * quadric_rounding * diagonal / determinant;
     for (int i = 0; i < 3; ++i) {
         if (!solid[i]) continue;
         const double half = std::sqrt((std::max(0.0, top) + off) * inverse[i][i]) * wider;
-        const double rounding = slack * (std::abs(center[i]) + std::abs(middle[i])) * wider;
+        const double rounding = quadric_rounding * (std::abs(center[i]) + std::abs(middle[i])) * wider;
         box.lo[i] = center[i] + middle[i] - half - rounding;
         box.hi[i] = center[i] + middle[i] + half + rounding;
     }

@@ -5,6 +5,10 @@
 
 namespace deburr {
 
+/// The rounding error of a quadric, a sum of some ten products, is less than this fraction of its magnitude; of its
+/// cube three times as much.
+constexpr double quadric_rounding = 16 * epsilon;
+
 /// Q(x) = yᵀAy + b·y + k, where y = x − center and A is symmetric; the set is Q > 0. Printed differently: eq. 1 has no
 /// centre. With one a quadric can be moved without the rounding error that expanded coefficients have far from the
 /// origin.

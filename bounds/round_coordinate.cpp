@@ -6,7 +6,7 @@ namespace deburr {
 namespace {
 
 // Parts that are the same through different chains of transforms differ by a few ε; a millionth of a degree is 2·10⁻⁸.
-constexpr double same_direction = 1e-9, same_length = 1e-11;
+constexpr double equal_direction = 1e-9, equal_length = 1e-11;
 
 // √(a² + b²). The library's hypot takes five times as long, because it also handles numbers whose squares overflow.
 double length_of(double a, double b) { return std::sqrt(a * a + b * b); }
@@ -202,11 +202,11 @@ RoundCoordinate RoundCoordinate::mirrored() const {
 
 bool RoundCoordinate::is_same(const RoundCoordinate& other) const {
     const double size = 1 + std::max(largest(center), largest(other.center));
-    return kind == other.kind && largest(center - other.center) <= same_length * size &&
+    return kind == other.kind && largest(center - other.center) <= equal_length * size &&
            (kind == Kind::point ||
-            (largest(axis - other.axis) <= same_direction && std::abs(across - other.across) <= same_direction &&
-             std::abs(along - other.along) <= same_direction)) &&
-           std::abs(ring - other.ring) <= same_length * (1 + ring);
+            (largest(axis - other.axis) <= equal_direction && std::abs(across - other.across) <= equal_direction &&
+             std::abs(along - other.along) <= equal_direction)) &&
+           std::abs(ring - other.ring) <= equal_length * (1 + ring);
 }
 
 double even_scale(const Affine& map) {
@@ -230,7 +230,7 @@ RoundPart image(const Affine& map, const RoundPart& part) {
     if (c.kind == Kind::point) return to;
     c.axis = glm::normalize(map.linear * c.axis);
     int first = 0;
-    while (first < 2 && std::abs(c.axis[first]) < same_direction) ++first;
+    while (first < 2 && std::abs(c.axis[first]) < equal_direction) ++first;
     if (c.axis[first] < 0) {
         c.axis = -c.axis;
         c.along = -c.along;

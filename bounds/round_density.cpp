@@ -16,7 +16,6 @@ constexpr std::size_t max_ready = 24;
 constexpr int torus_beside_others = 6;
 
 // A radius, relative to the object's size, that no picture and no mesh distinguishes from 0.
-constexpr double sharp_radius = 0x1p-26;
 
 /// The extent of the tree's surfaces: the largest offset, or center and ring of round parts; never 0.
 double size_of(const DensityTree& tree) {
@@ -31,11 +30,6 @@ struct RayState final : FieldRayState {
     std::optional<LocalDensity> own;  // where the field has none prepared
     RayDensity density;
 };
-
-Range product(Range a, Range b) {
-    const auto [lo, hi] = std::minmax({a.lo * b.lo, a.lo * b.hi, a.hi * b.lo, a.hi * b.hi});
-    return {lo, hi};
-}
 
 }  // namespace
 

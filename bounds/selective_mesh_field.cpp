@@ -9,9 +9,8 @@
 namespace deburr {
 namespace {
 
-constexpr double noise_scale = 64;       // as for a MeshField
 constexpr double kept_radius = 0x1p-10;  // m, relative to the full radius
-constexpr double unit = 3 / (4 * mesh_pi);
+constexpr double unit = 3 / (4 * pi);
 
 // Bounds of one triangle's sums in radii, for all radii in a range and centres whose signed distances from the
 // triangle's plane are in a range. `farthest` is the greatest distance of a point of the triangle from a centre.
@@ -40,7 +39,7 @@ struct Rates {
         bend += along * (along * s.across + across * s.along) + 2 * along * rate * std::max(3 * s.area, s.arcs) +
                 rate * rate * eta * std::max(4 * s.area, s.arcs);
     }
-    double first(double radius, double rate) const { return unit / radius * (std::min(slope, mesh_pi) + rate * swell); }
+    double first(double radius, double rate) const { return unit / radius * (std::min(slope, pi) + rate * swell); }
     double second(double radius, double r_bend) const { return unit / radius * (bend / radius + r_bend * swell); }
 };
 
@@ -169,8 +168,7 @@ Range SelectiveMeshField::rate_range(const Box& box, Vec3 direction) const {
     face_areas(*mesh_, l.triangles, center, radius.lo - reach, radius.hi + reach, faces);
     for (const FaceAreas& f : faces) {
         const ClosedMesh::Plane& plane = mesh_->plane(f.triangle);
-        const Range area{f.in_least / (radius.hi * radius.hi),
-                         std::min(f.in_greatest / (radius.lo * radius.lo), mesh_pi)};
+        const Range area{f.in_least / (radius.hi * radius.hi), std::min(f.in_greatest / (radius.lo * radius.lo), pi)};
         const double h = plane.offset - glm::dot(plane.normal, center), dh = glm::dot(glm::abs(plane.normal), half);
         const auto in_radii = [&](double d) { return std::clamp(d > 0 ? d / radius.lo : d / radius.hi, -1.0, 1.0); };
         const auto least_in_radii = [&](double d) {
@@ -264,7 +262,7 @@ double SelectiveMeshField::last_sign_change_bound(Vec3 origin, Vec3 direction) c
 
 // ray.numbers holds the number of kept edges, their coordinates, then the triangles' numbers.
 void SelectiveMeshField::begin_ray(FieldRay& ray) const {
-    ray.noise_scale = noise_scale;
+    ray.noise_scale = share_noise_scale;
     ray.numbers.clear();
     const Vec3 a = ray.origin + ray.t0 * ray.direction, b = ray.origin + ray.t1 * ray.direction;
     const Box along{glm::min(a, b), glm::max(a, b)};
@@ -326,7 +324,7 @@ ValueSlope SelectiveMeshField::at(const FieldRay& ray, double t) const {
         if (glm::dot(away, away) <= reach * reach) triangles.push_back(int(number));
     }
     const ValueGradient v = at(x, triangles, edges);
-    return {v.value / noise_scale, glm::dot(v.gradient, ray.direction) / noise_scale};
+    return {v.value / share_noise_scale, glm::dot(v.gradient, ray.direction) / share_noise_scale};
 }
 
 RayBounds SelectiveMeshField::bounds(const FieldRay& ray, double t0, double t1) const {
@@ -349,8 +347,8 @@ RayBounds SelectiveMeshField::bounds(const FieldRay& ray, double t0, double t1) 
         rates.add(steepness_of(*mesh_, t, radius, distance, farthest), height(radius, distance), along, across,
                   local.rate);
     }
-    return {0.5 / noise_scale, speed * rates.first(radius.lo, local.rate) / noise_scale,
-            speed * speed * rates.second(radius.lo, local.bend) / noise_scale};
+    return {0.5 / share_noise_scale, speed * rates.first(radius.lo, local.rate) / share_noise_scale,
+            speed * speed * rates.second(radius.lo, local.bend) / share_noise_scale};
 }
 
 const MeshField* mesh_field_of(const Field* field) {

@@ -9,17 +9,15 @@
 namespace deburr {
 namespace {
 
-using Kind = SolidNode::Kind;
-
-std::shared_ptr<SolidNode> make(Kind kind, Solid a, Solid b) {
+std::shared_ptr<SolidNode> make(SolidNode::Kind kind, Solid a, Solid b) {
     const double leaves = a.node().leaves + b.node().leaves;
     return std::make_shared<SolidNode>(kind, leaves, SolidNode::Operands{std::move(a), std::move(b)});
 }
 
 std::shared_ptr<SolidNode> make_rounded(double r, Density density, int line, bool convolved) {
     const double leaves = density.node().leaves;
-    return std::make_shared<SolidNode>(Kind::rounded, leaves, SolidNode::Rounded{std::move(density), r, convolved},
-                                       line);
+    return std::make_shared<SolidNode>(SolidNode::Kind::rounded, leaves,
+                                       SolidNode::Rounded{std::move(density), r, convolved}, line);
 }
 
 }  // namespace
@@ -54,19 +52,21 @@ Solid Solid::convolved(double r, Density density, int line) {
 
 Solid Solid::of_field(FieldPtr field, int line) {
     const double leaves = field->size();
-    return Solid(std::make_shared<SolidNode>(Kind::field, leaves, std::move(field), line));
+    return Solid(std::make_shared<SolidNode>(SolidNode::Kind::field, leaves, std::move(field), line));
 }
 
-Solid operator|(Solid a, Solid b) { return Solid(make(Kind::unite, std::move(a), std::move(b))); }
-Solid operator&(Solid a, Solid b) { return Solid(make(Kind::intersect, std::move(a), std::move(b))); }
-Solid operator-(Solid a, Solid b) { return Solid(make(Kind::subtract, std::move(a), std::move(b))); }
+Solid operator|(Solid a, Solid b) { return Solid(make(SolidNode::Kind::unite, std::move(a), std::move(b))); }
+Solid operator&(Solid a, Solid b) { return Solid(make(SolidNode::Kind::intersect, std::move(a), std::move(b))); }
+Solid operator-(Solid a, Solid b) { return Solid(make(SolidNode::Kind::subtract, std::move(a), std::move(b))); }
 
 Solid Solid::material(int index) const {
-    return Solid(std::make_shared<SolidNode>(Kind::material, node_->leaves, SolidNode::Material{*this, index}));
+    return Solid(
+        std::make_shared<SolidNode>(SolidNode::Kind::material, node_->leaves, SolidNode::Material{*this, index}));
 }
 
 Solid Solid::transformed(const Affine& map) const {
-    return Solid(std::make_shared<SolidNode>(Kind::transform, node_->leaves, SolidNode::Transform{*this, map}));
+    return Solid(
+        std::make_shared<SolidNode>(SolidNode::Kind::transform, node_->leaves, SolidNode::Transform{*this, map}));
 }
 
 }  // namespace deburr

@@ -10,10 +10,8 @@
 namespace deburr {
 namespace {
 
-using Kind = SolidNode::Kind;
-
 /// A subexpression that is still to be flattened, or an operator whose operands are flattened already.
-struct Task {
+struct SolidTask {
     const SolidNode* node = nullptr;  // null: combine the last `count` results by `op`
     Affine map{};
     int material = 0;
@@ -29,15 +27,17 @@ bool has_planes(const DensityTree& density) {
     return true;
 }
 
-bool is_operator(Kind kind) { return kind == Kind::unite || kind == Kind::intersect || kind == Kind::subtract; }
+bool is_operator(SolidNode::Kind kind) {
+    return kind == SolidNode::Kind::unite || kind == SolidNode::Kind::intersect || kind == SolidNode::Kind::subtract;
+}
 
 // Flattens a solid's expression, with stacks of its own as in density_tree.cpp.
-class Flattening {
+class SolidFlattening {
 public:
     SolidTree run(const SolidNode& root) {
         tasks_.push_back({&root});
         while (!tasks_.empty()) {
-            const Task task = tasks_.back();
+            const SolidTask task = tasks_.back();
             tasks_.pop_back();
             if (task.node)
                 open(task);
@@ -48,10 +48,10 @@ public:
     }
 
 private:
-    static const SolidNode& through_placements(Task& task) {
+    static const SolidNode& through_placements(SolidTask& task) {
         const SolidNode* node = task.node;
-        while (node->kind == Kind::material || node->kind == Kind::transform) {
-            if (node->kind == Kind::material)
+        while (node->kind == SolidNode::Kind::material || node->kind == SolidNode::Kind::transform) {
+            if (node->kind == SolidNode::Kind::material)
                 task.material = node->material();  // the innermost wins
             else
                 task.map = compose(task.map, node->map());
@@ -60,13 +60,13 @@ private:
         return *node;
     }
 
-    void open(Task task) {
+    void open(SolidTask task) {
         const SolidNode& node = through_placements(task);
-        if (node.kind == Kind::rounded && node.density().node().has_round) {
+        if (node.kind == SolidNode::Kind::rounded && node.density().node().has_round) {
             open_round(node, task);
             return;
         }
-        if (node.kind == Kind::rounded) {
+        if (node.kind == SolidNode::Kind::rounded) {
             const Density& density = node.density();
             tree_.leaves.push_back({node.convolved() ? flatten_convolved(density, node.radius(), task.map)
                                                      : flatten(density, node.radius(), task.map),
@@ -75,22 +75,22 @@ private:
             done_.push_back(add({SolidOp::leaf, int(tree_.leaves.size()) - 1}));
             return;
         }
-        if (node.kind == Kind::field) {
+        if (node.kind == SolidNode::Kind::field) {
             open_field(node.field(), node, task);
             return;
         }
-        const SolidOp op = node.kind == Kind::unite       ? SolidOp::unite
-                           : node.kind == Kind::intersect ? SolidOp::intersect
-                                                          : SolidOp::subtract;
-        std::vector<Task> operands, open;
-        const auto expand = [&](const SolidNode& parent, const Task& at) {
+        const SolidOp op = node.kind == SolidNode::Kind::unite       ? SolidOp::unite
+                           : node.kind == SolidNode::Kind::intersect ? SolidOp::intersect
+                                                                     : SolidOp::subtract;
+        std::vector<SolidTask> operands, open;
+        const auto expand = [&](const SolidNode& parent, const SolidTask& at) {
             const auto children = parent.children();
             for (auto child = children.rbegin(); child != children.rend(); ++child)
                 open.push_back({&child->node(), at.map, at.material});
         };
         expand(node, task);
         while (!open.empty()) {
-            Task inner = open.back();
+            SolidTask inner = open.back();
             open.pop_back();
             const SolidNode& it = through_placements(inner);
             inner.node = &it;
@@ -104,12 +104,12 @@ private:
     }
 
     // A leaf with round parts. A map that keeps angles is applied to the parts; any other is applied to the field.
-    void open_round(const SolidNode& node, const Task& task) {
+    void open_round(const SolidNode& node, const SolidTask& task) {
         const double scale = even_scale(task.map);
         const bool keeps_angles =
             scale > 0 && std::isfinite(scale) && std::isfinite(task.map.shift.x + task.map.shift.y + task.map.shift.z);
         DensityTree density = flatten(node.density(), node.radius(), keeps_angles ? task.map : Affine{});
-        Task rest = task;
+        SolidTask rest = task;
         if (keeps_angles) rest.map = {};
         if (keeps_angles && is_sharp_round(density))
             done_.push_back(add_sharp_round(density, task.material, node.line, tree_));
@@ -117,14 +117,14 @@ private:
             open_field(std::make_shared<RoundDensity>(std::move(density)), node, rest);
     }
 
-    void open_field(const FieldPtr& field, const SolidNode& node, const Task& task) {
+    void open_field(const FieldPtr& field, const SolidNode& node, const SolidTask& task) {
         FieldPtr placed = transformed(field, task.map);
         if (!placed) throw SingularPlacement(node.line);
         tree_.leaves.push_back({DensityTree::constant(0), task.material, node.line, std::move(placed)});
         done_.push_back(add({SolidOp::leaf, int(tree_.leaves.size()) - 1}));
     }
 
-    void combine(const Task& task) {
+    void combine(const SolidTask& task) {
         const std::size_t first = done_.size() - std::size_t(task.count);
         combine_balanced(done_, first, [&](int a, int b) { return add({task.op, a, b}); });
     }
@@ -135,7 +135,7 @@ private:
     }
 
     SolidTree tree_;
-    std::vector<Task> tasks_;
+    std::vector<SolidTask> tasks_;
     std::vector<int> done_;
 };
 
@@ -183,7 +183,7 @@ bool SolidTree::contains(Vec3 x) const {
 
 SolidTree flatten(const Solid& solid) {
     if (solid.node().leaves > max_half_spaces) throw TooManyHalfSpaces(solid.node().leaves);
-    return Flattening().run(solid.node());
+    return SolidFlattening().run(solid.node());
 }
 
 }  // namespace deburr

@@ -1,7 +1,6 @@
 #include "bounds/tangent_seams.hpp"
 
 #include <algorithm>
-#include <numbers>
 #include <utility>
 
 #include "bounds/bounding_box.hpp"
@@ -9,8 +8,6 @@
 
 namespace deburr {
 namespace {
-
-using Kind = RoundCoordinate::Kind;
 
 // Lengths count as equal within this fraction of the filter radius; a seam that is off by more is an edge.
 constexpr double same = 1e-6;
@@ -26,8 +23,8 @@ enum class Shape { plane, sphere, cylinder, cone, torus };
 
 Shape shape_of(const HalfSpace& h) {
     if (!h.round) return Shape::plane;
-    if (h.round->kind == Kind::point) return Shape::sphere;
-    if (h.round->kind == Kind::circle) return Shape::torus;
+    if (h.round->kind == RoundCoordinate::Kind::point) return Shape::sphere;
+    if (h.round->kind == RoundCoordinate::Kind::circle) return Shape::torus;
     return h.round->is_cone() ? Shape::cone : Shape::cylinder;
 }
 
@@ -117,7 +114,7 @@ private:
     void circle(Vec3 center, Vec3 axis, double radius) {
         const Vec3 u = any_across(axis), v = glm::cross(axis, u);
         for (int k = 0; k < looked_at; ++k) {
-            const double angle = 2 * std::numbers::pi * (k + 0.5) / looked_at;
+            const double angle = 2 * pi * (k + 0.5) / looked_at;
             add(center + radius * (std::cos(angle) * u + std::sin(angle) * v));
         }
     }

@@ -8,8 +8,6 @@
 namespace deburr {
 namespace {
 
-constexpr double pi = mesh_pi;
-
 // The part of one triangle in the unit ball around the origin.
 class TriangleInBall {
 public:

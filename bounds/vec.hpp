@@ -4,6 +4,7 @@
 #include <cmath>
 #include <glm/glm.hpp>
 #include <limits>
+#include <numbers>
 
 namespace deburr {
 
@@ -13,6 +14,10 @@ using Mat3 = glm::dmat3;
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double epsilon = std::numeric_limits<double>::epsilon();
+constexpr double pi = std::numbers::pi;
+
+/// 1, −1, or 0 for 0.
+constexpr int sign_of(double x) { return x > 0 ? 1 : x < 0 ? -1 : 0; }
 
 /// Largest absolute value of the coordinates.
 inline double largest(Vec3 v) { return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)}); }

@@ -9,8 +9,6 @@
 namespace deburr {
 namespace {
 
-constexpr double pi = 3.14159265358979323846;
-
 // A round surface u = offset, a point on it, and the outward normal and mean curvature there.
 struct Surface {
     RoundCoordinate coordinate;

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <deque>
 #include <map>
-#include <numbers>
 
 namespace deburr {
 namespace {
@@ -39,7 +38,7 @@ double disc_share(const std::vector<Vec2>& polygon, Vec2 center, double radius) 
     double area = 0;
     for (std::size_t i = 0; i < polygon.size(); ++i)
         area += triangle_in_disc(polygon[i] - center, polygon[(i + 1) % polygon.size()] - center, radius);
-    return area / (std::numbers::pi * radius * radius);
+    return area / (pi * radius * radius);
 }
 
 std::vector<std::vector<Vec2>> level_lines(const std::function<double(Vec2)>& f, double level, Vec2 lo, Vec2 hi,

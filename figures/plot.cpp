@@ -4,7 +4,6 @@
 
 #include <cmath>
 #include <cstdio>
-#include <numbers>
 
 #include "figures/gnuplot.hpp"
 
@@ -100,7 +99,7 @@ const char* word_of(Label::Align align) {
 std::vector<Vec2> circle(Vec2 center, double radius, int steps) {
     std::vector<Vec2> points;
     for (int i = 0; i <= steps; ++i) {
-        const double angle = 2 * std::numbers::pi * (i % steps) / steps;
+        const double angle = 2 * pi * (i % steps) / steps;
         points.push_back(center + radius * Vec2(std::cos(angle), std::sin(angle)));
     }
     return points;

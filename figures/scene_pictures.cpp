@@ -1,7 +1,5 @@
 #include "figures/scene_pictures.hpp"
 
-#include <numbers>
-
 #include "bounds/bounding_box.hpp"
 #include "raytracer/mesh/mesh_tracer.hpp"
 
@@ -43,7 +41,7 @@ Film gouraud_picture(const FigureContext& context, const Scene& scene, MeshSetti
 
 Scene enlarged(Scene scene, Vec3 target, double size) {
     scene.camera.target = target;
-    scene.camera.fov = 2 * std::atan(0.5 * size / glm::length(target - scene.camera.eye)) * (180 / std::numbers::pi);
+    scene.camera.fov = 2 * std::atan(0.5 * size / glm::length(target - scene.camera.eye)) * (180 / pi);
     return scene;
 }
 

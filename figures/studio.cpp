@@ -1,7 +1,5 @@
 #include "figures/studio.hpp"
 
-#include <numbers>
-
 #include "raytracer/mesh/mesh_tracer.hpp"
 
 namespace deburr {
@@ -67,7 +65,7 @@ Camera framing(const Box& box, Vec3 direction, int width, int height, double fov
         // Moves the middle of the projected box to the picture's.
         const Vec2 off = 0.5 * (lo + hi) - 0.5 * Vec2(width, height);
         const Vec3 right = glm::normalize(glm::cross(-away, camera.up)), above = glm::cross(right, -away);
-        const double pixel = 2 * std::tan(fov * (std::numbers::pi / 360)) / height * distance;
+        const double pixel = 2 * std::tan(fov * (pi / 360)) / height * distance;
         camera.target += right * (off.x * pixel) - above * (off.y * pixel);
         distance *= much;
     }

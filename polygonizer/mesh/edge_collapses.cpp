@@ -8,8 +8,6 @@
 namespace deburr {
 namespace {
 
-// The least cosine between a facet and its surface that a collapse may leave.
-constexpr double upright = 0.8;
 // The least ratio of height to longest side that a collapse may leave of curved facets, unless they were thinner
 // before.
 constexpr double slender = 0.02;
@@ -285,8 +283,8 @@ private:
         const Vec3 x = facets_.position(to);
         if (longest >= 0 && !judge_.is_near_between(x, facets_.position(longest), tolerance)) return false;
         for (const Facet& f : change.in) {
-            const FacetShape s = judge_.shape(facets_, f, upright);
-            if (s.cosine < upright || s.saturated || s.distance > tolerance) return false;
+            const FacetShape s = judge_.shape(facets_, f, upright_after_collapse);
+            if (s.cosine < upright_after_collapse || s.saturated || s.distance > tolerance) return false;
         }
         for (const Facet& f : change.in) {
             const auto& t = f.triangle.vertex;

@@ -10,6 +10,9 @@
 
 namespace deburr {
 
+/// The least cosine between a facet and its surface that a collapse may leave.
+constexpr double upright_after_collapse = 0.8;
+
 /// How a facet lies to the surface.
 struct FacetShape {
     double own = 1;       // cosine of the angle to its own surface at its middle; −1 if it has no area

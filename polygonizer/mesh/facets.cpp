@@ -5,13 +5,6 @@
 #include "polygonizer/mesh/patches.hpp"
 
 namespace deburr {
-namespace {
-
-/// Normals that differ by less than this are those of one plane.
-constexpr double same_normal = 1e-6;
-
-}  // namespace
-
 Facets::Facets(Mesh& mesh, std::vector<Origin>& origins, Patches* patches)
     : mesh_(mesh), origins_(origins), patches_(patches) {
     around_.resize(mesh.positions.size());

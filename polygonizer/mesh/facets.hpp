@@ -9,6 +9,9 @@
 
 namespace deburr {
 
+/// Unit normals that differ by less than this are one.
+constexpr double same_normal = 1e-6;
+
 /// Where a triangle comes from: the cell of the subdivision that made it, and the leaf of the solid whose isosurface it
 /// approximates. Both are −1 if the triangle is part of a plane; then its corners have one normal.
 struct Origin {

@@ -26,10 +26,10 @@ void halve(const std::vector<Vec3>& middles, std::span<int> triangles, std::size
     halve(middles, triangles.subspan(std::size_t(half)), most, visit);
 }
 
-// Numbers a block's elements in the order in which they are first asked for.
-class Numbers {
+// BlockNumbers a block's elements in the order in which they are first asked for.
+class BlockNumbers {
 public:
-    explicit Numbers(std::size_t count) : of_(count, -1) {}
+    explicit BlockNumbers(std::size_t count) : of_(count, -1) {}
     int operator()(int index, std::vector<int>& known) {
         if (of_[index] < 0) {
             of_[index] = int(known.size());
@@ -59,7 +59,7 @@ std::vector<MeshBlock> cut_into_blocks(const Mesh& mesh, const std::vector<Origi
     std::vector<MeshBlock> blocks;
     std::vector<int> block_of(mesh.positions.size(), -1);  // of each vertex: the last block that used it
     std::vector<char> is_shared(mesh.positions.size(), false);
-    Numbers vertices(mesh.positions.size()), normals(mesh.normals.size());
+    BlockNumbers vertices(mesh.positions.size()), normals(mesh.normals.size());
     halve(middles, all, most, [&](std::span<const int> triangles) {
         MeshBlock& block = blocks.emplace_back();
         for (const int t : triangles) {

@@ -1,7 +1,6 @@
 #include "polygonizer/mesh/metrics.hpp"
 
 #include <algorithm>
-#include <numbers>
 
 #include "polygonizer/mesh/facet_judge.hpp"
 #include "polygonizer/mesh/facet_orientation.hpp"
@@ -9,7 +8,7 @@
 namespace deburr {
 namespace {
 
-constexpr double degrees = 180 / std::numbers::pi;
+constexpr double degrees = 180 / pi;
 
 struct Sum {
     double total = 0, max = 0;

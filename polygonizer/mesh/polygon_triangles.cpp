@@ -12,8 +12,6 @@ namespace {
 
 using TriangleVertices = std::array<int, 3>;
 using ConnectResult = PlanarTriangulation::ConnectResult;
-using Side = PlanarTriangulation::Side;
-
 // The projection along the coordinate axis nearest to the normal.
 class View {
 public:
@@ -147,7 +145,7 @@ private:
     }
 
     void attach(const Edge& edge, int b) {
-        const Side s = plane_.side(edge.a, b);
+        const PlanarTriangulation::Side s = plane_.side(edge.a, b);
         edges_.push_back(edge);
         edges_.back().next = plane_.mark(s);
         plane_.set_mark(s, int(edges_.size()) - 1);
@@ -163,7 +161,7 @@ private:
         constraints_.push_back({constraint.a, point, constraint.first, v});
     }
 
-    void cross(const Edge& constraint, Side crossed) {
+    void cross(const Edge& constraint, PlanarTriangulation::Side crossed) {
         const auto& t = plane_.triangles()[crossed.triangle];
         const int c = t.vertex[crossed.k], d = t.vertex[PlanarTriangulation::next(std::size_t(crossed.k))];
         const auto off = [&](int point, int from, int to) {
@@ -205,7 +203,7 @@ private:
     }
 
     // The number of sides that run along this edge, less that of those that run back.
-    int along(Side s) const {
+    int along(PlanarTriangulation::Side s) const {
         const int from = plane_.triangles()[s.triangle].vertex[s.k];
         int sum = 0;
         for (int k = plane_.mark(s); k >= 0; k = edges_[k].next) sum += edges_[k].a == from ? 1 : -1;
@@ -253,7 +251,7 @@ private:
 
     // The vertex, or touch, that a side along s has at `point`; of a side that leaves the point, or of one that enters
     // it.
-    int vertex_by(Side s, int point, bool leaves) const {
+    int vertex_by(PlanarTriangulation::Side s, int point, bool leaves) const {
         int v = vertex_at_[point];
         for (int k = plane_.mark(s); k >= 0; k = edges_[k].next) {
             const Edge& e = edges_[k];

@@ -3,10 +3,6 @@
 namespace deburr {
 namespace {
 
-constexpr double same_normal = 1e-6;
-// The least cosine between a facet and its surface that a collapse may leave.
-constexpr double upright = 0.8;
-
 class Thinning {
 public:
     Thinning(Mesh& mesh, std::vector<Origin>& origins, const FacetJudge& judge, double farthest)
@@ -75,8 +71,8 @@ private:
 
     bool accept(const Change& change) const {
         for (const Facet& f : change.in) {
-            const FacetShape s = judge_.shape(facets_, f, upright);
-            if (s.cosine < upright || s.distance > farthest_) return false;
+            const FacetShape s = judge_.shape(facets_, f, upright_after_collapse);
+            if (s.cosine < upright_after_collapse || s.distance > farthest_) return false;
         }
         return true;
     }

@@ -4,7 +4,6 @@ namespace deburr {
 namespace {
 
 bool same(const LeafSurface& a, const LeafSurface& b) {
-    constexpr double same_normal = 1e-6;
     return a.leaf == b.leaf && (a.leaf >= 0 || glm::length(a.normal - b.normal) < same_normal);
 }
 

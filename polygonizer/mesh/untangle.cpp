@@ -10,7 +10,7 @@ namespace deburr {
 namespace {
 
 // A facet leans if the cosine between it and the surface is below this, as after repair's last resort.
-constexpr double upright = 0.05;
+constexpr double upright_when_untangled = 0.05;
 
 /// One round of changes.
 class Untangling {
@@ -100,7 +100,8 @@ private:
         const auto triangle = [&](int f) { return facets_.at(f).triangle; };
         int count = crossings_among(change.out, triangle);
         for (const int f : change.out)
-            count += crossings(triangle(f), change.out) + (judge_.shape(facets_, facets_.at(f)).cosine < upright);
+            count += crossings(triangle(f), change.out) +
+                     (judge_.shape(facets_, facets_.at(f)).cosine < upright_when_untangled);
         return count;
     }
     // The number of faults after the change; none if a facet would be too far from the surface.
@@ -109,7 +110,7 @@ private:
         for (const Facet& f : change.in) {
             const FacetShape shape = judge_.shape(facets_, f);
             if (shape.distance > reach_) return {};
-            count += shape.cosine < upright;
+            count += shape.cosine < upright_when_untangled;
         }
         for (const Facet& f : change.in) count += crossings(f.triangle, change.out);
         return count + crossings_among(change.in, [](const Facet& f) { return f.triangle; });
@@ -129,7 +130,8 @@ void find_faults(MendedMesh& m, const FacetJudge& judge, CancelFlag cancel) {
     m.wrong.clear();
     const Facets facets(m.mesh, m.origins);
     for (int f = 0; f < int(facets.size()); ++f)
-        if (judge.shape(facets, facets.at(f), upright).cosine < upright) m.wrong.push_back(f);
+        if (judge.shape(facets, facets.at(f), upright_when_untangled).cosine < upright_when_untangled)
+            m.wrong.push_back(f);
     m.leaning = m.wrong.size();
     m.others = add_crossing(m.mesh, m.wrong, cancel);
     m.crosses = m.others > 0;

@@ -5,8 +5,6 @@
 namespace deburr {
 namespace {
 
-// Unit normals that differ by less than this are one.
-constexpr double same_normal = 1e-6;
 // A common edge of two facets is a crease if the cosine between their normals at a vertex is below this.
 constexpr double crease = 0.9;
 

@@ -9,14 +9,10 @@
 #include <stdexcept>
 
 namespace deburr {
-namespace {
-
-// The year counts from 1980, month and day from 1 [APPNOTE 4.4.6].
-constexpr uLong first_day = 1u << 21 | 1u << 16;
 
 // A file in memory behind minizip's interface: minizip writes, and seeks back to fill in sizes that it did not know
 // before.
-struct Memory {
+struct ZipMemory {
     std::string bytes;
     std::size_t at = 0;
 
@@ -27,9 +23,14 @@ struct Memory {
     }
 };
 
-Memory& memory(void* p) { return *static_cast<Memory*>(p); }
+namespace {
 
-zlib_filefunc64_def functions_for(Memory& target) {
+// The year counts from 1980, month and day from 1 [APPNOTE 4.4.6].
+constexpr uLong first_day = 1u << 21 | 1u << 16;
+
+ZipMemory& memory(void* p) { return *static_cast<ZipMemory*>(p); }
+
+zlib_filefunc64_def functions_for(ZipMemory& target) {
     zlib_filefunc64_def f{};
     f.opaque = &target;
     f.zopen64_file = [](void* self, const void*, int) { return self; };
@@ -44,7 +45,7 @@ zlib_filefunc64_def functions_for(Memory& target) {
     };
     f.ztell64_file = [](void* self, void*) { return ZPOS64_T(memory(self).at); };
     f.zseek64_file = [](void* self, void*, ZPOS64_T offset, int origin) {
-        Memory& m = memory(self);
+        ZipMemory& m = memory(self);
         const std::size_t from = origin == ZLIB_FILEFUNC_SEEK_SET   ? 0
                                  : origin == ZLIB_FILEFUNC_SEEK_CUR ? m.at
                                                                     : m.bytes.size();
@@ -59,7 +60,7 @@ zlib_filefunc64_def functions_for(Memory& target) {
 }  // namespace
 
 struct ZipArchive::Output {
-    Memory memory;
+    ZipMemory memory;
     zipFile file = nullptr;
     bool is_open = false;  // whether a file of the archive is open
 };

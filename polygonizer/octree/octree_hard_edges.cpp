@@ -13,9 +13,9 @@ constexpr double min_length = 0.25;
 // √2 on the other side, halves are as much shorter than wanted as the whole was longer.
 constexpr double too_long = 1.4142135623730951;
 // A point S that has to move farther than this, relative to the edge, is not on the hard edge.
-constexpr double reach = 0.3;
+constexpr double farthest_move = 0.3;
 // A length comes near to the wanted one in a few halvings, or never.
-constexpr int max_rounds = 8;
+constexpr int max_halvings = 8;
 // An end of an edge that is nearer to the hard edge than this, relative to the edge, moves there if it can.
 constexpr double near_end = 1.2;
 // The least cosine of the angle by which a triangle may turn where its point moves; chamfers turn by 45°.
@@ -253,7 +253,7 @@ private:
         const TriangleVertices &left = mesh_.triangles[e.left], &right = mesh_.triangles[e.right];
         const Vec3 s = (sp * q + sq * p) / (sp + sq);
         const auto solid = tree_.solid(inflated(hull(mesh_.box(left), mesh_.box(right)), length));
-        const auto point = hard_edge_point(*solid, s, p, q, reach * length, hard_cosine_);
+        const auto point = hard_edge_point(*solid, s, p, q, farthest_move * length, hard_cosine_);
         if (!point) return false;
         mesh_.divide(e, *point);
         return true;
@@ -269,7 +269,7 @@ private:
 
 std::size_t follow_hard_edges(PointMesh& mesh, const CellTree& tree, double hard_cosine) {
     std::size_t all = 0;
-    for (int round = 0; round < max_rounds; ++round) {
+    for (int round = 0; round < max_halvings; ++round) {
         const std::size_t now = Following(mesh, tree, hard_cosine).edges();
         all += now;
         if (now == 0) break;
@@ -280,7 +280,7 @@ std::size_t follow_hard_edges(PointMesh& mesh, const CellTree& tree, double hard
 std::size_t divide_hard_edges(PointMesh& mesh, const CellTree& tree, double hard_cosine) {
     Division division(mesh, tree, hard_cosine);
     std::size_t all = 0;
-    for (int round = 0; round < max_rounds; ++round) {
+    for (int round = 0; round < max_halvings; ++round) {
         const std::size_t now = division.round();
         all += now;
         if (now == 0) break;

@@ -9,7 +9,7 @@ namespace deburr {
 namespace {
 
 // The least cosine between a new facet and its surface.
-constexpr double upright = 0.2;
+constexpr double upright_when_unfolded = 0.2;
 
 // The change that gives facet f, which shares an edge with `other`, to the surface of `other`.
 std::optional<Change> given_beyond(const Facets& facets, const FacetJudge& judge, int f, int other) {
@@ -21,8 +21,9 @@ std::optional<Change> given_beyond(const Facets& facets, const FacetJudge& judge
         if (!(std::abs(judge.surfaces().at(beyond, tip).distance) <= judge.surfaces().slack())) return {};
         auto change = facets.flip(f, k, true);
         if (!change) return {};
-        const bool good = std::all_of(change->in.begin(), change->in.end(),
-                                      [&](const Facet& g) { return judge.shape(facets, g).cosine >= upright; });
+        const bool good = std::all_of(change->in.begin(), change->in.end(), [&](const Facet& g) {
+            return judge.shape(facets, g).cosine >= upright_when_unfolded;
+        });
         return good ? change : std::nullopt;
     }
     return {};

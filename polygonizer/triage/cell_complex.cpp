@@ -70,9 +70,9 @@ Vec3 CellComplex::area_vector(int face) const {
 namespace {
 
 // A subset of the numbers below `count`, and the place of each number in it.
-class Numbers {
+class Subset {
 public:
-    explicit Numbers(std::size_t count) : place_(count, -1) {}
+    explicit Subset(std::size_t count) : place_(count, -1) {}
 
     void add(int number) {
         if (place_[number] >= 0) return;
@@ -106,7 +106,7 @@ std::vector<int> CellComplex::with_neighbours(std::span<const int> of) const {
 }
 
 CellComplex CellComplex::part(std::span<const int> cells_of_part) const {
-    Numbers of_cells(cells.size()), of_faces(faces.size()), of_edges(edges.size()), of_vertices(vertices.size());
+    Subset of_cells(cells.size()), of_faces(faces.size()), of_edges(edges.size()), of_vertices(vertices.size());
     for (const int c : cells_of_part) {
         of_cells.add(c);
         for (const int f : cells[c]) of_faces.add(f);

@@ -10,7 +10,7 @@ namespace deburr {
 namespace {
 
 // The least cosine between a flat rim and the surface at which the rim's plane is taken for the surface.
-constexpr double along = 0.5;
+constexpr double least_cosine = 0.5;
 
 Vec3 area_vector(const std::vector<Vec3>& rim) {
     Vec3 sum(0.0);
@@ -99,7 +99,7 @@ bool displaced_centroid(const std::vector<Vec3>& rim, bool flat, const LocalDens
     const Vec3 area = area_vector(rim);
     const double size = glm::length(area);
     Vec3 line = slope > 0 ? here.gradient / slope : Vec3(0.0);
-    if (size > 0 && (flat || slope == 0) && glm::dot(area, line) < along * size) line = area / size;
+    if (size > 0 && (flat || slope == 0) && glm::dot(area, line) < least_cosine * size) line = area / size;
     if (line == Vec3(0.0)) return false;
     if (f > 0) line = -line;
     double ahead = infinity, behind = -infinity;
@@ -133,7 +133,7 @@ bool displaced_centroid(const std::vector<Vec3>& rim, bool flat, const LocalDens
 bool follows(const std::vector<Vec3>& rim, const LocalDensity& density) {
     const Vec3 c = std::accumulate(rim.begin(), rim.end(), Vec3(0.0)) / double(rim.size());
     const Vec3 area = area_vector(rim), g = density.gradient_at(c).gradient;
-    return glm::dot(area, g) >= along * glm::length(area) * glm::length(g);
+    return glm::dot(area, g) >= least_cosine * glm::length(area) * glm::length(g);
 }
 
 // Whether the rim lies near a plane to which the surface at the rim's middle is near and nearly parallel.

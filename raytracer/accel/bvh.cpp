@@ -10,7 +10,7 @@ namespace {
 // Bound of the error of a ray in single precision where coordinates are at most 1: its origin and the boxes are rounded
 // by 2⁻²⁵, their differences by 2⁻²⁴; reciprocal, direction and product each change a distance of at most 2√3 by a
 // factor of 1 ± 2⁻²⁴. That is at most 12·2⁻²⁴.
-constexpr double slack = 0x1p-19;
+constexpr double box_rounding = 0x1p-19;
 
 }  // namespace
 
@@ -65,8 +65,8 @@ BoxNode Bvh8::node_of(const Builder& from, const std::vector<int>& children) con
             n.side[k][i + BoxNode::width] = -std::numeric_limits<float>::max();
             if (i >= children.size()) continue;
             const Box& box = from.parts_[children[i]].box;
-            n.side[k][i] = float(frame_.to_local(box.lo)[k] - slack);
-            n.side[k][i + BoxNode::width] = float(frame_.to_local(box.hi)[k] + slack);
+            n.side[k][i] = float(frame_.to_local(box.lo)[k] - box_rounding);
+            n.side[k][i + BoxNode::width] = float(frame_.to_local(box.hi)[k] + box_rounding);
         }
     }
     return n;

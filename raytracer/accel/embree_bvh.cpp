@@ -18,7 +18,7 @@
 namespace deburr {
 namespace {
 
-constexpr double slack = 0x1p-18;
+constexpr double bounds_rounding = 0x1p-18;
 
 // The query of one ray, which the callbacks receive as Embree's context.
 struct Query : EmbreeContext {
@@ -70,7 +70,8 @@ struct EmbreeBvh::Embree {
                 const auto& [of_all, numbered] =
                     *static_cast<const std::pair<const BoxFrame*, const NumberedBox*>*>(a->geometryUserPtr);
                 const Box& box = numbered[a->primID].box;
-                const Vec3 lo = of_all->to_local(box.lo) - slack, hi = of_all->to_local(box.hi) + slack;
+                const Vec3 lo = of_all->to_local(box.lo) - bounds_rounding,
+                           hi = of_all->to_local(box.hi) + bounds_rounding;
                 *a->bounds_o = {float(lo.x), float(lo.y), float(lo.z), 0, float(hi.x), float(hi.y), float(hi.z), 0};
             },
             nullptr);

@@ -16,7 +16,7 @@
 namespace deburr {
 namespace {
 
-[[noreturn]] void expected(std::string_view option, const std::string& what, std::string_view found) {
+[[noreturn]] void expected_value(std::string_view option, const std::string& what, std::string_view found) {
     throw UsageError(fmt::format("{}: expected {}, got '{}'", option, what, found));
 }
 
@@ -65,25 +65,25 @@ std::optional<Size> sides(std::string_view text, int largest) {
 
 std::int64_t parse_whole(std::string_view option, std::string_view text, std::int64_t least, std::int64_t most) {
     if (const auto value = whole(text, least, most)) return *value;
-    expected(option, fmt::format("a whole number from {} to {}", least, most), text);
+    expected_value(option, fmt::format("a whole number from {} to {}", least, most), text);
 }
 
 double parse_positive(std::string_view option, std::string_view text) {
     const double x = number_of(text);
     if (x > 0) return x;
-    expected(option, "a number > 0", text);
+    expected_value(option, "a number > 0", text);
 }
 
 double parse_limit(std::string_view option, std::string_view text) {
     const double x = number_of(text);
     if (x >= 0) return x;
-    expected(option, "a number >= 0", text);
+    expected_value(option, "a number >= 0", text);
 }
 
 double parse_exposure(std::string_view option, std::string_view text) {
     const double x = number_of(text.substr(text.starts_with('+')));
     if (std::abs(x) <= max_exposure) return x;
-    expected(option, fmt::format("a number from {0} to {1}", -max_exposure, max_exposure), text);
+    expected_value(option, fmt::format("a number from {0} to {1}", -max_exposure, max_exposure), text);
 }
 
 Vec3 parse_direction(std::string_view option, std::string_view text) {
@@ -91,13 +91,13 @@ Vec3 parse_direction(std::string_view option, std::string_view text) {
         const double size = largest(*v);
         if (size > 0 && std::isfinite(size)) return glm::normalize(*v / size);
     }
-    expected(option, "X,Y,Z, not all 0, for example 1,0.5,2", text);
+    expected_value(option, "X,Y,Z, not all 0, for example 1,0.5,2", text);
 }
 
 Vec3 parse_color(std::string_view option, std::string_view text) {
     const auto v = three_numbers(text);
     if (v && v->x >= 0 && v->x <= 1 && v->y >= 0 && v->y <= 1 && v->z >= 0 && v->z <= 1) return *v;
-    expected(option, "R,G,B, each from 0 to 1, for example 0.8,0.4,0.1", text);
+    expected_value(option, "R,G,B, each from 0 to 1, for example 0.8,0.4,0.1", text);
 }
 
 void parse_keep_sharp(std::string_view option, std::string_view text, KeepSharp& keep) {
@@ -125,12 +125,12 @@ void parse_keep_sharp(std::string_view option, std::string_view text, KeepSharp&
                 return keep.boxes.push_back({glm::min(*a, *b), glm::max(*a, *b)});
         }
     }
-    expected(option, "convex, concave, below=H, above=H or box=X,Y,Z,X,Y,Z", text);
+    expected_value(option, "convex, concave, below=H, above=H or box=X,Y,Z,X,Y,Z", text);
 }
 
 char parse_axis(std::string_view option, std::string_view text) {
     if (text == "y" || text == "z") return text[0];
-    expected(option, "y or z", text);
+    expected_value(option, "y or z", text);
 }
 
 std::string parse_word(std::string_view option, std::string_view text, const std::vector<std::string>& words) {
@@ -139,23 +139,23 @@ std::string parse_word(std::string_view option, std::string_view text, const std
         if (text == word) return word;
         all += (all.empty() ? "" : &word == &words.back() ? " or " : ", ") + word;
     }
-    expected(option, all, text);
+    expected_value(option, all, text);
 }
 
 std::uint64_t parse_seed(std::string_view option, std::string_view text) {
     if (const auto value = digits(text)) return *value;
-    expected(option, "a whole number from 0 to 2^64-1", text);
+    expected_value(option, "a whole number from 0 to 2^64-1", text);
 }
 
 Size parse_size(std::string_view option, std::string_view text) {
     const auto size = sides(text, largest_picture_side);
-    if (!size) expected(option, fmt::format("WxH, each from 1 to {}", largest_picture_side), text);
+    if (!size) expected_value(option, fmt::format("WxH, each from 1 to {}", largest_picture_side), text);
     return *size;
 }
 
 void check_pixels(std::string_view option, const Window& window) {
     if (std::int64_t(window.width) * window.height > max_pixels || std::max(window.width, window.height) > largest_side)
-        expected(
+        expected_value(
             option,
             fmt::format("at most {} pixels and {} a side at once (--crop renders parts)", max_pixels, largest_side),
             fmt::format("{}x{}", window.width, window.height));
@@ -170,13 +170,13 @@ Window parse_crop(std::string_view option, std::string_view text) {
         const auto y = whole(text.substr(second + 1), 0, largest_picture_side);
         if (size && x && y) return {int(*x), int(*y), size->width, size->height};
     }
-    expected(option, "WxH+X+Y, for example 100x50+20+10", text);
+    expected_value(option, "WxH+X+Y, for example 100x50+20+10", text);
 }
 
 void check_crop(std::string_view option, const Window& crop, Size picture) {
     if (crop.x + crop.width > picture.width || crop.y + crop.height > picture.height)
-        expected(option, fmt::format("a window within the picture of {}x{}", picture.width, picture.height),
-                 fmt::format("{}x{}+{}+{}", crop.width, crop.height, crop.x, crop.y));
+        expected_value(option, fmt::format("a window within the picture of {}x{}", picture.width, picture.height),
+                       fmt::format("{}x{}+{}+{}", crop.width, crop.height, crop.x, crop.y));
 }
 
 std::vector<ImageLayer> parse_layers(std::string_view option, std::string_view text) {
@@ -188,7 +188,7 @@ std::vector<ImageLayer> parse_layers(std::string_view option, std::string_view t
         const std::size_t comma = rest.find(',');
         const std::string_view name = rest.substr(0, comma);
         const auto layer = find_layer(name);
-        if (!layer) expected(option, "some of " + known, name);
+        if (!layer) expected_value(option, "some of " + known, name);
         layers.push_back(*layer);
         if (comma == std::string_view::npos) return layers;
         rest.remove_prefix(comma + 1);
@@ -198,26 +198,26 @@ std::vector<ImageLayer> parse_layers(std::string_view option, std::string_view t
 Criterion parse_criterion(std::string_view option, std::string_view text) {
     if (text == "exact") return Criterion::exact;
     if (text == "lobb") return Criterion::lobb;
-    expected(option, "exact or lobb", text);
+    expected_value(option, "exact or lobb", text);
 }
 
 IntegratorKind parse_integrator(std::string_view option, std::string_view text) {
     if (text == "path") return IntegratorKind::path;
     if (text == "preview") return IntegratorKind::preview;
-    expected(option, "path or preview", text);
+    expected_value(option, "path or preview", text);
 }
 
 Accel parse_accel(std::string_view option, std::string_view text) {
     if (text == "bvh" || text == "bsp") return Accel::bvh;  // bsp is the older name
     if (text == "embree") return Accel::embree;
-    expected(option, "bvh or embree", text);
+    expected_value(option, "bvh or embree", text);
 }
 
 MeshMethod parse_mesh_method(const std::string& option, const std::string& name) {
     if (name == "triage") return MeshMethod::triage;
     if (name == "marching-cubes") return MeshMethod::marching_cubes;
     if (name == "octree") return MeshMethod::octree;
-    expected(option, mesh_method_names(), name);
+    expected_value(option, mesh_method_names(), name);
 }
 
 double parse_tolerance(const std::string& text) {
@@ -239,14 +239,14 @@ void parse_define(std::string_view option, std::string_view text, std::map<std::
     const std::size_t equals = text.find('=');
     bool fine = equals != std::string_view::npos && equals > 0 && equals + 1 < text.size() && letter(text[0]);
     for (std::size_t i = 1; fine && i < equals; ++i) fine = letter(text[i]) || (text[i] >= '0' && text[i] <= '9');
-    if (!fine) expected(option, "name=value", text);
+    if (!fine) expected_value(option, "name=value", text);
     const std::string name(text.substr(0, equals)), value(text.substr(equals + 1));
-    if (!defines.emplace(name, value).second) expected(option, fmt::format("'{}' once", name), text);
+    if (!defines.emplace(name, value).second) expected_value(option, fmt::format("'{}' once", name), text);
 }
 
 void check_image_names(std::string_view option, const std::vector<std::string>& paths) {
     for (const std::string& path : paths)
-        if (!image_kind(path)) expected(option, "a file name that ends in " + known_extensions(), path);
+        if (!image_kind(path)) expected_value(option, "a file name that ends in " + known_extensions(), path);
     check_distinct(paths);
 }
 
@@ -276,7 +276,7 @@ bool is_regular(const std::string& path) {
 void check_distinct(const std::vector<std::string>& paths) {
     std::set<std::string> seen;
     for (const std::string& path : paths)
-        if (!seen.insert(identity(path)).second) expected("outputs", "different files", path);
+        if (!seen.insert(identity(path)).second) expected_value("outputs", "different files", path);
 }
 
 void check_outputs(std::vector<std::string> outputs, const std::vector<std::string>& more_outputs,
@@ -288,7 +288,7 @@ void check_outputs(std::vector<std::string> outputs, const std::vector<std::stri
         if (!is_regular(input)) continue;  // a terminal may be both read and written
         for (const std::string& output : outputs)
             if (identity(output) == identity(input))
-                expected("outputs", fmt::format("other files than the input '{}'", input), output);
+                expected_value("outputs", fmt::format("other files than the input '{}'", input), output);
     }
 }
 

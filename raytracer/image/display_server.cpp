@@ -18,7 +18,7 @@ namespace {
 
 enum class PacketType : char { create_image = 4, update_image = 6 };
 
-constexpr std::string_view channels[] = {"R", "G", "B"};
+constexpr std::string_view rgb[] = {"R", "G", "B"};
 
 // A viewer that accepts no data for this long is given up: rendering is worth more.
 constexpr timeval patience{.tv_sec = 3, .tv_usec = 0};
@@ -111,11 +111,11 @@ void DisplayServer::send(std::string& packet) {
 }
 
 void DisplayServer::show(const std::string& name, const Film& film) {
-    const int width = film.window.width, height = film.window.height, count = int(std::size(channels));
+    const int width = film.window.width, height = film.window.height, count = int(std::size(rgb));
     if (shown_ != name) {
         std::string packet = begun(PacketType::create_image, name);
         for (const int number : {width, height, count}) add(packet, number);
-        for (const std::string_view channel : channels) add(packet, channel);
+        for (const std::string_view channel : rgb) add(packet, channel);
         send(packet);
         shown_ = name;
     }
@@ -124,7 +124,7 @@ void DisplayServer::show(const std::string& name, const Film& film) {
         const int these = std::min(rows, height - y);
         std::string packet = begun(PacketType::update_image, name);
         add(packet, count);
-        for (const std::string_view channel : channels) add(packet, channel);
+        for (const std::string_view channel : rgb) add(packet, channel);
         for (const int number : {0, y, width, these}) add(packet, number);
         for (int k = 0; k < count; ++k) add(packet, std::int64_t(k));      // offset of each channel
         for (int k = 0; k < count; ++k) add(packet, std::int64_t(count));  // stride of each channel

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <numbers>
 
 #include "raytracer/image/image_file.hpp"
 #include "raytracer/image/image_module.hpp"
@@ -12,7 +11,7 @@
 namespace deburr {
 namespace {
 
-constexpr double degrees = 180 / std::numbers::pi;
+constexpr double degrees = 180 / pi;
 
 DifferenceFigures figures(std::vector<double>& values) {
     DifferenceFigures f;

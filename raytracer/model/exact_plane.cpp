@@ -6,8 +6,6 @@
 namespace deburr {
 namespace {
 
-int sign(double x) { return x > 0 ? 1 : x < 0 ? -1 : 0; }
-
 mpq_class determinant(const mpq_class& a, const mpq_class& b, const mpq_class& c, const mpq_class& d) {
     return a * d - b * c;
 }
@@ -42,14 +40,14 @@ int orientation(const ExactPoint& a, const ExactPoint& b, const ExactPoint& c, P
         (b.near[u] - a.near[u]) * (c.near[v] - a.near[v]) - (b.near[v] - a.near[v]) * (c.near[u] - a.near[u]);
     // Differences are at most 2 scale with errors of 3 ε scale; the bound covers the products of such pairs and their
     // rounding.
-    if (std::abs(det) > 64 * epsilon * scale * scale) return sign(det);
+    if (std::abs(det) > 64 * epsilon * scale * scale) return sign_of(det);
     return sgn(determinant(b.x[u] - a.x[u], b.x[v] - a.x[v], c.x[u] - a.x[u], c.x[v] - a.x[v]));
 }
 
 int orientation(const ExactPoint& a, const ExactPoint& b, const ExactPoint& c, const ExactPoint& d, double scale) {
     const double det = glm::dot(b.near - a.near, glm::cross(c.near - a.near, d.near - a.near));
     // Six products of three differences, each at most 2 scale with an error of 3 ε scale.
-    if (std::abs(det) > 1024 * epsilon * scale * scale * scale) return sign(det);
+    if (std::abs(det) > 1024 * epsilon * scale * scale * scale) return sign_of(det);
     return sgn(volume(a, b, c, d));
 }
 

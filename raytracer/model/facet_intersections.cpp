@@ -9,8 +9,6 @@ namespace {
 
 using Corners = std::array<int, 3>;
 
-int sign(double x) { return x > 0 ? 1 : x < 0 ? -1 : 0; }
-
 // Whether a facet with its corners on these sides does not meet the plane.
 bool is_beyond(const int (&side)[3]) {
     return (side[0] > 0 && side[1] > 0 && side[2] > 0) || (side[0] < 0 && side[1] < 0 && side[2] < 0);
@@ -78,7 +76,7 @@ void FacetIntersections::sides(int plane, int of, int (&side)[3]) const {
     for (int k = 0; k < 3; ++k) {
         const int v = surface_.triangles[of][k];
         const bool is_shared = std::find(p.begin(), p.end(), v) != p.end();
-        side[k] = is_shared ? 0 : sign(orientation(x[p[0]], x[p[1]], x[p[2]], x[v]));
+        side[k] = is_shared ? 0 : sign_of(orientation(x[p[0]], x[p[1]], x[p[2]], x[v]));
     }
 }
 
@@ -87,10 +85,11 @@ bool FacetIntersections::overlap(int s, int t) const {
     const PlaneAxes in = surface_.axes(s);
     const auto flat = [&](int facet, int k) { return surface_.flat(facet, k % 3, in); };
     const auto parted = [&](int a, int b) {
-        const int turn = sign(orientation(flat(a, 0), flat(a, 1), flat(a, 2)));
+        const int turn = sign_of(orientation(flat(a, 0), flat(a, 1), flat(a, 2)));
         for (int k = 0; k < 3; ++k) {
             int beyond = 0;
-            for (int l = 0; l < 3; ++l) beyond += turn * sign(orientation(flat(a, k), flat(a, k + 1), flat(b, l))) <= 0;
+            for (int l = 0; l < 3; ++l)
+                beyond += turn * sign_of(orientation(flat(a, k), flat(a, k + 1), flat(b, l))) <= 0;
             if (beyond == 3) return true;
         }
         return false;

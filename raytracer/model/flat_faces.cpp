@@ -40,16 +40,16 @@ Plane fitted(const std::vector<Vec3>& vertices, const std::vector<int>& points, 
 
 // The triangle across each edge; −1 where there is not exactly one.
 std::vector<Corners> neighbours(const std::vector<Corners>& triangles) {
-    struct HalfEdge {
+    struct DirectedEdge {
         int lo, hi, triangle, k;
     };
-    std::vector<HalfEdge> edges;
+    std::vector<DirectedEdge> edges;
     for (std::size_t t = 0; t < triangles.size(); ++t)
         for (int k = 0; k < 3; ++k) {
             const auto [lo, hi] = std::minmax(triangles[t][k], triangles[t][(k + 1) % 3]);
             edges.push_back({lo, hi, int(t), k});
         }
-    std::sort(edges.begin(), edges.end(), [](const HalfEdge& a, const HalfEdge& b) {
+    std::sort(edges.begin(), edges.end(), [](const DirectedEdge& a, const DirectedEdge& b) {
         return std::tie(a.lo, a.hi, a.triangle) < std::tie(b.lo, b.hi, b.triangle);
     });
     std::vector<Corners> across(triangles.size(), {-1, -1, -1});

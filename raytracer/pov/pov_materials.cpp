@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <numbers>
 
 #include "raytracer/pov/pov_text.hpp"
 #include "raytracer/render/bsdf.hpp"
@@ -11,8 +10,6 @@
 
 namespace deburr {
 namespace {
-
-using std::numbers::pi;
 
 // POV-Ray's light falls off as 2/(1 + (d/fade)²), which is 1/d² beyond a few `fade`. `fade` is this fraction of the
 // distance from the light to the camera's target.

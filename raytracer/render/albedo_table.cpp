@@ -19,7 +19,7 @@ const std::vector<Vec2>& half_turns() {
     static const std::vector<Vec2> all = [] {
         std::vector<Vec2> turns;
         for (int i = 0; i < facets; ++i) {
-            const double phi = std::numbers::pi * (glm::fract((i + 0.5) / std::numbers::phi) - 0.5);
+            const double phi = pi * (glm::fract((i + 0.5) / std::numbers::phi) - 0.5);
             turns.push_back({std::cos(phi), std::sin(phi)});
         }
         return turns;

@@ -6,8 +6,6 @@
 namespace deburr {
 namespace {
 
-using std::numbers::pi;
-
 // Least cosine at a shading point, since G and E are 0/0 at 0.
 constexpr double min_cosine = 1e-5;
 

@@ -1,7 +1,6 @@
 #include "raytracer/render/camera.hpp"
 
 #include <cmath>
-#include <numbers>
 
 namespace deburr {
 namespace {
@@ -35,7 +34,7 @@ ProjectiveCamera::ProjectiveCamera(const Camera& camera, int width, int height)
     focus_ = camera.focus > 0 ? camera.focus : distance;
     const Vec3 right = rightwards(forward_, camera.up);
     const Vec3 up = glm::cross(right, forward_);
-    double pixel = 2 * std::tan(camera.fov * (std::numbers::pi / 360)) / height;
+    double pixel = 2 * std::tan(camera.fov * (pi / 360)) / height;
     if (orthographic_) pixel *= distance;
     dx_ = right * pixel;
     dy_ = up * -pixel;
@@ -48,7 +47,7 @@ static Vec2 disc(Vec2 u) {
     const Vec2 s = 2.0 * u - 1.0;
     if (s == Vec2(0.0)) return s;
     const bool wide = std::abs(s.x) > std::abs(s.y);
-    const double r = wide ? s.x : s.y, quarter = std::numbers::pi / 4;
+    const double r = wide ? s.x : s.y, quarter = pi / 4;
     const double phi = wide ? quarter * (s.y / s.x) : 2 * quarter - quarter * (s.x / s.y);
     return r * Vec2(std::cos(phi), std::sin(phi));
 }

@@ -1,7 +1,6 @@
 #include "raytracer/render/daylight.hpp"
 
 #include <algorithm>
-#include <numbers>
 
 namespace deburr {
 namespace {
@@ -49,7 +48,7 @@ constexpr double zenith_y[3][4] = {
     {0.00275, -0.00610, 0.00317, 0}, {-0.04214, 0.08970, -0.04153, 0.00516}, {0.15346, -0.26756, 0.06670, 0.26688}};
 
 double zenith_luminance(double T, double angle) {
-    const double chi = (4.0 / 9 - T / 120) * (std::numbers::pi - 2 * angle);
+    const double chi = (4.0 / 9 - T / 120) * (pi - 2 * angle);
     return (4.0453 * T - 4.9710) * std::tan(chi) - 0.2155 * T + 2.4192;
 }
 
@@ -83,8 +82,8 @@ std::shared_ptr<const PictureData> daylight(const Background& background) {
     sky->rgb.resize(3 * std::size_t(sky_width) * sky_height);
     for (int j = 0; j < sky_height; ++j)
         for (int i = 0; i < sky_width; ++i) {
-            const double phi = 2 * std::numbers::pi * ((i + 0.5) / sky_width - 0.5);
-            const double height = std::max(std::cos(std::numbers::pi * (j + 0.5) / sky_height), least_height);
+            const double phi = 2 * pi * ((i + 0.5) / sky_width - 0.5);
+            const double height = std::max(std::cos(pi * (j + 0.5) / sky_height), least_height);
             const double sine = std::sqrt(1 - height * height);
             const double to_sun = glm::dot(sun, Vec3(sine * std::sin(phi), height, -sine * std::cos(phi)));
             const Vec3 color = rgb_of(scale_x * x(height, to_sun), scale_y * y(height, to_sun),
@@ -99,8 +98,8 @@ Vec3 sun_irradiance(const Background& background) {
     constexpr double outside = 128;  // kilolux above the atmosphere
     const double wavelengths[3] = {0.61, 0.55, 0.465}, ozone[3] = {0.120, 0.085, 0.010};  // µm; 1/cm of ozone
     if (!(background.sun.y > 0)) return Vec3(0.0);
-    const double degrees = std::acos(raised(background.sun).y) * 180 / std::numbers::pi;
-    const double mass = 1 / (std::cos(degrees * std::numbers::pi / 180) + 0.15 * std::pow(93.885 - degrees, -1.253));
+    const double degrees = std::acos(raised(background.sun).y) * 180 / pi;
+    const double mass = 1 / (std::cos(degrees * pi / 180) + 0.15 * std::pow(93.885 - degrees, -1.253));
     const double haze = std::max(0.0, 0.04608 * background.turbidity - 0.04586);
     Vec3 passed;
     for (int k = 0; k < 3; ++k)

@@ -1,7 +1,5 @@
 #include "raytracer/render/emitters.hpp"
 
-#include <numbers>
-
 #include "bounds/bounding_box.hpp"
 
 namespace deburr {
@@ -71,7 +69,7 @@ void Emitters::plant_tree(const Scene& scene) {
         } else {
             const Ball& ball = balls_[i - lights_.size()];
             bounds.push_back({{ball.center - Vec3(ball.radius), ball.center + Vec3(ball.radius)},
-                              ball.emitted * std::numbers::pi * ball.radius * ball.radius});
+                              ball.emitted * pi * ball.radius * ball.radius});
         }
     }
     tree_ = LightTree(bounds);
@@ -80,11 +78,11 @@ void Emitters::plant_tree(const Scene& scene) {
 double Emitters::importance_by_itself(std::size_t i, Vec3 point) const {
     if (i < lights_.size()) return lights_[i].importance(point);
     if (i >= sun_) return mean_of(sky_.sun().irradiance());
-    if (i >= first_sky_) return std::numbers::pi * mean_of(sky_.average());
+    if (i >= first_sky_) return pi * mean_of(sky_.average());
     const Ball& ball = balls_[i - lights_.size()];
     const Vec3 to_center = ball.center - point;
     const double square = glm::dot(to_center, to_center), r2 = ball.radius * ball.radius;
-    return square > r2 ? ball.emitted * std::numbers::pi * r2 / square : 0.0;
+    return square > r2 ? ball.emitted * pi * r2 / square : 0.0;
 }
 
 double Emitters::importance(std::size_t i, Vec3 point) const {

@@ -1,7 +1,5 @@
 #include "raytracer/render/image_map.hpp"
 
-#include <numbers>
-
 namespace deburr {
 namespace {
 
@@ -50,7 +48,7 @@ Vec3 image_color(const Texture& t, Vec3 position, Vec3 normal) {
     if (!t.data) return t.a;
     const auto y_up = [&](Vec3 v) { return t.z_up ? Vec3(v.x, v.z, -v.y) : v; };
     const Vec3 p = y_up(position - t.origin) / t.scale, n = y_up(normal);
-    const double angle = t.rotate * std::numbers::pi / 180, cosine = std::cos(angle), sine = std::sin(angle);
+    const double angle = t.rotate * pi / 180, cosine = std::cos(angle), sine = std::sin(angle);
     const auto at = [&](double right, double up) {
         return value_of(*t.data, cosine * right + sine * up, cosine * up - sine * right);
     };

@@ -2,12 +2,9 @@
 
 #include <algorithm>
 #include <array>
-#include <numbers>
 
 namespace deburr {
 namespace {
-
-using std::numbers::pi;
 
 // Boxes are enlarged by this fraction of their coordinates, which exceeds the rounding of a ray's distances.
 constexpr double box_slack = 1e-9;

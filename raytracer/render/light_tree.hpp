@@ -6,7 +6,6 @@
 // light of all remaining clusters is chosen, instead of one of each. The probability of the choice is exact, and 0 only
 // if the light gives nothing.
 #pragma once
-#include <numbers>
 #include <optional>
 #include <vector>
 
@@ -22,7 +21,7 @@ struct LightBounds {
     // The light emits up to 90 degrees from the directions within the angle `spread` (radians) around the axis; π: in
     // all directions.
     Vec3 axis{0, 0, 1};
-    double spread = std::numbers::pi;
+    double spread = pi;
 };
 
 /// A tree over lights, which are named by their index in the list.

@@ -1,13 +1,10 @@
 #include "raytracer/render/lights.hpp"
 
 #include <algorithm>
-#include <numbers>
 
 #include "raytracer/render/daylight.hpp"
 
 namespace deburr {
-
-using std::numbers::pi;
 
 LightSource::LightSource(const Light& light)
     : kind_(light.kind),

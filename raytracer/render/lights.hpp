@@ -3,7 +3,6 @@
 // Radiometry is that of scene.hpp. An area light emits on one side only, a sphere light outward.
 #pragma once
 #include <array>
-#include <numbers>
 #include <span>
 
 #include "raytracer/render/light_tree.hpp"
@@ -101,7 +100,7 @@ public:
         double depth = 0;  // 1 − cosine of its angular radius
 
         bool shines() const { return depth > 0; }
-        double density() const { return 1 / (2 * std::numbers::pi * depth); }
+        double density() const { return 1 / (2 * pi * depth); }
         bool covers(Vec3 towards) const { return shines() && glm::dot(towards, direction) >= 1 - depth; }
         /// A uniform direction in the disc, for a uniform `u` in the unit square.
         Vec3 at(Vec2 u) const;

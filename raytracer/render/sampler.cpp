@@ -2,7 +2,6 @@
 
 #include <array>
 #include <cmath>
-#include <numbers>
 
 namespace deburr {
 namespace {
@@ -140,9 +139,9 @@ constexpr std::array<double, 4> window = {0.35875, 0.48829, 0.14128, 0.01168};
 
 // The integral of the filter from -filter_radius to x.
 double filter_area(double x) {
-    const double turn = std::numbers::pi * x / filter_radius;  // from -π to π
-    double sum = 0.5 * window[0] * (turn / std::numbers::pi + 1.0);
-    for (int k = 1; k < 4; ++k) sum += window[k] * std::sin(k * turn) / (2 * std::numbers::pi * k);
+    const double turn = pi * x / filter_radius;  // from -π to π
+    double sum = 0.5 * window[0] * (turn / pi + 1.0);
+    for (int k = 1; k < 4; ++k) sum += window[k] * std::sin(k * turn) / (2 * pi * k);
     return sum / window[0];
 }
 
@@ -176,7 +175,7 @@ double filter_quantile(double u) {
 
 double filter_value(double x) {
     if (std::abs(x) >= filter_radius) return 0.0;
-    const double turn = std::numbers::pi * x / filter_radius;
+    const double turn = pi * x / filter_radius;
     double sum = window[0];
     for (int k = 1; k < 4; ++k) sum += window[k] * std::cos(k * turn);
     return sum / (2 * filter_radius * window[0]);

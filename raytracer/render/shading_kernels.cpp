@@ -18,8 +18,6 @@ namespace HWY_NAMESPACE {
 namespace {
 
 using std::numbers::inv_pi;
-using std::numbers::pi;
-
 // Least cosine at a shading point, since G and E are 0/0 at 0.
 constexpr double min_cosine = 1e-5;
 

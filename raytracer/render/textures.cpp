@@ -1,7 +1,6 @@
 #include "raytracer/render/textures.hpp"
 
 #include <cstdint>
-#include <numbers>
 
 #include "raytracer/render/image_map.hpp"
 
@@ -99,7 +98,7 @@ double vein(const Texture& t, Vec3 p) {
     const Vec3 q = (p - t.origin) / t.scale;
     const double at = glm::dot(q, glm::normalize(t.axis)) +
                       (t.turbulence > 0 ? bend * t.turbulence * fractal(q / bend_length, bending_octaves) : 0.0);
-    return std::pow(std::abs(std::cos(std::numbers::pi * at)), vein_sharpness);
+    return std::pow(std::abs(std::cos(pi * at)), vein_sharpness);
 }
 
 // Streaks are this much longer than wide; around the axis they are rings, as on a lathe.

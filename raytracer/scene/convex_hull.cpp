@@ -14,9 +14,9 @@ namespace {
 
 // Relative to the size of the body: a thinner body has no volume, and closer planes are one. Chosen: points computed in
 // a scene have errors of some 10⁻¹⁵, and nobody means features as small as 10⁻⁹ of the whole.
-constexpr double flatness = 1e-9;
+constexpr double hull_flatness = 1e-9;
 
-bool before(Vec3 a, Vec3 b) { return std::tie(a.x, a.y, a.z) < std::tie(b.x, b.y, b.z); }
+bool lexically_before(Vec3 a, Vec3 b) { return std::tie(a.x, a.y, a.z) < std::tie(b.x, b.y, b.z); }
 
 Vec3 without_negative_zero(Vec3 v) { return v + Vec3(0.0); }
 
@@ -27,10 +27,10 @@ Vec3 farthest(const std::vector<Vec3>& points, Measure measure) {
 }
 
 // Three points far from each other: the plane through them is as accurate as the points.
-struct Triangle {
+struct HullTriangle {
     Vec3 a, b, c;
 
-    explicit Triangle(const std::vector<Vec3>& points)
+    explicit HullTriangle(const std::vector<Vec3>& points)
         : a(points[0]),
           b(farthest(points, [&](Vec3 p) { return glm::distance(p, a); })),
           c(farthest(points, [&](Vec3 p) { return glm::length(glm::cross(b - a, p - a)); })) {}
@@ -51,11 +51,12 @@ void check_volume(const std::vector<Vec3>& points) {
     if (points.size() < 4)
         throw std::runtime_error(fmt::format("expected at least 4 different points, got {}", points.size()));
     const double size = size_of(points);
-    const Triangle base(points);
+    const HullTriangle base(points);
     const Vec3 normal = base.normal();
     const double area = glm::length(normal);
     const Vec3 top = farthest(points, [&](Vec3 p) { return std::abs(glm::dot(normal, p - base.a)); });
-    if (!(area > flatness * size * size) || !(std::abs(glm::dot(normal / area, top - base.a)) > flatness * size))
+    if (!(area > hull_flatness * size * size) ||
+        !(std::abs(glm::dot(normal / area, top - base.a)) > hull_flatness * size))
         throw std::runtime_error("expected points that span a volume, got points in one plane");
 }
 
@@ -90,7 +91,7 @@ HullFace touching(Vec3 normal, const std::vector<Vec3>& points) {
 
 std::vector<HullFace> convex_hull(std::vector<Vec3> points) {
     for (Vec3& p : points) p = without_negative_zero(p);
-    std::sort(points.begin(), points.end(), before);
+    std::sort(points.begin(), points.end(), lexically_before);
     points.erase(std::unique(points.begin(), points.end()), points.end());
     check_volume(points);
     const double size = size_of(points);
@@ -109,24 +110,24 @@ std::vector<HullFace> convex_hull(std::vector<Vec3> points) {
         std::vector<Vec3> corners;
         vertexT *vertex = nullptr, **vertexp = nullptr;
         FOREACHvertex_(facet->vertices) { corners.push_back(points[qh_pointid(qh, vertex->point)]); }
-        std::sort(corners.begin(), corners.end(), before);
+        std::sort(corners.begin(), corners.end(), lexically_before);
         const Vec3 outward(facet->normal[0], facet->normal[1], facet->normal[2]);
-        const Vec3 normal = Triangle(corners).normal();
+        const Vec3 normal = HullTriangle(corners).normal();
         if (glm::length(normal) == 0) continue;
         faces.push_back(touching(unit(glm::dot(normal, outward) < 0 ? -normal : normal), corners));
     }
     std::sort(faces.begin(), faces.end(), [](const HullFace& a, const HullFace& b) {
-        return a.normal != b.normal ? before(a.normal, b.normal) : a.offset < b.offset;
+        return a.normal != b.normal ? lexically_before(a.normal, b.normal) : a.offset < b.offset;
     });
     std::vector<HullFace> merged;
     for (const HullFace& face : faces) {
         const auto same = [&](const HullFace& other) {
-            return glm::distance(face.normal, other.normal) < flatness &&
-                   std::abs(face.offset - other.offset) < flatness * size;
+            return glm::distance(face.normal, other.normal) < hull_flatness &&
+                   std::abs(face.offset - other.offset) < hull_flatness * size;
         };
         // Faces are sorted by x first, so only the latest ones can be near.
         auto other = merged.rbegin();
-        while (other != merged.rend() && face.normal.x - other->normal.x < flatness && !same(*other)) ++other;
+        while (other != merged.rend() && face.normal.x - other->normal.x < hull_flatness && !same(*other)) ++other;
         if (other == merged.rend() || !same(*other)) merged.push_back(face);
     }
     return merged;

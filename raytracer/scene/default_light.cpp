@@ -1,7 +1,5 @@
 #include "raytracer/scene/default_light.hpp"
 
-#include <numbers>
-
 namespace deburr {
 namespace {
 
@@ -40,7 +38,7 @@ void add_default_light(Scene& scene, bool has_background) {
     }
     Light light;
     light.kind = Light::Kind::directional;
-    light.power = std::numbers::pi * std::max(brightest - fill, least_of_lamp * brightest);
+    light.power = pi * std::max(brightest - fill, least_of_lamp * brightest);
     scene.lights.push_back(light);
     scene.default_light = true;
 }

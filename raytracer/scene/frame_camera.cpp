@@ -8,7 +8,6 @@
 
 #include <algorithm>
 #include <memory>
-#include <numbers>
 #include <queue>
 
 #include "bounds/bounding_box.hpp"
@@ -20,14 +19,14 @@ namespace deburr {
 namespace {
 
 // Fraction of the picture's width or height that the solids fill (chosen).
-constexpr double filled = 0.86;
+constexpr double filled_share = 0.86;
 
 // The box of a linear image is computed from the transformed solid; of a solid with more leaves, from the corners of
 // its box.
 constexpr double max_laid_out = 20'000;
 
 // Sine of the angle between `up` and a direction below which they do not determine the picture's side (chosen).
-constexpr double min_sine = 1e-3;
+constexpr double least_view_sine = 1e-3;
 
 struct Axes {
     Vec3 right, up, back;
@@ -38,7 +37,7 @@ Axes axes_of(Vec3 from, Vec3 up) {
     axes.back = glm::normalize(from);
     Vec3 side = glm::cross(up, axes.back);
     // Seen straight from above, the picture's upper edge is the far one.
-    if (glm::length(side) < min_sine) side = Vec3(1, 0, 0);
+    if (glm::length(side) < least_view_sine) side = Vec3(1, 0, 0);
     axes.right = glm::normalize(side - glm::dot(side, axes.back) * axes.back);
     axes.up = glm::cross(axes.back, axes.right);
     return axes;
@@ -47,7 +46,7 @@ Axes axes_of(Vec3 from, Vec3 up) {
 // Round parts have no planes whose images could be computed. Their ends are searched for by halving boxes, first those
 // that reach farthest and may contain some of the solid: to this fraction of the solid's own box, with at most this
 // many boxes for each direction, and in solids with at most this many leaves.
-constexpr double close = 1.0 / 256;
+constexpr double close_share = 1.0 / 256;
 constexpr int most_boxes = 2'000;
 constexpr std::size_t max_sought = 1'000;
 
@@ -73,7 +72,7 @@ double end_along(const Affine& map, int k, const SolidTree& solid, const Box& bo
     const auto extent = [&](const Box& of, int axis) {
         return std::abs(map.linear[axis][k]) * (of.hi[axis] - of.lo[axis]);
     };
-    const double enough = close * (extent(box, 0) + extent(box, 1) + extent(box, 2));
+    const double enough = close_share * (extent(box, 0) + extent(box, 1) + extent(box, 2));
     for (int boxes = 0; boxes < most_boxes; ++boxes) {
         const Part part = parts.top();
         int widest = 0;
@@ -112,7 +111,7 @@ Framing default_framing(bool z_up) {
 
 std::optional<Camera> framed_camera(const std::vector<Solid>& solids, const Framing& framing, Vec3 up, double aspect) {
     const Axes axes = axes_of(framing.from, up);
-    const double ty = filled * std::tan(framing.fov * (std::numbers::pi / 360)), tx = ty * aspect;
+    const double ty = filled_share * std::tan(framing.fov * (pi / 360)), tx = ty * aspect;
     const Affine first = rows(axes.right + tx * axes.back, -axes.right + tx * axes.back, axes.up + ty * axes.back);
     const Affine second = rows(-axes.up + ty * axes.back, axes.right, axes.back);
 
@@ -144,7 +143,7 @@ std::optional<Camera> framed_camera(const std::vector<Solid>& solids, const Fram
     camera.up = axes.up;
     camera.eye = 0.5 * (right - left) * axes.right + 0.5 * (top - bottom) * axes.up + z * axes.back;
     camera.target = camera.eye - depth * axes.back;
-    if (glm::dot(up, axes.up) > min_sine) camera.up = up;
+    if (glm::dot(up, axes.up) > least_view_sine) camera.up = up;
     return camera;
 }
 

@@ -35,17 +35,17 @@ std::int64_t as_work(double amount) {
 }
 
 // Longer names are not compared, and none in a larger table.
-constexpr std::size_t longest_name = 64, most_names = 2'000;
+constexpr std::size_t longest_known_name = 64, most_names = 2'000;
 
 // The key of the table at index 1 that is nearest to `name`, or "". No C++ object is alive when the caller raises a Lua
 // error.
-std::array<char, longest_name + 1> nearest_of_table(lua_State* lua, const char* name) noexcept {
-    std::array<char, longest_name + 1> nearest{};
+std::array<char, longest_known_name + 1> nearest_of_table(lua_State* lua, const char* name) noexcept {
+    std::array<char, longest_known_name + 1> nearest{};
     try {
         std::vector<std::string> names;
         for (lua_pushnil(lua); lua_next(lua, 1); lua_pop(lua, 1))
             if (std::size_t size = 0;
-                lua_type(lua, -2) == LUA_TSTRING && lua_tolstring(lua, -2, &size) && size <= longest_name)
+                lua_type(lua, -2) == LUA_TSTRING && lua_tolstring(lua, -2, &size) && size <= longest_known_name)
                 names.emplace_back(lua_tostring(lua, -2), size);
         std::sort(names.begin(), names.end());  // the table's own order differs from run to run
         const std::string found = nearest_name(name, names);

@@ -21,22 +21,23 @@
 #include "raytracer/util/printable.hpp"
 
 namespace deburr {
+
+enum class SandboxSpent { nothing, memory, system_memory, work, time, output };
+
+// Precedes every block and links all blocks in a ring, so that an abandoned state can be freed. 16 bytes keep malloc's
+// alignment.
+struct alignas(16) SandboxBlock {
+    SandboxBlock *previous, *next;
+};
+
 namespace {
 
 // Bytes allocated (and so written at least once) for one unit of work. Both take about 4 ns: 10⁹
 // instructions with the hook took 3.5 s, and fresh memory comes at some 15 GB/s.
 constexpr std::size_t bytes_per_work = 64;
 
-// Precedes every block and links all blocks in a ring, so that an abandoned state can be freed. 16 bytes keep malloc's
-// alignment.
-struct alignas(16) Block {
-    Block *previous, *next;
-};
-
 // The memory that a block takes, with its header.
-std::size_t bytes_of(std::size_t size) { return block_bytes(sizeof(Block) + size); }
-
-enum class Spent { nothing, memory, system_memory, work, time, output };
+std::size_t bytes_of(std::size_t size) { return block_bytes(sizeof(SandboxBlock) + size); }
 
 // Time that a run needs to return once it has noticed that its time is over: a few instructions.
 constexpr std::chrono::milliseconds grace(200);
@@ -52,13 +53,13 @@ struct Sandbox::State {
     Prepare prepare = nullptr;
 
     lua_State* lua = nullptr;
-    Block blocks{&blocks, &blocks};
+    SandboxBlock blocks{&blocks, &blocks};
     MemoryMeter memory;
     SourceMap sources;
     std::int64_t work = 0;
     std::size_t printed = 0;
     std::atomic<int> line{0};  // of the latest sample
-    Spent spent = Spent::nothing;
+    SandboxSpent spent = SandboxSpent::nothing;
     bool armed = false;  // whether `escape` may be jumped to
     std::jmp_buf escape;
 
@@ -72,26 +73,26 @@ struct Sandbox::State {
 
     ~State() {
         while (blocks.next != &blocks) {
-            Block* block = blocks.next;
+            SandboxBlock* block = blocks.next;
             blocks.next = block->next;
             std::free(block);
         }
     }
 
-    [[noreturn]] void abandon(Spent what) {
+    [[noreturn]] void abandon(SandboxSpent what) {
         spent = what;
         armed = false;
         std::longjmp(escape, 1);
     }
 
     void heed_time() {
-        if (time_is_up.load(std::memory_order_relaxed) && armed) abandon(Spent::time);
+        if (time_is_up.load(std::memory_order_relaxed) && armed) abandon(SandboxSpent::time);
     }
 
     void charge(std::int64_t amount) {
         heed_time();
         if (amount > limits.work - work) {
-            if (armed) abandon(Spent::work);
+            if (armed) abandon(SandboxSpent::work);
             work = limits.work;
         } else {
             work += amount;
@@ -104,12 +105,12 @@ struct Sandbox::State {
     static int body(lua_State* lua);
     static int placed_error(lua_State* lua);
     int execute();
-    Spent print_line(lua_State* lua, int first, int last) noexcept;
+    SandboxSpent print_line(lua_State* lua, int first, int last) noexcept;
 };
 
 void* Sandbox::State::allocate(void* user, void* old, std::size_t old_size, std::size_t size) {
     State& state = *static_cast<State*>(user);
-    Block* block = old ? static_cast<Block*>(old) - 1 : nullptr;
+    SandboxBlock* block = old ? static_cast<SandboxBlock*>(old) - 1 : nullptr;
     const std::size_t held = block ? bytes_of(old_size) : 0;  // without a block, old_size is the kind of object
     if (size == 0) {
         if (block) {
@@ -123,21 +124,21 @@ void* Sandbox::State::allocate(void* user, void* old, std::size_t old_size, std:
     constexpr std::size_t largest = PTRDIFF_MAX / 2;  // so that no sum overflows
     const std::size_t needed = bytes_of(std::min(size, largest));
     if (size > largest || (needed > held && !state.memory.try_take(needed - held))) {
-        if (state.armed) state.abandon(Spent::memory);
+        if (state.armed) state.abandon(SandboxSpent::memory);
         return nullptr;
     }
     if (needed > held) {
         state.charge(std::int64_t(size / bytes_per_work));
     }
-    Block *previous = &state.blocks, *next = state.blocks.next;
+    SandboxBlock *previous = &state.blocks, *next = state.blocks.next;
     if (block) {
         previous = block->previous;
         next = block->next;
     }
-    auto* moved = static_cast<Block*>(std::realloc(block, sizeof(Block) + size));
+    auto* moved = static_cast<SandboxBlock*>(std::realloc(block, sizeof(SandboxBlock) + size));
     if (!moved) {
         if (needed <= held) return old;  // shrinking must not fail
-        if (state.armed) state.abandon(Spent::system_memory);
+        if (state.armed) state.abandon(SandboxSpent::system_memory);
         state.memory.give_back(needed - held);
         return nullptr;
     }
@@ -186,7 +187,7 @@ int Sandbox::State::execute() {
     if (setjmp(escape)) return LUA_ERRERR;
     armed = true;
     lua = lua_newstate(allocate, this);
-    if (!lua) abandon(Spent::system_memory);
+    if (!lua) abandon(SandboxSpent::system_memory);
     *static_cast<State**>(lua_getextraspace(lua)) = this;
     lua_sethook(lua, sample, LUA_MASKCOUNT, sample_interval);
     lua_pushcfunction(lua, placed_error);
@@ -198,23 +199,23 @@ int Sandbox::State::execute() {
 }
 
 // Prints texts on the stack as a line. Returns what was used up by that: output or memory.
-Spent Sandbox::State::print_line(lua_State* caller, int first, int last) noexcept try {
+SandboxSpent Sandbox::State::print_line(lua_State* caller, int first, int last) noexcept try {
     std::string text_line;
     for (int i = first; i <= last; ++i) {
         std::size_t size = 0;
         const char* value = lua_tolstring(caller, i, &size);
-        if (size > limits.output) return Spent::output;
+        if (size > limits.output) return SandboxSpent::output;
         if (i > first) text_line += '\t';
         text_line += printable({value, size}, "\n\t");
-        if (text_line.size() > limits.output) return Spent::output;
+        if (text_line.size() > limits.output) return SandboxSpent::output;
     }
     text_line += '\n';
-    if (text_line.size() > limits.output - printed) return Spent::output;
+    if (text_line.size() > limits.output - printed) return SandboxSpent::output;
     printed += text_line.size();
     if (!limits.mute) std::fwrite(text_line.data(), 1, text_line.size(), stderr);
-    return Spent::nothing;
+    return SandboxSpent::nothing;
 } catch (const std::bad_alloc&) {
-    return Spent::system_memory;
+    return SandboxSpent::system_memory;
 }
 
 Sandbox::Sandbox(SandboxLimits limits, void* host) : state_(std::make_shared<State>(limits, host)) {}
@@ -233,8 +234,8 @@ void Sandbox::spend(lua_State* lua, std::int64_t work) {
 void Sandbox::print(lua_State* lua, int first, int last) {
     State& state = State::of(lua);
     state.heed_time();
-    const Spent what = state.print_line(lua, first, last);
-    if (what == Spent::nothing) return;
+    const SandboxSpent what = state.print_line(lua, first, last);
+    if (what == SandboxSpent::nothing) return;
     if (const int line = current_line(lua)) state.line = line;
     state.abandon(what);
 }
@@ -244,7 +245,7 @@ HostCall HostCall::enter(lua_State* lua) {
     state.visiting.lock();
     if (state.time_is_up) {
         state.visiting.unlock();
-        state.abandon(Spent::time);
+        state.abandon(SandboxSpent::time);
     }
     state.armed = false;
     return {state.host, &state.memory, &state.sources, state.limits.work - state.work, lua};
@@ -257,17 +258,17 @@ void HostCall::leave(std::int64_t work, Memory of_visit) const {
     Sandbox::spend(lua_, work);
     if (of_visit == Memory::enough) return;
     if (const int line = current_line(lua_)) state.line = line;
-    state.abandon(of_visit == Memory::spent ? Spent::memory : Spent::system_memory);
+    state.abandon(of_visit == Memory::spent ? SandboxSpent::memory : SandboxSpent::system_memory);
 }
 
-static std::string reason(const SandboxLimits& limits, Spent spent) {
+static std::string reason(const SandboxLimits& limits, SandboxSpent spent) {
     switch (spent) {
-        case Spent::memory:
+        case SandboxSpent::memory:
             return fmt::format("expected a scene that needs at most {} MiB, got one that needs more",
                                limits.memory >> 20);
-        case Spent::time:
+        case SandboxSpent::time:
             return fmt::format("expected a scene that is ready within {} s, got one that is not", limits.seconds);
-        case Spent::output:
+        case SandboxSpent::output:
             return fmt::format("expected a scene that prints at most {} bytes, got one that prints more",
                                limits.output);
         default:
@@ -284,11 +285,11 @@ static std::string error_text(lua_State* lua) {
     return std::string(text, size);
 }
 
-std::string Sandbox::memory_reason() const { return reason(state_->limits, Spent::memory); }
+std::string Sandbox::memory_reason() const { return reason(state_->limits, SandboxSpent::memory); }
 
 lua_State* Sandbox::run(std::string text, const std::string& file, Prepare prepare) {
     State& state = *state_;
-    const auto fail = [&](Spent spent) {
+    const auto fail = [&](SandboxSpent spent) {
         const int line = state.line;
         const std::string location = line > 0 ? fmt::format("{}:{}: ", file_mark, line) : std::string();
         return SceneError(one_line(location + reason(state.limits, spent), state.sources));
@@ -296,7 +297,7 @@ lua_State* Sandbox::run(std::string text, const std::string& file, Prepare prepa
     state.sources = SourceMap();
     state.sources.add(file, line_count(text));
     text = with_length_by_content(text);
-    if (!state.memory.try_take(text.size())) throw fail(Spent::memory);
+    if (!state.memory.try_take(text.size())) throw fail(SandboxSpent::memory);
     state.text = std::move(text);
     state.prepare = prepare;
     std::thread thread([state = state_] {
@@ -320,13 +321,13 @@ lua_State* Sandbox::run(std::string text, const std::string& file, Prepare prepa
             lock.lock();
             if (!state.ended.wait_for(lock, grace, ended)) {
                 thread.detach();
-                throw fail(Spent::time);
+                throw fail(SandboxSpent::time);
             }
         }
     }
     thread.join();
-    if (state.spent == Spent::system_memory || state.status == LUA_ERRMEM) throw std::bad_alloc();
-    if (state.spent != Spent::nothing) throw fail(state.spent);
+    if (state.spent == SandboxSpent::system_memory || state.status == LUA_ERRMEM) throw std::bad_alloc();
+    if (state.spent != SandboxSpent::nothing) throw fail(state.spent);
     if (state.status != LUA_OK) throw SceneError(one_line(error_text(state.lua), state.sources));
     return state.lua;
 }

@@ -18,9 +18,9 @@ constexpr int max_depth = 12;
 static_assert(read_value_slots > 3 * max_depth);
 
 // Names may be as long as memory allows; messages quote this many bytes of them.
-constexpr std::size_t longest_name = 40;
+constexpr std::size_t longest_quoted_name = 40;
 
-std::string quotable(const std::string& name) { return shortened(name, longest_name); }
+std::string quotable(const std::string& name) { return shortened(name, longest_quoted_name); }
 
 struct Reader {
     lua_State* lua;

@@ -15,7 +15,7 @@ namespace {
 
 // Relative to the size of the polygon: a point closer than this to a line lies on it. Chosen as for hulls: points
 // computed in a scene have errors of some 10⁻¹⁵, and nobody means features as small as 10⁻⁹ of the whole.
-constexpr double flatness = 1e-9;
+constexpr double polygon_flatness = 1e-9;
 
 double cross(Vec2 a, Vec2 b) { return a.x * b.y - a.y * b.x; }
 
@@ -75,7 +75,7 @@ private:
                 extent_ = far;
                 farthest = p;
             }
-        const double most = flatness * extent_ * extent_;
+        const double most = polygon_flatness * extent_ * extent_;
         for (const Vec2 p : points_)
             if (std::abs(cross(farthest - points_[0], p - points_[0])) > most) return;
         throw std::runtime_error("expected a polygon with an area, got points on one line");
@@ -84,7 +84,7 @@ private:
     // Whether q lies between p and r on a straight line, and is not the tip of a spike.
     bool on_the_way(Vec2 p, Vec2 q, Vec2 r) const {
         const Vec2 in = q - p, out = r - q;
-        return std::abs(cross(in, out)) <= flatness * extent_ * std::min(glm::length(in), glm::length(out)) &&
+        return std::abs(cross(in, out)) <= polygon_flatness * extent_ * std::min(glm::length(in), glm::length(out)) &&
                glm::dot(in, out) > 0;
     }
 
@@ -99,7 +99,7 @@ private:
     // On which side of side i the point is: 1 left, −1 right, 0 on it, within the flatness.
     int turn(std::size_t i, Vec2 p) const {
         const double c = cross(side(i), p - point(i));
-        return std::abs(c) <= flatness * extent_ * glm::length(side(i)) ? 0 : c > 0 ? 1 : -1;
+        return std::abs(c) <= polygon_flatness * extent_ * glm::length(side(i)) ? 0 : c > 0 ? 1 : -1;
     }
 
     bool on_side(std::size_t i, Vec2 p) const {

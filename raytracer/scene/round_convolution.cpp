@@ -1,7 +1,5 @@
 #include "raytracer/scene/round_convolution.hpp"
 
-#include <numbers>
-
 #include "bounds/bounding_box.hpp"
 #include "bounds/density_tree.hpp"
 #include "bounds/mesh_field.hpp"
@@ -30,7 +28,6 @@ constexpr int attempts = 3;
 // Upper bound of the number of triangles for balls and tori; other parts need few, since they are straight in one
 // direction.
 double triangles_of(const DensityTree& tree, const Box& box, double tolerance) {
-    constexpr double pi = std::numbers::pi;
     const double side = glm::distance(box.lo, box.hi), most_area = 2 * side * side;
     double sum = 0;
     for (const HalfSpace& part : tree.half_spaces) {

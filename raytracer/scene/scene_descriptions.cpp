@@ -12,7 +12,7 @@ namespace deburr {
 namespace {
 
 // Boxes of larger objects are left out, since computing them takes too long for a description.
-constexpr double max_leaves = 5'000;
+constexpr double max_described_leaves = 5'000;
 
 std::string text_of(double x) { return std::isfinite(x) ? fmt::format("{:.6g}", x + 0.0) : x > 0 ? "inf" : "-inf"; }
 
@@ -21,7 +21,7 @@ std::string text_of(Vec3 v) { return fmt::format("{{{}, {}, {}}}", text_of(v.x),
 // A colour as scenes write it: one number for a grey.
 std::string color_of(Vec3 c) { return c.x == c.y && c.y == c.z ? text_of(c.x) : text_of(c); }
 
-std::string count_of(double half_spaces) {
+std::string half_space_count(double half_spaces) {
     return fmt::format("{:.0f} half-space{}", half_spaces, half_spaces == 1 ? "" : "s");
 }
 
@@ -33,8 +33,8 @@ std::string radii_of(const std::set<double>& radii) {
 }
 
 std::string describe(const Density& density) {
-    std::string text = "density of " + count_of(density.node().leaves);
-    if (density.node().leaves > max_leaves) return text;
+    std::string text = "density of " + half_space_count(density.node().leaves);
+    if (density.node().leaves > max_described_leaves) return text;
     const DensityTree tree = flatten(density, 0);
     std::set<double> radii;
     for (const HalfSpace& h : tree.half_spaces) radii.insert(h.radius);
@@ -85,8 +85,8 @@ std::string describe(const Material& m) {
 }
 
 std::string describe(const Solid& solid) {
-    std::string text = "solid of " + count_of(solid.node().leaves);
-    if (solid.node().leaves > max_leaves) return text;
+    std::string text = "solid of " + half_space_count(solid.node().leaves);
+    if (solid.node().leaves > max_described_leaves) return text;
     const SolidTree tree = flatten(solid);
     std::set<double> radii;
     double half_spaces = 0;
@@ -96,8 +96,9 @@ std::string describe(const Solid& solid) {
         fields |= leaf.field != nullptr;
         for (const HalfSpace& h : leaf.density.half_spaces) radii.insert(h.radius);
     }
-    text = fields ? half_spaces > 0 ? "solid of " + count_of(half_spaces) + " and smooth surfaces" : "solid, smooth"
-                  : "solid of " + count_of(half_spaces);
+    text = fields ? half_spaces > 0 ? "solid of " + half_space_count(half_spaces) + " and smooth surfaces"
+                                    : "solid, smooth"
+                  : "solid of " + half_space_count(half_spaces);
     return text + ", " + box_text(bounding_box(tree)) + radii_of(radii);
 }
 
@@ -153,7 +154,7 @@ double work_to_describe(const SceneObject& object) {
     const auto* density = as<Density>(&object);
     const auto* solid = as<Solid>(&object);
     const double leaves = density ? density->node().leaves : solid ? solid->node().leaves : 1;
-    return leaves > max_leaves ? 1 : leaves;
+    return leaves > max_described_leaves ? 1 : leaves;
 }
 
 std::string description(const SceneObject& object) {

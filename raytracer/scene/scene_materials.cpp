@@ -105,7 +105,7 @@ SceneResult metal(SceneCall& call) {
     return call.make(m);
 }
 
-SceneResult mirror(SceneCall& call) {
+SceneResult mirror_material(SceneCall& call) {
     const Fields fields(fields_argument(call), call.name, {"color", "bump", "bump_height"});
     Material m{Material::Kind::mirror, untinted, 0, 1.5};
     read_texture(fields, m.color);
@@ -335,7 +335,7 @@ const std::vector<SceneFunction>& material_functions() {
         {Kind::global, "matte", "", matte},
         {Kind::global, "plastic", "", plastic},
         {Kind::global, "metal", "", metal},
-        {Kind::global, "mirror", "", mirror},
+        {Kind::global, "mirror", "", mirror_material},
         {Kind::global, "glass", "", glass},
         {Kind::global, "pbr", "", pbr},
         {Kind::global, "checker", "", checker},

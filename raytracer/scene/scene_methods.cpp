@@ -85,7 +85,7 @@ SceneResult rotate(SceneCall& call) {
 }
 
 // Reflects in the plane through the origin with this normal.
-SceneResult mirror(SceneCall& call) {
+SceneResult mirror_method(SceneCall& call) {
     call.at_most(2);
     need_movable(call.argument(0), call.name);
     const Vec3 n = direction(call.argument(1), call.location("normal"));
@@ -101,7 +101,7 @@ const std::vector<SceneFunction>& method_functions() {
     static const std::vector<SceneFunction> functions = {
         {Kind::method, "material", "", material},   {Kind::method, "name", "", name},
         {Kind::method, "translate", "", translate}, {Kind::method, "scale", "", scale},
-        {Kind::method, "rotate", "", rotate},       {Kind::method, "mirror", "", mirror},
+        {Kind::method, "rotate", "", rotate},       {Kind::method, "mirror", "", mirror_method},
     };
     return functions;
 }

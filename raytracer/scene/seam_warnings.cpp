@@ -12,7 +12,7 @@ namespace deburr {
 namespace {
 
 // Larger densities are not examined, nor more of them than this, so that the time is not noticeable.
-constexpr double max_leaves = 500;
+constexpr double max_seam_leaves = 500;
 constexpr std::size_t max_densities = 100;
 
 std::string place_of(Vec3 x) {
@@ -32,7 +32,7 @@ std::vector<std::string> seam_warnings(const Scene& scene) {
         [&](const Solid& leaf, const Affine& map) {
             const SolidNode& node = leaf.node();
             if (node.field() || node.convolved() || !node.density().node().has_round) return;
-            if (node.leaves > max_leaves || seen.size() >= max_densities || even_scale(map) == 0) return;
+            if (node.leaves > max_seam_leaves || seen.size() >= max_densities || even_scale(map) == 0) return;
             if (!seen.insert(canonical.of(leaf).canonical).second) return;
             const std::vector<TangentSeam> seams = tangent_seams(flatten(node.density(), node.radius(), map));
             if (seams.empty()) return;

@@ -20,7 +20,7 @@ namespace deburr {
 namespace {
 
 // Larger solids are not examined: nothing would be found in the given time.
-constexpr double max_leaves = 3'000;
+constexpr double max_searched_leaves = 3'000;
 // Halvings in the search for the largest radius at which a part stays: three digits of it.
 constexpr int halvings = 12;
 // Most nodes evaluated for one radius to find a point that stays.
@@ -193,7 +193,7 @@ std::string thin_walls_text(const MeshField& model, const Affine& map) {
 
 // Whether the solid is proved to be empty.
 bool is_empty(const Solid& solid, std::int64_t& nodes) {
-    if (solid.node().leaves > max_leaves || nodes <= 0) return false;
+    if (solid.node().leaves > max_searched_leaves || nodes <= 0) return false;
     const SolidTree tree = flatten(solid);
     const Box box = bounding_box(tree);
     if (box.empty() || !box.finite()) return box.empty();
@@ -234,7 +234,7 @@ VanishedParts vanished_parts(const Scene& scene, std::int64_t nodes) {
                 told = true;
             }
             if (node.field() || node.radius() == 0) return;
-            if (node.leaves > (node.convolved() ? max_convolved_leaves : max_leaves)) return;
+            if (node.leaves > (node.convolved() ? max_convolved_leaves : max_searched_leaves)) return;
             if (!seen.insert(canonical.of(leaf).canonical).second) return;
             for (const std::string& what : Leaf(node, map, nodes).vanished()) {
                 result.rounded_away.push_back(said(node.line, what));

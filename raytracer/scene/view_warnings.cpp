@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <numbers>
 
 #include "bounds/decision_diagram.hpp"
 #include "bounds/solid_tree.hpp"
@@ -13,10 +12,10 @@ namespace deburr {
 namespace {
 
 // Larger solids are not asked whether they contain a point.
-constexpr double max_leaves = 20'000;
+constexpr double max_viewed_leaves = 20'000;
 
 // In degrees: a smaller angle of view is taken to be meant in radians; a larger one shows mostly distortion.
-constexpr double least_fov = std::numbers::pi, greatest_fov = 130;
+constexpr double least_fov = pi, greatest_fov = 130;
 
 bool is_black(Vec3 color) { return color == Vec3(0.0); }
 
@@ -55,7 +54,7 @@ std::vector<Place> places(const Scene& scene) {
 bool out_of_view(const Box& box, const Camera& camera, double aspect) {
     const Vec3 view = glm::normalize(camera.target - camera.eye);
     const Vec3 right = glm::normalize(glm::cross(view, camera.up)), up = glm::cross(right, view);
-    const double ty = std::tan(camera.fov * (std::numbers::pi / 360)), tx = ty * aspect;
+    const double ty = std::tan(camera.fov * (pi / 360)), tx = ty * aspect;
     for (const Vec3 inward : {view, tx * view + right, tx * view - right, ty * view + up, ty * view - up}) {
         bool out = true;
         for (int i = 0; i < 8; ++i) {
@@ -88,7 +87,7 @@ std::vector<std::string> view_warnings(const Scene& scene, double aspect) {
     const double fov = scene.camera.fov;
     if (fov <= least_fov)
         say(fmt::format("camera: the fov is {:.3g} degrees; if these are radians, write {:.3g}", fov,
-                        fov * (180 / std::numbers::pi)));
+                        fov * (180 / pi)));
     else if (fov >= greatest_fov)
         say(fmt::format("camera: a fov of {:.3g} degrees distorts; 20 to 60 are usual", fov));
 
@@ -101,7 +100,7 @@ std::vector<std::string> view_warnings(const Scene& scene, double aspect) {
         std::vector<const Place*> near;
         for (const Place& place : all_places)
             if (box.contains(place.point)) near.push_back(&place);
-        if (!near.empty() && solid.node().leaves <= max_leaves) {
+        if (!near.empty() && solid.node().leaves <= max_viewed_leaves) {
             const SolidTree tree = flatten(solid);
             if (!is_clear(tree, scene.materials))
                 for (const Place* place : near)
