@@ -8,8 +8,6 @@
 
 namespace deburr::test {
 
-inline constexpr double pi = 3.14159265358979323846;
-
 struct Shape {
     using Corners = ClosedMesh::Corners;
     std::vector<Vec3> vertices;

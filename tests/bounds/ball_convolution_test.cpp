@@ -13,10 +13,6 @@ using namespace deburr;
 
 namespace {
 
-constexpr double pi = 3.14159265358979323846;
-
-Density plane(Vec3 normal, double offset) { return Density::half_space(normal, offset); }
-
 double share(const Density& d, Vec3 x = Vec3(0), double r = 1) { return flatten_convolved(d, r).at(x); }
 
 // Fraction of the ball around x of radius r that lies in the polyhedron, by across² parallel lines: along each of them
@@ -54,7 +50,7 @@ TEST_CASE("the share of one half-space is Lobb's cubic") {
         CAPTURE(seed);
         Gen g(seed);
         const double alpha = g.between(-1.1, 1.1);
-        CHECK(std::abs(share(plane(g.normal(), -alpha)) - plain::profile(alpha)) <= 1e-15);
+        CHECK(std::abs(share(Density::half_space(g.normal(), -alpha)) - plain::profile(alpha)) <= 1e-15);
     }
 }
 
@@ -79,7 +75,7 @@ TEST_CASE("the shares of a polyhedron and of what it leaves add up to 1, and tho
         const Vec3 x = g.near(flatten_convolved(d, r), 0.8);
         const double whole = share(d, x, r);
         CHECK(std::abs(whole + share(~d, x, r) - 1) < 1e-13);
-        const Density cut = g.chance(0.5) ? g.boolean(1) : plane(g.normal(), g.between(-0.5, 0.5));
+        const Density cut = g.chance(0.5) ? g.boolean(1) : Density::half_space(g.normal(), g.between(-0.5, 0.5));
         CHECK(std::abs(share(d & cut, x, r) + share(d & ~cut, x, r) - whole) < 1e-13);
         varied += whole > 0 && whole < 1;
     }
@@ -92,7 +88,7 @@ TEST_CASE("around a point of all planes the share is an angle") {
         Gen g(seed);
         const Vec3 a = g.direction(), b = g.direction(), c = g.direction();
         const double between = pi - std::atan2(glm::length(glm::cross(a, b)), glm::dot(a, b));
-        CHECK(std::abs(share(plane(a, 0) & plane(b, 0)) - between / (2 * pi)) < 1e-13);
+        CHECK(std::abs(share(Density::half_space(a, 0) & Density::half_space(b, 0)) - between / (2 * pi)) < 1e-13);
         // Solid angle of a corner from its edges [Van Oosterom & Strackee 1983].
         const double hand = glm::dot(a, glm::cross(b, c)) > 0 ? -1 : 1;
         const Vec3 u = glm::normalize(hand * glm::cross(b, c)), v = glm::normalize(hand * glm::cross(c, a)),
@@ -100,7 +96,8 @@ TEST_CASE("around a point of all planes the share is an angle") {
         const double solid = 2 * std::atan2(std::abs(glm::dot(u, glm::cross(v, w))),
                                             1 + glm::dot(u, v) + glm::dot(v, w) + glm::dot(w, u));
         if (std::abs(glm::dot(a, glm::cross(b, c))) > 0.05)  // otherwise the edges are too nearly parallel
-            CHECK(std::abs(share(plane(a, 0) & plane(b, 0) & plane(c, 0)) - solid / (4 * pi)) < 1e-13);
+            CHECK(std::abs(share(Density::half_space(a, 0) & Density::half_space(b, 0) & Density::half_space(c, 0)) -
+                           solid / (4 * pi)) < 1e-13);
     }
 }
 
@@ -165,7 +162,7 @@ TEST_CASE("planes through one line, however near, are told apart or are one") {
         const Vec3 corner = g.point(0.5);
         const auto wedge = [&](double from, double to) {
             const Vec3 a = -at(from + pi / 2), b = at(to + pi / 2);
-            return plane(a, glm::dot(a, corner)) & plane(b, glm::dot(b, corner));
+            return Density::half_space(a, glm::dot(a, corner)) & Density::half_space(b, glm::dot(b, corner));
         };
         Density pieces = wedge(angles[0], angles[1]);
         for (int i = 1; i < count; ++i) pieces = pieces | wedge(angles[i], angles[std::size_t(i) + 1]);
@@ -182,13 +179,15 @@ TEST_CASE("planes that touch the ball, edges that touch it and corners on it mak
         Gen g(seed);
         const Vec3 n = g.direction(), a = g.direction(), b = g.direction(), c = g.direction();
         const auto corner = [&](double at) {
-            return plane(a, at * glm::dot(a, n)) & plane(b, at * glm::dot(b, n)) & plane(c, at * glm::dot(c, n));
+            return Density::half_space(a, at * glm::dot(a, n)) & Density::half_space(b, at * glm::dot(b, n)) &
+                   Density::half_space(c, at * glm::dot(c, n));
         };
-        const Density edge = plane(a, glm::dot(a, n)) & plane(b, glm::dot(b, n));  // through n, on the unit sphere
+        const Density edge = Density::half_space(a, glm::dot(a, n)) &
+                             Density::half_space(b, glm::dot(b, n));  // through n, on the unit sphere
         for (const double step : {1e-15, 1e-12, 1e-10}) {
             CHECK(std::abs(share(corner(1 + step)) - share(corner(1 - step))) < 2 * step + 1e-13);
             CHECK(std::abs(share(edge, step * n) - share(edge, -step * n)) < 2 * step + 1e-13);
-            CHECK(share(plane(n, -1 + step)) < 1e-18);
+            CHECK(share(Density::half_space(n, -1 + step)) < 1e-18);
         }
     }
 }
@@ -200,7 +199,7 @@ Density many_sided(int count) {
     std::vector<Density> planes;
     for (int k = 0; k < count; ++k) {
         const double z = 1 - (2 * k + 1.0) / count, phi = 2.399963229728653 * k, s = std::sqrt(1 - z * z);
-        planes.push_back(plane({s * std::cos(phi), s * std::sin(phi), z}, 0.5));
+        planes.push_back(Density::half_space({s * std::cos(phi), s * std::sin(phi), z}, 0.5));
     }
     return Density::product(planes);
 }

@@ -11,11 +11,10 @@ using namespace deburr;
 
 namespace {
 
-Density plane(Vec3 normal, double offset) { return Density::half_space(normal, offset); }
 double exact(const Density& d, Vec3 x, double r) { return flatten_convolved(d, r).at(x); }
 double quasi(const Density& d, Vec3 x, double r) { return flatten(d, r).at(x); }
 
-DensityTree random_tree(Gen& g) {
+DensityTree random_convolution(Gen& g) {
     return flatten_convolved(g.boolean(g.below(3)), g.between(0.05, 0.6), g.chance(0.3) ? g.map() : Affine{});
 }
 
@@ -26,7 +25,7 @@ TEST_CASE("M, L and G bound a true convolution, its slope and its slope's slope 
     for (auto seed : seeds(4'000)) {
         CAPTURE(seed);
         Gen g(seed);
-        const DensityTree whole = random_tree(g);
+        const DensityTree whole = random_convolution(g);
         const Vec3 origin = g.near(whole), direction = g.direction() * g.between(0.5, 2);
         const double length = std::pow(10.0, g.between(-3, 0));
         const Vec3 end = origin + length * direction;
@@ -60,7 +59,7 @@ TEST_CASE("a true convolution stays within its range over a box, and pruned to a
     for (auto seed : seeds(2'000)) {
         CAPTURE(seed);
         Gen g(seed);
-        const DensityTree tree = random_tree(g);
+        const DensityTree tree = random_convolution(g);
         const Vec3 c = g.near(tree),
                    half = std::pow(10.0, g.between(-3, -0.5)) * Vec3(g.between(0, 1), g.between(0, 1), g.between(0, 1));
         const Box box{c - half, c + half};
@@ -90,7 +89,7 @@ TEST_CASE("outer and inner bounds by the Frechet inequalities hold for true conv
     for (auto seed : seeds(3'000)) {
         CAPTURE(seed);
         Gen g(seed);
-        const DensityTree tree = random_tree(g);
+        const DensityTree tree = random_convolution(g);
         const double t = g.threshold();
         const BoundCsg outer = outer_bound(tree, t), inner = inner_bound(tree, t);
         const Vec3 x = g.tight_point(outer, true), y = g.tight_point(inner, false);
@@ -138,7 +137,7 @@ TEST_CASE("Lobb 2.3.1 (a): a product is exact where the filter lies outside of e
     for (auto seed : seeds(4'000)) {
         CAPTURE(seed);
         Gen g(seed);
-        const Density a = g.box(), b = plane(g.normal(), g.between(-0.5, 0.5)), c = g.box();
+        const Density a = g.box(), b = Density::half_space(g.normal(), g.between(-0.5, 0.5)), c = g.box();
         const double r = g.between(0.05, 0.4);
         const Vec3 x = g.near(flatten(a, r));
         if (exact(b, x, r) == 0) {
@@ -163,7 +162,7 @@ TEST_CASE("Lobb 2.3.1 (b): a product is exact where the filter lies inside of on
     for (auto seed : seeds(4'000)) {
         CAPTURE(seed);
         Gen g(seed);
-        const Density a = plane(g.normal(), g.between(-0.5, 0.5)), b = g.box();
+        const Density a = Density::half_space(g.normal(), g.between(-0.5, 0.5)), b = g.box();
         const double r = g.between(0.02, 0.15);
         const Vec3 x = g.near(flatten(a, r), 0.6);
         if (exact(b, x, r) < 1) continue;
@@ -181,7 +180,8 @@ TEST_CASE("Lobb 2.3.1 (c), (d): a product is exact on a right-angled edge and in
         const Vec3 u = g.direction(), v = glm::normalize(glm::cross(u, g.direction())), w = glm::cross(u, v),
                    x = g.point();
         const double r = g.between(0.1, 1);
-        const Density a = plane(u, glm::dot(u, x)), b = plane(v, glm::dot(v, x)), c = plane(w, glm::dot(w, x));
+        const Density a = Density::half_space(u, glm::dot(u, x)), b = Density::half_space(v, glm::dot(v, x)),
+                      c = Density::half_space(w, glm::dot(w, x));
         CHECK(exact(a * b, x, r) == Approx(0.25).epsilon(1e-13));
         CHECK(quasi(a * b, x, r) == Approx(0.25).epsilon(1e-13));
         const Vec3 along = x + g.between(-3, 3) * w;
@@ -192,16 +192,16 @@ TEST_CASE("Lobb 2.3.1 (c), (d): a product is exact on a right-angled edge and in
 }
 
 TEST_CASE("Lobb 2.3.1: off a right-angled edge a product is not exact, and a doubled half-space moves in") {
-    const Density edge = plane({1, 0, 0}, 0) * plane({0, 1, 0}, 0);
+    const Density edge = Density::half_space({1, 0, 0}, 0) * Density::half_space({0, 1, 0}, 0);
     CHECK(std::abs(exact(edge, {-0.3, -0.3, 0}, 1) - quasi(edge, {-0.3, -0.3, 0}, 1)) > 1e-3);
     // "The entire isosurface is inside the planes by about one quarter of the filter radius."
-    const Density twice = plane({1, 0, 0}, 0) * plane({1, 0, 0}, 0);
+    const Density twice = Density::half_space({1, 0, 0}, 0) * Density::half_space({1, 0, 0}, 0);
     const double in = -displacement(std::sqrt(0.5));
     CHECK(in == Approx(0.28).margin(0.005));
     CHECK(quasi(twice, {-in, 0, 0}, 1) == Approx(0.5));
     CHECK(exact(twice, {0, 0, 0}, 1) == Approx(0.5));
     // "Two abutting antiparallel halfspaces would evaluate to 0.25 on the common plane rather than 0."
-    const Density nothing = plane({1, 0, 0}, 0) * plane({-1, 0, 0}, 0);
+    const Density nothing = Density::half_space({1, 0, 0}, 0) * Density::half_space({-1, 0, 0}, 0);
     CHECK(quasi(nothing, Vec3(0), 1) == Approx(0.25));
     CHECK(exact(nothing, Vec3(0), 1) == 0);
 }

@@ -11,7 +11,7 @@ using namespace deburr;
 
 namespace {
 
-Box random_box(Gen& g, double reach = 1.5) {
+Box any_box(Gen& g, double reach = 1.5) {
     const Vec3 a = g.point(reach), b = g.chance(0.5) ? g.point(reach) : a + g.point(0.2);
     return {glm::min(a, b), glm::max(a, b)};
 }
@@ -35,7 +35,7 @@ TEST_CASE("quadrics: a range holds what is in the box, and is attained but for m
         CAPTURE(seed);
         Gen g(seed);
         const Quadric q = random_quadric(g);
-        const Box box = random_box(g);
+        const Box box = any_box(g);
         const Range r = q.range(box);
         double lo = infinity, hi = -infinity;
         for (int k = 0; k < 30; ++k) {
@@ -91,7 +91,7 @@ TEST_CASE("quadrics: ranges over infinite boxes hold what is in them") {
         CAPTURE(seed);
         Gen g(seed);
         const Quadric q = random_quadric(g);
-        Box box = random_box(g);
+        Box box = any_box(g);
         for (int k = 0; k < 3; ++k) {
             if (g.chance(0.4)) box.lo[k] = -infinity;
             if (g.chance(0.4)) box.hi[k] = infinity;
@@ -183,7 +183,7 @@ TEST_CASE("free forms: ranges hold what is in the box, the bounding box what is 
         Gen g(seed);
         const auto form = random_free_form(g, g.below(g.chance(0.2) ? 80 : 12));
         for (int b = 0; b < 4; ++b) {
-            const Box box = random_box(g);
+            const Box box = any_box(g);
             const Range r = form->range(box);
             for (int k = 0; k < 15; ++k) {
                 const Vec3 x = within(g, box);

@@ -14,7 +14,6 @@ using test::Shape;
 namespace {
 
 using Corners = ClosedMesh::Corners;
-constexpr double pi = test::pi;
 
 Density l_density() { return Density::box({0, 0, 0}, {2, 1, 1}) | Density::box({0, 0, 0}, {1, 2, 1}); }
 

@@ -10,15 +10,15 @@ using namespace deburr;
 
 namespace {
 
-constexpr double t_tolerance = 1e-14;
+constexpr double root_tolerance = 1e-14;
 
 // A density pruned to a small box, as in a cell; `sum` is empty if it cannot be multiplied out.
-struct Case {
+struct PrunedDensity {
     DensityTree tree;
     std::optional<LocalDensity> density;
     std::optional<ProductSum> sum;
 
-    explicit Case(Gen& g) {
+    explicit PrunedDensity(Gen& g) {
         const Density d = g.chance(0.4) ? g.boolean(2) : g.chance(0.6) ? g.legal(2) : g.arithmetic(2);
         const DensityTree whole = flatten(d, g.between(0.05, 0.6));
         const Vec3 lo = g.near(whole);
@@ -28,7 +28,7 @@ struct Case {
     }
 };
 
-Vec3 direction_to(Gen& g, const Case& c, Vec3 o) {
+Vec3 direction_to(Gen& g, const PrunedDensity& c, Vec3 o) {
     const Vec3 direction = glm::normalize(g.near(c.tree) - o);
     if (!g.chance(0.3)) return direction;
     // Nearly along one of the planes.
@@ -44,7 +44,7 @@ TEST_CASE("a density multiplied out has the density's values and gradients") {
     for (auto seed : seeds(8'000)) {
         CAPTURE(seed);
         Gen g(seed);
-        const Case c(g);
+        const PrunedDensity c(g);
         if (!c.sum) continue;
         ++recognized;
         with_constant += c.sum->constant() != 0;
@@ -94,7 +94,7 @@ TEST_CASE("slopes between two points of a ray are within the range that the poin
     for (auto seed : seeds(20'000)) {
         CAPTURE(seed);
         Gen g(seed);
-        const Case c(g);
+        const PrunedDensity c(g);
         if (!c.sum) continue;
         const Vec3 o = g.point(2);
         const Vec3 direction = direction_to(g, c, o);
@@ -130,7 +130,7 @@ TEST_CASE("a sum's crossings are those of the search by M, L and G, whatever the
     for (auto seed : seeds(30'000)) {
         CAPTURE(seed);
         Gen g(seed);
-        const Case c(g);
+        const PrunedDensity c(g);
         if (!c.sum) continue;
         const Vec3 o = g.chance(0.3) ? g.near(c.tree) : g.point(2);
         const Vec3 direction = direction_to(g, c, o);
@@ -144,12 +144,12 @@ TEST_CASE("a sum's crossings are those of the search by M, L and G, whatever the
                 return true;
             };
         };
-        RootFinder({Criterion::exact, t_tolerance}, theirs).crossings(plain_ray, t0, std::min(t1, 1e11), into(want));
+        RootFinder({Criterion::exact, root_tolerance}, theirs).crossings(plain_ray, t0, std::min(t1, 1e11), into(want));
         ProductSumRay ray;
         ray.set(*c.sum, o, direction);
-        ray.crossings(t0, t1, t_tolerance, false, ours, into(got));
+        ray.crossings(t0, t1, root_tolerance, false, ours, into(got));
         RootCounters counters;
-        ray.crossings(t0, t1, t_tolerance, true, counters, into(coarse));
+        ray.crossings(t0, t1, root_tolerance, true, counters, into(coarse));
         REQUIRE(coarse.size() == got.size());
         // Both searches may overlook a dip of 10⁻⁹, and so may a ray that starts on the surface.
         const auto near_zero = [&](double t) {
@@ -191,7 +191,7 @@ TEST_CASE("a ray in the plane of a sum's flush face is done soon") {
             ray.set(*products, {5, height, 0.5}, {-1, 0, 0});
             RootCounters counters;
             int crossings = 0;
-            ray.crossings(0, 8, t_tolerance, false, counters, [&](RootCrossing) { return ++crossings; });
+            ray.crossings(0, 8, root_tolerance, false, counters, [&](RootCrossing) { return ++crossings; });
             CHECK(counters.evaluations < 1'000'000);
             if (height >= 1) CHECK(crossings == 0);
         }

@@ -35,7 +35,7 @@ Line adversarial_line(Gen& g, const DensityTree& tree) {
     }
 }
 
-Box random_box(Gen& g) {
+Box box_of_any_size(Gen& g) {
     const Vec3 lo = g.point(1.2);
     const double size = std::pow(10.0, g.between(-4, 0.3));
     return {lo, lo + size * Vec3(g.number(), g.number(), g.number())};
@@ -90,7 +90,7 @@ TEST_CASE("ranges and rates over boxes hold what is in them") {
         Gen g(seed);
         const RoundCase c = round_case(g, 1 + g.below(4));
         const RoundDensity field = field_of(c);
-        const Box box = random_box(g);
+        const Box box = box_of_any_size(g);
         const Range r = field.range(box);
         const Vec3 direction = g.direction();
         const Range rate = field.rate_range(box, direction);
@@ -126,7 +126,7 @@ TEST_CASE("a coordinate's range over a box is the least and the greatest value i
                                        RoundCoordinate::across_cone(g.point(1), axis, 0.8, 0.6),
                                        RoundCoordinate::across_cone(g.point(1), axis, -0.8, 0.6),
                                        RoundCoordinate::distance_from_circle(g.point(1), axis, 0.7)};
-        const Box box = random_box(g);
+        const Box box = box_of_any_size(g);
         for (int i = 0; i < 5; ++i) {
             const Range r = all[i].range(box);
             double least = infinity, greatest = -infinity;
@@ -245,7 +245,7 @@ TEST_CASE("a torus' field holds its range, and its bounds along rays") {
         Gen g(seed);
         const double R = g.between(0.3, 2), a = R * g.between(0.05, 1);
         const Torus torus(g.point(1), g.chance(0.5) ? Vec3(0, 1, 0) : g.direction(), R, a);
-        const Box box = random_box(g);
+        const Box box = box_of_any_size(g);
         const Range r = torus.range(box);
         FieldRay ray;
         const double t0 = g.between(0, 3), t1 = t0 + g.between(0.001, 3);

@@ -7,8 +7,6 @@ using namespace deburr;
 
 namespace {
 
-constexpr double pi = 3.14159265358979323846;
-
 double quasi_exact(double degrees, int steps = 200) {
     const RoundedEdge edge(degrees * pi / 180);
     return distance_between([&](double x) { return edge.quasi(x); }, [&](double x) { return edge.exact(x); },

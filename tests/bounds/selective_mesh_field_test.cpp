@@ -11,13 +11,13 @@ namespace {
 
 constexpr double radius = 0.2;
 
-struct Case {
+struct KeptCase {
     SelectiveMeshField field;
     Vec3 lo, hi;  // the corners of the box that is sampled
 };
 
 // An L-shaped prism, rotated or not, with kept edges, a kept region or both.
-Case random_case(Gen& g) {
+KeptCase random_case(Gen& g) {
     Shape shape = Shape::l_prism();
     if (g.chance(0.5)) shape.rotate(g);
     const auto mesh = std::make_shared<const ClosedMesh>(shape.vertices, shape.triangles);
@@ -35,7 +35,7 @@ Case random_case(Gen& g) {
 }
 
 // A random point, in four cases of five near the surface.
-Vec3 point(Gen& g, const Case& c) {
+Vec3 point(Gen& g, const KeptCase& c) {
     const ClosedMesh& mesh = c.field.full().mesh();
     if (g.chance(0.2)) return c.lo + Vec3(g.number(), g.number(), g.number()) * (c.hi - c.lo);
     const int t = g.below(int(mesh.size()));
@@ -51,7 +51,7 @@ TEST_CASE("a radius that varies: the gradient is that of the share") {
     for (auto seed : seeds(3'000)) {
         CAPTURE(seed);
         Gen g(seed);
-        const Case c = random_case(g);
+        const KeptCase c = random_case(g);
         const Vec3 x = point(g, c), u = g.direction();
         const double h = 1e-6, there = c.field.at(x + h * u).value, back = c.field.at(x - h * u).value;
         const double slope = glm::dot(c.field.at(x).gradient, u), found = (there - back) / (2 * h);
@@ -68,7 +68,7 @@ TEST_CASE("a radius that varies: M, L and G hold along rays") {
     for (auto seed : seeds(2'000)) {
         CAPTURE(seed);
         Gen g(seed);
-        const Case c = random_case(g);
+        const KeptCase c = random_case(g);
         const Vec3 o = point(g, c), d = g.direction();
         const double length = g.between(0.01, 0.4);
         FieldRay ray;
@@ -94,7 +94,7 @@ TEST_CASE("a radius that varies: ranges and rates over boxes hold, and parts are
     for (auto seed : seeds(2'000)) {
         CAPTURE(seed);
         Gen g(seed);
-        const Case c = random_case(g);
+        const KeptCase c = random_case(g);
         const Vec3 at = point(g, c), size(g.between(0.001, 0.15));
         const Box box{at, at + size};
         const Range f = c.field.range(box);

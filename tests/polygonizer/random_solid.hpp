@@ -25,7 +25,6 @@ private:
     double grid() { return 0.25 * below(5); }
 
     Affine rotation() {
-        constexpr double pi = 3.14159265358979323846;
         Vec3 axis = glm::normalize(Vec3(unit() - 0.5, unit() - 0.5, unit() - 0.5) + Vec3(1e-3));
         double angle = 2 * pi * unit();
         if (below(3) == 0) {

@@ -20,7 +20,7 @@ struct Dense {
     std::vector<Origin> origins;
 };
 
-Dense plate(int holes) {
+Dense dense_plate(int holes) {
     Density all = Density::box({0, 0, 0}, {double(holes), 0.3, double(holes)});
     for (int i = 0; i < holes; ++i)
         for (int k = 0; k < holes; ++k) all = all & ~Density::box({i + 0.3, -1, k + 0.2}, {i + 0.7, 1, k + 0.8});
@@ -47,7 +47,7 @@ std::vector<std::array<double, 9>> corners(const Mesh& mesh) {
 }  // namespace
 
 TEST_CASE("Blocks of a mesh are all of it, and together again they are the mesh") {
-    const Dense dense = plate(3);
+    const Dense dense = dense_plate(3);
     const std::size_t most = 300;
     const std::vector<MeshBlock> blocks = cut_into_blocks(dense.mesh, dense.origins, most);
     CHECK(blocks.size() > 4);
@@ -78,7 +78,7 @@ TEST_CASE("Blocks of a mesh are all of it, and together again they are the mesh"
 }
 
 TEST_CASE("A mesh that is thinned out in blocks has little more left than one that is thinned out whole") {
-    Dense dense = plate(9);
+    Dense dense = dense_plate(9);
     const std::size_t before = dense.mesh.triangles.size();
     REQUIRE(before > 20'000);
     const FacetJudge judge(dense.tree, dense.mesh);

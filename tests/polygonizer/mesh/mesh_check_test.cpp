@@ -13,13 +13,13 @@ using namespace deburr;
 
 namespace {
 
-SolidTree plate(int slots, double radius = 0.2) {
+SolidTree slotted_plate(int slots, double radius = 0.2) {
     Density body = Density::box({0, 0, 0}, {20, 10, 2});
     for (int k = 0; k < slots; ++k) body = body & ~Density::box({2.0 + 6 * k, 2, -1}, {5.0 + 6 * k, 8, 3});
     return flatten(Solid::rounded(radius, body));
 }
 
-Mesh mesh_of(const SolidTree& solid) { return triage(solid, polygonization_box(solid)); }
+Mesh triage_mesh(const SolidTree& solid) { return triage(solid, polygonization_box(solid)); }
 
 MeshCheck check(const Mesh& mesh, const SolidTree& solid) { return check_mesh(mesh, solid, polygonization_box(solid)); }
 
@@ -38,8 +38,8 @@ Mesh of_triangles(const std::vector<Vec3>& positions, const std::vector<std::arr
 }  // namespace
 
 TEST_CASE("A mesh of its solid passes the check, and each kind of damage is found and placed") {
-    const SolidTree solid = plate(2);
-    const Mesh good = mesh_of(solid);
+    const SolidTree solid = slotted_plate(2);
+    const Mesh good = triage_mesh(solid);
     const MeshCheck passed = check(good, solid);
     CHECK(passed.faults() == 0);
     CHECK(passed.facets == good.triangles.size());
@@ -75,12 +75,12 @@ TEST_CASE("A mesh of its solid passes the check, and each kind of damage is foun
         CHECK(glm::length(Vec2(found.crossing.location - x)) < 3);
     }
     SECTION("a slot that is skinned over, another one, and one too many") {
-        CHECK(check(mesh_of(plate(1)), solid).added.count > 0);
-        const MeshCheck none = check(mesh_of(plate(0)), solid);
+        CHECK(check(triage_mesh(slotted_plate(1)), solid).added.count > 0);
+        const MeshCheck none = check(triage_mesh(slotted_plate(0)), solid);
         CHECK(none.added.count > 0);
         CHECK(none.missing.count == 0);
         CHECK(none.crossing.count == 0);
-        const MeshCheck three = check(mesh_of(plate(3)), solid);
+        const MeshCheck three = check(triage_mesh(slotted_plate(3)), solid);
         CHECK(three.missing.count > 0);
         CHECK(three.missing.location.x > 14);
         CHECK(three.added.count == 0);
@@ -93,11 +93,11 @@ TEST_CASE("A part of the solid that is not in the mesh is found, beside another 
         CAPTURE(r);
         const SolidTree both = with_piece(r);
         const SolidTree plate_only = flatten(Solid::rounded(r, Density::box(Vec3(0.0), {4, 3, 4})));
-        const MeshCheck found = check(mesh_of(plate_only), both);
+        const MeshCheck found = check(triage_mesh(plate_only), both);
         CHECK(found.missing.count > 0);
         CHECK(found.missing.location.x > 6);
         CHECK(found.added.count == 0);
-        CHECK(check(mesh_of(plate_only), plate_only).faults() == 0);
+        CHECK(check(triage_mesh(plate_only), plate_only).faults() == 0);
     }
     const SolidTree blob = flatten(Solid::rounded(0.8, Density::box(Vec3(0.0), Vec3(1.0))));
     CHECK(check({}, blob).missing.count > 0);
@@ -158,8 +158,8 @@ TEST_CASE("Crossing triangles are those of all pairs, each once, in a plane that
 }
 
 TEST_CASE("Winding numbers tell inside and outside, and edges in the way do not matter") {
-    const SolidTree solid = plate(2, 0);
-    const Mesh mesh = mesh_of(solid);
+    const SolidTree solid = slotted_plate(2, 0);
+    const Mesh mesh = triage_mesh(solid);
     const TriangleTree tree(mesh);
     int inside = 0;
     for (const auto seed : seeds(2'000)) {
@@ -195,6 +195,6 @@ TEST_CASE("Parts that touch in a corner pass the check, by whatever rounding tur
                               Density::half_space({-1, -1, 0}, -1);
         const SolidTree solid =
             flatten((Solid::sharp(Density::box({0, -2, 0}, {1, 2, 1})) | Solid::sharp(wedge)).transformed(turn));
-        CHECK(check(mesh_of(solid), solid).faults() == 0);
+        CHECK(check(triage_mesh(solid), solid).faults() == 0);
     }
 }

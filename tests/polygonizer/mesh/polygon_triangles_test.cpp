@@ -13,8 +13,6 @@ using namespace deburr;
 
 namespace {
 
-constexpr double pi = 3.14159265358979323846;
-
 struct Polygon {
     std::vector<Vec3> positions;
     std::vector<std::vector<int>> loops;

@@ -6,15 +6,15 @@
 #include "catch.hpp"
 #include "polygonizer/random_solid.hpp"
 #include "polygonizer/triage/triage.hpp"
+#include "polygonizer/unit_cube.hpp"
 #include "polygonizer/welded.hpp"
 
 using namespace deburr;
+using namespace deburr::test;
 
 namespace {
 
-Density unit_cube_at(Vec3 at) { return Density::box(at, at + Vec3(1.0)); }
-
-Mesh mesh_of(const Solid& solid) {
+Mesh touching_mesh(const Solid& solid) {
     const SolidTree tree = flatten(solid);
     return triage(tree, polygonization_box(tree));
 }
@@ -28,7 +28,7 @@ TEST_CASE("Parts that touch stay apart for a reader that joins vertices by posit
                 CAPTURE(at.z, scale, r);
                 Affine map;
                 map.linear = Mat3(scale);
-                Mesh mesh = mesh_of(Solid::rounded(r, unit_cube_at(Vec3(0.0)) + unit_cube_at(at)).transformed(map));
+                Mesh mesh = touching_mesh(Solid::rounded(r, unit_cube() + unit_cube(at)).transformed(map));
                 const Mesh before = mesh;
                 if (r == 0) CHECK_FALSE(topology(welded(mesh)).manifold());
                 CHECK(separate_touching(mesh, single_precision_step(mesh)) == 0);
@@ -43,8 +43,8 @@ TEST_CASE("Parts that touch stay apart for a reader that joins vertices by posit
 }
 
 TEST_CASE("Solids that share a face stay two shells") {
-    Mesh mesh = mesh_of(Solid::sharp(unit_cube_at(Vec3(0.0))));
-    mesh.append(mesh_of(Solid::sharp(unit_cube_at(Vec3(1, 0, 0)))), 1);
+    Mesh mesh = touching_mesh(Solid::sharp(unit_cube()));
+    mesh.append(touching_mesh(Solid::sharp(unit_cube(Vec3(1, 0, 0)))), 1);
     CHECK_FALSE(topology(welded(mesh)).manifold());
     CHECK(separate_touching(mesh) == 0);
     CHECK(topology(welded(mesh)).manifold());
@@ -53,14 +53,14 @@ TEST_CASE("Solids that share a face stay two shells") {
 }
 
 TEST_CASE("A mesh without touching parts is left as it is") {
-    Mesh mesh = mesh_of(Solid::rounded(0.1, unit_cube_at(Vec3(0.0))));
+    Mesh mesh = touching_mesh(Solid::rounded(0.1, unit_cube()));
     const Mesh before = mesh;
     CHECK(separate_touching(mesh) == 0);
     CHECK(mesh.positions == before.positions);
 }
 
 TEST_CASE("Facets of a few steps of single precision are no facets") {
-    Mesh mesh = mesh_of(Solid::sharp(Density::box(Vec3(1.0), Vec3(2.0))));
+    Mesh mesh = touching_mesh(Solid::sharp(Density::box(Vec3(1.0), Vec3(2.0))));
     REQUIRE(merge_close(mesh) == 0);
     const Mesh before = mesh;
     // An edge of the cube is cut near its end, at 5·10⁻⁷ of its length.

@@ -10,13 +10,13 @@
 #include "polygonizer/mesh/metrics.hpp"
 #include "polygonizer/random_solid.hpp"
 #include "polygonizer/triage/triage.hpp"
+#include "polygonizer/unit_cube.hpp"
 #include "random_free_form.hpp"
 
 using namespace deburr;
+using namespace deburr::test;
 
 namespace {
-
-Density unit_cube() { return Density::box(Vec3(0.0), Vec3(1.0)); }
 
 // A rotation by no simple angle, so that edges cut cells in general position.
 Affine turned() {
@@ -25,21 +25,21 @@ Affine turned() {
     return map;
 }
 
-struct Measured {
+struct MeasuredOctree {
     Mesh mesh;
     MeshMetrics metrics;
     OctreeStatistics statistics;
 };
 
-Measured measured(const Solid& solid, const OctreeOptions& options) {
+MeasuredOctree measured(const Solid& solid, const OctreeOptions& options) {
     const SolidTree tree = flatten(solid);
-    Measured m;
+    MeasuredOctree m;
     m.mesh = octree(tree, polygonization_box(tree), options, &m.statistics);
     m.metrics = measure(m.mesh, tree);
     return m;
 }
 
-void check_sound(const Measured& m) {
+void check_sound(const MeasuredOctree& m) {
     CHECK(m.metrics.topology.manifold());
     CHECK(m.metrics.inverted == 0);
     CHECK(m.metrics.degenerate == 0);
@@ -52,12 +52,12 @@ void check_sound(const Measured& m) {
 TEST_CASE("Radius 0: a cube comes out exact, and tilted at most for a nick of a few cells [Vyatkin §3.4]") {
     for (const double edge : {0.31, 0.1, 0.05, 0.04}) {
         CAPTURE(edge);
-        const Measured upright = measured(Solid::sharp(unit_cube()), {edge});
+        const MeasuredOctree upright = measured(Solid::sharp(unit_cube()), {edge});
         check_sound(upright);
         CHECK(upright.metrics.volume == Approx(1).epsilon(1e-12));
         CHECK(upright.metrics.area == Approx(6).epsilon(1e-12));
         CHECK(upright.metrics.distance.max < 1e-12);
-        const Measured tilted = measured(Solid::sharp(unit_cube().transformed(turned())), {edge});
+        const MeasuredOctree tilted = measured(Solid::sharp(unit_cube().transformed(turned())), {edge});
         check_sound(tilted);
         CHECK(tilted.metrics.topology.euler == 2);
         CHECK(tilted.metrics.volume == Approx(1).epsilon(edge > 0.3 ? 1e-3 : 5e-5));
@@ -68,7 +68,7 @@ TEST_CASE("Radius 0: a cube comes out exact, and tilted at most for a nick of a 
 TEST_CASE("Without hard edges a cube loses them") {
     OctreeOptions options{0.1};
     options.hard_angle = 180;
-    const Measured m = measured(Solid::sharp(unit_cube().transformed(turned())), options);
+    const MeasuredOctree m = measured(Solid::sharp(unit_cube().transformed(turned())), options);
     CHECK(m.metrics.topology.manifold());
     CHECK(m.statistics.hard_points == 0);
     CHECK(m.metrics.distance.max > 0.005);
@@ -78,7 +78,7 @@ TEST_CASE("A hard edge has points on both surfaces, with a normal for each") {
     const Solid a = Solid::rounded(0.1, unit_cube()),
                 b = Solid::rounded(0.15, Density::box({0.5, 0.5, 0.5}, {1.2, 1.3, 1.1}));
     for (const Solid& s : {a | b, a & b, a - b, b - a}) {
-        const Measured m = measured(s, {0.05});
+        const MeasuredOctree m = measured(s, {0.05});
         check_sound(m);
         CHECK(m.metrics.topology.euler == 2);
         const SolidTree first = flatten(a), second = flatten(b);
@@ -96,7 +96,7 @@ TEST_CASE("Halving the cells quarters distances and quadruples triangles") {
     double distance = 0;
     std::size_t triangles = 0;
     for (const double edge : {0.04, 0.02, 0.01}) {
-        const Measured m = measured(Solid::rounded(0.2, unit_cube().transformed(turned())), {edge});
+        const MeasuredOctree m = measured(Solid::rounded(0.2, unit_cube().transformed(turned())), {edge});
         check_sound(m);
         if (triangles) {
             CHECK(m.metrics.distance.mean < 0.3 * distance);
@@ -111,7 +111,7 @@ TEST_CASE("Halving the cells quarters distances and quadruples triangles") {
 TEST_CASE("Range tests grow with the surface, not with the volume [Vyatkin §5]") {
     std::size_t before = 0;
     for (const double edge : {0.08, 0.04, 0.02, 0.01}) {
-        const Measured m = measured(Solid::rounded(0.1, unit_cube()), {edge});
+        const MeasuredOctree m = measured(Solid::rounded(0.1, unit_cube()), {edge});
         if (before) CHECK(m.statistics.range_tests < 5 * before);
         before = m.statistics.range_tests;
     }
@@ -121,7 +121,7 @@ TEST_CASE("A tolerance cuts cells further where it is not met") {
     const Solid solid = Solid::rounded(0.1, unit_cube());
     OctreeOptions options{0.1};
     options.tolerance = 0.001;
-    const Measured m = measured(solid, options);
+    const MeasuredOctree m = measured(solid, options);
     check_sound(m);
     CHECK(m.metrics.first_order.max <= 1.1 * options.tolerance);
     CHECK(m.metrics.topology.triangles < measured(solid, {0.025}).metrics.topology.triangles);
@@ -137,9 +137,9 @@ TEST_CASE("A model whose radius varies is thinned out within the tolerance") {
     const Solid solid = Solid::of_field(std::make_shared<SelectiveMeshField>(mesh, radius, kept));
     OctreeOptions options{0.05};
     options.tolerance = tolerance;
-    const Measured fine = measured(solid, options);
+    const MeasuredOctree fine = measured(solid, options);
     options.decimate = true;
-    const Measured thin = measured(solid, options);
+    const MeasuredOctree thin = measured(solid, options);
     check_sound(thin);
     CHECK(thin.metrics.distance.max <= tolerance);
     CHECK(thin.metrics.topology.triangles < fine.metrics.topology.triangles / 20);
@@ -149,7 +149,7 @@ TEST_CASE("A model whose radius varies is thinned out within the tolerance") {
 TEST_CASE("Sheets that pass one cell are told apart: boxes that touch, a checkerboard") {
     for (const Vec3 at : {Vec3(1, 1, 0), Vec3(1, 1, 1)})
         for (const double r : {0.0, 0.1}) {
-            const Measured m = measured(Solid::rounded(r, unit_cube() + Density::box(at, at + Vec3(1.0))), {0.1});
+            const MeasuredOctree m = measured(Solid::rounded(r, unit_cube() + Density::box(at, at + Vec3(1.0))), {0.1});
             CHECK(m.metrics.topology.manifold());
             CHECK(m.metrics.vertex_distance < 1e-6);
         }
@@ -176,7 +176,8 @@ TEST_CASE("An empty solid is an empty mesh, and too many cells are refused") {
 
 TEST_CASE("A quadric: an ellipsoid's volume, and no hard edge") {
     const Quadric q{Vec3(0.1, 0.2, 0.3), Mat3(-1, 0, 0, 0, -4, 0, 0, 0, -16), Vec3(0.0), 1};
-    const Measured m = measured(Solid::of_field(std::make_shared<FreeForm>(q, std::vector<Perturbation>{})), {0.02});
+    const MeasuredOctree m =
+        measured(Solid::of_field(std::make_shared<FreeForm>(q, std::vector<Perturbation>{})), {0.02});
     check_sound(m);
     CHECK(m.metrics.topology.euler == 2);
     CHECK(m.statistics.hard_points == 0);
@@ -196,7 +197,7 @@ TEST_CASE("A cone has its tip and the rim of its base, with hard edges [Vyatkin 
         for (const Vec3& x : mesh.positions) least = std::min(least, glm::length(x - Vec3(0, 0, 1)));
         return least;
     };
-    const Measured m = measured(cone, {0.07});
+    const MeasuredOctree m = measured(cone, {0.07});
     check_sound(m);
     CHECK(m.metrics.topology.euler == 2);
     CHECK(distance_of_tip(m.mesh) < 1e-9);
@@ -205,7 +206,7 @@ TEST_CASE("A cone has its tip and the rim of its base, with hard edges [Vyatkin 
     CHECK(rim > 70);
     OctreeOptions smooth{0.07};
     smooth.hard_angle = 180;
-    const Measured without = measured(cone, smooth);
+    const MeasuredOctree without = measured(cone, smooth);
     CHECK(without.metrics.topology.manifold());
     CHECK(distance_of_tip(without.mesh) > 1e-3);
     CHECK(without.metrics.distance.max > 3 * m.metrics.distance.max);
@@ -270,16 +271,15 @@ TEST_CASE("Free forms thinner than a cell come out whole") {
         return Solid::of_field(std::make_shared<FreeForm>(q, std::vector<Perturbation>{}));
     };
     // No corner of a cell is in the needle, few are in the disc, and some are in the ball's wall.
-    const Measured needle = measured(ellipsoid({1, 0.01, 0.01}), {});
+    const MeasuredOctree needle = measured(ellipsoid({1, 0.01, 0.01}), {});
     CHECK(needle.metrics.topology.manifold());
     CHECK(needle.metrics.topology.euler == 2);
     CHECK(needle.metrics.inverted == 0);
-    const double pi = 3.141592653589793;
     CHECK(needle.metrics.volume == Approx(4 * pi / 3 * 1e-4).epsilon(0.3));
-    const Measured disc = measured(ellipsoid({1, 0.03, 1}), {0.06});
+    const MeasuredOctree disc = measured(ellipsoid({1, 0.03, 1}), {0.06});
     CHECK(disc.metrics.topology.manifold());
     CHECK(disc.metrics.topology.euler == 2);
-    const Measured wall = measured(ellipsoid(Vec3(1.0)) - ellipsoid(Vec3(0.97)), {0.1});
+    const MeasuredOctree wall = measured(ellipsoid(Vec3(1.0)) - ellipsoid(Vec3(0.97)), {0.1});
     CHECK(wall.metrics.topology.manifold());
     CHECK(wall.metrics.topology.euler == 4);
     CHECK(wall.metrics.topology.shells == 2);

@@ -13,13 +13,13 @@
 #include "polygonizer/triage/cell_complex.hpp"
 #include "polygonizer/triage/refinement.hpp"
 #include "polygonizer/triage/subspace.hpp"
+#include "polygonizer/unit_cube.hpp"
 #include "polygonizer/welded.hpp"
 
 using namespace deburr;
+using namespace deburr::test;
 
 namespace {
-
-Density unit_cube() { return Density::box(Vec3(0.0), Vec3(1.0)); }
 
 // A regular prism of inradius 1 along z, or, if `across`, along a direction that is parallel to no coordinate plane.
 Density rod(int sides, double length, bool across) {
@@ -43,12 +43,12 @@ Mesh mesh_of(const SolidTree& tree, double tolerance = infinity) {
     return triage(tree, polygonization_box(tree), {tolerance});
 }
 
-struct Measured {
+struct MeasuredTriage {
     Mesh mesh;
     MeshMetrics metrics;
 };
 
-Measured measured(const Solid& solid, double tolerance = infinity) {
+MeasuredTriage measured(const Solid& solid, double tolerance = infinity) {
     const SolidTree tree = flatten(solid);
     Mesh mesh = mesh_of(tree, tolerance);
     const MeshMetrics metrics = measure(mesh, tree);
@@ -71,7 +71,7 @@ TEST_CASE("A complex stays sound under cuts, also where planes pass through vert
 }
 
 TEST_CASE("Triage §6.1: a smoothed cuboid's edge is two rectangles, its corner six triangles") {
-    const Measured m = measured(Solid::rounded(0.1, unit_cube()));
+    const MeasuredTriage m = measured(Solid::rounded(0.1, unit_cube()));
     CHECK(m.mesh.polygons == 6 + 12 * 2 + 8 * 6);
     CHECK(m.mesh.triangles.size() == 6 * 2 + 12 * 4 + 8 * 6);
     CHECK(m.metrics.topology.manifold());
@@ -82,7 +82,7 @@ TEST_CASE("Triage §6.1: a smoothed cuboid's edge is two rectangles, its corner 
 
 TEST_CASE("Radius 0 yields the b-rep of the polyhedron") {
     CHECK(measured(Solid::sharp(unit_cube())).mesh.triangles.size() == 12);
-    const Measured m = measured(obj4(0));
+    const MeasuredTriage m = measured(obj4(0));
     CHECK(m.mesh.polygons == 11);  // one of these faces has a hole
     CHECK(m.mesh.triangles.size() == 28);
     CHECK(m.metrics.topology.euler == 2);
@@ -92,7 +92,7 @@ TEST_CASE("Radius 0 yields the b-rep of the polyhedron") {
 TEST_CASE("Lobb's obj4: at most 1.5 % and 0.1 % of the triangles of marching cubes") {
     for (const auto& [r, most] : {std::pair{0.05, 306}, std::pair{0.01, 511}}) {
         CAPTURE(r);
-        const Measured m = measured(obj4(r));
+        const MeasuredTriage m = measured(obj4(r));
         CHECK(m.mesh.triangles.size() <= std::size_t(most));
         CHECK(m.metrics.topology.manifold());
         CHECK(m.metrics.inverted == 0);
@@ -105,14 +105,15 @@ TEST_CASE("Lobb's obj4: at most 1.5 % and 0.1 % of the triangles of marching cub
 TEST_CASE("Parts that touch in an edge or a corner stay apart, each a manifold") {
     for (const Vec3 at : {Vec3(1, 1, 0), Vec3(1, 1, 1)})
         for (const double r : {0.0, 0.1}) {
-            const Measured m = measured(Solid::rounded(r, unit_cube() + Density::box(at, at + Vec3(1.0))));
+            const MeasuredTriage m = measured(Solid::rounded(r, unit_cube() + Density::box(at, at + Vec3(1.0))));
             CHECK(m.metrics.topology.manifold());
             CHECK(m.metrics.topology.shells == 2);
         }
 }
 
 TEST_CASE("Flush faces of a Boolean density are one flat polygon") {
-    const Measured m = measured(Solid::rounded(0.05, unit_cube() | Density::box({0.5, 0.5, 0.2}, {1.5, 1.0, 0.8})));
+    const MeasuredTriage m =
+        measured(Solid::rounded(0.05, unit_cube() | Density::box({0.5, 0.5, 0.2}, {1.5, 1.0, 0.8})));
     CHECK(m.metrics.topology.manifold());
     int on_top = 0;
     for (const Vec3& x : m.mesh.positions) {
@@ -124,14 +125,13 @@ TEST_CASE("Flush faces of a Boolean density are one flat polygon") {
 
 TEST_CASE("A clipped density is sharp at the clip [Triage §6.1, the punch pin]") {
     const Density pin = Density::box({0, 0, 0}, {1, 1, 2}).radius(0.1) * Density::half_space({0, 0, 1}, 1.5);
-    const Measured m = measured(Solid::sharp(pin));
+    const MeasuredTriage m = measured(Solid::sharp(pin));
     CHECK(m.metrics.topology.manifold());
     CHECK(m.metrics.vertex_distance < 1e-9);
     CHECK(m.metrics.box.hi.z == Approx(1.5).epsilon(1e-12));
 }
 
 TEST_CASE("Sharp parts of densities with round parts are leaves of their own, and cost no cells") {
-    using std::numbers::pi;
     const Density rod = Density::cylinder({0, 0, -3}, {0, 0, 3}, 0.42), box = Density::box(Vec3(-1.0), Vec3(1.0));
     struct Case {
         const char* what;
@@ -261,7 +261,7 @@ TEST_CASE("Where a filter reaches all over many half-spaces a tolerance is met t
         const Vec3 corner(k / 3, k % 3, 0);
         columns = columns + Density::box(corner, corner + Vec3(1, 1, 0.4 + 0.3 * ((k / 3 * 7 + k % 3 * 3) % 4)));
     }
-    const Measured m = measured(Solid::rounded(1.2, columns), 0.01);
+    const MeasuredTriage m = measured(Solid::rounded(1.2, columns), 0.01);
     CHECK(topology(m.mesh).manifold());
     CHECK(m.metrics.vertex_distance < 1e-6);
 }
@@ -297,7 +297,7 @@ TEST_CASE("Primary CSG of rounded solids is closed and sharp where the tree is")
     const Density ball_like = Density::box({0.5, 0.5, 0.5}, {1.2, 1.3, 1.1});
     const Solid a = Solid::rounded(0.1, unit_cube()), b = Solid::rounded(0.15, ball_like);
     for (const Solid& s : {a | b, a & b, a - b, b - a}) {
-        const Measured m = measured(s);
+        const MeasuredTriage m = measured(s);
         CHECK(m.metrics.topology.manifold());
         CHECK(m.metrics.topology.euler == 2);
         CHECK(m.metrics.vertex_distance < 1e-6);

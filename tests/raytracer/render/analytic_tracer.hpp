@@ -8,8 +8,6 @@
 
 namespace deburr {
 
-constexpr double pi = std::numbers::pi;
-
 struct Shape {
     enum class Kind { sphere, plane, slab } kind = Kind::sphere;
     Vec3 at{0.0};          // center of a sphere; a point on a plane
