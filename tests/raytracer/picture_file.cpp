@@ -13,7 +13,7 @@ std::size_t PictureFile::channel(const std::string& name) const {
     return std::size_t(found - channels.begin());
 }
 
-PictureFile read_picture(const std::string& path) {
+PictureFile read_back(const std::string& path) {
     static PictureReader* const read =
         module_function<PictureReader>(DEBURR_PICTURE_READER, picture_reader, "tests of pictures");
     PictureFile picture;

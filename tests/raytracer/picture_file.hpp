@@ -46,7 +46,7 @@ private:
 
 /// Reads a picture; colours are weighed by alpha or not as they are in the file. Throws std::runtime_error if the file
 /// is not a picture that can be read to its end.
-PictureFile read_picture(const std::string& path);
+PictureFile read_back(const std::string& path);
 
 /// The type and name of the function that the module exports.
 using PictureReader = void(const char* path, PictureFile& picture);

@@ -158,7 +158,7 @@ TEST_CASE("where nobody can read the messages the exit code and the files are th
         CHECK(WEXITSTATUS(std::system((program + "--foo " + away).c_str())) == 2);
         const std::string call = program + "render -v '" + place.scene + "'" + output + away;
         CHECK(WEXITSTATUS(std::system(call.c_str())) == 0);
-        CHECK(read_picture(place / "a.exr").width == 60);
+        CHECK(read_back(place / "a.exr").width == 60);
     }
     CHECK(WEXITSTATUS(std::system((program + "info '" + place.scene + "' >/dev/full 2>/dev/null").c_str())) == 1);
 }
@@ -183,7 +183,7 @@ TEST_CASE("a scene is read once, so that it may come from a pipe") {
     };
     const std::string program = "'" DEBURR_PROGRAM "' ", output = " -q -o '" + place / "a.png" + "'";
     CHECK(shell("cat '" + place.scene + "' | " + program + "render /dev/stdin" + output) == 0);
-    CHECK(read_picture(place / "a.png").width == 60);
+    CHECK(read_back(place / "a.png").width == 60);
     CHECK(shell(program + "render <(cat '" + place.scene + "')" + output + " -D r=0.2") == 0);
     CHECK(shell("mkfifo '" + place / "fifo" + "'; cat '" + place.scene + "' > '" + place / "fifo" + "' & " + program +
                 "info '" + place / "fifo" + "' > '" + place / "out" + "'") == 0);

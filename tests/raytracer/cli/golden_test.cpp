@@ -39,7 +39,7 @@ void check_picture(const fs::path& scene, const std::string& picture, const std:
     CHECK((outcome.err.find("warning: " + scene.string()) != std::string::npos) == illegal);
     REQUIRE(outcome.code == 0);
 
-    const PictureFile a = read_picture(DEBURR_SOURCE_DIR "/tests/golden/" + picture + ".png"), b = read_picture(got);
+    const PictureFile a = read_back(DEBURR_SOURCE_DIR "/tests/golden/" + picture + ".png"), b = read_back(got);
     for (const PictureFile& p : {a, b}) {
         REQUIRE((p.width == 150 && p.height == 95));
         REQUIRE(p.types == std::vector<std::string>(3, "uint8"));

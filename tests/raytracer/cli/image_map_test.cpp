@@ -25,15 +25,15 @@ TEST_CASE("an image map shows the file's colours, and shares are the numbers in 
     const Outcome shown = run(folder.render({"--float"}));
     CAPTURE(shown.err);
     REQUIRE(shown.code == 0);
-    CHECK(read_picture(folder / "a.exr").at(2, 2, "R") == Approx(0.2158605).epsilon(1e-4));
+    CHECK(read_back(folder / "a.exr").at(2, 2, "R") == Approx(0.2158605).epsilon(1e-4));
 
     // A metal reflects no ambient light; the rest of this material reflects all of it.
     write_file(folder.scene, wall("pbr{ color = 1, metallic = image_map{ file = 'grey.png' }, roughness = 1 }"));
     REQUIRE(run(folder.render({"--float"})).code == 0);
-    const double half = read_picture(folder / "a.exr").at(2, 2, "R");
+    const double half = read_back(folder / "a.exr").at(2, 2, "R");
     write_file(folder.scene, wall("pbr{ color = 1, metallic = 128 / 255, roughness = 1 }"));
     REQUIRE(run(folder.render({"--float"})).code == 0);
-    CHECK(half == Approx(read_picture(folder / "a.exr").at(2, 2, "R")).epsilon(1e-4));
+    CHECK(half == Approx(read_back(folder / "a.exr").at(2, 2, "R")).epsilon(1e-4));
 }
 
 TEST_CASE("a mesh has the mean of an image map's colours, and an STL does not ask for it") {

@@ -41,7 +41,7 @@ for i = 1, 100000 do all[i] = rounded(0.1, box({i, 0, 0}, {i + 0.6, 0.6, 0.6}) +
 return { solids = all }
 )";
 
-int incomplete(const std::string& path) { return read_picture(path).attribute<int>("deburr.incomplete"); }
+int incomplete(const std::string& path) { return read_back(path).attribute<int>("deburr.incomplete"); }
 
 }  // namespace
 
@@ -110,7 +110,7 @@ TEST_CASE("an interrupted picture has the samples that all pixels have, and ends
     // Each pixel has exactly as many samples as the message says.
     const std::string samples = std::to_string(std::stoi(o.err.substr(at + std::string("interrupted after ").size())));
     REQUIRE(run({"render", place.scene, "-o", place / "b.exr", "-q", "--spp", samples}).code == 0);
-    CHECK(read_picture(place / "a.exr").values == read_picture(place / "b.exr").values);
+    CHECK(read_back(place / "a.exr").values == read_back(place / "b.exr").values);
 }
 
 TEST_CASE("--write-every writes what all pixels have, and the picture at the end is the same", "[slow]") {
@@ -128,7 +128,7 @@ TEST_CASE("--write-every writes what all pixels have, and the picture at the end
         REQUIRE(run(words).code == 0);
     }
     CHECK(incomplete(place / "c.exr") == 0);
-    CHECK(read_picture(place / "b.exr").values == read_picture(place / "c.exr").values);
+    CHECK(read_back(place / "b.exr").values == read_back(place / "c.exr").values);
 }
 
 TEST_CASE("an interrupt is heeded within a second in every phase") {

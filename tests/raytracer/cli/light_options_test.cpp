@@ -22,7 +22,7 @@ struct Place : Folder {
         const Outcome o = call(more, file);
         CAPTURE(o.err);
         REQUIRE(o.code == 0);
-        return read_picture(*this / name);
+        return read_back(*this / name);
     }
 };
 
@@ -65,7 +65,7 @@ TEST_CASE("a tone curve is for the screen and leaves an EXR as it is") {
     const Place place;
     const PictureFile plain = place.render("a.exr", {"--spp", "2", "-o", place / "a.png"});
     CHECK(same(plain, place.render("b.exr", {"--spp", "2", "--view", "agx", "-o", place / "b.png"})));
-    CHECK_FALSE(same(read_picture(place / "a.png"), read_picture(place / "b.png")));
+    CHECK_FALSE(same(read_back(place / "a.png"), read_back(place / "b.png")));
 }
 
 TEST_CASE("a picture from a file lights a scene, behind another background, too") {

@@ -39,11 +39,11 @@ double srgb(double linear) {
 TEST_CASE("with --alpha colours are of solids alone, in an EXR weighed by alpha and in a PNG not") {
     const Place place;
     place.render({});
-    const PictureFile whole = read_picture(place / "a.exr");
+    const PictureFile whole = read_back(place / "a.exr");
     const double background[] = {0.6, 0.7, 0.8};
     for (const std::string bits : {"8", "16"}) {
         place.render({"--alpha", "--bits", bits});
-        const PictureFile exr = read_picture(place / "a.exr"), png = read_picture(place / "a.png");
+        const PictureFile exr = read_back(place / "a.exr"), png = read_back(place / "a.png");
         REQUIRE(png.channels.size() == 4);
         CHECK(png.types == std::vector<std::string>(4, "uint" + bits));
         const double step = bits == "8" ? 1 / 255.0 : 1 / 65535.0;
@@ -69,13 +69,13 @@ TEST_CASE("with --alpha colours are of solids alone, in an EXR weighed by alpha 
 TEST_CASE("a PNG of 16 bits is opaque sRGB, and 8 bits are what they were") {
     const Place place;
     place.render({"--bits", "16"});
-    const PictureFile exr = read_picture(place / "a.exr"), words = read_picture(place / "a.png");
+    const PictureFile exr = read_back(place / "a.exr"), words = read_back(place / "a.png");
     REQUIRE(words.types == std::vector<std::string>(3, "uint16"));
     for (std::size_t i = 0; i < exr.values.size() / 4; ++i)
         for (std::size_t k = 0; k < 3; ++k)
             REQUIRE(std::abs(words.values[3 * i + k] - srgb(exr.values[4 * i + k])) < 0.51 / 65535);
     place.render({"--bits", "8"});
-    CHECK(read_picture(place / "a.png").types == std::vector<std::string>(3, "uint8"));
+    CHECK(read_back(place / "a.png").types == std::vector<std::string>(3, "uint8"));
     const std::string asked = read_file(place / "a.png").substr(0, 33);
     place.render({});
     CHECK(read_file(place / "a.png").substr(0, 33) == asked);

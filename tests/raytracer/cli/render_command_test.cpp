@@ -17,13 +17,13 @@ TEST_CASE("render writes all outputs, and quiet says nothing") {
     CHECK(o.err.empty());
     CHECK(o.out.empty());
     CHECK(place.names() == Words{"a.exr", "b.png", "cube.lua"});
-    const PictureFile picture = read_picture(place / "a.exr");
+    const PictureFile picture = read_back(place / "a.exr");
     CHECK(picture.width == 60);
     CHECK(picture.height == 40);
     CHECK(picture.attribute<std::string>("deburr.scene") == place.scene);
     CHECK(picture.attribute<std::string>("deburr.parameter.r") == "0.2");
     CHECK(picture.attribute<float>("renderTimeSeconds", -1) >= 0);
-    CHECK(read_picture(place / "b.png").channels.size() == 3);
+    CHECK(read_back(place / "b.png").channels.size() == 3);
 }
 
 TEST_CASE("elsewhere than on a terminal progress is lines") {
@@ -50,7 +50,7 @@ TEST_CASE("files are the same to the byte with SOURCE_DATE_EPOCH, whatever the t
         CHECK(read_file(place / "a.exr") == exr);
         CHECK(read_file(place / "a.png") == png);
     }
-    const PictureFile picture = read_picture(place / "a.exr");
+    const PictureFile picture = read_back(place / "a.exr");
     CHECK(picture.attribute<std::string>("DateTime") == "2023:11:14 22:13:20");
     CHECK(picture.attributes.count("renderTimeSeconds") == 0);
 }
@@ -59,12 +59,12 @@ TEST_CASE("a crop has the bytes of the whole picture") {
     const SceneFolder place;
     const Words layers = {"--spp", "3", "--aov", "P,N,Z,albedo,id,cost"};
     REQUIRE(run(place.render(layers)).code == 0);
-    const PictureFile whole = read_picture(place / "a.exr");
+    const PictureFile whole = read_back(place / "a.exr");
     for (const std::string crop : {"23x17+20+11", "1x1+59+39", "60x1+0+20"}) {
         Words more = layers;
         more.insert(more.end(), {"--crop", crop});
         REQUIRE(run(place.render(more, "part.exr")).code == 0);
-        const PictureFile part = read_picture(place / "part.exr");
+        const PictureFile part = read_back(place / "part.exr");
         CHECK(part.full_width == 60);
         CHECK(part.full_height == 40);
         REQUIRE(part.types == whole.types);
@@ -79,7 +79,7 @@ TEST_CASE("crops of a poster that is too large as a whole are rendered, and past
     const Outcome large = run(place.render({"--size", "30000x30000", "--crop", "40x30+14000+16000"}));
     CAPTURE(large.err);
     REQUIRE(large.code == 0);
-    const PictureFile poster = read_picture(place / "a.exr");
+    const PictureFile poster = read_back(place / "a.exr");
     CHECK(poster.full_width == 30000);
     CHECK(poster.x == 14000);
     CHECK(run(place.render({"--size", "30000x30000", "--crop", "20000x20000+0+0"})).code == 2);
@@ -87,7 +87,7 @@ TEST_CASE("crops of a poster that is too large as a whole are rendered, and past
         Words more = {"--size", "90x60", "--spp", "2"};
         more.insert(more.end(), how.begin(), how.end());
         REQUIRE(run(place.render(more, "whole.png")).code == 0);
-        const PictureFile whole = read_picture(place / "whole.png");
+        const PictureFile whole = read_back(place / "whole.png");
         int pixels = 0;
         for (int y = 0; y < 60; y += 30)
             for (int x = 0; x < 90; x += 40) {
@@ -96,7 +96,7 @@ TEST_CASE("crops of a poster that is too large as a whole are rendered, and past
                 cut.insert(cut.end(),
                            {"--crop", std::to_string(w) + "x30+" + std::to_string(x) + "+" + std::to_string(y)});
                 REQUIRE(run(place.render(cut, "part.png")).code == 0);
-                const PictureFile part = read_picture(place / "part.png");
+                const PictureFile part = read_back(place / "part.png");
                 for (int row = 0; row < 30; ++row)
                     REQUIRE(std::memcmp(part.pixel(0, row), whole.pixel(x, y + row),
                                         std::size_t(w) * whole.pixel_bytes()) == 0);
@@ -118,7 +118,7 @@ TEST_CASE("a picture by --accel bvh, under its older name and by embree is the s
                  "--size", "120x80", "--float", "--aov", "P,N,Z,id", "--stats", "--stats-json", place / "s.json"},
                 {"SOURCE_DATE_EPOCH=0"});
             REQUIRE(o.code == 0);
-            const PictureFile picture = read_picture(place / "a.exr");
+            const PictureFile picture = read_back(place / "a.exr");
             CHECK(picture.attribute<std::string>("deburr.accel") == recorded);
             CHECK(nlohmann::json::parse(read_file(place / "s.json"))["accel"] == recorded);
             CHECK(o.out.find("accel") != std::string::npos);
@@ -127,7 +127,7 @@ TEST_CASE("a picture by --accel bvh, under its older name and by embree is the s
         }
     }
     REQUIRE(run(place.render({"--via", "triage"})).code == 0);
-    CHECK(read_picture(place / "a.exr").attributes.count("deburr.accel") == 0);
+    CHECK(read_back(place / "a.exr").attributes.count("deburr.accel") == 0);
 }
 
 TEST_CASE("another seed gives another picture only where there are random samples") {
@@ -137,7 +137,7 @@ TEST_CASE("another seed gives another picture only where there are random sample
     for (const Words& more : {Words{"--spp", "1", "--seed", "1"}, Words{"--spp", "1", "--seed", "2"},
                               Words{"--spp", "4", "--seed", "1"}, Words{"--spp", "4", "--seed", "2"}}) {
         REQUIRE(run(place.render(more), epoch).code == 0);
-        bytes.push_back(read_picture(place / "a.exr").bytes);
+        bytes.push_back(read_back(place / "a.exr").bytes);
     }
     CHECK(bytes[0] == bytes[1]);
     CHECK(bytes[2] != bytes[3]);

@@ -30,7 +30,7 @@ TEST_CASE("Cryptomatte is read back: names by the manifest, and shares of each p
     const Outcome o = run({"render", folder / "s.lua", "-q", "--spp", "64", "--aov", "crypto", "-o", folder / "a.exr"});
     CAPTURE(o.err);
     REQUIRE(o.code == 0);
-    const PictureFile picture = read_picture(folder / "a.exr");
+    const PictureFile picture = read_back(folder / "a.exr");
     std::string manifest;
     for (const auto& [name, value] : picture.attributes)
         if (name.find("cryptomatte/") == 0 && name.find("/manifest") != std::string::npos)

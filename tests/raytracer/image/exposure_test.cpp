@@ -44,9 +44,9 @@ TEST_CASE("an exposure of -1 halves the light of a PNG, and leaves an EXR as it 
     const std::string png = folder / "a.png", deep = folder / "b.png", exr = folder / "a.exr";
     REQUIRE(run({"render", scene, "-q", "--exposure", "-1", "-o", png, "-o", exr}).code == 0);
     REQUIRE(run({"render", scene, "-q", "--exposure=+0.5", "--bits", "16", "-o", deep}).code == 0);
-    CHECK(int(std::lround(255 * read_picture(png).at(4, 4, "R"))) == srgb_byte(0.25));
-    CHECK(int(std::lround(65535 * read_picture(deep).at(4, 4, "R"))) == srgb_word(0.5 * std::sqrt(2.0)));
-    const PictureFile linear = read_picture(exr);
+    CHECK(int(std::lround(255 * read_back(png).at(4, 4, "R"))) == srgb_byte(0.25));
+    CHECK(int(std::lround(65535 * read_back(deep).at(4, 4, "R"))) == srgb_word(0.5 * std::sqrt(2.0)));
+    const PictureFile linear = read_back(exr);
     CHECK(linear.at(4, 4, "R") == 0.5);
     CHECK(linear.attribute<std::string>("deburr.exposure") == "-1");
 }
@@ -58,10 +58,10 @@ TEST_CASE("the scene's exposure is that of its pictures, unless the command line
                "return { image = { width = 8, height = 8, spp = 1, exposure = 1 }, background = 0.25, lights = "
                "{}, camera = { eye = {0, 9, 0}, target = {0, 99, 0}, up = {1, 0, 0} }, solids = { cube() } }");
     REQUIRE(run({"render", scene, "-q", "-o", png}).code == 0);
-    CHECK(int(std::lround(255 * read_picture(png).at(4, 4, "R"))) == srgb_byte(0.5));
+    CHECK(int(std::lround(255 * read_back(png).at(4, 4, "R"))) == srgb_byte(0.5));
     const std::string other = folder / "b.png";
     REQUIRE(run({"render", scene, "-q", "--exposure", "0", "-o", other}).code == 0);
-    CHECK(int(std::lround(255 * read_picture(other).at(4, 4, "R"))) == srgb_byte(0.25));
+    CHECK(int(std::lround(255 * read_back(other).at(4, 4, "R"))) == srgb_byte(0.25));
     CHECK(run({"render", scene, "--exposure", "31", "-o", png}).err ==
           "deburr: --exposure: expected a number from -30 to 30, got '31'\n");
 }

@@ -62,7 +62,7 @@ TEST_CASE("an EXR gives back every layer") {
     const Folder folder;
     const Film original = film();
     write_image(folder / "a.exr", original, {}, notes());
-    const PictureFile r = read_picture(folder / "a.exr");
+    const PictureFile r = read_back(folder / "a.exr");
     CHECK(r.channels.size() == 19 + 2 * SolidShares::ranks);  // with Cryptomatte's channels
     CHECK(r.types[r.channel("R")] == "half");
     CHECK(r.types[r.channel("A")] == "half");
@@ -99,9 +99,9 @@ TEST_CASE("an EXR holds the layers that the film keeps, and other files do not d
     const Folder folder;
     const Window all{0, 0, 20, 70};
     write_image(folder / "a.exr", film(all, {}), {}, notes());
-    CHECK(read_picture(folder / "a.exr").channels == std::vector<std::string>{"R", "G", "B", "A"});
+    CHECK(read_back(folder / "a.exr").channels == std::vector<std::string>{"R", "G", "B", "A"});
     write_image(folder / "a.exr", film(all, {ImageLayer::id}), {}, notes());
-    CHECK(read_picture(folder / "a.exr").channels == std::vector<std::string>{"R", "G", "B", "A", "id"});
+    CHECK(read_back(folder / "a.exr").channels == std::vector<std::string>{"R", "G", "B", "A", "id"});
     for (const char* name : {"a.png", "a.hdr", "a.jpg"}) {
         CAPTURE(name);
         write_image(folder / name, film(all, {}), {}, notes());
@@ -117,7 +117,7 @@ TEST_CASE("with --float colours keep 32 bits; half is clamped to finite values")
     bright.at(3, 3).color = {1e6, -1e6, infinity};
     write_image(folder / "half.exr", bright, {}, notes());
     write_image(folder / "float.exr", bright, {true}, notes());
-    const PictureFile half = read_picture(folder / "half.exr"), full = read_picture(folder / "float.exr");
+    const PictureFile half = read_back(folder / "half.exr"), full = read_back(folder / "float.exr");
     CHECK(half.at(3, 3, "R") == 65504);
     CHECK(half.at(3, 3, "G") == -65504);
     CHECK(half.at(3, 3, "B") == 65504);
@@ -129,7 +129,7 @@ TEST_CASE("with --float colours keep 32 bits; half is clamped to finite values")
 TEST_CASE("an EXR's header says what the picture is") {
     const Folder folder;
     write_image(folder / "a.exr", film(), {}, notes());
-    const PictureFile a = read_picture(folder / "a.exr");
+    const PictureFile a = read_back(folder / "a.exr");
     CHECK(a.attribute<std::string>("compression") == "zip");
     CHECK(a.attribute<std::string>("Software") == "Deburr " DEBURR_VERSION);
     CHECK(a.attribute<std::string>("DateTime") == "2026:01:02 03:04:05");
@@ -152,17 +152,17 @@ TEST_CASE("an incomplete picture is marked") {
     part.complete = false;
     write_image(folder / "a.exr", part, {}, notes());
     write_image(folder / "a.png", part, {}, notes());
-    CHECK(read_picture(folder / "a.exr").attribute<int>("deburr.incomplete") == 1);
-    CHECK(read_picture(folder / "a.png").attribute<std::string>("deburr.incomplete") == "1");
+    CHECK(read_back(folder / "a.exr").attribute<int>("deburr.incomplete") == 1);
+    CHECK(read_back(folder / "a.png").attribute<std::string>("deburr.incomplete") == "1");
 }
 
 TEST_CASE("a crop is a data window inside the display window, with the whole picture's pixels") {
     const Folder folder;
     write_image(folder / "all.exr", film(), {}, notes());
-    const PictureFile all = read_picture(folder / "all.exr");
+    const PictureFile all = read_back(folder / "all.exr");
     for (const Window w : {Window{5, 2, 7, 65}, Window{19, 69, 1, 1}, Window{0, 1, 20, 16}}) {
         write_image(folder / "part.exr", film(w), {}, notes());
-        const PictureFile part = read_picture(folder / "part.exr");
+        const PictureFile part = read_back(folder / "part.exr");
         CHECK(Window{part.x, part.y, part.width, part.height} == w);
         CHECK(part.full_x == 0);
         CHECK(part.full_y == 0);
@@ -213,7 +213,7 @@ TEST_CASE("a PNG is opaque 8 bit sRGB and says so") {
     const Folder folder;
     const Film original = film();
     write_image(folder / "a.png", original, {}, notes());
-    const PictureFile a = read_picture(folder / "a.png");
+    const PictureFile a = read_back(folder / "a.png");
     CHECK(a.types == std::vector<std::string>{"uint8", "uint8", "uint8"});
     REQUIRE(a.bytes.size() == 20 * 70 * 3);
     for (int y = 0; y < 70; ++y)
@@ -227,7 +227,7 @@ TEST_CASE("a PNG is opaque 8 bit sRGB and says so") {
 TEST_CASE("a cropped PNG has the crop's size") {
     const Folder folder;
     write_image(folder / "a.png", film({5, 2, 7, 9}), {}, notes());
-    const PictureFile a = read_picture(folder / "a.png");
+    const PictureFile a = read_back(folder / "a.png");
     CHECK(a.width == 7);
     CHECK(a.height == 9);
     CHECK(a.x == 0);
@@ -249,7 +249,7 @@ TEST_CASE("every format that is known can be written and read back") {
             share = s;
         });
         CHECK(share == 1);
-        const PictureFile r = read_picture(folder / name);
+        const PictureFile r = read_back(folder / name);
         CHECK(r.width == 20);
         CHECK(r.height == 70);
         // Lossy formats may be off by a few steps of 1/255.

@@ -120,7 +120,7 @@ std::string checked_file(const Picture& picture) {
     write_raster(folder / "a.png", picture.raster());
     const std::string file = read_file(folder / "a.png");
     CHECK((strictly_decoded(file) == picture.rgb));  // in parentheses, or Catch2 would print all bytes
-    const PictureFile other = read_picture(folder / "a.png");
+    const PictureFile other = read_back(folder / "a.png");
     REQUIRE(other.width == picture.width);
     REQUIRE(other.height == picture.height);
     REQUIRE(other.types == std::vector<std::string>{"uint8", "uint8", "uint8"});

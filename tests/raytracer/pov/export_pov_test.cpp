@@ -60,7 +60,7 @@ bool has_povray() {
 
 // True for the pixels that red solids cover before a green background.
 std::vector<bool> covered(const std::string& png) {
-    const PictureFile picture = read_picture(png);
+    const PictureFile picture = read_back(png);
     std::vector<bool> mask;
     for (int y = 0; y < picture.height; ++y)
         for (int x = 0; x < picture.width; ++x) mask.push_back(picture.at(x, y, 0) < 0.5);
@@ -235,7 +235,7 @@ return {
     INFO(read_file(folder / "log"));
     REQUIRE(code == 0);
     // Compares the total linear light of the pixels in the middle of the picture, away from silhouettes.
-    const PictureFile ours = read_picture(folder / "ours.png"), theirs = read_picture(folder / "theirs.png");
+    const PictureFile ours = read_back(folder / "ours.png"), theirs = read_back(folder / "theirs.png");
     const auto light = [](const PictureFile& picture, int x, int y) { return std::pow(picture.at(x, y, 0), 2.2); };
     double sum = 0, sum_theirs = 0;
     for (int y = 20; y < 40; ++y)
