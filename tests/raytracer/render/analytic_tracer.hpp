@@ -8,7 +8,7 @@
 
 namespace deburr {
 
-struct Shape {
+struct AnalyticShape {
     enum class Kind { sphere, plane, slab } kind = Kind::sphere;
     Vec3 at{0.0};          // center of a sphere; a point on a plane
     Vec3 normal{0, 1, 0};  // of a plane or slab; a slab lies between `at` and at − size·normal
@@ -16,9 +16,16 @@ struct Shape {
     int material = 0;
 };
 
+/// The horizontal plane at this height.
+inline AnalyticShape floor_at(double y, int material = 0) {
+    return {AnalyticShape::Kind::plane, {0, y, 0}, {0, 1, 0}, 0, material};
+}
+
+inline const AnalyticShape unit_sphere{AnalyticShape::Kind::sphere, Vec3(0.0), {}, 1, 0};
+
 class AnalyticTracer final : public RayTracer {
 public:
-    explicit AnalyticTracer(std::vector<Shape> shapes) : shapes_(std::move(shapes)) {}
+    explicit AnalyticTracer(std::vector<AnalyticShape> shapes) : shapes_(std::move(shapes)) {}
 
     Hit closest_hit(const Ray& ray, double t_max, TraceCounters& counters) const override {
         ++counters.rays;
@@ -46,8 +53,8 @@ private:
             hit.offset = 1e-9;
         };
         for (std::size_t i = 0; i < shapes_.size(); ++i) {
-            const Shape& s = shapes_[i];
-            if (s.kind == Shape::Kind::sphere) {
+            const AnalyticShape& s = shapes_[i];
+            if (s.kind == AnalyticShape::Kind::sphere) {
                 const Vec3 o = ray.origin - s.at;
                 const double b = glm::dot(o, ray.direction), c = glm::dot(o, o) - s.size * s.size;
                 if (b * b < c) continue;
@@ -59,25 +66,25 @@ private:
             if (slope == 0) continue;
             const double t = glm::dot(s.at - ray.origin, s.normal) / slope;
             take(t, i, s.normal);
-            if (s.kind == Shape::Kind::slab) take(t - s.size / slope, i, -s.normal);
+            if (s.kind == AnalyticShape::Kind::slab) take(t - s.size / slope, i, -s.normal);
         }
         if (!any) hit.t = infinity;
         return hit;
     }
-    std::vector<Shape> shapes_;
+    std::vector<AnalyticShape> shapes_;
 };
 
 inline bool close(Vec3 a, Vec3 b, double tolerance) { return glm::length(a - b) <= tolerance; }
 
-inline Texture plain(Vec3 color) {
+inline Texture plain_texture(Vec3 color) {
     Texture t;
     t.a = color;
     return t;
 }
-inline Texture plain(double grey) { return plain(Vec3(grey)); }
+inline Texture plain_texture(double grey) { return plain_texture(Vec3(grey)); }
 
 inline Material material_of(Material::Kind kind, Vec3 color, double roughness = 0.2, double ior = 1.5) {
-    return {kind, plain(color), roughness, ior};
+    return {kind, plain_texture(color), roughness, ior};
 }
 
 /// A scene of one pixel that looks along −y at the origin; the field of view is so narrow that all samples see one

@@ -3,19 +3,9 @@
 
 #include "catch.hpp"
 #include "raytracer/render/analytic_tracer.hpp"
+#include "raytracer/render/closed_forms.hpp"
 
 using namespace deburr;
-
-namespace {
-
-const Vec3 up(0, 0, 1);
-
-Vec3 at_cosine(double c, double azimuth = 0) {
-    const double s = std::sqrt(1 - c * c);
-    return {s * std::cos(azimuth), s * std::sin(azimuth), c};
-}
-
-}  // namespace
 
 TEST_CASE("GGX facets cover the projected area once") {
     for (double alpha : {0.05, 0.3, 1.0}) {

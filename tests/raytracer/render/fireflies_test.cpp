@@ -8,7 +8,7 @@ using namespace deburr;
 
 namespace {
 
-constexpr int width = 60, height = 40;
+constexpr int picture_width = 60, picture_height = 40;
 
 // Glass and metals, polished and rough, on a glossy floor under small bright lamps.
 Scene small_lamps() {
@@ -34,20 +34,21 @@ Scene small_lamps() {
     return scene;
 }
 
-std::vector<Shape> balls() {
-    std::vector<Shape> shapes = {{Shape::Kind::plane, Vec3(0.0), {0, 1, 0}, 0, 0}};
+std::vector<AnalyticShape> balls() {
+    std::vector<AnalyticShape> shapes = {floor_at(0)};
     for (int i = 1; i <= 6; ++i)
-        shapes.push_back({Shape::Kind::sphere, {2.1 * ((i - 1) % 3) - 2.1, 0.9, i > 3 ? -2.2 : 0.3}, {}, 0.9, i});
+        shapes.push_back(
+            {AnalyticShape::Kind::sphere, {2.1 * ((i - 1) % 3) - 2.1, 0.9, i > 3 ? -2.2 : 0.3}, {}, 0.9, i});
     return shapes;
 }
 
 std::vector<double> luminances(const Scene& scene, int spp, std::uint64_t seed = 1) {
     const AnalyticTracer tracer(balls());
-    RenderSettings settings{width, height, spp, seed};
+    RenderSettings settings{picture_width, picture_height, spp, seed};
     const Integrator integrator(scene, tracer, settings);
-    std::vector<Pixel> pixels(width * height);
+    std::vector<Pixel> pixels(picture_width * picture_height);
     TraceCounters counters;
-    integrator.block({0, 0, width, height}, pixels.data(), nullptr, counters);
+    integrator.block({0, 0, picture_width, picture_height}, pixels.data(), nullptr, counters);
     std::vector<double> all;
     for (const Pixel& p : pixels) all.push_back(max_component(p.color));
     return all;
@@ -56,13 +57,13 @@ std::vector<double> luminances(const Scene& scene, int spp, std::uint64_t seed =
 // Number of pixels that are brighter than 0.1 plus twice the brightest pixel within two pixels in `exact`.
 int fireflies(const std::vector<double>& picture, const std::vector<double>& exact) {
     int count = 0;
-    for (int y = 0; y < height; ++y)
-        for (int x = 0; x < width; ++x) {
+    for (int y = 0; y < picture_height; ++y)
+        for (int x = 0; x < picture_width; ++x) {
             double most = 0;
-            for (int j = std::max(0, y - 2); j <= std::min(height - 1, y + 2); ++j)
-                for (int i = std::max(0, x - 2); i <= std::min(width - 1, x + 2); ++i)
-                    most = std::max(most, exact[j * width + i]);
-            count += picture[y * width + x] > 2 * most + 0.1;
+            for (int j = std::max(0, y - 2); j <= std::min(picture_height - 1, y + 2); ++j)
+                for (int i = std::max(0, x - 2); i <= std::min(picture_width - 1, x + 2); ++i)
+                    most = std::max(most, exact[j * picture_width + i]);
+            count += picture[y * picture_width + x] > 2 * most + 0.1;
         }
     return count;
 }

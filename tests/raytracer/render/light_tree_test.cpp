@@ -132,7 +132,7 @@ TEST_CASE("A thousand lights give what they give one by one, with far less noise
     CAPTURE(by_tree / 50, by_power / 50);
     CHECK(by_tree < 0.1 * by_power);
 
-    const AnalyticTracer tracer({{Shape::Kind::plane, Vec3(0.0), {0, 1, 0}, 0, 0}});
+    const AnalyticTracer tracer({{AnalyticShape::Kind::plane, Vec3(0.0), {0, 1, 0}, 0, 0}});
     const auto value = [&](int spp) {
         TraceCounters counters;
         RenderSettings settings{1, 1, spp, 0};

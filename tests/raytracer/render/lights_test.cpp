@@ -3,6 +3,7 @@
 
 #include "catch.hpp"
 #include "raytracer/render/analytic_tracer.hpp"
+#include "raytracer/render/closed_forms.hpp"
 #include "raytracer/render/textures.hpp"
 
 using namespace deburr;
@@ -18,17 +19,8 @@ Scene ground_under(Light light) {
     return scene;
 }
 
-Shape ground() { return {Shape::Kind::plane, Vec3(0.0), {0, 1, 0}, 0, 0}; }
-
-double irradiance(const Light& light, const std::vector<Shape>& shapes, int spp = 1) {
+double irradiance(const Light& light, const std::vector<AnalyticShape>& shapes, int spp = 1) {
     return pixel_of(ground_under(light), AnalyticTracer(shapes), spp).color.x * pi;
-}
-
-// Form factor of a rectangle at height 1 that has a corner straight above a parallel patch; its sides are a and b
-// [Howell's catalogue of configuration factors, B-3].
-double corner_form_factor(double a, double b) {
-    const double A = std::sqrt(1 + a * a), B = std::sqrt(1 + b * b);
-    return (a / A * std::atan(b / A) + b / B * std::atan(a / B)) / (2 * pi);
 }
 
 }  // namespace
@@ -42,12 +34,12 @@ TEST_CASE("A point light follows the inverse-square and the cosine law in watts"
             light.position = {aside, height, 0};
             const double d2 = height * height + aside * aside;
             const double expected = 100 * 0.5 / (4 * pi) / d2 * height / std::sqrt(d2);
-            CHECK(irradiance(light, {ground()}) == Approx(expected).epsilon(1e-9));
+            CHECK(irradiance(light, {floor_at(0)}) == Approx(expected).epsilon(1e-9));
         }
     light.position = {0, -1, 0};  // below the ground
-    CHECK(irradiance(light, {ground()}) == 0);
+    CHECK(irradiance(light, {floor_at(0)}) == 0);
     light.position = {0, 0, 0};  // at the shaded point itself
-    CHECK(irradiance(light, {ground()}) == 0);
+    CHECK(irradiance(light, {floor_at(0)}) == 0);
 }
 
 TEST_CASE("A directional light's power is the irradiance on a surface that faces it") {
@@ -55,12 +47,12 @@ TEST_CASE("A directional light's power is the irradiance on a surface that faces
     light.kind = Light::Kind::directional;
     light.power = 3;
     light.direction = {0, -1, 0};
-    CHECK(irradiance(light, {ground()}) == Approx(3).epsilon(1e-12));
+    CHECK(irradiance(light, {floor_at(0)}) == Approx(3).epsilon(1e-12));
     light.direction = glm::normalize(Vec3(1, -1, 0));
-    CHECK(irradiance(light, {ground()}) == Approx(3 / std::sqrt(2.0)).epsilon(1e-12));
+    CHECK(irradiance(light, {floor_at(0)}) == Approx(3 / std::sqrt(2.0)).epsilon(1e-12));
     // A sphere that is far away against the light's direction still casts a shadow.
-    const Shape far{Shape::Kind::sphere, {-1e3, 1e3, 0}, {}, 1, 0};
-    CHECK(irradiance(light, {ground(), far}) == 0);
+    const AnalyticShape far{AnalyticShape::Kind::sphere, {-1e3, 1e3, 0}, {}, 1, 0};
+    CHECK(irradiance(light, {floor_at(0), far}) == 0);
 }
 
 TEST_CASE("An area light's irradiance is its form factor times its flux density") {
@@ -71,12 +63,12 @@ TEST_CASE("An area light's irradiance is its form factor times its flux density"
     light.v = {0, 0, 1};
     light.position = {1, 1, 0.5};  // a corner is above the point
     std::swap(light.u, light.v);
-    CHECK(irradiance(light, {ground()}, 64) == 0);  // u × v points up, so the light shines up
+    CHECK(irradiance(light, {floor_at(0)}, 64) == 0);  // u × v points up, so the light shines up
     std::swap(light.u, light.v);
     for (int samples : {1, 16}) {
         light.samples = samples;
         const double expected = 50.0 / 2 * corner_form_factor(2, 1);
-        CHECK(irradiance(light, {ground()}, 1024) == Approx(expected).epsilon(0.002));
+        CHECK(irradiance(light, {floor_at(0)}, 1024) == Approx(expected).epsilon(0.002));
     }
 }
 
@@ -89,17 +81,17 @@ TEST_CASE("In a penumbra the visible part of the light counts") {
     light.v = {0, 0, 2};
     light.position = {0, 2, 0};
     light.samples = 4;
-    const double open = irradiance(light, {ground()}, 1024);
+    const double open = irradiance(light, {floor_at(0)}, 1024);
     CHECK(open == Approx(10.0 / 4 * 4 * corner_form_factor(0.5, 0.5)).epsilon(0.002));
-    const Shape wall{Shape::Kind::slab, {-1e-6, 0, 0}, {1, 0, 0}, 0.5, 1};
-    CHECK(irradiance(light, {ground(), wall}, 1024) == Approx(open / 2).epsilon(0.004));
+    const AnalyticShape wall{AnalyticShape::Kind::slab, {-1e-6, 0, 0}, {1, 0, 0}, 0.5, 1};
+    CHECK(irradiance(light, {floor_at(0), wall}, 1024) == Approx(open / 2).epsilon(0.004));
     // The tilted wall leaves only the part x > ½ of the light visible: twice the difference of two corner form factors.
-    const Shape tilted{Shape::Kind::plane, {-1e-6, 0, 0}, glm::normalize(Vec3(4, -1, 0)), 0, 1};
+    const AnalyticShape tilted{AnalyticShape::Kind::plane, {-1e-6, 0, 0}, glm::normalize(Vec3(4, -1, 0)), 0, 1};
     const double part = 2 * (corner_form_factor(0.5, 0.5) - corner_form_factor(0.25, 0.5));
     Scene scene = ground_under(light);
     scene.camera.eye = {4, 4, 0};
     scene.camera.up = {0, 1, 0};
-    const AnalyticTracer tracer({ground(), tilted});
+    const AnalyticTracer tracer({floor_at(0), tilted});
     CHECK(pixel_of(scene, tracer, 1 << 15).color.x * pi == Approx(10.0 / 4 * part).epsilon(0.004));
 }
 
@@ -119,7 +111,7 @@ TEST_CASE("A polished floor and a rough one reflect an area light alike by light
             light.samples = 1;
             scene.lights = {light};
             scene.camera.eye = {-0.3, 2, 0};
-            const AnalyticTracer tracer({ground()});
+            const AnalyticTracer tracer({floor_at(0)});
             const double both = pixel_of(scene, tracer, 4096).color.x;
             scene.lights[0].samples = 4096;
             const double light_only = pixel_of(scene, tracer, 1).color.x;  // a preview
@@ -220,7 +212,7 @@ double pictured_mean(Vec3 n) { return 1 + 0.5 * 2 / 3 * n.x + 1.0 / 3 + 0.25 * 2
 
 TEST_CASE("A picture around the scene has its irradiance by spherical harmonics, in previews and by paths") {
     Scene scene = probe(material_of(Material::Kind::matte, Vec3(1.0)));
-    const AnalyticTracer sphere({{Shape::Kind::sphere, Vec3(0.0), {}, 1, 0}});
+    const AnalyticTracer sphere({{AnalyticShape::Kind::sphere, Vec3(0.0), {}, 1, 0}});
     int cases = 0;
     for (double rotate : {0.0, 90.0})
         for (Vec3 n : {Vec3(0, 1, 0), Vec3(1, 0, 0), Vec3(0, 0, 1), glm::normalize(Vec3(1, -2, 0.5))}) {
@@ -272,8 +264,8 @@ TEST_CASE("By day, a floor in the open gets the sun's light and the sky's") {
     scene.background.sun = {0.5, 1, 0.2};
     const SkyLight sky(scene.background);
     const double expected = sky.mean({0, 1, 0}).x + sky.sun().irradiance().x * sky.sun().direction.y / pi;
-    CHECK(pixel_of(scene, AnalyticTracer({ground()}), 4096).color.x == Approx(expected).epsilon(0.01));
-    CHECK(pixel_of(scene, AnalyticTracer({ground()}), 1).color.x == Approx(expected).epsilon(1e-6));
+    CHECK(pixel_of(scene, AnalyticTracer({floor_at(0)}), 4096).color.x == Approx(expected).epsilon(0.01));
+    CHECK(pixel_of(scene, AnalyticTracer({floor_at(0)}), 1).color.x == Approx(expected).epsilon(1e-6));
     CHECK(sky.sun().irradiance().x > 2);
     CHECK(sky.sun().irradiance().z < sky.sun().irradiance().x);
     // A low sun is weak and red; below the horizon it does not shine.

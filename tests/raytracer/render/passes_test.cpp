@@ -13,7 +13,6 @@ using namespace deburr;
 
 namespace {
 
-const std::atomic<bool> never{false};
 constexpr std::chrono::milliseconds no_grace(0);
 const std::vector<ImageLayer> layers_asked = {ImageLayer::position, ImageLayer::albedo, ImageLayer::id,
                                               ImageLayer::cryptomatte};
@@ -22,7 +21,7 @@ const std::vector<ImageLayer> layers_asked = {ImageLayer::position, ImageLayer::
 struct Small {
     Scene scene = probe(material_of(Material::Kind::plastic, Vec3(0.6, 0.5, 0.3), 0.3));
     AnalyticTracer tracer{
-        {{Shape::Kind::plane, Vec3(0.0), {0, 1, 0}, 0, 0}, {Shape::Kind::sphere, {0, 1, 0}, {}, 1, 0}}};
+        {{AnalyticShape::Kind::plane, Vec3(0.0), {0, 1, 0}, 0, 0}, {AnalyticShape::Kind::sphere, {0, 1, 0}, {}, 1, 0}}};
     RenderSettings settings{45, 37, 1, 3};
 
     Small() {
@@ -111,6 +110,7 @@ TEST_CASE("exact sums depend on neither order nor grouping, and are right to the
 
 TEST_CASE("after every pass the film is the picture of that many samples") {
     Small small;
+    const std::atomic<bool> never{false};
     for (const Window window : {Window{0, 0, 45, 37}, Window{7, 3, 20, 30}}) {
         Passes passes = small.passes(37, window);
         while (!passes.finished()) {
@@ -129,6 +129,7 @@ TEST_CASE("a pass that is paused anywhere leaves the picture of the pass before,
         small.settings.noise = noise;
         std::vector<Film> after(101);  // indexed by the number of samples
         Passes straight = small.passes(100);
+        const std::atomic<bool> never{false};
         while (!straight.finished()) {
             REQUIRE(straight.go_on(never, {}, {}, no_grace) == TilesEnd::all);
             after[std::size_t(straight.samples_of_all())] = straight.film();

@@ -3,14 +3,12 @@
 
 #include "catch.hpp"
 #include "raytracer/render/analytic_tracer.hpp"
+#include "raytracer/render/closed_forms.hpp"
 #include "raytracer/trace/implicit_tracer.hpp"
 
 using namespace deburr;
 
 namespace {
-
-const Shape unit_sphere{Shape::Kind::sphere, Vec3(0.0), {}, 1, 0};
-const Shape floor_at_0{Shape::Kind::plane, Vec3(0.0), {0, 1, 0}, 0, 0};
 
 Pixel path_pixel(const Scene& scene, const RayTracer& tracer, int spp, std::uint64_t seed = 0) {
     TraceCounters counters;
@@ -36,12 +34,6 @@ Light panel_light(Vec3 position, Vec3 u, Vec3 v, double radiance) {
     light.v = v;
     light.power = radiance * pi * glm::length(glm::cross(u, v));
     return light;
-}
-
-// Form factor of a rectangle at height 1 with a corner straight above a parallel patch [Howell's catalogue, B-3].
-double corner_form_factor(double a, double b) {
-    const double A = std::sqrt(1 + a * a), B = std::sqrt(1 + b * b);
-    return (a / A * std::atan(b / A) + b / B * std::atan(a / B)) / (2 * pi);
 }
 
 }  // namespace
@@ -80,13 +72,13 @@ TEST_CASE("A sphere light gives a plane what its solid angle says") {
         scene.lights[0].visible = false;  // so that the camera looks through it
         const double d = glm::length(position);
         const double expected = 5 * radius * radius / (d * d) * position.y / d;
-        CHECK(path_pixel(scene, AnalyticTracer({floor_at_0}), 4096).color.x == Approx(expected).epsilon(0.003));
+        CHECK(path_pixel(scene, AnalyticTracer({floor_at(0)}), 4096).color.x == Approx(expected).epsilon(0.003));
     }
 }
 
 TEST_CASE("A light is seen by the camera, hides what is behind it, and shadows another light") {
     Scene scene = probe(material_of(Material::Kind::matte, Vec3(1.0)));
-    const AnalyticTracer tracer({floor_at_0});
+    const AnalyticTracer tracer({floor_at(0)});
     scene.background.color = Vec3(0.25);
     scene.lights = {panel_light({0, 2, 0}, {0, 0, 1}, {1, 0, 0}, 3)};  // u × v points up, to the camera
     CHECK(close(path_pixel(scene, tracer, 16).color, Vec3(3.0), 1e-9));
@@ -108,7 +100,7 @@ TEST_CASE("A light is seen by the camera, hides what is behind it, and shadows a
 TEST_CASE("Two squares exchange light by their form factor") {
     // The form factor of parallel unit squares at distance 1 is 0.1998 [Howell's catalogue, C-11].
     Scene scene = probe(material_of(Material::Kind::matte, Vec3(1.0)));
-    const AnalyticTracer tracer({floor_at_0});
+    const AnalyticTracer tracer({floor_at(0)});
     double sum = 0;
     const int n = 16;
     for (int i = 0; i < n; ++i)
@@ -156,8 +148,9 @@ TEST_CASE("The mean does not depend on the number of samples", "[slow]") {
     scene.lights = {panel_light({2, 4, 0}, {1, 0, 0}, {0, 0, 1}, 10), sphere_light({-3, 3, 1}, 0.5, 5)};
     scene.lights[0].samples = 3;
     scene.camera.eye = {3, 3, 2};
-    const AnalyticTracer tracer(
-        {floor_at_0, {Shape::Kind::sphere, {-1.5, 1, 0}, {}, 1, 1}, {Shape::Kind::sphere, {0.5, 1, -1.6}, {}, 1, 2}});
+    const AnalyticTracer tracer({floor_at(0),
+                                 {AnalyticShape::Kind::sphere, {-1.5, 1, 0}, {}, 1, 1},
+                                 {AnalyticShape::Kind::sphere, {0.5, 1, -1.6}, {}, 1, 2}});
     const int total = 1 << 19;
     const Vec3 all = path_pixel(scene, tracer, total).color;
     int cases = 0;
@@ -179,7 +172,7 @@ TEST_CASE("The mean does not depend on the number of samples", "[slow]") {
 
 TEST_CASE("Many lights give what they give one by one") {
     Scene scene = probe(material_of(Material::Kind::matte, Vec3(0.8)));
-    const AnalyticTracer tracer({floor_at_0});
+    const AnalyticTracer tracer({floor_at(0)});
     scene.camera.eye = {3, 3, 0};
     std::vector<Light> all;
     double sum = 0;
@@ -199,7 +192,7 @@ TEST_CASE("With a noise bound a pixel depends on neither the block nor the crop,
     scene.camera = {{0, 3, 6}, {0, 0, 0}, {0, 1, 0}, 50};
     scene.background.sky = true;
     scene.lights = {panel_light({2, 4, 0}, {1, 0, 0}, {0, 0, 1}, 10)};
-    const AnalyticTracer tracer({floor_at_0, {Shape::Kind::sphere, {0, 1, 0}, {}, 1, 0}});
+    const AnalyticTracer tracer({floor_at(0), {AnalyticShape::Kind::sphere, {0, 1, 0}, {}, 1, 0}});
     RenderSettings settings{21, 13, 256, 3};
     settings.noise = 0.02;
     const Integrator integrator(scene, tracer, settings);
@@ -237,10 +230,10 @@ TEST_CASE("A lens blurs what is out of focus and leaves what is in it") {
     scene.camera = {{0, 0, 10}, {0, 0, 0}, {0, 1, 0}, 1e-7};
     scene.camera.lens_radius = 0.5;
     // A small ball in the middle of the picture, at the focus: every ray through the lens meets it.
-    const AnalyticTracer in_focus({{Shape::Kind::sphere, {0, 0, 0}, {}, 0.01, 0}});
+    const AnalyticTracer in_focus({{AnalyticShape::Kind::sphere, {0, 0, 0}, {}, 0.01, 0}});
     CHECK(path_pixel(scene, in_focus, 1024).color.x == Approx(1).margin(1e-9));
     // Halfway to the focus the cone of rays has radius 0.25, and a ball of radius 0.1 fills (0.1/0.25)² of it.
-    const AnalyticTracer before({{Shape::Kind::sphere, {0, 0, 5}, {}, 0.1, 0}});
+    const AnalyticTracer before({{AnalyticShape::Kind::sphere, {0, 0, 5}, {}, 0.1, 0}});
     CHECK(path_pixel(scene, before, 1 << 14).color.x == Approx(0.16).epsilon(0.02));
     scene.camera.focus = 5;
     CHECK(path_pixel(scene, before, 1024).color.x == Approx(1).margin(1e-9));
@@ -279,7 +272,7 @@ namespace {
 // samples of lights: cosine-distributed directions until a path meets the light or has met 100 walls.
 struct Cornell {
     Scene scene;
-    std::vector<Shape> walls;
+    std::vector<AnalyticShape> walls;
     static constexpr double half_light = 0.5, radiance = 10;
 
     Cornell() {
@@ -287,7 +280,7 @@ struct Cornell {
                            material_of(Material::Kind::matte, {0.6, 0.1, 0.1}),
                            material_of(Material::Kind::matte, {0.1, 0.5, 0.1})};
         const auto wall = [](Vec3 at, Vec3 normal, int material) {
-            return Shape{Shape::Kind::plane, at, normal, 0, material};
+            return AnalyticShape{AnalyticShape::Kind::plane, at, normal, 0, material};
         };
         walls = {wall({0, -1, 0}, {0, 1, 0}, 0),
                  wall({0, 1, 0}, {0, -1, 0}, 0),
@@ -295,7 +288,7 @@ struct Cornell {
                  wall({1, 0, 0}, {-1, 0, 0}, 2),
                  wall({0, 0, -1}, {0, 0, 1}, 0),
                  wall({0, 0, 1}, {0, 0, -1}, 0),
-                 {Shape::Kind::sphere, {-0.3, -0.5, -0.2}, {}, 0.5, 0}};
+                 {AnalyticShape::Kind::sphere, {-0.3, -0.5, -0.2}, {}, 0.5, 0}};
         scene.lights = {panel_light({0, 1 - 1e-7, 0}, {2 * half_light, 0, 0}, {0, 0, 2 * half_light}, radiance)};
         scene.camera = {{0, 0, 0.9}, {0, -0.1, -1}, {0, 1, 0}, 80};
     }
@@ -346,9 +339,9 @@ TEST_CASE("Colour and normal for denoisers are those of what mirrors and polishe
     Scene scene = probe(material_of(Material::Kind::mirror, Vec3(0.5)));
     scene.materials.push_back(material_of(Material::Kind::matte, red));
     scene.materials.push_back(material_of(Material::Kind::matte, blue));
-    const AnalyticTracer tracer({{Shape::Kind::slab, {0, 0, 0}, {0, 1, 0}, 0.5, 0},
-                                 {Shape::Kind::plane, {0, 9, 0}, {0, -1, 0}, 0, 1},
-                                 {Shape::Kind::plane, {0, -3, 0}, {0, 1, 0}, 0, 2}});
+    const AnalyticTracer tracer({{AnalyticShape::Kind::slab, {0, 0, 0}, {0, 1, 0}, 0.5, 0},
+                                 {AnalyticShape::Kind::plane, {0, 9, 0}, {0, -1, 0}, 0, 1},
+                                 {AnalyticShape::Kind::plane, {0, -3, 0}, {0, 1, 0}, 0, 2}});
     const auto layers_of = [&](Material::Kind kind, double roughness, double ior) {
         scene.materials[0] = material_of(kind, Vec3(0.5), roughness, ior);
         TraceCounters counters;

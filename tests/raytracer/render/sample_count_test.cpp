@@ -16,11 +16,11 @@ using namespace deburr::test;
 
 namespace {
 
-struct Case {
+struct SampledScene {
     Scene scene;
     ImplicitTracer tracer;
 
-    explicit Case(const std::string& text) : scene(framed(text)), tracer(scene.solids) {}
+    explicit SampledScene(const std::string& text) : scene(framed(text)), tracer(scene.solids) {}
     static Scene framed(const std::string& text) {
         Scene scene = read_scene_text(text, "s.lua");
         frame_camera(scene, 1.5);
@@ -35,10 +35,10 @@ struct Case {
 
 TEST_CASE("a picture gets as many samples as its noise asks for") {
     const std::string solids = "solids = { rounded(0.1, cube()), halfspace({0, 1, 0}, 0) }";
-    const Case plain(
+    const SampledScene plain(
         "return { lights = {}, ambient = 0.5, camera = { eye = {0, 5, 0}, target = {0, 0, 0}, up = {1, 0, 0} }, "
         "solids = { halfspace({0, 1, 0}, 0) } }");
-    const Case noisy(
+    const SampledScene noisy(
         "return { lights = { area_light{ position = {3, 4, 3}, u = {2, 0, 0}, v = {0, 2, 0}, power = 400 }, "
         "area_light{ position = {3, 4, 3}, u = {-4, 0, 0}, v = {0, 4, -4}, power = 900 } }, " +
         solids + " }");
@@ -61,7 +61,7 @@ TEST_CASE("a picture whose samples would take long gets fewer, whatever its nois
     for (int i = 0; i < 3; ++i)
         lamps += fmt::format("area_light{{ position = {{{}, 3, 1}}, u = {{6, 0, 0}}, v = {{0, 0, 6}}, power = 300 }}, ",
                              3 * i - 3);
-    const Case slow("return { lights = { " + lamps + " }, solids = { rounded(0.05, " + rings + ") } }");
+    const SampledScene slow("return { lights = { " + lamps + " }, solids = { rounded(0.05, " + rings + ") } }");
     const auto count = [&](int width, int height) {
         return sample_count(slow.scene, slow.tracer, {.width = width, .height = height}, -3);
     };

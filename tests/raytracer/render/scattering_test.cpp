@@ -3,17 +3,11 @@
 
 #include "catch.hpp"
 #include "raytracer/render/analytic_tracer.hpp"
+#include "raytracer/render/closed_forms.hpp"
 
 using namespace deburr;
 
 namespace {
-
-const Vec3 up(0, 0, 1);
-
-Vec3 at_cosine(double c, double azimuth = 0) {
-    const double s = std::sqrt(1 - c * c);
-    return {s * std::cos(azimuth), s * std::sin(azimuth), c};
-}
 
 // Materials of every kind, at roughnesses that cover every case of their tables.
 std::vector<Material> all_materials(Vec3 color) {

@@ -8,16 +8,16 @@
 #include "catch.hpp"
 #include "random_case.hpp"
 #include "raytracer/render/analytic_tracer.hpp"
+#include "raytracer/render/closed_forms.hpp"
 
 using namespace deburr;
 
 namespace {
 
-using Kind = Material::Kind;
-
 std::vector<SurfaceLayer> opaque_layers() {
+    using Kind = Material::Kind;
     const auto layer = [](Kind kind, double roughness, double ior) {
-        return SurfaceLayer({kind, plain(0.5), roughness, ior});
+        return SurfaceLayer({kind, plain_texture(0.5), roughness, ior});
     };
     std::vector<SurfaceLayer> layers = {layer(Kind::matte, 0, 1.5), layer(Kind::mirror, 0, 1.5)};
     for (double roughness : {0.0, 0.2, 0.4, 0.7, 1.0}) {
@@ -28,7 +28,8 @@ std::vector<SurfaceLayer> opaque_layers() {
 }
 
 // The definition in bsdf.hpp for an opaque material at one point seen from one direction: a layer over a base.
-struct Plain {
+struct PlainSurface {
+    using Kind = Material::Kind;
     const SurfaceLayer& layer;
     Vec3 color, normal, to_eye;
 
@@ -68,7 +69,7 @@ struct Plain {
     }
 };
 
-bool same_bits(Vec3 a, Vec3 b) {
+bool same_up_to_zero_signs(Vec3 a, Vec3 b) {
     // A sum may start at 0 or at its first term, so zeros may differ in sign.
     for (int k = 0; k < 3; ++k)
         if (std::bit_cast<std::uint64_t>(a[k] + 0.0) != std::bit_cast<std::uint64_t>(b[k] + 0.0)) return false;
@@ -97,11 +98,11 @@ Background any_sky(Gen& g) {
 }
 
 // A batch of surfaces with random layers; some are seen from inside, some edge-on.
-struct Case {
+struct RandomBatch {
     SurfaceArrays<64> arrays;
     SurfaceBatch batch;
 
-    Case(Gen& g, std::size_t layers) : batch(arrays.batch(std::size_t(1 + g.below(64)))) {
+    RandomBatch(Gen& g, std::size_t layers) : batch(arrays.batch(std::size_t(1 + g.below(64)))) {
         int layer = 0;
         for (std::size_t i = 0; i < batch.count; ++i) {
             if (g.chance(0.3)) layer = g.below(int(layers));
@@ -118,7 +119,7 @@ struct Case {
             batch.array(SurfaceField::place, 1)[i] = g.between(0, 1);
         }
     }
-    Plain plain(const std::vector<SurfaceLayer>& layers, std::size_t i) const {
+    PlainSurface plain(const std::vector<SurfaceLayer>& layers, std::size_t i) const {
         return {layers[std::size_t(batch.layer[i])], batch.vec(SurfaceField::color, i),
                 batch.vec(SurfaceField::normal, i), batch.vec(SurfaceField::to_eye, i)};
     }
@@ -149,11 +150,6 @@ struct One {
     }
 };
 
-Vec3 at_cosine(double c, double azimuth = 0) {
-    const double s = std::sqrt(1 - c * c);
-    return {s * std::cos(azimuth), s * std::sin(azimuth), c};
-}
-
 }  // namespace
 
 TEST_CASE("surfaces of a batch are shaded as the plain definition says, to the bit") {
@@ -165,7 +161,7 @@ TEST_CASE("surfaces of a batch are shaded as the plain definition says, to the b
         for (auto seed : seeds(1'000)) {
             CAPTURE(seed);
             Gen g(seed);
-            const Case c(g, layers.size());
+            const RandomBatch c(g, layers.size());
             const SurfaceBatch& batch = c.batch;
             const Vec3 ambient(0.1, 0.2, 0.3);
             const SkyLight sky(any_sky(g));
@@ -176,10 +172,10 @@ TEST_CASE("surfaces of a batch are shaded as the plain definition says, to the b
             }();
             functions->see(layers, batch);
             for (std::size_t i = 0; i < batch.count; ++i) {
-                const Plain plain = c.plain(layers, i);
+                const PlainSurface plain = c.plain(layers, i);
                 const bool within = glm::dot(outward[i], plain.to_eye) < 0;
-                CHECK(same_bits(plain.normal, within ? -outward[i] : outward[i]));
-                CHECK(same_bits(batch.vec(SurfaceField::base, i), plain.base()));
+                CHECK(same_up_to_zero_signs(plain.normal, within ? -outward[i] : outward[i]));
+                CHECK(same_up_to_zero_signs(batch.vec(SurfaceField::base, i), plain.base()));
                 CHECK(batch.get(SurfaceField::albedo_eye, i) == plain.albedo_eye());
             }
             for (auto kind : {Light::Kind::point, Light::Kind::directional, Light::Kind::area}) {
@@ -189,12 +185,12 @@ TEST_CASE("surfaces of a batch are shaded as the plain definition says, to the b
                 for (std::size_t i = 0; i < batch.count; ++i) {
                     const Vec2 place(batch.array(SurfaceField::place, 0)[i], batch.array(SurfaceField::place, 1)[i]);
                     const Incident light = source.at(batch.vec(SurfaceField::position, i), place);
-                    CHECK(same_bits(batch.vec(SurfaceField::irradiance, i), light.irradiance));
+                    CHECK(same_up_to_zero_signs(batch.vec(SurfaceField::irradiance, i), light.irradiance));
                     if (light.irradiance == Vec3(0.0)) continue;
-                    CHECK(same_bits(batch.vec(SurfaceField::towards, i), light.direction));
+                    CHECK(same_up_to_zero_signs(batch.vec(SurfaceField::towards, i), light.direction));
                     CHECK(batch.get(SurfaceField::distance, i) == light.distance);
                     const Vec3 expected = c.plain(layers, i).scattered(light.direction) * light.irradiance;
-                    CHECK(same_bits(batch.vec(SurfaceField::scattered, i), expected));
+                    CHECK(same_up_to_zero_signs(batch.vec(SurfaceField::scattered, i), expected));
                     ++(expected == Vec3(0.0) ? dark : lit);
                 }
             }
@@ -203,14 +199,14 @@ TEST_CASE("surfaces of a batch are shaded as the plain definition says, to the b
             functions->sky(sky, layers, batch);
             functions->shade(ambient, layers, batch);
             for (std::size_t i = 0; i < batch.count; ++i) {
-                const Plain plain = c.plain(layers, i);
+                const PlainSurface plain = c.plain(layers, i);
                 const Vec3 mirrored = reflected(plain.to_eye, plain.normal);
                 Vec3 returned = plain.base_albedo() * sky.mean(plain.normal);
-                if (plain.layer.kind() != Kind::matte)
+                if (plain.layer.kind() != Material::Kind::matte)
                     returned +=
                         plain.layer_albedo() * glm::mix(sky.towards(mirrored), sky.mean(mirrored), plain.layer.blur());
                 const Vec3 expected = plain.base_albedo() * ambient + Vec3(0.5, 0.25, 0.125) + returned;
-                CHECK(same_bits(batch.vec(SurfaceField::shaded, i), expected));
+                CHECK(same_up_to_zero_signs(batch.vec(SurfaceField::shaded, i), expected));
             }
         }
         CHECK(lit > 20'000);

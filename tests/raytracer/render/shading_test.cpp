@@ -6,13 +6,12 @@ using namespace deburr;
 
 namespace {
 
-const Shape unit_sphere{Shape::Kind::sphere, Vec3(0.0), {}, 1, 0};
-const Shape ground{Shape::Kind::plane, {0, -1, 0}, {0, 1, 0}, 0, 1};
+const AnalyticShape ground = floor_at(-1, 1);
 
 // A sphere of each material on a checkered plane, lit by every kind of light under a sky.
 struct Zoo {
     Scene scene;
-    std::vector<Shape> shapes;
+    std::vector<AnalyticShape> shapes;
 
     Zoo() {
         using Kind = Material::Kind;
@@ -25,7 +24,7 @@ struct Zoo {
         scene.materials[1].color.kind = Texture::Kind::checker;
         shapes = {ground};
         for (int i = 0; i < 9; ++i)
-            shapes.push_back({Shape::Kind::sphere, {2.2 * (i % 3) - 2.2, 0, 2.2 * (i / 3) - 2.2}, {}, 1, i});
+            shapes.push_back({AnalyticShape::Kind::sphere, {2.2 * (i % 3) - 2.2, 0, 2.2 * (i / 3) - 2.2}, {}, 1, i});
         scene.camera = {{0, 6, 9}, {0, 0, 0}, {0, 1, 0}, 40};
         scene.background.sky = true;
         scene.ambient = Vec3(0.05);
@@ -111,8 +110,8 @@ TEST_CASE("A mirror shows what is behind the eye, tinted") {
     scene.materials.push_back(material_of(Material::Kind::matte, Vec3(1.0)));
     scene.ambient = {1, 2, 3};
     scene.camera.eye = {-3, 3, 0};  // at 45°: the mirrored ray passes through (3, 3, 0)
-    const Shape floor{Shape::Kind::plane, Vec3(0.0), {0, 1, 0}, 0, 0};
-    const Shape ball{Shape::Kind::sphere, {3, 3, 0}, {}, 0.01, 1};
+    const AnalyticShape floor{AnalyticShape::Kind::plane, Vec3(0.0), {0, 1, 0}, 0, 0};
+    const AnalyticShape ball{AnalyticShape::Kind::sphere, {3, 3, 0}, {}, 0.01, 1};
     for (int spp : {1, 16}) {
         // With path tracing the ball's lower side looks into the mirror, which reflects no ambient light.
         if (spp == 1) CHECK(close(pixel_of(scene, AnalyticTracer({floor, ball}), spp).color, {0.5, 2, 3}, 1e-9));
@@ -126,9 +125,9 @@ TEST_CASE("A plate of glass shifts a ray sideways as Snell says") {
     scene.materials.push_back(material_of(Material::Kind::matte, Vec3(1.0)));
     scene.ambient = Vec3(1.0);
     scene.camera.eye = {-3, 3, 0};
-    const Shape plate{Shape::Kind::slab, Vec3(0.0), {0, 1, 0}, 1, 0};
+    const AnalyticShape plate{AnalyticShape::Kind::slab, Vec3(0.0), {0, 1, 0}, 1, 0};
     const double sine = std::sqrt(0.5) / 1.5, inside = sine / std::sqrt(1 - sine * sine);
-    auto ball_at = [&](double x) { return Shape{Shape::Kind::sphere, {x, -2, 0}, {}, 0.02, 1}; };
+    auto ball_at = [&](double x) { return AnalyticShape{AnalyticShape::Kind::sphere, {x, -2, 0}, {}, 0.02, 1}; };
     const double through = std::pow(1 - fresnel_dielectric(std::sqrt(0.5), 1.5), 2);
     const AnalyticTracer met({plate, ball_at(inside + 1)}), missed({plate, ball_at(2)});
     CHECK(pixel_of(scene, met, 1).color.x == Approx(through).epsilon(1e-6));
@@ -144,9 +143,9 @@ TEST_CASE("Glass lets light pass straight on, weaker; everything else casts a sh
     light.position = {0, 10, 0};
     light.power = 400 * pi * pi;
     scene.lights = {light};
-    const Shape floor{Shape::Kind::plane, Vec3(0.0), {0, 1, 0}, 0, 0};
+    const AnalyticShape floor{AnalyticShape::Kind::plane, Vec3(0.0), {0, 1, 0}, 0, 0};
     scene.camera.eye = {4, 4, 0};
-    Shape ball{Shape::Kind::sphere, {0, 6, 0}, {}, 1, 1};
+    AnalyticShape ball{AnalyticShape::Kind::sphere, {0, 6, 0}, {}, 1, 1};
     const double open = pixel_of(scene, AnalyticTracer({floor}), 1).color.x;
     CHECK(open == Approx(1).epsilon(1e-9));
     const Vec3 tinted = pixel_of(scene, AnalyticTracer({floor, ball}), 1).color;
@@ -337,7 +336,7 @@ TEST_CASE("An area light is seen in a mirror and in glass, from its front; and n
     panel.power = 12 * pi;  // radiance 3
     panel.visible = false;
     scene.lights = {panel};
-    Shape floor{Shape::Kind::plane, Vec3(0.0), {0, 1, 0}, 0, 0};
+    AnalyticShape floor{AnalyticShape::Kind::plane, Vec3(0.0), {0, 1, 0}, 0, 0};
     const AnalyticTracer nothing({});
     for (int spp : {1, 16}) {
         floor.material = 0;
@@ -357,8 +356,8 @@ TEST_CASE("A wall hides half of the sky from its foot, and gives some of it back
     Scene scene = probe(material_of(Material::Kind::matte, Vec3(0.5)));
     scene.materials.push_back(material_of(Material::Kind::matte, Vec3(0.25)));
     scene.background.color = Vec3(1.0);
-    const Shape floor{Shape::Kind::plane, Vec3(0.0), {0, 1, 0}, 0, 0};
-    const Shape wall{Shape::Kind::plane, {-1e-6, 0, 0}, {1, 0, 0}, 0, 1};
+    const AnalyticShape floor{AnalyticShape::Kind::plane, Vec3(0.0), {0, 1, 0}, 0, 0};
+    const AnalyticShape wall{AnalyticShape::Kind::plane, {-1e-6, 0, 0}, {1, 0, 0}, 0, 1};
     const AnalyticTracer corner({floor, wall});
     // Floor and wall each see the other in half of their hemisphere: floor = 0.5·(1 + wall)/2, wall = 0.25·(1 +
     // floor)/2.

@@ -41,8 +41,6 @@ double path_value(const Scene& scene, const RayTracer& tracer, int spp) {
     return Integrator(scene, tracer, settings).pixel(0, 0, nullptr, counters).color.x;
 }
 
-const Shape unit_sphere{Shape::Kind::sphere, Vec3(0.0), {}, 1, 0};
-
 }  // namespace
 
 TEST_CASE("A picture is upright and readable on all six sides, with y up and with z up") {
@@ -238,7 +236,7 @@ TEST_CASE("A share from a texture is the material of that number, and what varie
 
     Texture spots = pattern(Texture::Kind::noise);
     spots.scale = 0.2;
-    texture.color = plain(1.0);
+    texture.color = plain_texture(1.0);
     texture.roughness_texture = texture.metallic_texture = std::make_shared<const Texture>(spots);
     scene = probe(texture);
     scene.background.color = Vec3(1.0);
