@@ -9,6 +9,7 @@
 #include "catch.hpp"
 #include "raytracer/render/camera.hpp"
 #include "raytracer/scene/scene_reader.hpp"
+#include "raytracer/scene/scene_text.hpp"
 #include "raytracer/scene/solid_survey.hpp"
 #include "raytracer/util/cpu_time.hpp"
 
@@ -16,18 +17,16 @@ using namespace deburr;
 
 namespace {
 
-constexpr int width = 600, height = 380;
-
-Scene scene_of(const std::string& text) { return read_scene_text(text, "s.lua"); }
+constexpr int view_width = 600, view_height = 380;
 
 Scene framed(const std::string& solids, const std::string& camera = "") {
     Scene scene = scene_of("return { " + camera + " solids = { " + solids + " } }");
-    REQUIRE(frame_camera(scene, double(width) / height));
+    REQUIRE(frame_camera(scene, double(view_width) / view_height));
     return scene;
 }
 
 // The box of the points' projections: pixels in x and y, depths in z.
-Box seen(const Camera& camera, const std::vector<Vec3>& points, int w = width, int h = height) {
+Box projected_box(const Camera& camera, const std::vector<Vec3>& points, int w = view_width, int h = view_height) {
     const ProjectiveCamera view(camera, w, h);
     Box box;
     for (const Vec3 p : points) {
@@ -54,19 +53,19 @@ TEST_CASE("a framed box fills the picture in one direction with even margins, wh
         if (std::string(box).find("1000") != std::string::npos) points = corners({1000, -3, 5}, {1400, 100, 30});
         if (std::string(box).find("1e-3") != std::string::npos) points = corners({3, 4, 5}, Vec3(3, 4, 5) + Vec3(1e-3));
         if (std::string(box).find("50") != std::string::npos) points = corners({0, 0, 0}, {1, 50, 1});
-        const Box at = seen(scene.camera, points);
+        const Box at = projected_box(scene.camera, points);
         CHECK(at.lo.z > 0);
-        const double across = (at.hi.x - at.lo.x) / width, along = (at.hi.y - at.lo.y) / height;
+        const double across = (at.hi.x - at.lo.x) / view_width, along = (at.hi.y - at.lo.y) / view_height;
         CHECK(std::max(across, along) == Approx(0.86).epsilon(1e-3));
         const double margin = 0.5 * (1 - 0.86) - 0.001;
-        CHECK(at.lo.x >= margin * width);
-        CHECK(at.hi.x <= width - margin * width);
-        CHECK(at.lo.y >= margin * height);
-        CHECK(at.hi.y <= height - margin * height);
+        CHECK(at.lo.x >= margin * view_width);
+        CHECK(at.hi.x <= view_width - margin * view_width);
+        CHECK(at.lo.y >= margin * view_height);
+        CHECK(at.hi.y <= view_height - margin * view_height);
         if (across > along)
-            CHECK(at.lo.x + at.hi.x == Approx(width));
+            CHECK(at.lo.x + at.hi.x == Approx(view_width));
         else
-            CHECK(at.lo.y + at.hi.y == Approx(height));
+            CHECK(at.lo.y + at.hi.y == Approx(view_height));
         CHECK(scene.camera.fov == 30);
     }
 }
@@ -85,8 +84,8 @@ TEST_CASE("floors and empty solids do not count for a framed camera") {
 TEST_CASE("a turned box and a ball are framed by themselves, not by the boxes around them") {
     // The axis-parallel box around a cube that is rotated by 45° is wider than the cube's outline by √2.
     const Scene turned = framed("cube():rotate(45, {0, 1, 0})", "camera = frame{ from = {0, 0, 1}, fov = 1 },");
-    const Box at = seen(turned.camera, {{0, 0, 0}, {0, 1, 0}, {std::sqrt(2.0), 1, 0}, {std::sqrt(2.0), 0, 0}});
-    CHECK((at.hi.y - at.lo.y) / height == Approx(0.86).epsilon(0.02));
+    const Box at = projected_box(turned.camera, {{0, 0, 0}, {0, 1, 0}, {std::sqrt(2.0), 1, 0}, {std::sqrt(2.0), 0, 0}});
+    CHECK((at.hi.y - at.lo.y) / view_height == Approx(0.86).epsilon(0.02));
 
     const double r = 2;
     const Scene ball = framed("ellipsoid{ center = {1, 2, 3}, radius = 2 }", "camera = frame{ from = {1, 1, 1} },");
@@ -112,12 +111,12 @@ TEST_CASE("round solids are framed by themselves, not by the boxes around them")
                                   "ellipsoid{ center = {5, 5, 5}, radius = 1 } | "
                                   "sharp(cylinder{ to = {5, 5, 5}, from = {0, 0, 0}, radius = 0.05 })"}) {
             CAPTURE(camera, solid);
-            const Box at = seen(framed(solid, camera).camera, points);
-            const double across = (at.hi.x - at.lo.x) / width, along = (at.hi.y - at.lo.y) / height;
+            const Box at = projected_box(framed(solid, camera).camera, points);
+            const double across = (at.hi.x - at.lo.x) / view_width, along = (at.hi.y - at.lo.y) / view_height;
             CHECK(std::max(across, along) == Approx(0.86).margin(0.03));
             // The direction that limits the distance has even margins.
-            CHECK((across > along ? std::abs(at.lo.x + at.hi.x - width) / width
-                                  : std::abs(at.lo.y + at.hi.y - height) / height) < 0.03);
+            CHECK((across > along ? std::abs(at.lo.x + at.hi.x - view_width) / view_width
+                                  : std::abs(at.lo.y + at.hi.y - view_height) / view_height) < 0.03);
         }
 }
 
@@ -130,20 +129,20 @@ TEST_CASE("a framed camera looks from where it is told, and needs no up that fit
         const Camera& c = scene.camera;
         CHECK(c.fov == 50);
         CHECK(glm::distance(glm::normalize(c.eye - c.target), glm::normalize(from)) < 1e-9);
-        const Box at = seen(c, corners({0, 0, 0}, {3, 1, 2}));
+        const Box at = projected_box(c, corners({0, 0, 0}, {3, 1, 2}));
         CHECK(at.lo.x > 0);
         CHECK(at.lo.y > 0);
-        CHECK(at.hi.x < width);
-        CHECK(at.hi.y < height);
+        CHECK(at.hi.x < view_width);
+        CHECK(at.hi.y < view_height);
         // From above, the side away from the front view's viewer is at the top.
-        if (from.y == 1) CHECK(seen(c, {{0, 0, 0}}).lo.y < seen(c, {{0, 0, 2}}).lo.y);
+        if (from.y == 1) CHECK(projected_box(c, {{0, 0, 0}}).lo.y < projected_box(c, {{0, 0, 2}}).lo.y);
     }
 }
 
 TEST_CASE("a tall picture is framed by its width") {
     Scene scene = scene_of("return { solids = { cube() } }");
     REQUIRE(frame_camera(scene, 0.25));
-    const Box at = seen(scene.camera, corners({0, 0, 0}, {1, 1, 1}), 100, 400);
+    const Box at = projected_box(scene.camera, corners({0, 0, 0}, {1, 1, 1}), 100, 400);
     CHECK((at.hi.x - at.lo.x) / 100 == Approx(0.86).epsilon(1e-3));
     CHECK(at.lo.x + at.hi.x == Approx(100));
 }
@@ -168,7 +167,7 @@ TEST_CASE("a camera that frames many solids looks at few of them, and does not d
                         "return {{ solids = s }}",
                         n, order));
     };
-    const double aspect = double(width) / height;
+    const double aspect = double(view_width) / view_height;
     const auto camera = [&](const Scene& scene) { return *framed_camera(scene.solids, {}, Vec3(0, 1, 0), aspect); };
     const Camera one = camera(grid(12, "i"));
     for (const char* order : {"#t + 1 - i", "1 + (i * 55) % #t"}) {
@@ -182,8 +181,8 @@ TEST_CASE("a camera that frames many solids looks at few of them, and does not d
     std::vector<Vec3> points;
     for (const Vec3 p : corners({0, 0, 0}, {1, 1, 1}))
         for (int i = 0; i < 144; ++i) points.push_back(turn * p + Vec3(3 * (i % 12), 0, 3 * (i / 12)));
-    const Box at = seen(one, points);
-    CHECK(std::max((at.hi.x - at.lo.x) / width, (at.hi.y - at.lo.y) / height) == Approx(0.86).epsilon(0.01));
+    const Box at = projected_box(one, points);
+    CHECK(std::max((at.hi.x - at.lo.x) / view_width, (at.hi.y - at.lo.y) / view_height) == Approx(0.86).epsilon(0.01));
 
     const Scene many = grid(100, "i");
     const Ratio ratio = ratio_of_times([&] { return cpu_seconds_of([&] { camera(many); }); },

@@ -2,26 +2,9 @@
 #include <set>
 
 #include "catch.hpp"
-#include "raytracer/scene/lua_sandbox.hpp"
-#include "raytracer/scene/lua_values.hpp"
+#include "raytracer/scene/sandbox_result.hpp"
 
 using namespace deburr;
-
-namespace {
-
-// The first result as text, or the error's message.
-std::string result_of(const std::string& text) {
-    try {
-        Sandbox sandbox;
-        const LuaValue value = read_value(sandbox.run(text, "s.lua"), 1, "result");
-        const auto* string = std::get_if<std::string>(&value);
-        return string ? *string : described(value);
-    } catch (const SceneError& error) {
-        return error.what();
-    }
-}
-
-}  // namespace
 
 TEST_CASE("no text of a value holds an address") {
     CHECK(result_of("return tostring({}) .. ' ' .. tostring(print) .. ' ' .. tostring(function() end) .. ' ' ..\n"

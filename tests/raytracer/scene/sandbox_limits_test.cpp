@@ -4,23 +4,13 @@
 #include <vector>
 
 #include "catch.hpp"
-#include "raytracer/scene/scene_reader.hpp"
+#include "raytracer/scene/scene_error_case.hpp"
 
 using namespace deburr;
 
 namespace {
 
 constexpr std::int64_t endless = std::numeric_limits<std::int64_t>::max() / 2;
-
-std::string error_of(const std::string& text, SandboxLimits limits = {},
-                     const std::map<std::string, std::string>& defines = {}) {
-    try {
-        read_scene_text(text, "s.lua", defines, limits);
-    } catch (const SceneError& error) {
-        return error.what();
-    }
-    return "no error";
-}
 
 // Nested functions with so many locals that parsing each use of a global searches all of their names.
 std::string slow_to_parse() {
@@ -80,7 +70,7 @@ TEST_CASE("time is up within a second of the limit, though no hook is called", "
     const std::string text = GENERATE_COPY(from_range(texts));
     CAPTURE(text.substr(0, 300));
     const auto start = std::chrono::steady_clock::now();
-    const std::string error = error_of(text, {std::size_t(256) << 20, endless, 0.5});
+    const std::string error = error_within(text, {std::size_t(256) << 20, endless, 0.5});
     const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
     CHECK_THAT(error, Catch::Matchers::StartsWith("s.lua:"));
     CHECK_THAT(error, Catch::Matchers::EndsWith("expected a scene that is ready within 0.5 s, got one that is not"));
@@ -90,9 +80,9 @@ TEST_CASE("time is up within a second of the limit, though no hook is called", "
 TEST_CASE("a run that was left behind changes nothing of the next one") {
     const std::string scene = "local r = param('r', 0.5) return { solids = { rounded(r, cube()) } }";
     for (int i = 0; i < 5; ++i) {
-        error_of("local a, b = ('a'):rep(2^23), ('a'):rep(2^23) while true do local _ = a < b cube() print(1) end",
-                 {std::size_t(256) << 20, endless, 0.05});
-        CHECK(error_of(scene, {}, {{"r", "0.25"}}) == "no error");
+        error_within("local a, b = ('a'):rep(2^23), ('a'):rep(2^23) while true do local _ = a < b cube() print(1) end",
+                     {std::size_t(256) << 20, endless, 0.05});
+        CHECK(error_within(scene, {}, {{"r", "0.25"}}) == "no error");
     }
 }
 
@@ -114,20 +104,20 @@ TEST_CASE("what C++ makes of a scene's values counts as the scene's memory") {
         "p[i] = {s * math.cos(a), s * math.sin(a), z} end convex(p)"};
     const std::string text = GENERATE_COPY(from_range(texts));
     CAPTURE(text);
-    CHECK_THAT(error_of(text, {std::size_t(64) << 20, endless, 20.0}),
+    CHECK_THAT(error_within(text, {std::size_t(64) << 20, endless, 20.0}),
                Catch::Matchers::EndsWith("expected a scene that needs at most 64 MiB, got one that needs more"));
 }
 
 TEST_CASE("memory for a call comes back when it ends, so that many calls need no more than one") {
-    CHECK(error_of("local t = {} for i = 1, 1e4 do t[i] = {i, i % 7, i % 11} end\n"
-                   "for i = 1, 50 do pcall(cube, t) end return { solids = { cube() } }",
-                   {std::size_t(16) << 20, endless, 20.0}) == "no error");
+    CHECK(error_within("local t = {} for i = 1, 1e4 do t[i] = {i, i % 7, i % 11} end\n"
+                       "for i = 1, 50 do pcall(cube, t) end return { solids = { cube() } }",
+                       {std::size_t(16) << 20, endless, 20.0}) == "no error");
 }
 
 TEST_CASE("an object's name is one text, however often the object is placed") {
-    CHECK(error_of("local b = cube():name(('n'):rep(2^20)) for i = 1, 1e4 do b = b:translate(0, 0, 1) end\n"
-                   "return { solids = { b } }",
-                   {std::size_t(16) << 20, endless, 20.0}) == "no error");
+    CHECK(error_within("local b = cube():name(('n'):rep(2^20)) for i = 1, 1e4 do b = b:translate(0, 0, 1) end\n"
+                       "return { solids = { b } }",
+                       {std::size_t(16) << 20, endless, 20.0}) == "no error");
 }
 
 TEST_CASE(
@@ -136,20 +126,21 @@ TEST_CASE(
     SandboxLimits limits;
     limits.parts /= 100;  // so the limit is 10,000
     limits.work /= 100;
-    CHECK(error_of("local b, s = sharp(halfspace({1, 0, 0}, 0)), {} for i = 1, 1e4 do\n"
-                   "s[i] = b:rotate(i, {0, 1, 0}):scale(2):translate(i, 0, 0) end return { solids = s }",
-                   limits) == "no error");
+    CHECK(error_within("local b, s = sharp(halfspace({1, 0, 0}, 0)), {} for i = 1, 1e4 do\n"
+                       "s[i] = b:rotate(i, {0, 1, 0}):scale(2):translate(i, 0, 0) end return { solids = s }",
+                       limits) == "no error");
     for (const std::string made :
          {"cube()", "matte{}", "perturbation(1, ellipsoid{})", "~c", "c:translate(1, 2, 3)", "c | c"})
         CHECK_THAT(
-            error_of("local c = cube() while true do local _ = " + made + " end", limits),
+            error_within("local c = cube() while true do local _ = " + made + " end", limits),
             Catch::Matchers::EndsWith("expected a scene whose parts take at most 6 MiB, got one whose take more"));
 }
 
 TEST_CASE("work is charged before it is done") {
     const auto start = std::chrono::steady_clock::now();
-    CHECK(error_of("local q, t = perturbation(1, ellipsoid{}), {} for i = 1, 1e5 do t[i] = q end\n"
-                   "freeform(ellipsoid{}, t)") ==
+    CHECK(error_within("local q, t = perturbation(1, ellipsoid{}), {} for i = 1, 1e5 do t[i] = q end\n"
+                       "freeform(ellipsoid{}, t)",
+                       {}) ==
           "s.lua:2: expected a scene that ends within 500000000 instructions, got one that does not");
     const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
     CHECK(seconds.count() < 1 * test::slowness);
@@ -157,7 +148,7 @@ TEST_CASE("work is charged before it is done") {
 
 TEST_CASE("a call that fails costs work, too") {
     const auto start = std::chrono::steady_clock::now();
-    CHECK(error_of("while true do pcall(cube, 1) end", {std::size_t(256) << 20, 20'000'000, 20.0}) ==
+    CHECK(error_within("while true do pcall(cube, 1) end", {std::size_t(256) << 20, 20'000'000, 20.0}) ==
           "s.lua:1: expected a scene that ends within 20000000 instructions, got one that does not");
     const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
     CHECK(seconds.count() < 2 * test::slowness);
@@ -166,6 +157,6 @@ TEST_CASE("a call that fails costs work, too") {
 TEST_CASE("print is metered, also under pcall") {
     const SandboxLimits limits{std::size_t(16) << 20, 30'000'000, 20.0, 0, std::size_t(16) << 20};
     for (const std::string text : {"print('x')", "while true do pcall(print) end", "print(('a'):rep(2^20))"})
-        CHECK(error_of(text, limits) ==
+        CHECK(error_within(text, limits) ==
               "s.lua:1: expected a scene that prints at most 0 bytes, got one that prints more");
 }

@@ -3,7 +3,7 @@
 
 #include "catch.hpp"
 #include "raytracer/scene/lua_sandbox.hpp"
-#include "raytracer/scene/lua_values.hpp"
+#include "raytracer/scene/sandbox_result.hpp"
 
 using namespace deburr;
 
@@ -11,19 +11,9 @@ namespace {
 
 const SandboxLimits small{std::size_t(16) << 20, 3'000'000, 20.0};
 
-// The first result as text, or the error's message.
-std::string result_of(const std::string& text, SandboxLimits limits = small) {
-    try {
-        Sandbox sandbox(limits);
-        const LuaValue value = read_value(sandbox.run(text, "s.lua"), 1, "result");
-        const auto* string = std::get_if<std::string>(&value);
-        return string ? *string : described(value);
-    } catch (const SceneError& error) {
-        return error.what();
-    }
-}
+std::string small_result(const std::string& text) { return result_of(text, small); }
 
-struct Case {
+struct SandboxCase {
     const char *text, *result;
 };
 
@@ -50,8 +40,8 @@ TEST_CASE("a run that spends its budget ends, whatever it tries") {
                  "for k in pairs({1}) do while true do end end", "goto on ::on:: goto on");
     CAPTURE(text);
     const auto start = std::chrono::steady_clock::now();
-    CHECK_THAT(result_of(text), Catch::Matchers::EndsWith("expected a scene that ends within 3000000 "
-                                                          "instructions, got one that does not"));
+    CHECK_THAT(small_result(text), Catch::Matchers::EndsWith("expected a scene that ends within 3000000 "
+                                                             "instructions, got one that does not"));
     const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
     CHECK(seconds.count() < 2 * test::slowness);
 }
@@ -68,12 +58,12 @@ TEST_CASE("a run that needs more memory than it may have ends") {
                  "local s = ('x'):rep(1 << 20) local t = {} for i = 1, 100 do t[i] = s end table.concat(t)",
                  "string.pack('c2000000000', '')", "string.format('%s', ('xxxxxxxx'):rep(1 << 20):rep(2))");
     CAPTURE(text);
-    CHECK_THAT(result_of(text),
+    CHECK_THAT(small_result(text),
                Catch::Matchers::EndsWith("expected a scene that needs at most 16 MiB, got one that needs more"));
 }
 
 TEST_CASE("what is wrong in a chunk is one line with file and line") {
-    const Case c = GENERATE(values<Case>({
+    const SandboxCase c = GENERATE(values<SandboxCase>({
         {"local x = = 1", "s.lua:1: unexpected symbol near '='"},
         {"\n\nerror('stop')", "s.lua:3: stop"},
         {"error('a\\nb\\0c')", R"(s.lua:1: a\nb\x00c)"},
@@ -108,49 +98,49 @@ TEST_CASE("what a scene may not use says so, and unknown names are errors") {
          {"io", "os", "package", "debug", "require", "load", "loadfile", "loadstring", "dofile", "collectgarbage",
           "next", "string.find", "string.match", "string.gmatch", "string.gsub", "string.dump"}) {
         CAPTURE(name);
-        CHECK_THAT(result_of("local x = " + name),
+        CHECK_THAT(small_result("local x = " + name),
                    Catch::Matchers::StartsWith("s.lua:1: " + name + ": not available in a scene"));
     }
-    CHECK(result_of("\n('a'):find('a')") == "s.lua:2: string.find: not available in a scene");
-    CHECK(result_of("local x = plastik") == "s.lua:1: expected a known name, got 'plastik'");
-    CHECK(result_of("return math.flor(1)") ==
+    CHECK(small_result("\n('a'):find('a')") == "s.lua:2: string.find: not available in a scene");
+    CHECK(small_result("local x = plastik") == "s.lua:1: expected a known name, got 'plastik'");
+    CHECK(small_result("return math.flor(1)") ==
           "s.lua:1: expected a known name, got 'math.flor', did you mean math.floor?");
-    CHECK(result_of("return prind") == "s.lua:1: expected a known name, got 'prind', did you mean print?");
-    CHECK(result_of("for i = 1, 3000 do _G['name' .. i] = i end return prind") ==
+    CHECK(small_result("return prind") == "s.lua:1: expected a known name, got 'prind', did you mean print?");
+    CHECK(small_result("for i = 1, 3000 do _G['name' .. i] = i end return prind") ==
           "s.lua:1: expected a known name, got 'prind'");
-    CHECK(result_of("return math.cosine(1)") == "s.lua:1: expected a known name, got 'math.cosine'");
-    CHECK(result_of("x = 1 return x") == "1");
-    CHECK(result_of("return getmetatable(_G)") == "false");
+    CHECK(small_result("return math.cosine(1)") == "s.lua:1: expected a known name, got 'math.cosine'");
+    CHECK(small_result("x = 1 return x") == "1");
+    CHECK(small_result("return getmetatable(_G)") == "false");
 }
 
 TEST_CASE("bytecode is refused") {
-    CHECK_THAT(result_of("\x1bLua"), Catch::Matchers::StartsWith("s.lua: attempt to load a binary chunk"));
+    CHECK_THAT(small_result("\x1bLua"), Catch::Matchers::StartsWith("s.lua: attempt to load a binary chunk"));
 }
 
 TEST_CASE("runs are reproducible: random numbers and the order of pairs") {
     const std::string random = "return math.random() .. ' ' .. math.random(100)";
-    CHECK(result_of(random) == result_of(random));
-    CHECK(result_of("math.randomseed() " + random) == result_of(random));
-    CHECK(result_of("math.randomseed(5) " + random) != result_of(random));
-    CHECK(result_of("local s = '' local t = {z = 1, a = 2, [10] = 3, [2] = 4, [0.5] = 5, [true] = "
-                    "6, aa = 7}\n"
-                    "for k, v in pairs(t) do s = s .. tostring(k) .. v .. ' ' end return s") ==
+    CHECK(small_result(random) == small_result(random));
+    CHECK(small_result("math.randomseed() " + random) == small_result(random));
+    CHECK(small_result("math.randomseed(5) " + random) != small_result(random));
+    CHECK(small_result("local s = '' local t = {z = 1, a = 2, [10] = 3, [2] = 4, [0.5] = 5, [true] = "
+                       "6, aa = 7}\n"
+                       "for k, v in pairs(t) do s = s .. tostring(k) .. v .. ' ' end return s") ==
           "0.55 24 103 a2 aa7 z1 true6 ");
-    CHECK(result_of("local s = '' local t = {a = 1, b = 2, c = 3}\n"
-                    "for k in pairs(t) do t.b = nil s = s .. k end return s") == "ac");
-    CHECK(result_of("local s = '' for k, v in pairs(setmetatable({}, {__pairs = function() return\n"
-                    "function(_, k) if not k then return 'x', 1 end end end})) do s = s .. k end "
-                    "return s") == "x");
+    CHECK(small_result("local s = '' local t = {a = 1, b = 2, c = 3}\n"
+                       "for k in pairs(t) do t.b = nil s = s .. k end return s") == "ac");
+    CHECK(small_result("local s = '' for k, v in pairs(setmetatable({}, {__pairs = function() return\n"
+                       "function(_, k) if not k then return 'x', 1 end end end})) do s = s .. k end "
+                       "return s") == "x");
 }
 
 TEST_CASE("the rest of the library is there") {
-    CHECK(result_of("local t = {3, 1, 2} table.sort(t) table.insert(t, 4) table.insert(t, 1, 0)\n"
-                    "return table.concat(t, ',') .. table.remove(t) .. table.remove(t, 1) .. #t") == "0,1,2,3,4403");
-    CHECK(result_of("local co = coroutine.wrap(function(a) local b = coroutine.yield(a + 1) return "
-                    "b * 2 end)\n"
-                    "co(1) return co(21)") == "42");
-    CHECK(result_of("local ok, e = pcall(error, 'x') return e") == "x");
-    CHECK(result_of("local ok, e = xpcall(error, function(m) return m .. '!' end, 'x') return e") == "x!");
-    CHECK(result_of("return string.format('%d %s', 3, ('ab'):upper():rep(2, '-')) .. ('x'):byte()") == "3 AB-AB120");
-    CHECK(result_of("return select('#', table.unpack({1, 2, 3}))") == "3");
+    CHECK(small_result("local t = {3, 1, 2} table.sort(t) table.insert(t, 4) table.insert(t, 1, 0)\n"
+                       "return table.concat(t, ',') .. table.remove(t) .. table.remove(t, 1) .. #t") == "0,1,2,3,4403");
+    CHECK(small_result("local co = coroutine.wrap(function(a) local b = coroutine.yield(a + 1) return "
+                       "b * 2 end)\n"
+                       "co(1) return co(21)") == "42");
+    CHECK(small_result("local ok, e = pcall(error, 'x') return e") == "x");
+    CHECK(small_result("local ok, e = xpcall(error, function(m) return m .. '!' end, 'x') return e") == "x!");
+    CHECK(small_result("return string.format('%d %s', 3, ('ab'):upper():rep(2, '-')) .. ('x'):byte()") == "3 AB-AB120");
+    CHECK(small_result("return select('#', table.unpack({1, 2, 3}))") == "3");
 }

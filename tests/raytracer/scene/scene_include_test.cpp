@@ -11,8 +11,8 @@ namespace fs = std::filesystem;
 
 namespace {
 
-// A folder with a scene file that is read.
-struct Place {
+// A scene file that includes others of its folder.
+struct IncludingScene {
     Folder folder;
     std::string scene = folder / "s.lua";
 
@@ -36,7 +36,7 @@ struct Place {
 }  // namespace
 
 TEST_CASE("include gives what a file of the scene's folder returns, and runs it once") {
-    const Place place;
+    const IncludingScene place;
     write_file(place.folder / "part.lua",
                "return { post = function(h) return box({0, 0, 0}, {1, h, 1}) end, r = 0.125 }");
     const Scene scene = place.read(
@@ -63,7 +63,7 @@ TEST_CASE("include gives what a file of the scene's folder returns, and runs it 
 }
 
 TEST_CASE("an error in an included file names it and its line") {
-    const Place place;
+    const IncludingScene place;
     write_file(place.folder / "part.lua",
                "local a = 1\nreturn {\n  half = function() return halfspace({0, 0, 0}, 1) end }");
     CHECK(place.error("\n\nlocal part = include('part.lua')\nreturn { solids = { part.half() } }") ==
@@ -87,7 +87,7 @@ TEST_CASE("a solid of an included file keeps its place") {
 }
 
 TEST_CASE("include reaches nothing outside of the scene's folder") {
-    const Place place;
+    const IncludingScene place;
     const Folder other;
     write_file(other / "x.lua", "return 1");
     CHECK(place.error("include('" + (other / "x.lua") + "')")
@@ -105,7 +105,7 @@ TEST_CASE("include reaches nothing outside of the scene's folder") {
 }
 
 TEST_CASE("files that include each other in a ring are told, and limits are shared") {
-    const Place place;
+    const IncludingScene place;
     write_file(place.folder / "a.lua", "return include('b.lua')");
     write_file(place.folder / "b.lua", "\nreturn include('a.lua')");
     CHECK(place.error("include('a.lua')") ==

@@ -7,16 +7,11 @@
 #include "bounds/canonical_solids.hpp"
 #include "catch.hpp"
 #include "raytracer/render/lights.hpp"
+#include "raytracer/scene/scene_text.hpp"
 
 using namespace deburr;
 
 namespace {
-
-using Kind = DensityNode::Kind;
-
-Scene scene_of(const std::string& text, const std::map<std::string, std::string>& defines = {}) {
-    return read_scene_text(text, "s.lua", defines);
-}
 
 Scene scene_with(const std::string& solid) { return scene_of("return { solids = { " + solid + " } }"); }
 
@@ -32,10 +27,10 @@ const DensityNode& density_of(const Scene& scene) {
     return node.density().node();
 }
 
-bool same(const Affine& a, const Affine& b) { return a.linear == b.linear && a.shift == b.shift; }
+bool same_map(const Affine& a, const Affine& b) { return a.linear == b.linear && a.shift == b.shift; }
 
 void check_face(const DensityNode& face, Vec3 normal, double offset) {
-    REQUIRE(face.kind == Kind::half_space);
+    REQUIRE(face.kind == DensityNode::Kind::half_space);
     CAPTURE(face.normal().x, face.normal().y, face.normal().z, face.offset());
     CHECK(face.normal() == normal);
     CHECK(face.offset() == offset);
@@ -54,7 +49,7 @@ TEST_CASE("shapes are products of their half-spaces") {
     check_face(density_of(scene_with("halfspace({0, 0, -1e-200}, 1e-200)")), Vec3(0, 0, -1), 1);
     const Scene scene = scene_with("box({-1, 0, 2}, {1, 3, 4})");
     const DensityNode& box = density_of(scene);
-    CHECK(box.kind == Kind::product);
+    CHECK(box.kind == DensityNode::Kind::product);
     REQUIRE(box.children().size() == 6);
     CHECK(has_face(box, Vec3(-1, 0, 0), 1));
     CHECK(has_face(box, Vec3(0, 1, 0), 3));
@@ -162,22 +157,23 @@ TEST_CASE("with z up the sky, the camera and a frame turn") {
 }
 
 TEST_CASE("operators on densities build densities and remember the line") {
-    const auto built = [](const char* expression, Kind kind, int line) {
+    const auto built = [](const char* expression, DensityNode::Kind kind, int line) {
         CAPTURE(expression);
         const Scene scene = scene_of(std::string("local a, b = cube(), halfspace({1, 0, 0}, 0)\nlocal c =\n") +
                                      expression + "\nreturn { solids = { c } }");
         const DensityNode& node = density_of(scene);
         CHECK(node.kind == kind);
         CHECK(node.line == line);
-        CHECK(node.children()[0].node().kind == Kind::product);
-        if (kind != Kind::complement) CHECK(node.children()[1].node().kind == Kind::half_space);
+        CHECK(node.children()[0].node().kind == DensityNode::Kind::product);
+        if (kind != DensityNode::Kind::complement)
+            CHECK(node.children()[1].node().kind == DensityNode::Kind::half_space);
     };
-    built("a + b", Kind::sum, 3);
-    built("a * b", Kind::product, 3);
-    built("a - b", Kind::difference, 3);
-    built("a | b", Kind::disjunction, 0);
-    built("a & b", Kind::conjunction, 0);
-    built("~a", Kind::complement, 0);
+    built("a + b", DensityNode::Kind::sum, 3);
+    built("a * b", DensityNode::Kind::product, 3);
+    built("a - b", DensityNode::Kind::difference, 3);
+    built("a | b", DensityNode::Kind::disjunction, 0);
+    built("a & b", DensityNode::Kind::conjunction, 0);
+    built("~a", DensityNode::Kind::complement, 0);
 }
 
 TEST_CASE("solids are combined, and a density among them is a sharp solid") {
@@ -202,7 +198,7 @@ TEST_CASE("solids are combined, and a density among them is a sharp solid") {
 
 TEST_CASE("radius is a step of the density") {
     const Scene scene = scene_with("cube():radius(0.25)");
-    CHECK(density_of(scene).kind == Kind::radius);
+    CHECK(density_of(scene).kind == DensityNode::Kind::radius);
     CHECK(density_of(scene).radius() == 0.25);
 }
 
@@ -210,20 +206,20 @@ TEST_CASE("placements of densities and solids are exact along the axes") {
     const auto map_of = [](const std::string& call) {
         const Scene of_density = scene_with("cube():" + call);
         const Scene of_solid = scene_with("sharp(cube()):" + call);
-        CHECK(density_of(of_density).kind == Kind::transform);
+        CHECK(density_of(of_density).kind == DensityNode::Kind::transform);
         CHECK(only_solid(of_solid).kind == SolidNode::Kind::transform);
-        CHECK(same(density_of(of_density).map(), only_solid(of_solid).map()));
+        CHECK(same_map(density_of(of_density).map(), only_solid(of_solid).map()));
         return density_of(of_density).map();
     };
     const auto diagonal = [](double x, double y, double z) {
         return Mat3(Vec3(x, 0, 0), Vec3(0, y, 0), Vec3(0, 0, z));
     };
-    CHECK(same(map_of("translate(1, 2, 3)"), {Mat3(1.0), Vec3(1, 2, 3)}));
-    CHECK(same(map_of("scale(2)"), {diagonal(2, 2, 2), Vec3(0)}));
-    CHECK(same(map_of("scale(1, -2, 3)"), {diagonal(1, -2, 3), Vec3(0)}));
-    CHECK(same(map_of("mirror({0, 0.1, 0})"), {diagonal(1, -1, 1), Vec3(0)}));
-    CHECK(same(map_of("rotate(180, {0, 0, 3})"), {diagonal(-1, -1, 1), Vec3(0)}));
-    CHECK(same(map_of("rotate(720, {1, 2, 3})"), {Mat3(1.0), Vec3(0)}));
+    CHECK(same_map(map_of("translate(1, 2, 3)"), {Mat3(1.0), Vec3(1, 2, 3)}));
+    CHECK(same_map(map_of("scale(2)"), {diagonal(2, 2, 2), Vec3(0)}));
+    CHECK(same_map(map_of("scale(1, -2, 3)"), {diagonal(1, -2, 3), Vec3(0)}));
+    CHECK(same_map(map_of("mirror({0, 0.1, 0})"), {diagonal(1, -1, 1), Vec3(0)}));
+    CHECK(same_map(map_of("rotate(180, {0, 0, 3})"), {diagonal(-1, -1, 1), Vec3(0)}));
+    CHECK(same_map(map_of("rotate(720, {1, 2, 3})"), {Mat3(1.0), Vec3(0)}));
     for (const char* quarter : {"rotate(90, {0, 0, 1})", "rotate(-270, {0, 0, 1})", "rotate(90, {0, 0, 0.3})",
                                 "rotate(-90, {0, 0, -1})", "rotate(450, {0, 0, 1})"}) {
         CAPTURE(quarter);
@@ -376,7 +372,7 @@ TEST_CASE("the first scene") {
     const SolidNode& body = scene.solids[0].node();
     REQUIRE(body.kind == SolidNode::Kind::material);
     CHECK(body.children()[0].node().radius() == 0.2);
-    CHECK(body.children()[0].node().density().node().kind == Kind::difference);
+    CHECK(body.children()[0].node().density().node().kind == DensityNode::Kind::difference);
     CHECK(body.leaves == 13);
     CHECK(scene.materials.size() == 3);
 }

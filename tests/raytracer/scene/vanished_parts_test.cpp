@@ -16,7 +16,7 @@ using namespace deburr::test;
 
 namespace {
 
-VanishedParts of(const std::string& solids) {
+VanishedParts vanished_of(const std::string& solids) {
     return vanished_parts(read_scene_text("return {\n solids = { " + solids + " } }", "s.lua"));
 }
 
@@ -30,14 +30,14 @@ double radius_in(const std::string& line) {
 }  // namespace
 
 TEST_CASE("a solid that rounding leaves nothing of is told with the largest radius that keeps it") {
-    const VanishedParts found = of("cube(), rounded(0.9, box({0, 0, 0}, {10, 0.5, 10})):name('lid')");
+    const VanishedParts found = vanished_of("cube(), rounded(0.9, box({0, 0, 0}, {10, 0.5, 10})):name('lid')");
     REQUIRE(found.rounded_away.size() == 1);
     CHECK(found.rounded_away[0].find("s.lua:2: solid 2 (lid): it vanishes at radius 0.9; up to ") == 0);
     // The product of two half-spaces whose planes are t apart is ½ in its middle where F(−t/2r)² = ½: at t = 0.5675 r.
     const double radius = radius_in(found.rounded_away[0]);
     CHECK(radius < 0.5 / 0.5674);
     CHECK(radius > 0.99 * 0.5 / 0.5675);
-    CHECK(of("rounded(0.88, box({0, 0, 0}, {10, 0.5, 10}))").rounded_away.empty());
+    CHECK(vanished_of("rounded(0.88, box({0, 0, 0}, {10, 0.5, 10}))").rounded_away.empty());
 }
 
 namespace {
@@ -77,7 +77,7 @@ TEST_CASE("walls of a model that its radius leaves nothing of are told with the 
 TEST_CASE("the search for the largest radius that keeps one part leaves time for the others") {
     // Near that radius nothing can be proved, however much time is spent.
     const VanishedParts found =
-        of("rounded(0.9, box({0, 0, 0}, {10, 0.5, 10})), rounded(0.9, box({0, 0, 0}, {9, 0.5, 10}))");
+        vanished_of("rounded(0.9, box({0, 0, 0}, {10, 0.5, 10})), rounded(0.9, box({0, 0, 0}, {9, 0.5, 10}))");
     CHECK(found.rounded_away.size() == 2);
 }
 
@@ -85,7 +85,7 @@ TEST_CASE("a part of a union that vanishes is told by its place, unless its neig
     const std::string plate = "box({0, 0, 0}, {10, 2, 10})", fin = "box({4, 2, 0}, {4.1, 6, 10})";
     for (const char* op : {" | ", " + "}) {
         CAPTURE(op);
-        const VanishedParts found = of("rounded(0.3, " + plate + op + fin + ")");
+        const VanishedParts found = vanished_of("rounded(0.3, " + plate + op + fin + ")");
         REQUIRE(found.rounded_away.size() == 1);
         CHECK(found.rounded_away[0].find(
                   "s.lua:2: solid 1: a part in [4, 4.1] x [2, 6] x [0, 10] vanishes at radius 0.3; up "
@@ -95,38 +95,40 @@ TEST_CASE("a part of a union that vanishes is told by its place, unless its neig
     }
     // Each of these slices would vanish if it were alone.
     CHECK(
-        of("rounded(0.3, box({0, 0, 0}, {9, 0.1, 9}) | box({0, 0.1, 0}, {9, 0.2, 9}) | box({0, 0.2, 0}, {9, 0.3, 9}))")
+        vanished_of(
+            "rounded(0.3, box({0, 0, 0}, {9, 0.1, 9}) | box({0, 0.1, 0}, {9, 0.2, 9}) | box({0, 0.2, 0}, {9, 0.3, 9}))")
             .rounded_away.empty());
-    CHECK(of("rounded(0.3, " + plate + " | box({1, 1, 1}, {1.1, 1.5, 2}))").rounded_away.empty());
+    CHECK(vanished_of("rounded(0.3, " + plate + " | box({1, 1, 1}, {1.1, 1.5, 2}))").rounded_away.empty());
 }
 
 TEST_CASE("what a true convolution leaves nothing of is told with the largest radius that keeps it") {
     // A plate of thickness t contains half of a ball of radius r around its middle where 3u − u³ = 1, u = t/2r.
     const double u = 2 * std::sin(std::numbers::pi / 18);
-    const VanishedParts plates = of("convolved(0.9, box({0, 0, 0}, {10, 0.5, 10}))");
+    const VanishedParts plates = vanished_of("convolved(0.9, box({0, 0, 0}, {10, 0.5, 10}))");
     REQUIRE(plates.rounded_away.size() == 1);
     CHECK(plates.empty.empty());
     CHECK(plates.rounded_away[0].find("s.lua:2: solid 1: it vanishes at radius 0.9; up to ") == 0);
     CHECK(radius_in(plates.rounded_away[0]) < 0.25 / u);
     CHECK(radius_in(plates.rounded_away[0]) > 0.98 * 0.25 / u);
-    CHECK(of("convolved(0.7, box({0, 0, 0}, {10, 0.5, 10}))").rounded_away.empty());
+    CHECK(vanished_of("convolved(0.7, box({0, 0, 0}, {10, 0.5, 10}))").rounded_away.empty());
 
     const std::string plate = "box({0, 0, 0}, {10, 2, 10})";
-    const VanishedParts found = of("convolved(0.3, " + plate + " | box({4, 2, 0}, {4.1, 6, 10}))");
+    const VanishedParts found = vanished_of("convolved(0.3, " + plate + " | box({4, 2, 0}, {4.1, 6, 10}))");
     REQUIRE(found.rounded_away.size() == 1);
     CHECK(found.rounded_away[0].find("a part in [4, 4.1] x [2, 6] x [0, 10] vanishes at radius 0.3; up to ") !=
           std::string::npos);
     CHECK(radius_in(found.rounded_away[0]) < 0.05 / u);
-    CHECK(of("convolved(0.3, box({0, 0, 0}, {9, 0.1, 9}) | box({0, 0.1, 0}, {9, 0.4, 9}))").rounded_away.empty());
+    CHECK(vanished_of("convolved(0.3, box({0, 0, 0}, {9, 0.1, 9}) | box({0, 0.1, 0}, {9, 0.4, 9}))")
+              .rounded_away.empty());
 }
 
 TEST_CASE("a solid that an operator leaves nothing of is told") {
     const VanishedParts found =
-        of("cube() & cube():translate(5, 0, 0), rounded(0.1, cube()) - box({-1, -1, -1}, {2, 2, 2})");
+        vanished_of("cube() & cube():translate(5, 0, 0), rounded(0.1, cube()) - box({-1, -1, -1}, {2, 2, 2})");
     REQUIRE(found.empty.size() == 2);
     CHECK(found.empty[0] == "s.lua:2: solid 1: it is empty: & or - leaves nothing of it");
     CHECK(found.empty[1] == "s.lua:2: solid 2: it is empty: & or - leaves nothing of it");
-    CHECK(of("halfspace({0, 1, 0}, 0), ellipsoid{}, cube()").empty.empty());
+    CHECK(vanished_of("halfspace({0, 1, 0}, 0), ellipsoid{}, cube()").empty.empty());
 }
 
 TEST_CASE("nothing is left of a scene where every solid is empty, and not before") {

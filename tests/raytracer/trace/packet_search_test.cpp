@@ -11,7 +11,7 @@ using namespace deburr;
 
 namespace {
 
-Scene scene_of(const std::string& name) { return read_scene(DEBURR_SOURCE_DIR "/scenes/" + name + ".lua", {}); }
+Scene example_scene(const std::string& name) { return read_scene(DEBURR_SOURCE_DIR "/scenes/" + name + ".lua", {}); }
 
 // Counts rays that hit, rays that are occluded, and rays whose results differ from those alone.
 struct Comparison {
@@ -57,7 +57,7 @@ TEST_CASE("rays that are traced together hit what they hit alone, to the bit: pi
     for (const char* name : {"first", "csg_examples", "variable_rounding", "hole_punch", "staplers", "bearing", "cone",
                              "figurine", "melting_robot"}) {
         CAPTURE(name);
-        const Scene scene = scene_of(name);
+        const Scene scene = example_scene(name);
         const ImplicitTracer tracer(scene.solids);
         const int width = 97, height = 61;
         const ProjectiveCamera camera(scene.camera, width, height);
