@@ -11,12 +11,12 @@ using namespace deburr;
 
 namespace {
 
-constexpr int parts = 24;
+constexpr int block_count = 24;
 
 // Blocks with a hole each on the ground; the hole of block `edited` is wider, and block `moved` is moved by `by`.
 std::vector<Solid> workbench(int edited = -1, int moved = -1, double by = 0) {
     std::vector<Solid> solids = {Solid::sharp(Density::half_space({0, 1, 0}, 0))};
-    for (int i = 0; i < parts; ++i) {
+    for (int i = 0; i < block_count; ++i) {
         const double width = 0.2 + 0.01 * i + (i == edited ? 0.105 : 0.0);
         const Density hole = Density::box({-width, 0.5, -width}, {width, 2, width});
         const Solid block = Solid::rounded(0.05, Density::box({-0.5, 0, -0.5}, {0.5, 1, 0.5}) - hole);
@@ -56,7 +56,7 @@ TEST_CASE("what an edit leaves as it was is not built again") {
     CHECK(same_hits(workbench(), store) > 1'000);
     CHECK(store.kept() == 0);
     const std::size_t all = store.built();
-    CHECK(all == parts + 1);
+    CHECK(all == block_count + 1);
     CHECK(same_hits(workbench(), store) > 1'000);  // the same scene read again
     CHECK(store.kept() == all);
     CHECK(store.built() == 0);
@@ -73,7 +73,7 @@ TEST_CASE("a scene that an edit makes much larger is built for its own scale") {
     BspStore store;
     CHECK(same_hits(workbench(), store) > 1'000);
     CHECK(same_hits(workbench(-1, 5, 1e5), store) > 1'000);
-    CHECK(store.built() > parts / 2);  // its tolerances are others
+    CHECK(store.built() > block_count / 2);  // its tolerances are others
     CHECK(same_hits(workbench(-1, 5, 1e5), store) > 1'000);
     CHECK(store.built() == 0);
 }

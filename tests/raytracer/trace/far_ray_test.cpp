@@ -13,7 +13,7 @@ using namespace deburr;
 
 namespace {
 
-struct Kind {
+struct SolidKind {
     const char* name;
     std::vector<Solid> solids;
     bool endless = false;
@@ -21,11 +21,10 @@ struct Kind {
 
 Quadric ball_at(Vec3 center, double radius) { return {center, Mat3(-1 / (radius * radius)), Vec3(0.0), 1}; }
 
-Density box(Vec3 lo, Vec3 hi) { return Density::box(lo, hi); }
-
 // Solids of every kind of cell primitive: planes, products and their complements, sums of products, other Boolean
 // diagrams, fields, true convolutions, sharp densities and primary CSG; transformed, flush with a floor, and unbounded.
-std::vector<Kind> kinds() {
+std::vector<SolidKind> kinds() {
+    const auto box = [](Vec3 lo, Vec3 hi) { return Density::box(lo, hi); };
     const double r = 0.05;
     const Density a = box({-0.4, -0.2, -0.2}, {0.6, 0.2, 0.7}), b = box({-1, -0.5, -0.5}, {0, 0.5, 0.5});
     const Density slot = box({0.1, -0.05, -1}, {0.3, 0.05, 1});
@@ -80,7 +79,7 @@ bool is_convolved(const SolidTree& tree) { return tree.leaves[0].density.nodes.b
 // The definition's answers for a kind's solids, near them.
 class Expected {
 public:
-    explicit Expected(const Kind& kind) {
+    explicit Expected(const SolidKind& kind) {
         for (const Solid& s : kind.solids) trees_.push_back(flatten(s));
     }
 
@@ -160,13 +159,13 @@ double rounding_along(double distance, const Ray& ray, const Hit& hit) {
     return 1e-9 + 8 * epsilon * distance / std::max(1e-6, std::abs(glm::dot(hit.normal, ray.direction)));
 }
 
-bool suits(const Kind& kind, const Vec3& direction) {
+bool suits(const SolidKind& kind, const Vec3& direction) {
     // Such a ray meets an unbounded solid within the part that the definition is evaluated on.
     return !kind.endless || (std::abs(direction.y) > 0.2 && std::abs(direction.y) < 0.9);
 }
 
 // A packet of rays from one distant point.
-std::vector<Ray> packet_from(const Kind& kind, const Expected& expected, double distance, Gen& g) {
+std::vector<Ray> packet_from(const SolidKind& kind, const Expected& expected, double distance, Gen& g) {
     Vec3 from = g.direction();
     while (!suits(kind, from)) from = g.direction();
     std::vector<Ray> rays;
@@ -179,7 +178,7 @@ std::vector<Ray> packet_from(const Kind& kind, const Expected& expected, double 
 
 struct Tracers {
     ImplicitTracer bsp, embree, searching;  // `searching` finds every root by M, L and G
-    explicit Tracers(const Kind& kind)
+    explicit Tracers(const SolidKind& kind)
         : bsp(kind.solids),
           embree(kind.solids, Criterion::exact, RootMethod::where_needed, Accel::embree),
           searching(kind.solids, Criterion::exact, RootMethod::always) {}
@@ -209,7 +208,7 @@ struct Tracers {
 
 TEST_CASE("rays from 10 to 1e9 sizes away hit where the definition says, to a few roundings of t", "[slow]") {
     int rays_in_all = 0, unknown = 0;
-    for (const Kind& kind : kinds()) {
+    for (const SolidKind& kind : kinds()) {
         const Tracers tracers(kind);
         const Expected expected(kind);
         for (const double distance : distances) {
@@ -255,7 +254,7 @@ TEST_CASE("rays from 10 to 1e9 sizes away hit where the definition says, to a fe
 
 TEST_CASE("shadow rays to and from lights 10 to 1e9 sizes away are dark where the definition says") {
     int dark_in_all = 0, lit_in_all = 0, unknown = 0;
-    for (const Kind& kind : kinds()) {
+    for (const SolidKind& kind : kinds()) {
         const Tracers tracers(kind);
         const Expected expected(kind);
         for (const double distance : distances) {
@@ -310,8 +309,9 @@ TEST_CASE("what is beside a ray's origin is hit as exactly as ever, however far 
     const Density box_without_ends = Density::half_space({0, 1, 0}, floor) * Density::half_space({0, 0, 1}, 50);
     for (const Solid& ground :
          {Solid::sharp(Density::half_space({0, 1, 0}, floor)), Solid::rounded(0.05, box_without_ends)}) {
-        const Kind kind{"ground",
-                        {ground, Solid::rounded(0.05, box(Vec3(-0.2), Vec3(0.5)) & ~box(Vec3(0), Vec3(0.2)))}};
+        const SolidKind kind{
+            "ground",
+            {ground, Solid::rounded(0.05, Density::box(Vec3(-0.2), Vec3(0.5)) & ~Density::box(Vec3(0), Vec3(0.2)))}};
         const Tracers tracers(kind);
         for (const double distance : distances) {
             CAPTURE(distance);

@@ -4,37 +4,24 @@
 #include "catch.hpp"
 #include "plain_definition.hpp"
 #include "random_free_form.hpp"
+#include "raytracer/trace/agreement.hpp"
 #include "raytracer/trace/implicit_tracer.hpp"
 
 using namespace deburr;
 
 namespace {
 
-constexpr double accuracy = 1e-5;  // half of what users are promised
-
-struct Agreement {
-    int rays = 0, hits = 0, differ = 0;
-};
-
-// First crossing by the definition. Its samples may step over a sliver; a nearer crossing that the tracer found is
-// taken if the definition changes sides there.
-double expected_hit(const SolidTree& tree, Vec3 o, Vec3 d, double found, int steps) {
-    const double want = plain::first_crossing(tree, o, d, 100, steps);
-    const auto side = [&](double t) { return plain::contains(tree, o + d * t); };
-    return found < want && side(found - 1e-7) != side(found + 1e-7) ? found : want;
-}
-
-void compare(const Solid& solid, Gen& g, int rays, int steps, double reach, Agreement& a) {
+void compare_rays(const Solid& solid, Gen& g, int rays, int steps, double reach, Agreement& a) {
     const SolidTree tree = flatten(solid);
     const ImplicitTracer tracer({solid});
     for (int k = 0; k < rays; ++k) {
         const Vec3 o = g.chance(0.15) ? g.point(0.6) : g.point(4), d = glm::normalize(g.point(reach) - o);
         TraceCounters counters;
         const Hit hit = tracer.closest_hit({o, d}, 100, counters);
-        const double want = expected_hit(tree, o, d, hit.t, steps);
+        const double want = expected_hit(tree, o, d, hit.t, 100, steps);
         ++a.rays;
         a.hits += want < infinity;
-        if (hit.t != want && !(std::abs(hit.t - want) < accuracy)) {
+        if (!agree(hit.t, want)) {
             UNSCOPED_INFO("from " << o.x << ' ' << o.y << ' ' << o.z << ": " << hit.t << ", not " << want);
             ++a.differ;
         }
@@ -55,7 +42,7 @@ TEST_CASE("free forms of up to 80 perturbations are hit where the definition say
         CAPTURE(seed);
         Gen g(seed);
         const int count = seed % 5 == 0 ? 80 : g.below(25);
-        compare(Solid::of_field(random_free_form(g, count)), g, 40, 400, 1, a);
+        compare_rays(Solid::of_field(random_free_form(g, count)), g, 40, 400, 1, a);
     }
     CHECK(a.hits > 2'500);
     CHECK(a.differ == 0);
@@ -72,11 +59,11 @@ TEST_CASE("free forms, mirrored, sheared and scaled unevenly, under CSG with rou
         };
         const Solid first = form(), other = g.chance(0.7) ? g.solid(1) : form();
         const int op = g.below(4);
-        compare(op == 0   ? first | other
-                : op == 1 ? first & other
-                : op == 2 ? first - other
-                          : other - first,
-                g, 25, 200, 1, a);
+        compare_rays(op == 0   ? first | other
+                     : op == 1 ? first & other
+                     : op == 2 ? first - other
+                               : other - first,
+                     g, 25, 200, 1, a);
     }
     CHECK(a.hits > 2'000);
     CHECK(a.differ <= a.rays / 2'000);  // grazing rays
@@ -87,7 +74,7 @@ TEST_CASE("quadrics of every kind, infinite ones too, near and far away") {
     for (auto seed : seeds(400)) {
         CAPTURE(seed);
         Gen g(seed);
-        compare(solid_of(random_quadric(g)), g, 20, 2'000, 3, a);
+        compare_rays(solid_of(random_quadric(g)), g, 20, 2'000, 3, a);
     }
     CHECK(a.hits > 3'000);
     CHECK(a.differ <= a.rays / 2'000);

@@ -8,22 +8,16 @@
 #include "plain_definition.hpp"
 #include "random_case.hpp"
 #include "raytracer/render/integrator.hpp"
+#include "raytracer/trace/agreement.hpp"
 
 using namespace deburr;
 
 namespace {
 
-// Half of the tolerance that users are promised.
-constexpr double accuracy = 1e-5;
-
-struct Agreement {
-    int rays = 0, hits = 0, differ = 0;
-};
-
 // Compares the hits of a camera's rays, one for each pixel of the grid, with the definition's first crossing of any
 // solid.
-Agreement compare(const std::vector<Solid>& solids, const Camera& camera, int columns, int rows, double t_max = 100,
-                  int steps = 12) {
+Agreement compare_view(const std::vector<Solid>& solids, const Camera& camera, int columns, int rows,
+                       double t_max = 100, int steps = 12) {
     const ImplicitTracer tracer(solids);
     std::vector<SolidTree> trees;
     for (const Solid& s : solids) trees.push_back(flatten(s));
@@ -35,17 +29,11 @@ Agreement compare(const std::vector<Solid>& solids, const Camera& camera, int co
             TraceCounters counters;
             const double t = tracer.closest_hit(ray, t_max, counters).t;
             double want = infinity;
-            for (const SolidTree& tree : trees) {
-                const double found = plain::first_crossing(tree, ray.origin, ray.direction, t_max, steps);
-                // The definition's samples may step over a sliver; a nearer hit is right if the definition changes
-                // sides there.
-                const auto side = [&](double s) { return plain::contains(tree, ray.origin + ray.direction * s); };
-                const bool crosses = t < found && side(t - 1e-7) != side(t + 1e-7);
-                want = std::min(want, crosses ? t : found);
-            }
+            for (const SolidTree& tree : trees)
+                want = std::min(want, expected_hit(tree, ray.origin, ray.direction, t, t_max, steps));
             ++a.rays;
             a.hits += want < infinity;
-            if (t != want && !(std::abs(t - want) < accuracy)) {
+            if (!agree(t, want)) {
                 UNSCOPED_INFO("pixel " << x << ' ' << y << ": " << t << ", not " << want);
                 ++a.differ;
             }
@@ -82,7 +70,7 @@ TEST_CASE("random solids are hit where the definition says, from outside and fro
             const double want = plain::first_crossing(tree, o, d, 100, 16);
             ++rays;
             hits += want < infinity;
-            differ += t != want && !(std::abs(t - want) < accuracy);
+            differ += !agree(t, want);
         }
     }
     CHECK(hits > 1'500);
@@ -114,7 +102,7 @@ TEST_CASE("slots and ribs as wide as the filter, for radii from 0 over 1e-7 to h
         Density comb = Density::box({0, 0, 0}, {2, 1, 1});
         for (int k = 0; k < 4; ++k)
             comb = comb & ~Density::box({0.3 + 0.4 * k, 0.4, -1}, {0.3 + 0.4 * k + std::max(r, 0.02), 2, 2});
-        const Agreement a = compare({Solid::rounded(r, comb)}, look({3, 2.5, 4}, {1, 0.4, 0.5}), 48, 30);
+        const Agreement a = compare_view({Solid::rounded(r, comb)}, look({3, 2.5, 4}, {1, 0.4, 0.5}), 48, 30);
         CHECK(a.differ == 0);
         if (r < 0.3) CHECK(a.hits > 100);
     }
@@ -149,13 +137,13 @@ TEST_CASE("a wheel of 40 sides, as a product and as a Boolean density with a hub
     for (const double r : {0.02, 0.1, 0.5}) {
         CAPTURE(r);
         const Agreement product =
-            compare({Solid::rounded(r, wheel(40, 1, -0.2, 0.2))}, look({2, 2.5, 3}, {0, 0, 0}), 32, 20);
+            compare_view({Solid::rounded(r, wheel(40, 1, -0.2, 0.2))}, look({2, 2.5, 3}, {0, 0, 0}), 32, 20);
         CHECK(product.differ == 0);
         const Density hollow = (wheel(40, 1, -0.2, 0.2) & ~wheel(40, 0.8, -1, 1)) | wheel(40, 0.25, -0.3, 0.3) |
                                Density::box({-0.9, -0.1, -0.05}, {0.9, 0.1, 0.05});
         if (r > 0.05) continue;  // the plain definition sums all outcomes of all sides
         const Agreement boolean =
-            compare({Solid::rounded(r, hollow)}, look({1.2, 2.8, 1.5}, {0, 0, 0}, 45), 14, 10, 100, 4);
+            compare_view({Solid::rounded(r, hollow)}, look({1.2, 2.8, 1.5}, {0, 0, 0}, 45), 14, 10, 100, 4);
         CHECK(boolean.differ == 0);
         CHECK(boolean.hits > 20);
     }
@@ -172,7 +160,7 @@ TEST_CASE("flush, touching and overlapping faces of Boolean densities are flat t
         CHECK(std::abs(down.position.y - 1) < 1e-12);
         CHECK(glm::length(down.normal - Vec3(0, 1, 0)) < 1e-9);
     }
-    const Agreement a = compare({Solid::rounded(r, top)}, look({5, 4, 6}, {2, 0.5, 0.5}), 48, 30);
+    const Agreement a = compare_view({Solid::rounded(r, top)}, look({5, 4, 6}, {2, 0.5, 0.5}), 48, 30);
     CHECK(a.differ == 0);
     CHECK(a.hits > 200);
 }
@@ -185,7 +173,7 @@ TEST_CASE("mirrored and unevenly scaled solids carry their field along") {
     squash.shift = {0.5, 0, 0.2};
     const Solid s = Solid::rounded(0.2, holed);
     const Agreement a =
-        compare({s.transformed(mirror), s.transformed(squash)}, look({2, 1.5, -4}, {0, 0.6, 0.5}), 64, 40);
+        compare_view({s.transformed(mirror), s.transformed(squash)}, look({2, 1.5, -4}, {0, 0.6, 0.5}), 64, 40);
     CHECK(a.differ == 0);
     CHECK(a.hits > 200);
 }
@@ -194,12 +182,12 @@ TEST_CASE("a camera inside a room sees its rounded walls, pixel for pixel") {
     const Density room = Density::box(Vec3(-3), Vec3(3)) & ~Density::box(Vec3(-2), Vec3(2));
     const Solid furniture = Solid::rounded(0.1, Density::box({-1, -2, -1}, {0, -1, 0.5}));
     const Agreement boolean =
-        compare({Solid::rounded(0.3, room), furniture}, look({1.5, 1, 1.7}, {-1, -0.7, -1}, 80), 64, 40);
+        compare_view({Solid::rounded(0.3, room), furniture}, look({1.5, 1, 1.7}, {-1, -0.7, -1}, 80), 64, 40);
     CHECK(boolean.differ == 0);
     CHECK(boolean.hits == boolean.rays);
     const Solid primary =
         Solid::rounded(0.3, Density::box(Vec3(-3), Vec3(3))) - Solid::rounded(0.3, Density::box(Vec3(-2), Vec3(2)));
-    const Agreement csg = compare({primary}, look({1.5, 1, 1.7}, {-1, -0.7, -1}, 80), 64, 40);
+    const Agreement csg = compare_view({primary}, look({1.5, 1, 1.7}, {-1, -0.7, -1}, 80), 64, 40);
     CHECK(csg.differ == 0);
     CHECK(csg.hits == csg.rays);
 }
@@ -218,7 +206,7 @@ TEST_CASE("600 tilted blocks, as 600 solids, as one union and as one Boolean den
         solids.push_back(Solid::rounded(0.01, densities.back()));
     }
     const Camera camera = look({5, 4, 6}, {0, 0, 0});
-    const Agreement apart = compare(solids, camera, 12, 8, 30, 2);
+    const Agreement apart = compare_view(solids, camera, 12, 8, 30, 2);
     CHECK(apart.differ == 0);
     CHECK(apart.hits > 10);
 
@@ -237,7 +225,7 @@ TEST_CASE("600 tilted blocks, as 600 solids, as one union and as one Boolean den
         const Hit a = separate.closest_hit({o, d}, infinity, counters),
                   b = united.closest_hit({o, d}, infinity, counters);
         hits += bool(a);
-        differ += a.t != b.t && !(std::abs(a.t - b.t) < accuracy);
+        differ += !agree(a.t, b.t);
         if (i % 30 == 0) {
             // Only blocks within half a diagonal plus the filter radius of the ray can matter.
             std::vector<Density> near;
@@ -250,7 +238,7 @@ TEST_CASE("600 tilted blocks, as 600 solids, as one union and as one Boolean den
             ++checked;
             const double want = plain::first_crossing(tree, o, d, 20, 3);
             const double t = boolean.closest_hit({o, d}, infinity, counters).t;
-            CHECK((t == want || std::abs(t - want) < accuracy));
+            CHECK(agree(t, want));
         }
     }
     CHECK(hits > 1'000);
@@ -285,7 +273,7 @@ TEST_CASE("bounded solids among unbounded ones are hit from near and far, pixel 
                                     Solid::sharp(Density::half_space({0, 1, 0}, -3))};
     for (const Vec3 eye : {Vec3(2, 3, 4), Vec3(0.2, 1.5, 0), Vec3(40, 25, 60), Vec3(-30, 0.7, 0.1)}) {
         CAPTURE(eye.x);
-        const Agreement a = compare(solids, look(eye, {1, 0, 0.3}, 50), 48, 30, 300);
+        const Agreement a = compare_view(solids, look(eye, {1, 0, 0.3}, 50), 48, 30, 300);
         CHECK(a.differ == 0);
         CHECK(a.hits > 400);
     }
@@ -344,7 +332,7 @@ TEST_CASE("Lobb's figure 11: the six objects, by the definition", "[slow]") {
         Solid::sharp(cube) - Solid::rounded(r, box2),      Solid::rounded(r, cube - top * box2),
         Solid::rounded(r, cube) | Solid::rounded(r, box3), Solid::rounded(r, cube + box3)};
     for (const Solid& object : objects) {
-        const Agreement a = compare({object}, look({2.2, 2.4, 3}, {0.5, 0.6, 0.5}, 36), 60, 38);
+        const Agreement a = compare_view({object}, look({2.2, 2.4, 3}, {0.5, 0.6, 0.5}, 36), 60, 38);
         CHECK(a.differ == 0);
         CHECK(a.hits > 300);
     }

@@ -18,7 +18,7 @@ struct PlainPart {
 };
 
 // An expression of parts; its Boolean subexpressions are summed over all draws.
-class Plain {
+class PlainExpression {
 public:
     enum class Op { part, sum, product, difference, either, both, no };
     struct Node {
@@ -125,7 +125,7 @@ public:
         slope_ = g.between(0.3, 1);
     }
 
-    Plain plain;
+    PlainExpression plain;
     double radius() const { return radii_[0]; }
 
     // A convex part: a product or conjunction of up to three.
@@ -133,9 +133,10 @@ public:
         Both all = part(shift);
         for (int k = g_.below(3); k > 0; --k) {
             const Both next = part(shift);
-            all = g_.chance(0.5)
-                      ? Both{all.density * next.density, plain.add({Plain::Op::product, all.plain, next.plain})}
-                      : Both{all.density & next.density, plain.add({Plain::Op::both, all.plain, next.plain})};
+            all =
+                g_.chance(0.5)
+                    ? Both{all.density * next.density, plain.add({PlainExpression::Op::product, all.plain, next.plain})}
+                    : Both{all.density & next.density, plain.add({PlainExpression::Op::both, all.plain, next.plain})};
         }
         return all;
     }
@@ -145,11 +146,11 @@ public:
             case 0: return convex(Vec3(0.0));
             case 1: {  // the operands are apart
                 const Both a = bounded(Vec3(0.0)), b = bounded(Vec3(2.5, 0, 0));
-                return {a.density + b.density, plain.add({Plain::Op::sum, a.plain, b.plain})};
+                return {a.density + b.density, plain.add({PlainExpression::Op::sum, a.plain, b.plain})};
             }
             default: {  // the second operand is inside the first
                 const Both a = ball("ball" + std::to_string(0.0), center_, 1.7, radii_[0]), b = bounded(Vec3(0.0));
-                return {a.density - b.density, plain.add({Plain::Op::difference, a.plain, b.plain})};
+                return {a.density - b.density, plain.add({PlainExpression::Op::difference, a.plain, b.plain})};
             }
         }
     }
@@ -159,13 +160,14 @@ public:
             const Both next = part(Vec3(0.0));
             switch (g_.below(3)) {
                 case 0:
-                    all = {all.density | next.density, plain.add({Plain::Op::either, all.plain, next.plain})};
+                    all = {all.density | next.density, plain.add({PlainExpression::Op::either, all.plain, next.plain})};
                     break;
                 case 1:
-                    all = {all.density & ~next.density,
-                           plain.add({Plain::Op::both, all.plain, plain.add({Plain::Op::no, next.plain})})};
+                    all = {all.density & ~next.density, plain.add({PlainExpression::Op::both, all.plain,
+                                                                   plain.add({PlainExpression::Op::no, next.plain})})};
                     break;
-                default: all = {all.density & next.density, plain.add({Plain::Op::both, all.plain, next.plain})};
+                default:
+                    all = {all.density & next.density, plain.add({PlainExpression::Op::both, all.plain, next.plain})};
             }
         }
         return all;
@@ -178,14 +180,14 @@ private:
     }
     Both bounded(Vec3 shift) {  // within a ball of radius 1
         const Both a = convex(shift), b = ball("ball" + std::to_string(shift.x), center_ + shift, 1, radii_[0]);
-        return {a.density * b.density, plain.add({Plain::Op::product, a.plain, b.plain})};
+        return {a.density * b.density, plain.add({PlainExpression::Op::product, a.plain, b.plain})};
     }
     int plane(const std::string& name, Vec3 n, double limit, double r) {
         return plain.part(
             name, [=](Vec3 x) { return glm::dot(n, x); }, r, limit, false);
     }
-    int no(int a) { return plain.add({Plain::Op::no, a}); }
-    int product(int a, int b) { return plain.add({Plain::Op::product, a, b}); }
+    int no(int a) { return plain.add({PlainExpression::Op::no, a}); }
+    int product(int a, int b) { return plain.add({PlainExpression::Op::product, a, b}); }
     // The opposite half-space, of the same family as the plane.
     int above(const std::string& name, Vec3 n, double limit, double r) { return no(plane(name, n, limit, r)); }
 

@@ -14,7 +14,7 @@ using namespace deburr;
 
 namespace {
 
-bool same_bits(const FoundSurface& a, const FoundSurface& b) {
+bool same_surface(const FoundSurface& a, const FoundSurface& b) {
     return a.crossing.t == b.crossing.t && a.crossing.normal == b.crossing.normal && a.solid == b.solid &&
            a.crossing.material == b.crossing.material && a.error == b.error;
 }
@@ -79,7 +79,7 @@ TEST_CASE("the surface found is the same to the bit in whatever order surfaces a
                 for (std::size_t i = 0; i < order.size() && !any.enough(); ++i) any.visit(order[i]);
                 const FoundSurface found = search.found() ? search.surface() : FoundSurface{};
                 CAPTURE(found.crossing.t - want.crossing.t, found.solid, want.solid, found.error - want.error);
-                REQUIRE(same_bits(found, want));
+                REQUIRE(same_surface(found, want));
                 REQUIRE(any.found() == (want.crossing.t < infinity));
                 for (const std::uint32_t i : order) {
                     if (!(want.crossing.t < infinity)) break;
