@@ -112,4 +112,12 @@ struct Shape {
     }
 };
 
+/// Both shapes as the shells of one mesh.
+inline Shape together(Shape a, const Shape& b) {
+    const int n = int(a.vertices.size());
+    a.vertices.insert(a.vertices.end(), b.vertices.begin(), b.vertices.end());
+    for (const auto& t : b.triangles) a.triangles.push_back({t[0] + n, t[1] + n, t[2] + n});
+    return a;
+}
+
 }  // namespace deburr::test

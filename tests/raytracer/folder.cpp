@@ -22,8 +22,8 @@ Folder::~Folder() {
     fs::remove_all(path_, ignored);
 }
 
-std::vector<std::string> Folder::names() const {
-    std::vector<std::string> names;
+Names Folder::names() const {
+    Names names;
     for (const auto& entry : fs::directory_iterator(path_)) names.push_back(entry.path().filename());
     std::sort(names.begin(), names.end());
     return names;

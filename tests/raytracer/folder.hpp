@@ -6,6 +6,8 @@
 
 namespace deburr::test {
 
+using Names = std::vector<std::string>;
+
 /// A new temporary folder, which is removed with everything in it.
 class Folder {
 public:
@@ -16,7 +18,7 @@ public:
     /// Path of the file `name` in the folder.
     std::string operator/(const std::string& name) const { return (path_ / name).string(); }
     /// Names of everything in the folder, hidden files too, sorted.
-    std::vector<std::string> names() const;
+    Names names() const;
 
 private:
     std::filesystem::path path_;

@@ -103,6 +103,8 @@ Outcome run(const std::vector<std::string>& words, const std::vector<std::string
     return Call(words, environment).wait();
 }
 
+void pause_for(double seconds) { std::this_thread::sleep_for(std::chrono::duration<double>(seconds)); }
+
 std::string cube_scene() {
     return R"(
 local r = param("r", 0.1)

@@ -47,6 +47,9 @@ std::string without_progress(const std::string& err);
 /// Runs the program to its end.
 Outcome run(const std::vector<std::string>& words, const std::vector<std::string>& environment = {});
 
+/// Waits for so many seconds.
+void pause_for(double seconds);
+
 /// A rounded cube on a floor seen from above, 60 × 40 pixels; its parameter r is the radius.
 std::string cube_scene();
 

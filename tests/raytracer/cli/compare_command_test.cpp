@@ -9,7 +9,6 @@
 #include "raytracer/program.hpp"
 
 using namespace deburr::test;
-using Json = nlohmann::json;
 
 TEST_CASE("compare says how two files differ, and its limits are exit codes") {
     const Folder folder;
@@ -27,10 +26,10 @@ TEST_CASE("compare says how two files differ, and its limits are exit codes") {
 
     // Without a limit in the call, the report does not claim that limits are met.
     REQUIRE(run({"compare", a, b, "--json", folder / "j"}).code == 0);
-    CHECK(Json::parse(read_file(folder / "j"))["within_limits"].is_null());
+    CHECK(nlohmann::json::parse(read_file(folder / "j"))["within_limits"].is_null());
     CHECK(run({"compare", a, b}).out.find("within_limits       no limit was given\n") != std::string::npos);
     REQUIRE(run({"compare", a, b, "--max-rmse", "9", "--json", folder / "j"}).code == 0);
-    CHECK(Json::parse(read_file(folder / "j"))["within_limits"] == true);
+    CHECK(nlohmann::json::parse(read_file(folder / "j"))["within_limits"] == true);
 }
 
 TEST_CASE("what a picture's header claims is believed as far as the file's size allows", "[slow]") {
@@ -80,7 +79,7 @@ TEST_CASE("compare tells solids of two files apart where both say which they saw
                     .code == 0);
     const auto compared = [&](const char* a, const char* b) {
         run({"compare", folder / a, folder / b, "-q", "--json", folder / "d.json"});
-        const auto d = Json::parse(read_file(folder / "d.json"));
+        const auto d = nlohmann::json::parse(read_file(folder / "d.json"));
         return std::pair{d["other_solid"].get<int>(), d["pixels_on_object"].get<int>()};
     };
     const auto [other, all] = compared("a.exr", "b.exr");

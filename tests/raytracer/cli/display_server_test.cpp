@@ -22,9 +22,9 @@ struct Image {
 };
 
 // Reads the numbers and texts of a packet in order.
-class Packet {
+class ReceivedPacket {
 public:
-    explicit Packet(std::string bytes) : bytes_(std::move(bytes)) {}
+    explicit ReceivedPacket(std::string bytes) : bytes_(std::move(bytes)) {}
     template <class T>
     T next() {
         REQUIRE(at_ + sizeof(T) <= bytes_.size());
@@ -87,7 +87,7 @@ public:
             std::memcpy(&size, received_.data() + at, 4);
             REQUIRE(size >= 5);
             REQUIRE(at + size <= received_.size());
-            Packet packet(received_.substr(at + 4, size - 4));
+            ReceivedPacket packet(received_.substr(at + 4, size - 4));
             at += size;
             const char type = packet.next<char>();
             REQUIRE((type == 4 || type == 6));
@@ -103,7 +103,7 @@ public:
     }
 
 private:
-    static void create(Packet& packet, Image& image) {
+    static void create(ReceivedPacket& packet, Image& image) {
         image = {};
         image.width = packet.next<std::int32_t>();
         image.height = packet.next<std::int32_t>();
@@ -111,7 +111,7 @@ private:
         for (int k = 0; k < count; ++k)
             image.channels[packet.text()].resize(std::size_t(image.width) * std::size_t(image.height));
     }
-    static void update(Packet& packet, Image& image) {
+    static void update(ReceivedPacket& packet, Image& image) {
         ++image.updates;
         const std::size_t count = std::size_t(packet.next<std::int32_t>());
         std::vector<std::string> names;

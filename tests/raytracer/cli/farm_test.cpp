@@ -1,26 +1,19 @@
 // --checkpoint, --resume, --tile, --samples, --frames and merge, as a scheduler uses them.
 #include <signal.h>
 
-#include <chrono>
 #include <filesystem>
 #include <random>
-#include <thread>
+#include <string>
 
 #include "catch.hpp"
 #include "raytracer/cli/farm_options.hpp"
-#include "raytracer/program.hpp"
+#include "raytracer/cli/scene_folder.hpp"
 
 using namespace deburr::test;
-using Words = std::vector<std::string>;
 
 namespace {
 
-void pause_for(double seconds) { std::this_thread::sleep_for(std::chrono::duration<double>(seconds)); }
-
-struct Place : Folder {
-    std::string scene = *this / "cube.lua";
-    Place() { write_file(scene, cube_scene()); }
-
+struct FarmFolder : SceneFolder {
     Words words(const Words& more) const {
         Words all = {"render", scene, "-q"};
         all.insert(all.end(), more.begin(), more.end());
@@ -39,7 +32,7 @@ struct Place : Folder {
     std::string bytes(const std::string& name) const { return read_file(*this / name); }
 };
 
-const Words layers = {"--aov", "P,N,Z,albedo,normal,id,crypto"};
+const Words layer_options = {"--aov", "P,N,Z,albedo,normal,id,crypto"};
 
 // The CRC-32 of gzip, as four bytes in little-endian order.
 std::string crc32_bytes(const std::string& text) {
@@ -62,8 +55,8 @@ Words with(Words words, const Words& more) {
 // Kills a run at random moments and resumes it until it ends, until `kills` runs were killed. The picture must have the
 // bytes of an uninterrupted run. The file of sums is small, so that runs write it often before they are killed.
 void check_kills(int kills, unsigned seed) {
-    const Place place;
-    const Words call = with(layers, {"--size", "60x40", "--spp", "100"});
+    const FarmFolder place;
+    const Words call = with(layer_options, {"--size", "60x40", "--spp", "100"});
     REQUIRE(place.render(with(call, {"-o", place / "whole.exr"})).code == 0);
     const Words kept = with(
         call, {"-o", place / "a.exr", "--checkpoint", place / "a.sums", "--checkpoint-every", "0.005", "--resume"});
@@ -112,7 +105,7 @@ TEST_CASE("200 kills at random moments lose nothing", "[slow]") { check_kills(20
 TEST_CASE("SIGTERM leaves a checkpoint and exit code 75, SIGINT 130, and --resume goes on to the same bytes",
           "[slow]") {
     for (const int signal : {SIGTERM, SIGINT}) {
-        const Place place;
+        const FarmFolder place;
         const Words call = {"--size", "200x200", "--spp", "100"};
         Call run(place.words(with(
                      call, {"-o", place / "a.exr", "--checkpoint", place / "a.sums", "--checkpoint-every", "0.05"})),
@@ -134,7 +127,7 @@ TEST_CASE("SIGTERM leaves a checkpoint and exit code 75, SIGINT 130, and --resum
 }
 
 TEST_CASE("SIGUSR1 asks for a checkpoint at once") {
-    const Place place;
+    const FarmFolder place;
     Call run(place.words({"--size", "200x200", "--spp", "100000", "--checkpoint", place / "a.sums"}));
     REQUIRE(run.handles(SIGUSR1));
     run.send(SIGUSR1);
@@ -146,7 +139,7 @@ TEST_CASE("SIGUSR1 asks for a checkpoint at once") {
 }
 
 TEST_CASE("a checkpoint of something else is refused with one line") {
-    const Place place;
+    const FarmFolder place;
     const Words call = {"--spp", "4", "-o", place / "a.png", "--checkpoint", place / "a.sums", "--resume"};
     REQUIRE(place.render(call).code == 0);
     const auto refused = [&](const Words& more, int code, const std::string& line) {
@@ -189,7 +182,7 @@ TEST_CASE("a checkpoint of something else is refused with one line") {
 }
 
 TEST_CASE("a disk that is full is told, and the picture is made all the same") {
-    const Place place;
+    const FarmFolder place;
     const Outcome o = place.render({"--spp", "4", "-o", place / "a.png", "--checkpoint", "/dev/full"});
     CHECK(o.code == 0);
     CHECK(o.err == "deburr: warning: cannot write '/dev/full': No space left on device; going on without\n");
@@ -197,8 +190,8 @@ TEST_CASE("a disk that is full is told, and the picture is made all the same") {
 }
 
 TEST_CASE("tiles and ranges of samples merge to the bytes of the whole picture") {
-    const Place place;
-    const Words call = with(layers, {"--float", "--spp", "40"});
+    const FarmFolder place;
+    const Words call = with(layer_options, {"--float", "--spp", "40"});
     REQUIRE(place.render(with(call, {"-o", place / "whole.exr"})).code == 0);
     Words tiles, ranges, both;
     for (const std::string i : {"0", "1", "2"}) {
@@ -239,7 +232,7 @@ TEST_CASE("tiles and ranges of samples merge to the bytes of the whole picture")
 }
 
 TEST_CASE("tiles of a picture with a noise bound merge to the whole, too") {
-    const Place place;
+    const FarmFolder place;
     const Words call = {"--noise", "0.05", "--spp", "64"};
     REQUIRE(place.render(with(call, {"-o", place / "whole.exr"})).code == 0);
     Words parts;
@@ -252,7 +245,7 @@ TEST_CASE("tiles of a picture with a noise bound merge to the whole, too") {
 }
 
 TEST_CASE("--tile auto reads the environment of a job's array") {
-    const Place place;
+    const FarmFolder place;
     const Words call = {"--draft", "-o", place / "a.png"};
     const auto same = [&](const std::string& tile, const std::string& given, const Words& environment) {
         REQUIRE(place.render({"--draft", "-o", place / "b.png", "--tile", given}).code == 0);
@@ -280,7 +273,7 @@ TEST_CASE("--tile auto reads the environment of a job's array") {
 }
 
 TEST_CASE("--frames renders an animation, in one run or as an array, with t from 0 to less than 1") {
-    const Place place;
+    const FarmFolder place;
     std::string scene = cube_scene();
     scene.replace(scene.find("0.1"), 3, "0.1 + 0.3 * param(\"t\", 0) + 0 * param(\"frame\", 1)");
     scene.replace(scene.find("param(\"r\", "), 11, "(");
@@ -310,7 +303,7 @@ TEST_CASE("--frames renders an animation, in one run or as an array, with t from
 }
 
 TEST_CASE("threads follow the scheduler's and the control group's limits") {
-    const Place place;
+    const FarmFolder place;
     const auto threads = [&](const Words& environment, const Words& more = {}) {
         const Outcome o =
             run(with({"render", place.scene, "-v", "--spp", "1", "-o", place / "a.png"}, more), environment);

@@ -4,23 +4,15 @@
 #include <chrono>
 #include <filesystem>
 #include <nlohmann/json.hpp>
-#include <thread>
 
 #include "catch.hpp"
+#include "raytracer/cli/scene_folder.hpp"
 #include "raytracer/picture_file.hpp"
 #include "raytracer/program.hpp"
 
 using namespace deburr::test;
-using Words = std::vector<std::string>;
 
 namespace {
-
-struct Place : Folder {
-    std::string scene = *this / "cube.lua";
-    Place() { write_file(scene, cube_scene()); }
-};
-
-void pause_for(double seconds) { std::this_thread::sleep_for(std::chrono::duration<double>(seconds)); }
 
 // A plate with 6 × 6 holes of 16 sides; meshing it takes minutes.
 const char* const plate = R"(
@@ -47,7 +39,7 @@ int incomplete(const std::string& path) { return read_back(path).attribute<int>(
 
 TEST_CASE("the first interrupt saves what there is, marked incomplete") {
     for (const int signal : {SIGINT, SIGTERM}) {
-        const Place place;
+        const SceneFolder place;
         // A tile is finished quickly, the whole picture is not.
         Call call({"render", place.scene, "-o", place / "a.exr", "-q", "--size", "600x600", "--spp", "1000",
                    "--stats-json", place / "s.json"});
@@ -65,7 +57,7 @@ TEST_CASE("the first interrupt saves what there is, marked incomplete") {
 
 TEST_CASE("SIGTERM any number of times does not lose the picture, nor does one SIGINT among them") {
     for (const bool mixed : {false, true}) {
-        const Place place;
+        const SceneFolder place;
         Call call({"render", place.scene, "-o", place / "a.exr", "-q", "--size", "600x600", "--spp", "1000"});
         pause_for(2);
         for (int i = 0; i < 40; ++i) {
@@ -79,7 +71,7 @@ TEST_CASE("SIGTERM any number of times does not lose the picture, nor does one S
 }
 
 TEST_CASE("the second SIGINT ends at once and leaves nothing") {
-    const Place place;
+    const SceneFolder place;
     // Tiles take very long, and so does compressing the picture.
     Call call({"render", place.scene, "-o", place / "a.exr", "-v", "--size", "7000x7000", "--aov", "P,N"});
     REQUIRE(call.says(" half-spaces"));
@@ -93,7 +85,7 @@ TEST_CASE("the second SIGINT ends at once and leaves nothing") {
 }
 
 TEST_CASE("an interrupted picture has the samples that all pixels have, and ends within a second") {
-    const Place place;
+    const SceneFolder place;
     Call call({"render", place.scene, "-o", place / "a.exr", "-v", "--spp", "1048576"});
     REQUIRE(call.says(" half-spaces"));
     pause_for(0.5);
@@ -114,7 +106,7 @@ TEST_CASE("an interrupted picture has the samples that all pixels have, and ends
 }
 
 TEST_CASE("--write-every writes what all pixels have, and the picture at the end is the same", "[slow]") {
-    const Place place;
+    const SceneFolder place;
     Call call({"render", place.scene, "-o", place / "a.exr", "-q", "--size", "300x300", "--spp", "4000",
                "--write-every", "0.2"});
     for (int i = 0; i < 1000 && !std::filesystem::exists(place / "a.exr"); ++i) pause_for(0.02);
@@ -132,7 +124,7 @@ TEST_CASE("--write-every writes what all pixels have, and the picture at the end
 }
 
 TEST_CASE("an interrupt is heeded within a second in every phase") {
-    const Place place;
+    const SceneFolder place;
     const std::string endless = place / "endless.lua", out = place / "a";
     write_file(endless, "local s = 0\nfor i = 1, 1e15 do s = s + i % 7 end\nreturn {}");
     write_file(place / "plate.lua", plate);

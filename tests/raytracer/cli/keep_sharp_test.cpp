@@ -9,9 +9,11 @@
 #include "raytracer/cli/option_values.hpp"
 #include "raytracer/folder.hpp"
 #include "raytracer/program.hpp"
+#include "raytracer/text.hpp"
 #include "raytracer/util/errors.hpp"
 
 using namespace deburr;
+using test::has;
 using test::Outcome;
 using test::run;
 using test::Shape;
@@ -23,8 +25,6 @@ double volume_of(const std::string& said) {
     const std::size_t at = said.find(key);
     return at == std::string::npos ? 0 : std::stod(said.substr(at + key.size()));
 }
-
-bool has(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
 
 }  // namespace
 

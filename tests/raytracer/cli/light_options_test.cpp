@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "catch.hpp"
+#include "raytracer/cli/scene_folder.hpp"
 #include "raytracer/picture_file.hpp"
 #include "raytracer/program.hpp"
 
@@ -9,9 +10,8 @@ using namespace deburr::test;
 
 namespace {
 
-struct Place : Folder {
-    std::string scene = *this / "cube.lua";
-    Place() { write_file(scene, cube_scene()); }
+// Renders scenes and reads their pictures back.
+struct PictureFolder : SceneFolder {
     Outcome call(const std::vector<std::string>& more, const std::string& file = "") const {
         std::vector<std::string> words = {"render", file.empty() ? scene : file, "-q"};
         words.insert(words.end(), more.begin(), more.end());
@@ -26,50 +26,50 @@ struct Place : Folder {
     }
 };
 
-bool same(const PictureFile& a, const PictureFile& b) { return a.values == b.values; }
+bool same_values(const PictureFile& a, const PictureFile& b) { return a.values == b.values; }
 
 }  // namespace
 
 TEST_CASE("one sample is a preview unless paths are asked for, and more are paths unless a preview is") {
-    const Place place;
+    const PictureFolder place;
     const PictureFile one = place.render("a.exr", {"--spp", "1"});
-    CHECK(same(one, place.render("b.exr", {"--spp", "1", "--integrator", "preview"})));
-    CHECK_FALSE(same(one, place.render("c.exr", {"--spp", "1", "--integrator", "path"})));
+    CHECK(same_values(one, place.render("b.exr", {"--spp", "1", "--integrator", "preview"})));
+    CHECK_FALSE(same_values(one, place.render("c.exr", {"--spp", "1", "--integrator", "path"})));
     const PictureFile four = place.render("d.exr", {"--spp", "4"});
-    CHECK(same(four, place.render("e.exr", {"--spp", "4", "--integrator", "path"})));
-    CHECK_FALSE(same(four, place.render("f.exr", {"--spp", "4", "--integrator", "preview"})));
+    CHECK(same_values(four, place.render("e.exr", {"--spp", "4", "--integrator", "path"})));
+    CHECK_FALSE(same_values(four, place.render("f.exr", {"--spp", "4", "--integrator", "preview"})));
 }
 
 TEST_CASE("a picture with a bound of noise is the same for any threads, and a crop of it is a part of it") {
-    const Place place;
+    const PictureFolder place;
     const PictureFile whole = place.render("a.exr", {"--noise", "0.05", "--spp", "64", "--threads", "1"});
-    CHECK(same(whole, place.render("b.exr", {"--noise", "0.05", "--spp", "64", "--threads", "3"})));
+    CHECK(same_values(whole, place.render("b.exr", {"--noise", "0.05", "--spp", "64", "--threads", "3"})));
     const PictureFile crop = place.render("c.exr", {"--noise", "0.05", "--spp", "64", "--crop", "21x13+17+9"});
     int compared = 0;
     for (int y = 0; y < 13; ++y)
         for (int x = 0; x < 21; ++x)
             for (int c = 0; c < 3; ++c) compared += crop.at(x + 17, y + 9, c) == whole.at(x + 17, y + 9, c);
     CHECK(compared == 21 * 13 * 3);
-    CHECK_FALSE(same(whole, place.render("d.exr", {"--noise", "0.005", "--spp", "256"})));
+    CHECK_FALSE(same_values(whole, place.render("d.exr", {"--noise", "0.005", "--spp", "256"})));
 }
 
 TEST_CASE("--time takes as many samples as it has time for") {
-    const Place place;
+    const PictureFolder place;
     const PictureFile p = place.render("a.exr", {"--time", "0.5"});
     const int samples = p.attribute<int>("samplesPerPixel");
     CHECK(samples > 2);
-    CHECK(same(p, place.render("b.exr", {"--spp", std::to_string(samples)})));
+    CHECK(same_values(p, place.render("b.exr", {"--spp", std::to_string(samples)})));
 }
 
 TEST_CASE("a tone curve is for the screen and leaves an EXR as it is") {
-    const Place place;
+    const PictureFolder place;
     const PictureFile plain = place.render("a.exr", {"--spp", "2", "-o", place / "a.png"});
-    CHECK(same(plain, place.render("b.exr", {"--spp", "2", "--view", "agx", "-o", place / "b.png"})));
-    CHECK_FALSE(same(read_back(place / "a.png"), read_back(place / "b.png")));
+    CHECK(same_values(plain, place.render("b.exr", {"--spp", "2", "--view", "agx", "-o", place / "b.png"})));
+    CHECK_FALSE(same_values(read_back(place / "a.png"), read_back(place / "b.png")));
 }
 
 TEST_CASE("a picture from a file lights a scene, behind another background, too") {
-    const Place place;
+    const PictureFolder place;
     // An environment of uniform light of radiance 0.5.
     write_file(
         place / "room.lua",
@@ -97,7 +97,7 @@ TEST_CASE("a picture from a file lights a scene, behind another background, too"
 }
 
 TEST_CASE("wrong values of the options of light end with exit code 2 and one line") {
-    const Place place;
+    const PictureFolder place;
     const auto said = [&](const std::vector<std::string>& words, const std::string& what) {
         std::vector<std::string> all = words;
         all.insert(all.end(), {"-o", place / "x.png"});

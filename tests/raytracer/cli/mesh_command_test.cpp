@@ -15,7 +15,6 @@
 #include "raytracer/program.hpp"
 
 using namespace deburr::test;
-using Json = nlohmann::json;
 namespace fs = std::filesystem;
 
 TEST_CASE("mesh writes every format, and says that the mesh is closed") {
@@ -28,7 +27,7 @@ TEST_CASE("mesh writes every format, and says that the mesh is closed") {
     REQUIRE(outcome.code == 0);
     for (const char* name : {"a.obj", "a.ply", "a.stl", "a.glb", "a.ase", "a.3mf"})
         CHECK(fs::file_size(folder / name) > 1000);
-    const Json j = Json::parse(read_file(folder / "a.json"));
+    const nlohmann::json j = nlohmann::json::parse(read_file(folder / "a.json"));
     CHECK(j["mesh"]["manifold"] == true);
     CHECK(j["mesh"]["inverted"] == 0);
     CHECK(j["mesh"]["vertex_distance_max"] < 1e-6);
@@ -62,13 +61,13 @@ TEST_CASE("mesh by octree: cells, hard edges and a number of faces as asked") {
         const Outcome outcome = run(words);
         CHECK(without_progress(outcome.err) == "");
         REQUIRE(outcome.code == 0);
-        const Json j = Json::parse(read_file(folder / "a.json"));
+        const nlohmann::json j = nlohmann::json::parse(read_file(folder / "a.json"));
         CHECK(j["mesh"]["manifold"] == true);
         CHECK(j["mesh"]["inverted"] == 0);
         CHECK(j["mesh"]["vertex_distance_max"] < 1e-6);
         return j;
     };
-    const Json by_edge = mesh({"--edge", "0.05"});
+    const nlohmann::json by_edge = mesh({"--edge", "0.05"});
     CHECK(by_edge["octree"]["edge"] == 0.05);
     CHECK(by_edge["octree"]["hard_points"] > 40);
     CHECK(by_edge["mesh"]["vertex_normal_degrees"]["mean"] < 5);
@@ -78,7 +77,7 @@ TEST_CASE("mesh by octree: cells, hard edges and a number of faces as asked") {
         const Outcome outcome =
             run({"mesh", folder / "s.lua", "--method", method, "--faces", "20000", "--stats-json", folder / "a.json"});
         CHECK(outcome.code == 0);
-        const double faces = Json::parse(read_file(folder / "a.json"))["mesh"]["triangles"];
+        const double faces = nlohmann::json::parse(read_file(folder / "a.json"))["mesh"]["triangles"];
         CHECK(std::abs(faces - 20000) < 200);
     }
 }
@@ -90,7 +89,7 @@ TEST_CASE("mesh takes free forms by octree, and other solids by triage, unless t
     const Outcome outcome = run({"mesh", folder / "s.lua", "-o", folder / "a.ase", "--stats-json", folder / "a.json"});
     CHECK(without_progress(outcome.err) == "");
     REQUIRE(outcome.code == 0);
-    const Json j = Json::parse(read_file(folder / "a.json"));
+    const nlohmann::json j = nlohmann::json::parse(read_file(folder / "a.json"));
     CHECK(j["method"] == "octree, triage");
     CHECK(j["mesh"]["manifold"] == true);
     CHECK(j["mesh"]["vertex_distance_max"] < 1e-6);
@@ -270,7 +269,7 @@ TEST_CASE("mesh writes nothing wrong: a lost part is said with its place, and --
     CHECK(outcome.err.find("s.lua:2: solid 1: ") != std::string::npos);
     CHECK(outcome.err.find("not in the mesh, the first at (6.") != std::string::npos);
     CHECK(!fs::exists(folder / "a.stl"));
-    const Json check = Json::parse(read_file(folder / "a.json"))["check"];
+    const nlohmann::json check = nlohmann::json::parse(read_file(folder / "a.json"))["check"];
     CHECK(check["faults"] > 0);
     CHECK(check["made_again"] == 1);
     CHECK(check["solids"][0]["missing"]["place"][0] > 6);

@@ -12,7 +12,6 @@
 
 using namespace deburr::test;
 namespace fs = std::filesystem;
-using Names = std::vector<std::string>;
 
 TEST_CASE("an OBJ comes with its MTL, and neither without the other") {
     const Folder folder;

@@ -16,7 +16,7 @@ using namespace deburr::test;
 namespace {
 
 template <class Function>
-std::string error_of(Function function) {
+std::string usage_error(Function function) {
     try {
         function();
     } catch (const UsageError& error) {
@@ -33,7 +33,7 @@ TEST_CASE("sizes within the limits are read, others are named") {
     for (const char* text : {"0x1", "1x0", "-1x5", "5x-1", "1000001x1", "5", "x", "5x", "x5", "5x5x5", "5X5", " 5x5",
                              "5x5 ", "5.0x5", "+5x5", "0x10x5", "", "99999999999999999999x1"}) {
         CAPTURE(text);
-        CHECK(error_of([&] { parse_size("--size", text); }) ==
+        CHECK(usage_error([&] { parse_size("--size", text); }) ==
               "--size: expected WxH, each from 1 to 1000000, got '" + std::string(text) + "'");
     }
 }
@@ -42,11 +42,11 @@ TEST_CASE("limits of pixels are on what is rendered at once") {
     check_pixels("--crop", {900000, 900000, 16384, 16384});
     check_pixels("--crop", {0, 0, 65536, 4096});
     CHECK(
-        error_of([] {
+        usage_error([] {
             check_pixels("--size", {0, 0, 16384, 16385});
         }) ==
         "--size: expected at most 268435456 pixels and 65536 a side at once (--crop renders parts), got '16384x16385'");
-    CHECK(error_of([] { check_pixels("--size", {0, 0, 65537, 1}); }) != "none");
+    CHECK(usage_error([] { check_pixels("--size", {0, 0, 65537, 1}); }) != "none");
 }
 
 TEST_CASE("crops are X11 geometry strings within the picture") {
@@ -54,25 +54,25 @@ TEST_CASE("crops are X11 geometry strings within the picture") {
     for (const char* text : {"10x20", "10x20+3", "10x20+3-4", "10x20-3+4", "0x20+3+4", "10x20+3+4+5", "10x20++4",
                              "10x20+3+99999999999", "+3+4", ""}) {
         CAPTURE(text);
-        CHECK(error_of([&] { parse_crop("--crop", text); }) ==
+        CHECK(usage_error([&] { parse_crop("--crop", text); }) ==
               "--crop: expected WxH+X+Y, for example 100x50+20+10, got '" + std::string(text) + "'");
     }
     check_crop("--crop", {0, 0, 60, 40}, {60, 40});
     check_crop("--crop", {59, 39, 1, 1}, {60, 40});
-    CHECK(error_of([] {
+    CHECK(usage_error([] {
               check_crop("--crop", {59, 0, 2, 1}, {60, 40});
           }) == "--crop: expected a window within the picture of 60x40, got '2x1+59+0'");
-    CHECK(error_of([] { check_crop("--crop", {0, 40, 1, 1}, {60, 40}); }) != "none");
-    CHECK(error_of([] { check_crop("--crop", {65536, 65536, 65536, 65536}, {60, 40}); }) != "none");
+    CHECK(usage_error([] { check_crop("--crop", {0, 40, 1, 1}, {60, 40}); }) != "none");
+    CHECK(usage_error([] { check_crop("--crop", {65536, 65536, 65536, 65536}, {60, 40}); }) != "none");
 }
 
 TEST_CASE("layers by name") {
     CHECK(parse_layers("--aov", "P,N,Z,albedo,normal,id,cost,crypto") == all_layers());
-    CHECK(error_of([] { parse_layers("--aov", "P,Q"); }) ==
+    CHECK(usage_error([] { parse_layers("--aov", "P,Q"); }) ==
           "--aov: expected some of P, N, Z, albedo, normal, id, cost, crypto, got 'Q'");
     for (const char* text : {"", ",", "P,", ",P", "p", "P N", "P, N"}) {
         CAPTURE(text);
-        CHECK(error_of([&] { parse_layers("--aov", text); }) != "none");
+        CHECK(usage_error([&] { parse_layers("--aov", text); }) != "none");
     }
 }
 
@@ -82,11 +82,11 @@ TEST_CASE("whole numbers and seeds") {
     CHECK(parse_seed("--seed", "18446744073709551615") == 18446744073709551615u);
     for (const char* text : {"0", "11", "-1", "1.5", "", "1e1", " 1", "1 ", "99999999999999999999"}) {
         CAPTURE(text);
-        CHECK(error_of([&] { parse_whole("--spp", text, 1, 10); }) ==
+        CHECK(usage_error([&] { parse_whole("--spp", text, 1, 10); }) ==
               "--spp: expected a whole number from 1 to 10, got '" + std::string(text) + "'");
     }
-    CHECK(error_of([] { parse_seed("--seed", "18446744073709551616"); }) != "none");
-    CHECK(error_of([] { parse_seed("--seed", "-1"); }) != "none");
+    CHECK(usage_error([] { parse_seed("--seed", "18446744073709551616"); }) != "none");
+    CHECK(usage_error([] { parse_seed("--seed", "-1"); }) != "none");
 }
 
 TEST_CASE("parameters are name=value, each once") {
@@ -96,30 +96,30 @@ TEST_CASE("parameters are name=value, each once") {
     CHECK(defines == std::map<std::string, std::string>{{"r", "0.2"}, {"_a1", "b=c"}});
     for (const char* text : {"r", "=1", "1r=2", "a b=2", "r=", ""}) {
         CAPTURE(text);
-        CHECK(error_of([&] { parse_define("-D", text, defines); }) ==
+        CHECK(usage_error([&] { parse_define("-D", text, defines); }) ==
               "-D: expected name=value, got '" + std::string(text) + "'");
     }
-    CHECK(error_of([&] { parse_define("-D", "r=3", defines); }) == "-D: expected 'r' once, got 'r=3'");
+    CHECK(usage_error([&] { parse_define("-D", "r=3", defines); }) == "-D: expected 'r' once, got 'r=3'");
 }
 
 TEST_CASE("criteria") {
     CHECK(parse_criterion("--criterion", "exact") == Criterion::exact);
     CHECK(parse_criterion("--criterion", "lobb") == Criterion::lobb);
-    CHECK(error_of([] { parse_criterion("--criterion", "x"); }) == "--criterion: expected exact or lobb, got 'x'");
+    CHECK(usage_error([] { parse_criterion("--criterion", "x"); }) == "--criterion: expected exact or lobb, got 'x'");
 }
 
 TEST_CASE("outputs: a known extension, in small or capital letters, and each file once") {
     check_image_names("-o", {"a.exr", "a.png", "A.PNG", "dir.d/a.jpeg", "a.b.JPG"});
     for (const char* name : {"", "a", "a.foo", ".exr", "exr", "a.exr/b", "a.exr~", "a.tiff", "a.lua"}) {
         CAPTURE(name);
-        CHECK(error_of([&] {
+        CHECK(usage_error([&] {
                   check_image_names("-o", {name});
               }).rfind("-o: expected a file name that ends in .exr", 0) == 0);
     }
-    CHECK(error_of([] {
+    CHECK(usage_error([] {
               check_image_names("-o", {"a.exr", "./a.exr"});
           }) == "outputs: expected different files, got './a.exr'");
-    CHECK(error_of([] { check_distinct({"x/../b", "b"}); }) != "none");
+    CHECK(usage_error([] { check_distinct({"x/../b", "b"}); }) != "none");
 }
 
 TEST_CASE("no output is an input or another output, by whatever name") {
@@ -132,7 +132,7 @@ TEST_CASE("no output is an input or another output, by whatever name") {
     fs::create_directory(folder / "sub");
     const std::string input = folder / "a.lua";
     const auto clash = [&](const std::string& output, const std::string& second = "") {
-        return error_of([&] { check_outputs({output}, {second}, {"", input}); });
+        return usage_error([&] { check_outputs({output}, {second}, {"", input}); });
     };
     CHECK(clash(folder / "b.png") == "none");
     CHECK(clash(folder / "b.png", folder / "c.json") == "none");
@@ -147,5 +147,5 @@ TEST_CASE("no output is an input or another output, by whatever name") {
     close(open_file);
     CHECK(clash(folder / "later.png", folder / "dangling.png") != "none");
     CHECK(clash(folder / "b.png", folder / "sub/../b.png") != "none");
-    CHECK(error_of([] { check_outputs({"/dev/stdout"}, {}, {"/dev/stdin"}); }) == "none");
+    CHECK(usage_error([] { check_outputs({"/dev/stdout"}, {}, {"/dev/stdin"}); }) == "none");
 }

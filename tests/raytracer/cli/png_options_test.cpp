@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "catch.hpp"
+#include "raytracer/cli/scene_folder.hpp"
 #include "raytracer/picture_file.hpp"
 #include "raytracer/program.hpp"
 
@@ -9,10 +10,9 @@ using namespace deburr::test;
 
 namespace {
 
-struct Place : Folder {
-    std::string scene = *this / "cube.lua";
-    Place() {
-        // The floor is removed, so that there is background all around the cube.
+// A folder with a scene of the cube alone: there is background all around it.
+struct FloorlessFolder : SceneFolder {
+    FloorlessFolder() {
         std::string text = cube_scene();
         const std::size_t floor = text.find(", sharp(");
         text.replace(floor, text.find(" },", floor) - floor, "");
@@ -37,7 +37,7 @@ double srgb(double linear) {
 }  // namespace
 
 TEST_CASE("with --alpha colours are of solids alone, in an EXR weighed by alpha and in a PNG not") {
-    const Place place;
+    const FloorlessFolder place;
     place.render({});
     const PictureFile whole = read_back(place / "a.exr");
     const double background[] = {0.6, 0.7, 0.8};
@@ -67,7 +67,7 @@ TEST_CASE("with --alpha colours are of solids alone, in an EXR weighed by alpha 
 }
 
 TEST_CASE("a PNG of 16 bits is opaque sRGB, and 8 bits are what they were") {
-    const Place place;
+    const FloorlessFolder place;
     place.render({"--bits", "16"});
     const PictureFile exr = read_back(place / "a.exr"), words = read_back(place / "a.png");
     REQUIRE(words.types == std::vector<std::string>(3, "uint16"));

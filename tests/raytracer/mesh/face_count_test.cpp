@@ -9,13 +9,12 @@
 #include "raytracer/program.hpp"
 
 using namespace deburr::test;
-using Json = nlohmann::json;
 
 namespace {
 
 struct Made {
     Outcome outcome;
-    Json mesh;  // statistics of the mesh
+    nlohmann::json mesh;  // statistics of the mesh
     double faces() const { return mesh["triangles"]; }
 };
 
@@ -25,12 +24,12 @@ Made mesh(const std::string& scene, std::vector<std::string> more) {
     std::vector<std::string> words{"mesh", folder / "s.lua", "--stats-json", folder / "a.json"};
     words.insert(words.end(), more.begin(), more.end());
     Made made{run(words), {}};
-    if (made.outcome.code == 0) made.mesh = Json::parse(read_file(folder / "a.json"))["mesh"];
+    if (made.outcome.code == 0) made.mesh = nlohmann::json::parse(read_file(folder / "a.json"))["mesh"];
     return made;
 }
 
 // Three solids that have 1,500 triangles at their default tolerances.
-const char* const parts =
+const char* const three_solids =
     "rounded(0.1, cube() & ~box({0.3,0.3,-1},{0.7,0.7,2})), rounded(0.2, box({2,0,0},{4,1,1})), "
     "rounded(0.05, prism({{0.5,0}, {0.25,0.43}, {-0.25,0.43}, {-0.5,0}, {-0.25,-0.43}, {0.25,-0.43}}, 3, 4))";
 
@@ -39,7 +38,7 @@ const char* const parts =
 TEST_CASE("mesh --faces thins out what has more triangles, and says how far that is from the surface") {
     for (const int faces : {1000, 400}) {
         CAPTURE(faces);
-        const Made made = mesh(parts, {"--faces", std::to_string(faces)});
+        const Made made = mesh(three_solids, {"--faces", std::to_string(faces)});
         INFO(made.outcome.err);
         REQUIRE(made.outcome.code == 0);
         CHECK(made.faces() <= faces);
@@ -56,7 +55,7 @@ TEST_CASE("mesh --faces thins out what has more triangles, and says how far that
 }
 
 TEST_CASE("mesh --faces makes finer what has fewer triangles, and keeps the tolerance", "[slow]") {
-    const Made coarse = mesh(parts, {}), fine = mesh(parts, {"--faces", "8000"});
+    const Made coarse = mesh(three_solids, {}), fine = mesh(three_solids, {"--faces", "8000"});
     CHECK(fine.outcome.err == "");
     REQUIRE(fine.outcome.code == 0);
     CHECK(coarse.faces() < 4000);
@@ -103,7 +102,7 @@ TEST_CASE("mesh --faces thins out free forms") {
 
 TEST_CASE("a mesh of a wanted number of triangles does not depend on the number of threads", "[threads]") {
     const Folder folder;
-    write_file(folder / "s.lua", std::string("return { solids = { ") + parts + " } }");
+    write_file(folder / "s.lua", std::string("return { solids = { ") + three_solids + " } }");
     for (const char* threads : {"1", "4"})
         REQUIRE(run({"mesh", folder / "s.lua", "-q", "--faces", "500", "--threads", threads, "-o",
                      folder / (std::string(threads) + ".ply")})

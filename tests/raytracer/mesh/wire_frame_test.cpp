@@ -23,18 +23,19 @@ double total_length(const std::vector<Stroke>& strokes) {
     return sum;
 }
 
-constexpr int width = 400, height = 300;
+constexpr int drawing_width = 400, drawing_height = 300;
 
 std::vector<Stroke> strokes_of(const Mesh& mesh, WireMode mode, Camera camera) {
     return wire_frame(mesh, mesh_edges(mesh, EdgeChoice::polygons), MeshTracer(mesh),
-                      ProjectiveCamera(camera, width, height), {0, 0, width, height}, mode);
+                      ProjectiveCamera(camera, drawing_width, drawing_height), {0, 0, drawing_width, drawing_height},
+                      mode);
 }
 
 }  // namespace
 
 TEST_CASE("A point is seen where the ray through it starts") {
-    const ProjectiveCamera camera({.eye = {3, 2, 5}, .target = {0.2, 0.1, -1}, .up = {0.1, 1, 0}, .fov = 35}, width,
-                                  height);
+    const ProjectiveCamera camera({.eye = {3, 2, 5}, .target = {0.2, 0.1, -1}, .up = {0.1, 1, 0}, .fov = 35},
+                                  drawing_width, drawing_height);
     for (const Vec2 at : {Vec2(0.5, 0.5), Vec2(200, 150), Vec2(399, 12)}) {
         const Ray ray = camera.ray(at.x, at.y);
         const Vec3 seen = camera.project(ray.origin + 7.0 * ray.direction);
@@ -53,7 +54,7 @@ TEST_CASE("A box has 12 edges of polygons and 18 of triangles") {
 TEST_CASE("Of a box seen from a corner's side nine edges are seen, and all of their length") {
     const Mesh mesh = mesh_of(Density::box({0, 0, 0}, {1, 1, 1}), 0);
     const Camera camera{.eye = {4, 3, 5}, .target = {0.5, 0.5, 0.5}, .fov = 25};
-    const ProjectiveCamera view(camera, width, height);
+    const ProjectiveCamera view(camera, drawing_width, drawing_height);
     double expected = 0;
     int seen = 0;
     for (const MeshEdge& e : mesh_edges(mesh, EdgeChoice::polygons)) {
@@ -84,7 +85,7 @@ TEST_CASE("A line behind the camera is not drawn, and one that reaches there is 
     for (const Stroke& s : strokes_of(floor, WireMode::visible, camera))
         for (const Vec2 p : {s.from, s.to}) {
             CHECK(std::isfinite(p.x + p.y));
-            CHECK(p.y > 0.3 * height);  // below the horizon
+            CHECK(p.y > 0.3 * drawing_height);  // below the horizon
         }
 }
 
@@ -123,16 +124,16 @@ TEST_CASE("The lines of crops are those of the whole picture, to the bit, and co
     const auto edges = mesh_edges(mesh, EdgeChoice::polygons);
     const MeshTracer tracer(mesh);
     const auto lines_of = [&](const Window& window, WireMode mode, int scale) {
-        const ProjectiveCamera view(camera, scale * width, scale * height);
+        const ProjectiveCamera view(camera, scale * drawing_width, scale * drawing_height);
         return wire_frame(mesh, edges, tracer, view, window, mode);
     };
     const auto picture = [&](const Window& window, WireMode mode) {
-        Film film(width, height, window);
+        Film film(drawing_width, drawing_height, window);
         draw_strokes(film, lines_of(window, mode, 1), Vec3(1.0), 1.5);
         return film;
     };
     for (const WireMode mode : {WireMode::visible, WireMode::front}) {
-        const Film whole = picture({0, 0, width, height}, mode);
+        const Film whole = picture({0, 0, drawing_width, drawing_height}, mode);
         int lines = 0;
         for (const Window& window : {Window{0, 0, 200, 150}, Window{133, 71, 120, 99}, Window{399, 0, 1, 300}}) {
             const Film part = picture(window, mode);
@@ -144,6 +145,6 @@ TEST_CASE("The lines of crops are those of the whole picture, to the bit, and co
         }
         CHECK(lines > 500);
     }
-    const double all = total_length(lines_of({0, 0, 100 * width, 100 * height}, WireMode::front, 100));
+    const double all = total_length(lines_of({0, 0, 100 * drawing_width, 100 * drawing_height}, WireMode::front, 100));
     CHECK(total_length(lines_of({20000, 15000, 400, 300}, WireMode::front, 100)) < 0.01 * all);
 }

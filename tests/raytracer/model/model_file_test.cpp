@@ -8,24 +8,27 @@
 #include "raytracer/folder.hpp"
 #include "raytracer/model/closed_surface.hpp"
 #include "raytracer/model/flat_faces.hpp"
+#include "raytracer/text.hpp"
 #include "raytracer/util/errors.hpp"
 #include "raytracer/util/scene_error.hpp"
 
 using namespace deburr;
+using test::has;
 using test::Shape;
 
 namespace {
 
 // Reads a model from a file of this name and these bytes.
-Model read(const std::string& name, const std::string& bytes) {
+Model model_from(const std::string& name, const std::string& bytes) {
     const test::Folder folder;
     test::write_file(folder / name, bytes);
     return read_model(folder / name);
 }
 
-std::string error_of(const std::string& name, const std::string& bytes) {
+// The exit code for the model and the message; "none" if it is read.
+std::string refusal_of(const std::string& name, const std::string& bytes) {
     try {
-        read(name, bytes);
+        model_from(name, bytes);
     } catch (const UnsupportedError& error) {
         return std::string("3 ") + error.what();
     } catch (const SceneError& error) {
@@ -34,9 +37,7 @@ std::string error_of(const std::string& name, const std::string& bytes) {
     return "none";
 }
 
-bool has(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
-
-Shape box() { return Shape::box({0, 0, 0}, {3, 2, 1}); }
+Shape brick() { return Shape::box({0, 0, 0}, {3, 2, 1}); }
 
 std::string ascii_stl(const Shape& s) {
     std::string text = "solid x\n";
@@ -77,19 +78,12 @@ std::string ply(const Shape& s) {
     return text + body.substr(body.find('\n', body.find('\n') + 1) + 1);
 }
 
-void turn(Shape& s, std::size_t t) { std::swap(s.triangles[t][1], s.triangles[t][2]); }
-
-Shape together(Shape a, const Shape& b) {
-    const int n = int(a.vertices.size());
-    a.vertices.insert(a.vertices.end(), b.vertices.begin(), b.vertices.end());
-    for (const auto& t : b.triangles) a.triangles.push_back({t[0] + n, t[1] + n, t[2] + n});
-    return a;
-}
+void turn_over(Shape& s, std::size_t t) { std::swap(s.triangles[t][1], s.triangles[t][2]); }
 
 }  // namespace
 
 TEST_CASE("a box is the same from every format") {
-    const Shape s = box();
+    const Shape s = brick();
     std::string capitals = ascii_stl(s);
     for (char& c : capitals) c = char(std::toupper(c));
     const std::pair<const char*, std::string> files[] = {
@@ -100,7 +94,7 @@ TEST_CASE("a box is the same from every format") {
         {"wrong.obj.ply", ply(s)}};
     for (const auto& [name, bytes] : files) {
         CAPTURE(name);
-        const Model model = read(name, bytes);
+        const Model model = model_from(name, bytes);
         CHECK(model.mesh->size() == 12);
         CHECK(model.mesh->planes() == 6);
         CHECK(model.mesh->volume() == 6);
@@ -109,15 +103,15 @@ TEST_CASE("a box is the same from every format") {
 }
 
 TEST_CASE("what is not sound in a file is mended where that is, and said") {
-    Shape inverted = box(), half = box(), twice = box();
-    for (std::size_t t = 0; t < inverted.triangles.size(); ++t) turn(inverted, t);
-    for (std::size_t t = 0; t < 5; ++t) turn(half, t);
+    Shape inverted = brick(), half = brick(), twice = brick();
+    for (std::size_t t = 0; t < inverted.triangles.size(); ++t) turn_over(inverted, t);
+    for (std::size_t t = 0; t < 5; ++t) turn_over(half, t);
     twice.triangles.push_back(twice.triangles[3]);
     const std::pair<Shape, const char*> cases[] = {
         {inverted, "turned 12 facets"}, {half, "turned 5 facets"}, {twice, "dropped 1 facet that is there twice"}};
     for (const auto& [shape, said] : cases) {
         CAPTURE(said);
-        const Model model = read("a.stl", shape.stl());
+        const Model model = model_from("a.stl", shape.stl());
         CHECK(model.mesh->volume() == 6);
         REQUIRE(model.mended.size() == 1);
         CHECK(has(model.mended[0], said));
@@ -125,7 +119,7 @@ TEST_CASE("what is not sound in a file is mended where that is, and said") {
 }
 
 TEST_CASE("vertices that rounding has parted are joined, and said") {
-    Shape s = box();
+    Shape s = brick();
     s.vertices.push_back(s.vertices[6] + Vec3(1e-6, -1e-6, 0));
     for (auto& t : s.triangles)
         for (int& v : t)
@@ -134,7 +128,7 @@ TEST_CASE("vertices that rounding has parted are joined, and said") {
                 goto done;
             }
 done:
-    const Model model = read("a.stl", s.stl());
+    const Model model = model_from("a.stl", s.stl());
     CHECK(std::abs(model.mesh->volume() - 6) < 1e-4);
     REQUIRE(model.mended.size() == 1);
     CHECK(has(model.mended[0], "joined vertices"));
@@ -143,22 +137,22 @@ done:
 TEST_CASE("shells within others are cavities, or nothing") {
     const Shape outer = Shape::box({-2, -2, -2}, {2, 2, 2}), inner = Shape::box({-1, -1, -1}, {1, 1, 1});
     Shape turned = inner;
-    for (std::size_t t = 0; t < turned.triangles.size(); ++t) turn(turned, t);
-    CHECK(read("a.stl", together(outer, turned).stl()).mesh->volume() == 64 - 8);
-    const Model filled = read("a.stl", together(outer, inner).stl());
+    for (std::size_t t = 0; t < turned.triangles.size(); ++t) turn_over(turned, t);
+    CHECK(model_from("a.stl", together(outer, turned).stl()).mesh->volume() == 64 - 8);
+    const Model filled = model_from("a.stl", together(outer, inner).stl());
     CHECK(filled.mesh->volume() == 64);
     REQUIRE(filled.mended.size() == 1);
     CHECK(has(filled.mended[0], "dropped 1 shell within the solid"));
     // A body with a cavity, all of it inside out.
     Shape all = together(outer, turned);
-    for (std::size_t t = 0; t < all.triangles.size(); ++t) turn(all, t);
-    CHECK(read("a.stl", all.stl()).mesh->volume() == 64 - 8);
+    for (std::size_t t = 0; t < all.triangles.size(); ++t) turn_over(all, t);
+    CHECK(model_from("a.stl", all.stl()).mesh->volume() == 64 - 8);
     // Two boxes side by side.
-    CHECK(read("a.stl", together(outer, Shape::box({3, 0, 0}, {4, 1, 1})).stl()).mesh->volume() == 65);
+    CHECK(model_from("a.stl", together(outer, Shape::box({3, 0, 0}, {4, 1, 1})).stl()).mesh->volume() == 65);
 }
 
 TEST_CASE("bodies of a file that overlap are united, and said") {
-    const Model model = read("a.stl", together(box(), Shape::box({1, 0.5, 0.25}, {5, 1, 0.75})).stl());
+    const Model model = model_from("a.stl", together(brick(), Shape::box({1, 0.5, 0.25}, {5, 1, 0.75})).stl());
     CHECK(model.mesh->volume() == 6 + 2 * 0.5 * 0.5);
     REQUIRE(model.mended.size() == 1);
     CHECK(has(model.mended[0], "united 2 shells that overlap"));
@@ -167,49 +161,49 @@ TEST_CASE("bodies of a file that overlap are united, and said") {
 TEST_CASE("boxes that touch in an edge or in a vertex are one solid") {
     for (const Vec3 shift : {Vec3(1, 1, 0), Vec3(1, 1, 1)}) {
         const Shape a = Shape::box({0, 0, 0}, {1, 1, 1}), b = Shape::box(shift, shift + 1.0);
-        CHECK(read("a.stl", together(a, b).stl()).mesh->volume() == 2);
+        CHECK(model_from("a.stl", together(a, b).stl()).mesh->volume() == 2);
     }
 }
 
 TEST_CASE("what bounds no solid is refused with a count, a place and a word on how to mend it") {
-    Shape open = box();
+    Shape open = brick();
     open.triangles.pop_back();
-    const std::string hole = error_of("a.stl", open.stl());
+    const std::string hole = refusal_of("a.stl", open.stl());
     CHECK(has(hole, "3 "));
     CHECK(has(hole, "a.stl: expected a closed surface, got one with 3 open edges, one near {"));
     CHECK(has(hole, "close it"));
     Shape inward = Shape::box({1, 0.5, 0.3}, {5, 0.8, 0.6});
-    for (std::size_t t = 0; t < inward.triangles.size(); ++t) turn(inward, t);
-    const std::string crossing = error_of("a.stl", together(box(), inward).stl());
+    for (std::size_t t = 0; t < inward.triangles.size(); ++t) turn_over(inward, t);
+    const std::string crossing = refusal_of("a.stl", together(brick(), inward).stl());
     CHECK(has(crossing, "3 "));
     CHECK(has(crossing, "a.stl: expected bodies that face outward where they overlap"));
-    CHECK(has(error_of("a.stl", Shape().stl()), "expected facets, got none"));
-    Shape nan = box();
+    CHECK(has(refusal_of("a.stl", Shape().stl()), "expected facets, got none"));
+    Shape nan = brick();
     nan.vertices[2].y = std::nan("");
-    CHECK(has(error_of("a.stl", nan.stl()), "expected coordinates, got one that is not a number"));
+    CHECK(has(refusal_of("a.stl", nan.stl()), "expected coordinates, got one that is not a number"));
 }
 
 TEST_CASE("files that are not what they seem are one line") {
-    std::string cut = box().stl();
+    std::string cut = brick().stl();
     cut.resize(cut.size() - 30);
-    CHECK(has(error_of("a.stl", cut), "2 "));
-    CHECK(has(error_of("a.stl", cut), "expected 684 bytes for the 12 facets that it claims, got 654"));
-    std::string many = box().stl();
+    CHECK(has(refusal_of("a.stl", cut), "2 "));
+    CHECK(has(refusal_of("a.stl", cut), "expected 684 bytes for the 12 facets that it claims, got 654"));
+    std::string many = brick().stl();
     many[83] = char(0x7f);
-    CHECK(has(error_of("a.stl", many), "facets that it claims, got 684"));
-    CHECK(has(error_of("a.stl", ""), "got an empty file"));
-    CHECK(has(error_of("a.stl", "hello"), "expected a model (STL"));
-    CHECK(has(error_of("a.stl", ascii_stl(box()).substr(0, 300)), "cut off"));
+    CHECK(has(refusal_of("a.stl", many), "facets that it claims, got 684"));
+    CHECK(has(refusal_of("a.stl", ""), "got an empty file"));
+    CHECK(has(refusal_of("a.stl", "hello"), "expected a model (STL"));
+    CHECK(has(refusal_of("a.stl", ascii_stl(brick()).substr(0, 300)), "cut off"));
     for (const char* text : {"solid x facet normal a b c outer loop endsolid", "ply\nformat ascii 1.0\nend_header\n",
                              "OFF\n99999999 99999999 0\n", "glTF____________", "PK\x03\x04 nothing"}) {
         CAPTURE(text);
-        const std::string said = error_of("a.stl", text);
+        const std::string said = refusal_of("a.stl", text);
         CHECK((has(said, "2 ") || has(said, "3 ")));
         CHECK(said.find('\n') == std::string::npos);
     }
-    std::string claims = ply(box());
+    std::string claims = ply(brick());
     claims.replace(claims.find("vertex 8"), 8, "vertex 4000000000");
-    CHECK(has(error_of("a.ply", claims), "expected at most an element a byte, got a claim of 4000000000 in "));
+    CHECK(has(refusal_of("a.ply", claims), "expected at most an element a byte, got a claim of 4000000000 in "));
     CHECK_THROWS_AS(read_model("/nowhere/a.stl"), SceneError);
 }
 

@@ -24,8 +24,9 @@ Shape random_model(Gen& g, int kind) {
 
 Solid rounded(const ClosedMeshPtr& mesh, double r) { return Solid::of_field(std::make_shared<MeshField>(mesh, r)); }
 
-// First t where the definition changes sides along the ray, by steps that are small compared with r; infinity if none.
-double first_change(const ClosedMesh& mesh, double r, const Ray& ray, double length) {
+// First t where the share of the ball around the ray's point passes ½, by steps that are small compared with r;
+// infinity if none.
+double first_half_share(const ClosedMesh& mesh, double r, const Ray& ray, double length) {
     const auto inside = [&](double t) { return ball_share(mesh, ray.origin + t * ray.direction, r).value > 0.5; };
     const double step = r / 24;
     const bool start = inside(0);
@@ -54,7 +55,7 @@ TEST_CASE("rays meet a rounded model where the share of a ball is a half", "[slo
             const Vec3 target = g.point(1), away = 4.0 * g.direction();
             const Ray ray{target + away, glm::normalize(-away)};
             const Hit hit = tracer.closest_hit(ray, infinity, counters);
-            const double expected = first_change(*mesh, r, ray, 8);
+            const double expected = first_half_share(*mesh, r, ray, 8);
             if (hit && hit.t < expected - 1e-6) {
                 // The definition is sampled only at points and stepped over a grazing hit.
                 const auto f = [&](double t) {

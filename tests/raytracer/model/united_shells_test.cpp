@@ -6,36 +6,29 @@
 #include "closed_shapes.hpp"
 #include "polygonizer/mesh/crossing_triangles.hpp"
 #include "raytracer/model/closed_surface.hpp"
+#include "raytracer/text.hpp"
 
 using namespace deburr;
+using test::has;
 using test::Shape;
 
 namespace {
-
-Shape together(Shape a, const Shape& b) {
-    const int n = int(a.vertices.size());
-    a.vertices.insert(a.vertices.end(), b.vertices.begin(), b.vertices.end());
-    for (const auto& t : b.triangles) a.triangles.push_back({t[0] + n, t[1] + n, t[2] + n});
-    return a;
-}
 
 Shape turned(Shape s) {
     for (auto& t : s.triangles) std::swap(t[1], t[2]);
     return s;
 }
 
-ClosedSurface read(const Shape& s) { return closed_surface({s.vertices, s.triangles}); }
+ClosedSurface united(const Shape& s) { return closed_surface({s.vertices, s.triangles}); }
 
-std::string error_of(const Shape& s) {
+std::string why_unsound(const Shape& s) {
     try {
-        read(s);
+        united(s);
     } catch (const UnsoundSurface& error) {
         return error.what();
     }
     return "none";
 }
-
-bool has(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
 
 std::size_t crossings(const ClosedMesh& closed) {
     Mesh mesh;
@@ -82,12 +75,12 @@ TEST_CASE("two boxes that overlap, or touch in a part of a face, are one solid")
     };
     for (const Case& c : cases) {
         CAPTURE(c.volume);
-        const ClosedSurface s = read(together(a, Shape::box(c.lo, c.hi)));
+        const ClosedSurface s = united(together(a, Shape::box(c.lo, c.hi)));
         CHECK(s.mesh->volume() == Approx(c.volume).epsilon(1e-14));
         CHECK(s.mesh->planes() == c.faces);
         CHECK(crossings(*s.mesh) == 0);
     }
-    const ClosedSurface said = read(together(a, Shape::box({6, 6, 6}, {16, 16, 16})));
+    const ClosedSurface said = united(together(a, Shape::box({6, 6, 6}, {16, 16, 16})));
     REQUIRE(said.mended.size() == 1);
     CHECK(said.mended[0] == "united 2 shells that overlap, where 6 pairs of facets crossed");
 }
@@ -118,7 +111,7 @@ TEST_CASE("a hundred random boxes, flush or turned by any angle, have the volume
             all = together(all, one);
             if (box < few_boxes) few = together(few, one);
         }
-        const ClosedSurface s = read(all);
+        const ClosedSurface s = united(all);
         CHECK(std::abs(s.mesh->volume() / double(cells->count()) - 1) < 1e-13);
         CHECK(crossings(*s.mesh) == 0);
         // Rotated and rounded to floats, flush faces overlap or separate by that rounding. If the slivers between them
@@ -126,7 +119,7 @@ TEST_CASE("a hundred random boxes, flush or turned by any angle, have the volume
         few.rotate(g);
         for (Vec3& v : few.vertices) v = Vec3(glm::vec3(v));
         try {
-            const ClosedSurface t = read(few);
+            const ClosedSurface t = united(few);
             CHECK(std::abs(t.mesh->volume() / double(few_cells->count()) - 1) < 1e-5);
             CHECK(crossings(*t.mesh) == 0);
             ++turned_and_united;
@@ -152,7 +145,7 @@ TEST_CASE("a hundred boxes, each turned by an angle of its own, are united") {
             sum += box.mesh().volume();
             all = together(all, box);
         }
-        const ClosedSurface s = read(all);
+        const ClosedSurface s = united(all);
         CHECK(crossings(*s.mesh) == 0);
         // A random point is inside the union exactly where the winding number of all boxes is positive. The volume of
         // the boxes before the union is the sum of theirs, with overlaps counted again.
@@ -181,8 +174,8 @@ TEST_CASE("tessellated spheres that overlap have the volume of their union") {
     const double one = ball.mesh().volume();
     Shape moved = ball;
     for (Vec3& v : moved.vertices) v += Vec3(0.9, 0.05, 0.02);
-    const ClosedSurface s = read(together(ball, moved));
-    const double d = glm::length(Vec3(0.9, 0.05, 0.02)), lens = test::pi * (4 + d) * (2 - d) * (2 - d) / 12;
+    const ClosedSurface s = united(together(ball, moved));
+    const double d = glm::length(Vec3(0.9, 0.05, 0.02)), lens = pi * (4 + d) * (2 - d) * (2 - d) / 12;
     CHECK(std::abs(s.mesh->volume() - (2 * one - lens)) < 0.02);
     CHECK(crossings(*s.mesh) == 0);
 }
@@ -191,24 +184,24 @@ TEST_CASE("shells within shells that overlap: what any of them holds is solid") 
     const Shape a = Shape::box({0, 0, 0}, {10, 10, 10}), b = Shape::box({8, 0, 0}, {18, 10, 10});
     const Shape cavity = turned(Shape::box({1, 1, 1}, {9, 9, 9}));
     // The second body fills the part of the first body's cavity that it overlaps.
-    CHECK(read(together(together(a, cavity), b)).mesh->volume() == 1800 - 7 * 8 * 8);
+    CHECK(united(together(together(a, cavity), b)).mesh->volume() == 1800 - 7 * 8 * 8);
     // A body within both of the others adds nothing.
-    CHECK(read(together(together(a, b), Shape::box({8.5, 4, 4}, {9.5, 5, 5}))).mesh->volume() == 1800);
+    CHECK(united(together(together(a, b), Shape::box({8.5, 4, 4}, {9.5, 5, 5}))).mesh->volume() == 1800);
     // All shells are inside out.
-    CHECK(read(turned(together(a, b))).mesh->volume() == 1800);
+    CHECK(united(turned(together(a, b))).mesh->volume() == 1800);
 }
 
 TEST_CASE("a shell that crosses itself is what it winds around, if it is nowhere inside out") {
     std::vector<Vec2> star;
-    for (int k = 0; k < 5; ++k) star.push_back({std::cos(0.8 * test::pi * k), std::sin(0.8 * test::pi * k)});
-    const ClosedSurface s = read(fan_prism(star));
+    for (int k = 0; k < 5; ++k) star.push_back({std::cos(0.8 * pi * k), std::sin(0.8 * pi * k)});
+    const ClosedSurface s = united(fan_prism(star));
     // The pentagram consists of ten triangles, each with its center, a tip and an inner corner.
-    const double inner = std::cos(0.4 * test::pi) / std::cos(0.2 * test::pi);
-    CHECK(s.mesh->volume() == Approx(5 * inner * std::sin(0.2 * test::pi)).epsilon(1e-12));
+    const double inner = std::cos(0.4 * pi) / std::cos(0.2 * pi);
+    CHECK(s.mesh->volume() == Approx(5 * inner * std::sin(0.2 * pi)).epsilon(1e-12));
     CHECK(s.mesh->planes() == 12);
     CHECK(has(s.mended.at(0), "crosses itself"));
 
-    const std::string bow_tie = error_of(fan_prism({{-2, -1}, {2, 1}, {2, -1.5}, {-2, 1}}));
+    const std::string bow_tie = why_unsound(fan_prism({{-2, -1}, {2, 1}, {2, -1.5}, {-2, 1}}));
     CHECK(has(bow_tie, "pairs of facets that cross and "));
     CHECK(has(bow_tie, "inside out, one near {"));
     CHECK(has(bow_tie, "repair it"));
@@ -216,7 +209,7 @@ TEST_CASE("a shell that crosses itself is what it winds around, if it is nowhere
 
 TEST_CASE("a body that faces inward and overlaps another is refused: it may be a hole") {
     const Shape a = Shape::box({0, 0, 0}, {10, 10, 10}), hole = turned(Shape::box({2, 2, 2}, {7, 7, 12}));
-    const std::string said = error_of(together(a, hole));
+    const std::string said = why_unsound(together(a, hole));
     CAPTURE(said);
     CHECK(has(said, "expected bodies that face outward where they overlap, got "));
     CHECK(has(said, "near {"));

@@ -71,7 +71,6 @@ std::vector<SolidKind> kinds() {
 
 constexpr double distances[] = {10, 100, 2e3, 2e4, 1e6, 1e9};
 constexpr double beside = 8;  // the definition is evaluated on a ray within this distance of the solids
-constexpr int steps = 8;
 
 // The plain definition has no convolution; the share of a ball is tested elsewhere.
 bool is_convolved(const SolidTree& tree) { return tree.leaves[0].density.nodes.back().op == Op::convolution; }
@@ -86,6 +85,7 @@ public:
     /// First crossing beyond `from`. The definition is sampled at points only and may step over a sliver, so the
     /// tracer's crossing at `found` is taken if it is nearer and the definition changes sides there.
     double first(const Ray& ray, double from, double found) const {
+        constexpr int steps = 8;
         // The ray's point at `from`, computed with more precision than doubles have.
         Vec3 o;
         for (int k = 0; k < 3; ++k) o[k] = double((long double)ray.origin[k] + (long double)ray.direction[k] * from);

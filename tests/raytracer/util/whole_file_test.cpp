@@ -19,7 +19,6 @@
 
 using namespace deburr;
 using namespace deburr::test;
-using Names = std::vector<std::string>;
 
 TEST_CASE("a file is written, and replaced with its mode kept") {
     const Folder folder;
