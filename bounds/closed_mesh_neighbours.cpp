@@ -1,36 +1,16 @@
 // Pairs the triangles of a closed mesh at their edges, also where more than two meet in one edge.
 #include <algorithm>
 #include <span>
-#include <tuple>
 #include <utility>
 
 #include "bounds/closed_mesh.hpp"
+#include "bounds/half_edges.hpp"
 
 namespace deburr {
 namespace {
 
-struct HalfEdge {
-    int lo, hi;  // vertex indices, lo < hi
-    bool up;     // it runs from lo to hi
-    int triangle, k;
-};
-
 using HalfEdges = std::span<const HalfEdge>;
 using Pairs = std::vector<std::pair<const HalfEdge*, const HalfEdge*>>;
-
-// All half-edges, sorted by edge, then by triangle.
-std::vector<HalfEdge> half_edges_of(const std::vector<std::array<int, 3>>& triangles) {
-    std::vector<HalfEdge> all;
-    for (std::size_t t = 0; t < triangles.size(); ++t)
-        for (int k = 0; k < 3; ++k) {
-            const int a = triangles[t][k], b = triangles[t][(k + 1) % 3];
-            all.push_back({std::min(a, b), std::max(a, b), a < b, int(t), k});
-        }
-    std::sort(all.begin(), all.end(), [](const HalfEdge& a, const HalfEdge& b) {
-        return std::tie(a.lo, a.hi, a.triangle, a.k) < std::tie(b.lo, b.hi, b.triangle, b.k);
-    });
-    return all;
-}
 
 // The number of half-edges that run up less that of those that run down; 0 where the edge is closed.
 int balance_of(HalfEdges edge) {
@@ -78,22 +58,19 @@ void pair_around(const std::vector<const HalfEdge*>& around, Pairs& pairs) {
 }  // namespace
 
 void ClosedMesh::find_neighbours() {
-    const std::vector<HalfEdge> all = half_edges_of(triangles_);
+    const std::vector<HalfEdge> all = sorted_half_edges(triangles_);
     Pairs pairs;
     std::size_t open = 0;
     Vec3 place(0.0);
-    for (std::size_t i = 0, end; i < all.size(); i = end) {
-        end = i;
-        while (end < all.size() && all[end].lo == all[i].lo && all[end].hi == all[i].hi) ++end;
-        const HalfEdges edge(&all[i], end - i);
+    each_edge(all, [&](HalfEdges edge) {
         if (balance_of(edge) != 0) {
-            if (open++ == 0) place = 0.5 * (vertices_[all[i].lo] + vertices_[all[i].hi]);
+            if (open++ == 0) place = 0.5 * (vertices_[edge[0].lo] + vertices_[edge[0].hi]);
         } else if (edge.size() == 2) {
             pairs.push_back({&edge[0], &edge[1]});
         } else {
             pair_around(in_order_around(*this, edge), pairs);
         }
-    }
+    });
     if (open > 0) throw NotClosed(open, place);
     neighbours_.resize(triangles_.size());
     edges_.resize(triangles_.size());

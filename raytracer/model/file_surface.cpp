@@ -5,46 +5,13 @@
 #include <numeric>
 #include <tuple>
 
+#include "bounds/half_edges.hpp"
 #include "bounds/sort_once.hpp"
 #include "bounds/union_find.hpp"
 
 namespace deburr {
 
 using Corners = ClosedMesh::Corners;
-
-namespace {
-
-// An edge of a triangle: its vertices in rising order, the triangle, the position k in it, and whether it runs upward.
-struct HalfEdge {
-    int lo, hi, triangle, k;
-    bool up;
-};
-
-std::vector<HalfEdge> sorted_edges(const FileSurface& surface) {
-    std::vector<HalfEdge> edges;
-    for (std::size_t t = 0; t < surface.triangles.size(); ++t)
-        for (int k = 0; k < 3; ++k) {
-            const int a = surface.triangles[t][k], b = surface.triangles[t][(k + 1) % 3];
-            edges.push_back({std::min(a, b), std::max(a, b), int(t), k, a < b});
-        }
-    std::sort(edges.begin(), edges.end(), [](const HalfEdge& a, const HalfEdge& b) {
-        return std::tie(a.lo, a.hi, a.triangle, a.k) < std::tie(b.lo, b.hi, b.triangle, b.k);
-    });
-    return edges;
-}
-
-// Calls visit(first, last) for the range of half-edges of each edge.
-template <class Visit>
-void each_edge(const std::vector<HalfEdge>& edges, Visit visit) {
-    for (std::size_t i = 0; i < edges.size();) {
-        std::size_t end = i + 1;
-        while (end < edges.size() && edges[end].lo == edges[i].lo && edges[end].hi == edges[i].hi) ++end;
-        visit(&edges[i], &edges[i] + (end - i));
-        i = end;
-    }
-}
-
-}  // namespace
 
 FileSurface welded(const TriangleSoup& soup) {
     FileSurface to;
@@ -106,13 +73,14 @@ std::size_t drop_doubles(FileSurface& surface) {
 
 Openness openness(const FileSurface& surface) {
     Openness o;
-    each_edge(sorted_edges(surface), [&](const HalfEdge* first, const HalfEdge* last) {
-        const auto count = last - first;
-        if (count % 2 != 0) {
-            if (o.open++ == 0) o.place = 0.5 * (surface.vertices[first->lo] + surface.vertices[first->hi]);
-            o.rim.insert(o.rim.end(), {first->lo, first->hi});
+    each_edge(sorted_half_edges(surface.triangles), [&](std::span<const HalfEdge> edge) {
+        const int lo = edge[0].lo, hi = edge[0].hi;
+        if (edge.size() % 2 != 0) {
+            if (o.open++ == 0) o.place = 0.5 * (surface.vertices[lo] + surface.vertices[hi]);
+            o.rim.insert(o.rim.end(), {lo, hi});
         } else {
-            o.unturned += std::count_if(first, last, [](const HalfEdge& e) { return e.up; }) * 2 != count;
+            const auto up = std::count_if(edge.begin(), edge.end(), [](const HalfEdge& e) { return e.up; });
+            o.unturned += std::size_t(up) * 2 != edge.size();
         }
     });
     sort_once(o.rim);
@@ -139,8 +107,8 @@ void weld_rim(FileSurface& surface, const std::vector<int>& rim, double distance
 
 std::vector<int> shells_of(const FileSurface& surface, int& count) {
     UnionFind joined(surface.triangles.size());
-    each_edge(sorted_edges(surface), [&](const HalfEdge* first, const HalfEdge* last) {
-        if (last - first == 2) joined.join(first[0].triangle, first[1].triangle);
+    each_edge(sorted_half_edges(surface.triangles), [&](std::span<const HalfEdge> edge) {
+        if (edge.size() == 2) joined.join(edge[0].triangle, edge[1].triangle);
     });
     std::vector<int> shell(surface.triangles.size()), number(surface.triangles.size(), -1);
     count = 0;
@@ -155,11 +123,11 @@ std::vector<int> shells_of(const FileSurface& surface, int& count) {
 long turn_alike(FileSurface& surface) {
     std::vector<std::array<int, 3>> neighbour(surface.triangles.size(), {-1, -1, -1});
     std::vector<std::array<char, 3>> agrees(surface.triangles.size(), {true, true, true});
-    each_edge(sorted_edges(surface), [&](const HalfEdge* first, const HalfEdge* last) {
-        if (last - first != 2) return;
-        for (int i = 0; i < 2; ++i) {
-            neighbour[first[i].triangle][first[i].k] = first[1 - i].triangle;
-            agrees[first[i].triangle][first[i].k] = first[0].up != first[1].up;
+    each_edge(sorted_half_edges(surface.triangles), [&](std::span<const HalfEdge> edge) {
+        if (edge.size() != 2) return;
+        for (std::size_t i = 0; i < 2; ++i) {
+            neighbour[edge[i].triangle][edge[i].k] = edge[1 - i].triangle;
+            agrees[edge[i].triangle][edge[i].k] = edge[0].up != edge[1].up;
         }
     });
     std::vector<signed char> turned(surface.triangles.size(), -1);

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <numeric>
-#include <tuple>
 
+#include "bounds/half_edges.hpp"
 #include "bounds/sort_once.hpp"
 
 namespace deburr {
@@ -40,28 +40,12 @@ Plane fitted(const std::vector<Vec3>& vertices, const std::vector<int>& points, 
 
 // The triangle across each edge; −1 where there is not exactly one.
 std::vector<Corners> neighbours(const std::vector<Corners>& triangles) {
-    struct DirectedEdge {
-        int lo, hi, triangle, k;
-    };
-    std::vector<DirectedEdge> edges;
-    for (std::size_t t = 0; t < triangles.size(); ++t)
-        for (int k = 0; k < 3; ++k) {
-            const auto [lo, hi] = std::minmax(triangles[t][k], triangles[t][(k + 1) % 3]);
-            edges.push_back({lo, hi, int(t), k});
-        }
-    std::sort(edges.begin(), edges.end(), [](const DirectedEdge& a, const DirectedEdge& b) {
-        return std::tie(a.lo, a.hi, a.triangle) < std::tie(b.lo, b.hi, b.triangle);
-    });
     std::vector<Corners> across(triangles.size(), {-1, -1, -1});
-    for (std::size_t i = 0; i + 1 < edges.size();) {
-        std::size_t end = i + 1;
-        while (end < edges.size() && edges[end].lo == edges[i].lo && edges[end].hi == edges[i].hi) ++end;
-        if (end - i == 2) {
-            across[edges[i].triangle][edges[i].k] = edges[i + 1].triangle;
-            across[edges[i + 1].triangle][edges[i + 1].k] = edges[i].triangle;
-        }
-        i = end;
-    }
+    each_edge(sorted_half_edges(triangles), [&](std::span<const HalfEdge> edge) {
+        if (edge.size() != 2) return;
+        across[edge[0].triangle][edge[0].k] = edge[1].triangle;
+        across[edge[1].triangle][edge[1].k] = edge[0].triangle;
+    });
     return across;
 }
 

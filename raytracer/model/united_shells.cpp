@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <map>
 #include <optional>
-#include <tuple>
 
+#include "bounds/half_edges.hpp"
 #include "bounds/union_find.hpp"
 #include "polygonizer/mesh/triangle_tree.hpp"
 #include "raytracer/model/exact_points.hpp"
@@ -170,25 +170,12 @@ private:
     // For each part the sheet that it belongs to: parts connected by edges that have exactly two of them, on each side
     // of which the winding number is the same.
     std::vector<int> sheets() {
-        struct HalfEdge {
-            int lo, hi, part;
-        };
-        std::vector<HalfEdge> edges;
-        for (std::size_t p = 0; p < parts_.size(); ++p)
-            for (int k = 0; k < 3; ++k) {
-                const auto [lo, hi] = std::minmax(parts_[p].corners[k], parts_[p].corners[(k + 1) % 3]);
-                edges.push_back({lo, hi, int(p)});
-            }
-        std::sort(edges.begin(), edges.end(), [](const HalfEdge& a, const HalfEdge& b) {
-            return std::tie(a.lo, a.hi, a.part) < std::tie(b.lo, b.hi, b.part);
-        });
+        std::vector<std::array<int, 3>> corners;
+        for (const Part& p : parts_) corners.push_back(p.corners);
         UnionFind joined(parts_.size());
-        for (std::size_t i = 0; i < edges.size();) {
-            std::size_t end = i + 1;
-            while (end < edges.size() && edges[end].lo == edges[i].lo && edges[end].hi == edges[i].hi) ++end;
-            if (end - i == 2) joined.join(edges[i].part, edges[i + 1].part);
-            i = end;
-        }
+        each_edge(sorted_half_edges(corners), [&](std::span<const HalfEdge> edge) {
+            if (edge.size() == 2) joined.join(edge[0].triangle, edge[1].triangle);
+        });
         std::vector<int> sheet;
         for (std::size_t p = 0; p < parts_.size(); ++p) sheet.push_back(joined.find(int(p)));
         return sheet;
