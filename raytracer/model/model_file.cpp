@@ -30,24 +30,20 @@ constexpr std::size_t largest_file = std::size_t(2) << 30;  // bytes
 constexpr std::size_t memory_per_byte = 48, least_memory = std::size_t(1) << 30;
 constexpr std::size_t bytes_per_second = std::size_t(1) << 20, least_seconds = 20;
 
-[[noreturn]] void fail(const std::string& path, const std::string& what) {
-    throw SceneError(one_line(fmt::format("{}: {}", file_mark, what), path));
-}
-
 std::string file_bytes(const std::string& path) {
     std::error_code ignored;
-    if (std::filesystem::is_directory(path, ignored)) fail(path, "expected a model, got a directory");
+    if (std::filesystem::is_directory(path, ignored)) refuse_model(path, "expected a model, got a directory");
     const auto close = [](std::FILE* f) { std::fclose(f); };
     const std::unique_ptr<std::FILE, decltype(close)> input(std::fopen(path.c_str(), "rb"), close);
-    if (!input) fail(path, std::string("expected a model, got: ") + std::strerror(errno));
+    if (!input) refuse_model(path, std::string("expected a model, got: ") + std::strerror(errno));
     std::string bytes;
     std::vector<char> buffer(1 << 20);
     while (const std::size_t size = std::fread(buffer.data(), 1, buffer.size(), input.get())) {
         bytes.append(buffer.data(), size);
         if (bytes.size() > largest_file)
-            fail(path, fmt::format("expected a model of at most {} MiB, got more", largest_file >> 20));
+            refuse_model(path, fmt::format("expected a model of at most {} MiB, got more", largest_file >> 20));
     }
-    if (std::ferror(input.get())) fail(path, std::string("expected a model, got: ") + std::strerror(errno));
+    if (std::ferror(input.get())) refuse_model(path, std::string("expected a model, got: ") + std::strerror(errno));
     return bytes;
 }
 
@@ -158,13 +154,14 @@ TriangleSoup read_apart(const std::string& bytes, const std::string& format, con
     int status = 0;
     while (waitpid(child, &status, 0) < 0 && errno == EINTR) {
     }
-    if (!message.empty()) fail(path, fmt::format("expected {} data, got: {}", format, printable(message)));
+    if (!message.empty()) refuse_model(path, fmt::format("expected {} data, got: {}", format, printable(message)));
     if (!whole) {
         const int signal = WIFSIGNALED(status) ? WTERMSIG(status) : 0;
-        fail(path, fmt::format("expected {} data, got a file that {}", format,
-                               signal == SIGXCPU || signal == SIGALRM || signal == SIGKILL ? "takes its reader too long"
-                               : signal != 0 ? fmt::format("stops its reader (signal {})", signal)
-                                             : "stops its reader"));
+        refuse_model(
+            path, fmt::format("expected {} data, got a file that {}", format,
+                              signal == SIGXCPU || signal == SIGALRM || signal == SIGKILL ? "takes its reader too long"
+                              : signal != 0 ? fmt::format("stops its reader (signal {})", signal)
+                                            : "stops its reader"));
     }
     return soup;
 }
@@ -180,7 +177,7 @@ Model read_model(const std::string& path) {
     for (const auto& t : soup.triangles)
         for (const int v : t)
             if (v < 0 || std::size_t(v) >= soup.vertices.size())
-                fail(path, "expected triangles of the file's vertices, got one beyond them");
+                refuse_model(path, "expected triangles of the file's vertices, got one beyond them");
     try {
         ClosedSurface surface = closed_surface(soup);
         model.mesh = std::move(surface.mesh);

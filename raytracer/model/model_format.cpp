@@ -25,8 +25,6 @@ std::string extension(const std::string& path) {
     return end;
 }
 
-[[noreturn]] void refuse(const std::string& path, const std::string& what) { throw SceneError(one_line(what, path)); }
-
 // Sizes in bytes: 80 bytes of any text and a count, then 50 bytes for each facet.
 constexpr std::size_t stl_header = 84, stl_facet = 50;
 
@@ -46,12 +44,16 @@ void check_ply_counts(const std::string& bytes, const std::string& path) {
         if (number >= end) return;
         const double count = std::strtod(bytes.c_str() + number, nullptr);
         if (!(count <= double(bytes.size())))
-            refuse(path, fmt::format("{}: expected at most an element a byte, got a claim of {:.0f} in {} bytes",
-                                     file_mark, count, bytes.size()));
+            refuse_model(path, fmt::format("expected at most an element a byte, got a claim of {:.0f} in {} bytes",
+                                           count, bytes.size()));
     }
 }
 
 }  // namespace
+
+void refuse_model(const std::string& path, const std::string& what) {
+    throw SceneError(one_line(fmt::format("{}: {}", file_mark, what), path));
+}
 
 void fold_stl_text(std::string& bytes) {
     const auto space = [](unsigned char c) { return std::isspace(c) != 0; };
@@ -77,7 +79,7 @@ bool is_openscad_path(const std::string& path) {
 
 std::string model_format(const std::string& bytes, const std::string& path) {
     const auto starts = [&](const char* sign) { return bytes.compare(0, std::strlen(sign), sign) == 0; };
-    if (bytes.empty()) refuse(path, fmt::format("{}: expected a model, got an empty file", file_mark));
+    if (bytes.empty()) refuse_model(path, "expected a model, got an empty file");
     if (starts("glTF")) return "glb";
     if (starts("PK\x03\x04")) return "3mf";
     if (starts("ply")) {
@@ -90,20 +92,19 @@ std::string model_format(const std::string& bytes, const std::string& path) {
     if (end == ".gltf") return "gltf";
     const std::size_t count = stl_count(bytes);
     if (bytes.size() >= stl_header && bytes.size() == stl_header + stl_facet * count) {
-        if (count == 0) refuse(path, fmt::format("{}: expected facets, got none", file_mark));
+        if (count == 0) refuse_model(path, "expected facets, got none");
         return "stl";
     }
     const bool is_text = bytes.find('\0') == std::string::npos;
     if (is_text && starts("solid") && bytes.find("facet") != std::string::npos) {
         if (bytes.find("endsolid") == std::string::npos)
-            refuse(path,
-                   fmt::format("{}: expected STL text that ends with endsolid, got one that is cut off", file_mark));
+            refuse_model(path, "expected STL text that ends with endsolid, got one that is cut off");
         return "stl";
     }
     if (end == ".stl" && !is_text && bytes.size() >= stl_header)
-        refuse(path, fmt::format("{}: expected {} bytes for the {} facets that it claims, got {}", file_mark,
-                                 stl_header + stl_facet * count, count, bytes.size()));
-    refuse(path, fmt::format("{}: expected a model (STL, OBJ, PLY, OFF, 3MF, GLB), got something else", file_mark));
+        refuse_model(path, fmt::format("expected {} bytes for the {} facets that it claims, got {}",
+                                       stl_header + stl_facet * count, count, bytes.size()));
+    refuse_model(path, "expected a model (STL, OBJ, PLY, OFF, 3MF, GLB), got something else");
 }
 
 }  // namespace deburr

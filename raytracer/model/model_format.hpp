@@ -4,6 +4,9 @@
 
 namespace deburr {
 
+/// Throws SceneError, whose message is one line: the path, and `what` was expected and found.
+[[noreturn]] void refuse_model(const std::string& path, const std::string& what);
+
 /// Whether the path's extension, in any case, is that of a model and not of a scene.
 bool is_model_path(const std::string& path);
 /// Whether the path is an OpenSCAD program: .scad or .csg.

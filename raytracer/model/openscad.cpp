@@ -15,6 +15,7 @@
 #include <sstream>
 #include <vector>
 
+#include "raytracer/model/model_format.hpp"
 #include "raytracer/util/errors.hpp"
 #include "raytracer/util/printable.hpp"
 #include "raytracer/util/scene_error.hpp"
@@ -51,9 +52,7 @@ std::vector<std::string> complaints(const std::string& said) {
 
 std::string openscad_output(const std::string& path) {
     std::error_code ignored;
-    if (!fs::exists(path, ignored))
-        throw SceneError(
-            one_line(fmt::format("{}: expected a model, got: No such file or directory", file_mark), path));
+    if (!fs::exists(path, ignored)) refuse_model(path, "expected a model, got: No such file or directory");
     const TemporaryFolder folder;
     const std::string stl = (folder / "model.stl").string(), log = (folder / "log").string();
     // A name that begins with a dash would be taken for an option.
@@ -84,7 +83,7 @@ std::string openscad_output(const std::string& path) {
         for (const std::string& line : said) all += (all.empty() ? "" : "; ") + line;
         if (all.empty())
             all = WIFSIGNALED(status) ? fmt::format("stopped by signal {}", WTERMSIG(status)) : "no reason";
-        throw SceneError(one_line(fmt::format("{}: openscad: {}", file_mark, all), path));
+        refuse_model(path, "openscad: " + all);
     }
     for (const std::string& line : said) std::fprintf(stderr, "openscad: %s\n", line.c_str());
     return text_of(stl);
