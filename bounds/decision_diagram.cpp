@@ -10,7 +10,7 @@ namespace {
 
 // Normals (unit vectors) and radii (relatively) that differ by less count as the same: two chains of transforms that
 // lead to one plane differ by a few ε; a millionth of a degree is 2·10⁻⁸.
-constexpr double same_normal = 1e-9, same_radius = 1e-9;
+constexpr double same_direction = 1e-9, same_radius = 1e-9;
 // Thresholds that differ by less count as the same, relative to the largest offset, as their rounding is.
 constexpr double same_threshold = 1e-12;
 constexpr std::size_t max_nodes = 100'000;
@@ -80,7 +80,7 @@ private:
             }
             const Vec3 n = glm::dot(h.normal, family.normal) < 0 ? -h.normal : h.normal;
             if (std::abs(h.radius - family.radius) <= same_radius * family.radius &&
-                glm::length(n - family.normal) <= same_normal)
+                glm::length(n - family.normal) <= same_direction)
                 return int(f);
         }
         diagram_.families.push_back({h.normal, h.radius, {}, h.round});

@@ -16,7 +16,7 @@ DensityNode::Operands pair(Density a, Density b) { return {std::move(a), std::mo
 
 }  // namespace
 
-DensityNode::DensityNode(DensityNode::Kind of_kind, Parts parts, int of_line)
+DensityNode::DensityNode(Kind of_kind, Parts parts, int of_line)
     : kind(of_kind),
       has_radius(of_kind == DensityNode::Kind::radius),
       has_round(of_kind == DensityNode::Kind::round),

@@ -26,7 +26,7 @@ void halve(const std::vector<Vec3>& middles, std::span<int> triangles, std::size
     halve(middles, triangles.subspan(std::size_t(half)), most, visit);
 }
 
-// BlockNumbers a block's elements in the order in which they are first asked for.
+// Numbers a block's elements in the order in which they are first asked for.
 class BlockNumbers {
 public:
     explicit BlockNumbers(std::size_t count) : of_(count, -1) {}

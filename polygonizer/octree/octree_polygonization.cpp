@@ -10,7 +10,6 @@
 namespace deburr {
 namespace {
 
-constexpr double radians = 0.017453292519943295;
 // How often a cell may be cut further than its level: around triangles that lean, and where facets cross.
 constexpr int max_rounds = 4;
 // Where a sheet is thinner than cells, smaller cells spread from where it was found.
@@ -23,7 +22,7 @@ constexpr double same_place = 1e-6;
 OctreePolygonization::OctreePolygonization(const SolidTree& solid, const Box& box, const OctreeOptions& options,
                                            double edge)
     : options_(options),
-      hard_cosine_(std::cos(options.hard_angle * radians)),
+      hard_cosine_(std::cos(options.hard_angle * (pi / 180))),
       tree_(solid, box, edge, spare_levels, options.cancel, options.max_open_cells),
       has_forms_(solid.has_free_form()),
       looks_for_thin_(has_forms_),

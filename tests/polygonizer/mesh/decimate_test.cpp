@@ -1,8 +1,6 @@
 // Decimation within a tolerance: the mesh stays closed and near the surface, and has few triangles where it is flat.
 #include "polygonizer/mesh/decimate.hpp"
 
-#include <numbers>
-
 #include "catch.hpp"
 #include "polygonizer/mesh/mesh_check.hpp"
 #include "polygonizer/mesh/metrics.hpp"
@@ -15,7 +13,7 @@ namespace {
 Density drilled_plate() {
     Density hole = Density::half_space({0, 1, 0}, 2);
     for (int k = 0; k < 12; ++k) {
-        const double a = std::numbers::pi * k / 6;
+        const double a = pi * k / 6;
         const Vec3 n(std::cos(a), 0, std::sin(a));
         hole = hole & Density::half_space(n, 0.29 + glm::dot(n, Vec3(0.5, 0, 0.5)));
     }
@@ -50,7 +48,7 @@ TEST_CASE("A mesh within a tolerance is thinned out: closed, outward, near, and 
         if (in_plane) flat += 0.5 * area.y;
     }
     CHECK(flat > 0.55);
-    CHECK(flat < 1 - std::numbers::pi * 0.29 * 0.29);
+    CHECK(flat < 1 - pi * 0.29 * 0.29);
 }
 
 TEST_CASE("A plate with round bores takes hardly more facets than chords of its circles and profiles do") {
@@ -64,7 +62,7 @@ TEST_CASE("A plate with round bores takes hardly more facets than chords of its 
     const SolidTree tree = flatten(Solid::rounded(r, plate));
     const Mesh mesh = triage(tree, polygonization_box(tree), {.tolerance = tolerance});
     // Within a twentieth of r, the profile of a rounded edge takes three chords.
-    const int profile = 3, around = int(std::ceil(std::numbers::pi / std::acos(1 - tolerance / R)));
+    const int profile = 3, around = int(std::ceil(pi / std::acos(1 - tolerance / R)));
     const int walls = bores * 2 * around, rims = bores * 2 * profile * 2 * around,
               faces = 2 * (bores * around + 4 + 2 * bores - 2) + 4 * 2, edges = 12 * profile * 2,
               corners = 8 * profile * profile;

@@ -2,7 +2,6 @@
 #include "polygonizer/mesh/refine.hpp"
 
 #include <algorithm>
-#include <numbers>
 
 #include "catch.hpp"
 #include "polygonizer/mesh/crossing_triangles.hpp"
@@ -44,7 +43,7 @@ Density hull(const std::vector<Vec3>& points) {
 
 // One turn of a screw thread: overlapping convex pieces along a helix, around a core.
 SolidTree thread(int pieces, double r) {
-    const double step = 2 * std::numbers::pi / pieces;
+    const double step = 2 * pi / pieces;
     Density core = Density::half_space({0, 1, 0}, 1.75) & Density::half_space({0, -1, 0}, 1);
     for (int i = 0; i < pieces; ++i) {
         const double a = step * (i + 0.5);

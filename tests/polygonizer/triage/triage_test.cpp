@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cstdlib>
-#include <numbers>
 #include <string>
 
 #include "catch.hpp"
@@ -27,7 +26,7 @@ Density rod(int sides, double length, bool across) {
     const Vec3 x = glm::normalize(glm::cross(Vec3(0, 1, 0), z)), y = glm::cross(z, x);
     Density all = Density::half_space(z, length) & Density::half_space(-z, 0);
     for (int k = 0; k < sides; ++k) {
-        const double a = 2 * std::numbers::pi * k / sides;
+        const double a = 2 * pi * k / sides;
         all = all & Density::half_space(std::cos(a) * x + std::sin(a) * y, 1);
     }
     return all;

@@ -1,7 +1,6 @@
 // Closed forms that shading is held against, and directions at a surface whose normal is +z.
 #pragma once
 #include <cmath>
-#include <numbers>
 
 #include "bounds/vec.hpp"
 
@@ -19,7 +18,7 @@ inline Vec3 at_cosine(double c, double azimuth = 0) {
 /// [Howell's catalogue of configuration factors, B-3].
 inline double corner_form_factor(double a, double b) {
     const double A = std::sqrt(1 + a * a), B = std::sqrt(1 + b * b);
-    return (a / A * std::atan(b / A) + b / B * std::atan(a / B)) / (2 * std::numbers::pi);
+    return (a / A * std::atan(b / A) + b / B * std::atan(a / B)) / (2 * pi);
 }
 
 }  // namespace deburr

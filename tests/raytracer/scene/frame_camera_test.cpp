@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <glm/ext/matrix_transform.hpp>
-#include <numbers>
 
 #include "catch.hpp"
 #include "raytracer/render/camera.hpp"
@@ -92,7 +91,7 @@ TEST_CASE("a turned box and a ball are framed by themselves, not by the boxes ar
     const double distance = glm::distance(ball.camera.eye, Vec3(1, 2, 3));
     // Tangent of the angle between the axis and the ball's outline.
     const double tangent = r / std::sqrt(distance * distance - r * r);
-    CHECK(tangent / std::tan(15 * std::numbers::pi / 180) == Approx(0.86).epsilon(1e-3));
+    CHECK(tangent / std::tan(15 * pi / 180) == Approx(0.86).epsilon(1e-3));
 }
 
 TEST_CASE("round solids are framed by themselves, not by the boxes around them") {
@@ -101,7 +100,7 @@ TEST_CASE("round solids are framed by themselves, not by the boxes around them")
     constexpr int n = 40;
     for (int i = 0; i <= n; ++i)
         for (int j = 0; j < 2 * n; ++j) {
-            const double a = std::numbers::pi * i / n, b = std::numbers::pi * j / n;
+            const double a = pi * i / n, b = pi * j / n;
             points.push_back(Vec3(5) + Vec3(std::sin(a) * std::cos(b), std::sin(a) * std::sin(b), std::cos(a)));
         }
     points.push_back(Vec3(0));

@@ -1,7 +1,6 @@
 // Prisms over polygons: membership, half-planes, rounding and holes.
 #include "raytracer/scene/polygon.hpp"
 
-#include <numbers>
 #include <random>
 
 #include "bounds/bounding_box.hpp"
@@ -35,7 +34,7 @@ Points comb(int teeth) {
 Points spiral(int turns) {
     Points outer, inner;
     for (int i = 0; i <= 12 * turns; ++i) {
-        const double angle = i * std::numbers::pi / 6, radius = 1 + 0.1 * i;
+        const double angle = i * pi / 6, radius = 1 + 0.1 * i;
         outer.push_back(radius * Vec2(std::cos(angle), std::sin(angle)));
         inner.push_back((radius - 0.6) * Vec2(std::cos(angle), std::sin(angle)));
     }
@@ -50,7 +49,7 @@ Points star(unsigned seed) {
     Points points;
     const int n = 3 + int(seed % 30);
     for (int i = 0; i < n; ++i) {
-        const double a = 2 * std::numbers::pi * (i + 0.8 * angle(gen)) / n;
+        const double a = 2 * pi * (i + 0.8 * angle(gen)) / n;
         points.push_back(radius(gen) * Vec2(std::cos(a), std::sin(a)));
     }
     return points;
@@ -112,10 +111,10 @@ TEST_CASE("a prism is its polygon, whatever its shape, winding, start and axis")
 TEST_CASE("a star, none of whose sides bounds it, is in its box, which rounding does not touch") {
     Points points;
     for (int i = 0; i < 10; ++i) {
-        const double a = i * std::numbers::pi / 5;
+        const double a = i * pi / 5;
         points.push_back((i % 2 ? 1.0 : 3.0) * Vec2(std::cos(a), std::sin(a)));
     }
-    const double tip = 3 * std::sin(2 * std::numbers::pi / 5);
+    const double tip = 3 * std::sin(2 * pi / 5);
     for (const double r : {0.0, 0.1, 0.8}) {
         const DensityTree tree = flatten(prism(points, 0, 1), r);
         const Box box = bounding_box(tree);
@@ -127,7 +126,7 @@ TEST_CASE("a star, none of whose sides bounds it, is in its box, which rounding 
         std::uniform_real_distribution<double> uniform(-3, 3);
         for (int i = 0; i < 500; ++i) {
             const Vec3 x(uniform(gen), 0.5, uniform(gen) * tip / 3);
-            if (x.x < -3 * std::cos(std::numbers::pi / 5)) continue;
+            if (x.x < -3 * std::cos(pi / 5)) continue;
             CHECK(tree.at(x) == Approx(bare.at(x)).margin(1e-14));
         }
     }

@@ -1,8 +1,6 @@
 // What the scene reader makes of correct scenes.
 #include "raytracer/scene/scene_reader.hpp"
 
-#include <numbers>
-
 #include "bounds/bounding_box.hpp"
 #include "bounds/canonical_solids.hpp"
 #include "catch.hpp"
@@ -314,7 +312,7 @@ TEST_CASE(
         REQUIRE(scene.lights.size() == 1);
         const SkyLight sky(scene.background);
         const Vec3 up = scene.ambient + sky.mean({0, 1, 0});
-        return std::pair(scene.lights[0].power / std::numbers::pi, max_component(up));
+        return std::pair(scene.lights[0].power / pi, max_component(up));
     };
     for (const char* fields : {"", "background = 0.3,", "background = 0,", "background = sky{},",
                                "background = sky{ horizon = 0.1, zenith = {0.2, 0.3, 0.4} },"}) {

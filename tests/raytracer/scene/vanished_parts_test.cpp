@@ -2,7 +2,6 @@
 #include "raytracer/scene/vanished_parts.hpp"
 
 #include <cmath>
-#include <numbers>
 
 #include "bounds/emptiness.hpp"
 #include "catch.hpp"
@@ -103,7 +102,7 @@ TEST_CASE("a part of a union that vanishes is told by its place, unless its neig
 
 TEST_CASE("what a true convolution leaves nothing of is told with the largest radius that keeps it") {
     // A plate of thickness t contains half of a ball of radius r around its middle where 3u − u³ = 1, u = t/2r.
-    const double u = 2 * std::sin(std::numbers::pi / 18);
+    const double u = 2 * std::sin(pi / 18);
     const VanishedParts plates = vanished_of("convolved(0.9, box({0, 0, 0}, {10, 0.5, 10}))");
     REQUIRE(plates.rounded_away.size() == 1);
     CHECK(plates.empty.empty());

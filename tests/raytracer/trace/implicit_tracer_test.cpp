@@ -2,7 +2,6 @@
 #include "raytracer/trace/implicit_tracer.hpp"
 
 #include <cstdio>
-#include <numbers>
 
 #include "catch.hpp"
 #include "plain_definition.hpp"
@@ -369,7 +368,7 @@ TEST_CASE("cells become no smaller than rays repay: the more holes a plate has, 
             for (int k = 0; k < side; ++k) {
                 Density hole = Density::half_space({0, 1, 0}, 2) & Density::half_space({0, -1, 0}, 1);
                 for (int j = 0; j < 12; ++j) {
-                    const double a = 2 * std::numbers::pi * j / 12;
+                    const double a = 2 * pi * j / 12;
                     const Vec3 n(std::cos(a), 0, std::sin(a));
                     hole = hole & Density::half_space(n, glm::dot(n, Vec3(i + 0.5, 0, k + 0.5)) + 0.29);
                 }
